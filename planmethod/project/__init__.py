@@ -1,1 +1,1 @@
-"""The course project (курсовой проект): what is decided once for all that is handed in."""
+"""The course project (курсовой проект): the decisions made once for all its documents."""

@@ -1,4 +1,4 @@
-"""What a mechanism decides of a project (выбор по механизму): loaded positions, force scale."""
+"""Decisions from the mechanism (выбор по механизму): loaded positions, force scale."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from planmethod.solved.room import Box
 from planmethod.solved.solution import Solution
 
 FORCES_BOX: Box = (170.0, 130.0)
-"""What the largest force plan of a project fills at the scale of all of them, mm."""
+"""Box of the largest force plan of a project at the common scale, mm."""
 
 
 CONSIDERABLE, SLIGHT = 1.0 / 3.0, 0.05
@@ -23,7 +23,7 @@ CONSIDERABLE, SLIGHT = 1.0 / 3.0, 0.05
 
 
 def calculated_position(solution: Solution) -> int:
-    """Return which position is calculated where nobody says it (расчётное положение).
+    """Return the default calculated position (расчётное положение).
 
     The clearest of those in which a load is considerable; if none of them is clear, a clear one in
     which a load acts.
@@ -34,10 +34,10 @@ def calculated_position(solution: Solution) -> int:
 
 
 def loaded_positions(solution: Solution, share: float = CONSIDERABLE) -> tuple[int, ...]:
-    """Return the positions in which a load that changes is considerable; all where none changes.
+    """Return the positions in which a varying load is considerable; all where none varies.
 
-    A load is considerable from a ``share`` of its largest size on: what a position is loaded for
-    would be lost beside weights and inertia in others.
+    A load is considerable from a ``share`` of its largest size on: in other positions weights and
+    inertia would hide it.
     """
     count, dynamics = len(solution.positions), solution.problem.dynamics
     acts: Flags = np.zeros(count, dtype=bool)

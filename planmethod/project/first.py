@@ -20,7 +20,7 @@ SEVERAL = "project-kinematics"
 """Composition where a crank turns through its cycle."""
 
 PAPER = "A1"
-"""Format where none is asked for."""
+"""Default format."""
 
 FEW = 6
 """Most positions whose plans, diagrams and tables are tried on one sheet."""
@@ -41,7 +41,7 @@ def first_sheet(problem: Problem, **more: Any) -> list[Drawing]:
     Raises
     ------
     LayoutError
-        There is no room on any number of sheets.
+        The content does not fit on any number of sheets.
     """
     positions = problem.drive.positions
     if problem.cycle is None:

@@ -1,4 +1,4 @@
-"""What is decided of a project, as plain records (решения проекта)."""
+"""Decisions of a project, as plain records (решения проекта)."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class Project(Struct, frozen=True, dict=True):
         Number of the frame (номер стойки).
     language : str
     paper : str or None
-        Format that is asked for.
+        Requested format.
     parts : tuple of ProjectPart
         Those that the file has, in the order of `PartName`; the note is none of them.
     """
@@ -101,7 +101,7 @@ class Project(Struct, frozen=True, dict=True):
     parts: tuple[ProjectPart, ...]
 
     def part(self, name: PartName) -> ProjectPart | None:
-        """Return a part; None where the file has it not."""
+        """Return a part; None if the file does not have it."""
         return next((part for part in self.parts if part.name is name), None)
 
     @property

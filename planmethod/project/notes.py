@@ -25,7 +25,7 @@ FORMATS = ("docx", "pdf")
 
 
 class NoteOptions(Struct, frozen=True):
-    """What is asked of the note (оформление записки).
+    """Options of the note (оформление записки).
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ def note_files(
     Parameters
     ----------
     sheets : sequence of SheetEntry
-        The sheets that it lists; without them it lists the parts.
+        The sheets that it lists. Default: it lists the parts.
 
     Raises
     ------
@@ -93,11 +93,11 @@ class _FormsOfText(Struct, frozen=True):
 
     @property
     def heights(self) -> tuple[float, float]:
-        """From the edge of the paper to above the title block, mm: of the first page, of others."""
+        """Heights from the edge of the paper to above the title block, mm: first page, others."""
         return FRAME_OTHER + FORM_2.height, FRAME_OTHER + FORM_2A.height
 
     def view(self, page: int, pages: int, *, first: bool) -> DrawingView:
-        """Return the frame of a page with its number; the first has how many there are."""
+        """Return the frame of a page with its number; the first has the number of pages."""
         paper, form = paper_format("A4"), FORM_2 if first else FORM_2A
         left, low, *_ = paper.inner
         fields = {**self.fields, "sheet": str(page), "sheets": str(pages)}

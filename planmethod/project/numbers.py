@@ -60,7 +60,7 @@ NOISE = 1e-9
 
 
 def numbers_workbook(project: Project) -> bytes:
-    """Return the workbook: what is exact and what is measured in every position, SI.
+    """Return the workbook: exact and measured values in every position, SI.
 
     Its first sheet has the quantities of the motion by their letters, the second one every column
     of ``solve --csv``, those of the forces among them, by names of the language.
@@ -96,7 +96,7 @@ def numbers_workbook(project: Project) -> bytes:
 
 
 def _without_noise(values: Reals, peak: float) -> Reals:
-    """Return values, and nothing for what is rounding beside the largest of their kind."""
+    """Return values, with zero for rounding residue beside the largest of their kind."""
     return np.where(np.abs(values) <= NOISE * peak, 0.0, values)
 
 
@@ -109,7 +109,7 @@ def _kind(name: str) -> tuple[str, tuple[str, ...]]:
 
 
 def _head(name: str, said: Words) -> str:
-    """Return what a column of ``solve --csv`` is called in the language of the project."""
+    """Return the name of a column of ``solve --csv`` in the language of the project."""
     kind, names = _kind(name)
     return str(said["heads"][kind]).format(*names) if kind else name
 

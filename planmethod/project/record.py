@@ -1,4 +1,4 @@
-"""What a project decided, and which files it has, as plain data: ``project.json``."""
+"""Decisions and files of a project, as plain data: ``project.json``."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
     parts : sequence of PartFiles
         Those that were made.
     stem : str
-        What its files are called.
+        Base name of its files.
     """
     column, scales = project.problem.drive.coordinate.column, project.scales
     strokes = project.strokes

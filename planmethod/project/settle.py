@@ -1,4 +1,4 @@
-"""Settle a project (решения проекта): all that is decided, decided once.
+"""Decisions of a project (решения проекта), all made once.
 
 Positions are those of the cycle, scales those of sheet 1 at these positions; both are written into
 the problem, so that every output has them without knowing of projects.
@@ -43,20 +43,19 @@ MOST_COUNT = 72
 
 
 def settle(problem: Problem, path: Path | None = None) -> Project:
-    """Return all that is decided of a project.
+    """Return all decisions of a project.
 
     Parameters
     ----------
     problem : Problem
-        As it is read, with what the command line asks of its sheets.
+        As read, with the sheet options of the command line.
     path : Path, optional
-        Its file, where `[gears]` and what lies beside it are read; without it there are no such
-        parts.
+        Its file, from which `[gears]` and the other parts are read. Default: no such parts.
 
     Raises
     ------
     ProblemError
-        ``[project]`` names a position that there is not, or a part is faulty.
+        ``[project]`` names a missing position, or a part is faulty.
     StructureError, AssemblyError, LayoutError
         As of a sheet.
 
@@ -109,7 +108,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
 
 
 def settled(problem: Problem) -> Problem:
-    """Return a problem with the decisions of its project; without ``[project]`` as it is."""
+    """Return a problem with the decisions of its project, or unchanged without ``[project]``."""
     if problem.project is None or problem.calculated is not None:
         return problem
     return settle(problem).problem
@@ -137,7 +136,7 @@ def in_positions(problem: Problem) -> Problem:
 
 
 def _default_cycle(problem: Problem) -> CycleTask | None:
-    """Return the cycle of a file without one; None where its positions are all there are.
+    """Return the cycle of a file without one; None where its positions suffice.
 
     It has the positions of the file where these go round; else a machine has a cycle, from where
     it begins.
@@ -161,7 +160,7 @@ def _default_cycle(problem: Problem) -> CycleTask | None:
 
 
 def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) -> int:
-    """Return the number of the calculated position: the asked one, that of phi, the clearest."""
+    """Return the number of the calculated position: requested, by phi, or the clearest."""
     count, task = len(solution.positions), problem.project or ProjectTask()
     if task.calculated is not None:
         if task.calculated >= count:
@@ -213,7 +212,7 @@ def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
 
 
 def _has(problem: Problem, task: ProjectTask, name: PartName) -> bool:
-    """Tell whether the file has a part, or names the file of one."""
+    """Return whether the file has a part, or names the file of one."""
     match name:
         case PartName.KINEMATICS | PartName.NOTE:
             return True
@@ -249,7 +248,7 @@ def _of_kind(problem: Problem, name: PartName, path: Path, beside: str) -> Proje
 
 
 def _check_beside(problem: Problem, table: str, file: Path) -> None:
-    """Refuse a file beside that there is not, or that is no problem of its kind."""
+    """Reject a file that is missing or has a problem of another kind."""
     if not file.is_file():
         told = say("there is no file {} beside this one", file.name)
         hint = say("Write its name, or put the table [{}] into this file.", table)

@@ -87,7 +87,7 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
 
 
 def _of_position(layout: Composition, project: Project, words: Language) -> Composition:
-    """Return a composition whose views say of which position they are."""
+    """Return a composition whose views name their position."""
     if len(project.positions) == 1:
         return layout
 
@@ -118,7 +118,7 @@ def numbered_set(project: Project, sheets: Sequence[Sequence[Drawing]]) -> list[
 
 
 def sheet_list(project: Project, sheets: Sequence[Sequence[Drawing]]) -> tuple[SheetEntry, ...]:
-    """Return what the list of sheets in the note has of every sheet (перечень листов)."""
+    """Return the entries of the list of sheets in the note (перечень листов)."""
     sizes = {(paper.width, paper.height): paper for paper in FORMATS.values()}
     found = [
         (part.name, one) for part, some in zip(project.parts, sheets, strict=True) for one in some

@@ -17,7 +17,7 @@ from planmethod.languages import say
 from planmethod.project.model import PartName, Project, ProjectPart
 
 ALIKE = 5e-3
-"""Share of the crank's speed within which a link of the train turns with it."""
+"""Relative difference from the crank's speed within which a link of the train turns with it."""
 
 RPM = 30.0 / pi
 """Revolutions per minute of 1 rad/s."""
@@ -37,7 +37,7 @@ def meshed(train: Train, pair: MeshingProblem) -> tuple[str, str] | None:
 
 
 def in_mesh(parts: Sequence[ProjectPart]) -> tuple[ProjectPart, ...]:
-    """Return the parts of a project, its train with what the meshing decides.
+    """Return the parts of a project, its train with the decisions of the meshing.
 
     Wheels that mesh there are cut with its shifts and have its module, which is that of the train
     where the train has none; the scale of the scheme grows with it then.
@@ -91,7 +91,7 @@ def _cut(problem: GearProblem, pair: MeshingProblem) -> GearProblem:
 
 
 def output_of(motion: TrainMotion) -> str | None:
-    """Return the body that a train with one input drives: the last that moves and is no planet."""
+    """Return the output of a train with one input: the last moving body except planets."""
     train = motion.train
     others = {*train.inputs, *(x for some in motion.roles.satellites.values() for x in some)}
     moving = [body for body in train.bodies if motion.speeds.get(body) and body not in others]
@@ -116,7 +116,7 @@ def _beside_crank(project: Project) -> tuple[TrainMotion, Mapping[str, float], b
 
 
 def quick_shaft(project: Project) -> tuple[str, float] | None:
-    """Return the input of the train that turns the crank, and how much quicker it is; else None.
+    """Return the input of the train that turns the crank, and its speed ratio to it; else None.
 
     The crank turns with a link of the train; of several inputs the quickest one is meant.
     """
@@ -133,7 +133,7 @@ def quick_shaft(project: Project) -> tuple[str, float] | None:
 
 
 def train_apart(project: Project) -> str | None:
-    """Return a warning of a train no link of which turns as fast as the crank; else None."""
+    """Return a warning of a train without a link as fast as the crank; else None."""
     found = _beside_crank(project)
     if found is None:
         return None

@@ -67,6 +67,6 @@ def cam_chapter(report: Report, problem: CamProblem) -> Iterator[Node]:
 
 
 def _keys(has_region: bool) -> list[str]:
-    """Return what the tables of a construction are of, in their order."""
+    """Return the names of the tables of a construction, in their order."""
     keys = ["ordinates", "region", "radii", "sizes", "positions"]
     return keys if has_region else [key for key in keys if key != "region"]

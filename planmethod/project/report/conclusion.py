@@ -1,4 +1,4 @@
-"""What the work has found, sources, sheets (заключение, источники, перечень листов)."""
+"""Results of the project, sources, sheets (заключение, источники, перечень листов)."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.turn.turn import turn_of
 
 MUCH = 10.0
-"""Per cent of a difference of the lever from which on it is told why."""
+"""Per cent of a difference of the lever above which the text explains it."""
 
 
 def conclusion(report: Report) -> Iterator[Node]:
-    """Yield what the work has found, with numbers."""
+    """Yield the results of the project, with numbers."""
     said: Words = report.said["conclusion"]
     yield StructuralHeading(said.title.format())
     yield sentences(said.intro.format())
@@ -243,7 +243,7 @@ def back(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:
 
 
 def _parts(report: Report, names: Words) -> list[Rich]:
-    """Return what the parts of the drawings are called."""
+    """Return the names of the parts of the drawings."""
     keys = [part.name.value for part in report.project.parts]
     one = f"{PartName.KINEMATICS.value}_one"
     if not has_turn(report):

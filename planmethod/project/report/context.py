@@ -1,4 +1,4 @@
-"""What the chapters of a note share: the project, its words, the calculated position (записка)."""
+"""Context of the chapters of a note: project, texts, calculated position (записка)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from planmethod.solved.solution import Solution
 NBSP = "\u00a0"
 
 _POINTS = re.compile(r"(?<![_{\w\\])(?=[A-Z]+\d)(?:[A-Z]\d*)++(?![\w}])")
-"""Names of points with numbers, which are no part of an index."""
+"""Names of points with numbers, outside an index."""
 
 
 def lettered(text: Rich) -> Rich:
@@ -40,7 +40,7 @@ class NoteFormulas(Formulas):
     """Angle of the driver as the positions are numbered, degrees."""
 
     def number(self, name: NumberName) -> float:
-        """Return a number as the hand has it; the driver's angle as it is told."""
+        """Return a number with the drafting precision; the driver's angle as displayed."""
         if name == "phi" and self.shown_angle is not None:
             return self.shown_angle
         return super().number(name)
@@ -61,7 +61,7 @@ class NoteFormulas(Formulas):
 
 
 def as_told(words: Language) -> Language:
-    """Return a language in which narrators and statements speak as a note does."""
+    """Return a language with the note's phrases for narrators and statements."""
     own = Language(words.lang)
     own.note = Words({**words.note, **words.report["voice"]})
     own.forces = Words({**words.forces, **words.report["force_voice"]})
@@ -70,7 +70,7 @@ def as_told(words: Language) -> Language:
 
 
 class Report:
-    """What the chapters of a note share (общее для глав записки).
+    """Context that the chapters of a note share (общее для глав записки).
 
     Attributes
     ----------
@@ -108,11 +108,11 @@ class Report:
 
     @property
     def is_series(self) -> bool:
-        """Whether there are several positions."""
+        """True if there are several positions."""
         return len(self.project.positions) > 1
 
     def has(self, name: PartName) -> bool:
-        """Tell whether the project has a part."""
+        """Return whether the project has a part."""
         return self.project.part(name) is not None
 
     @property
@@ -155,7 +155,7 @@ class Report:
         return with_unit(self.say.ruled(value), self.unit("mm"))
 
     def parts(self, count: int) -> Rich:
-        """Return so many equal parts, as the language counts them."""
+        """Return the phrase for ``count`` equal parts, with the plural of the language."""
         last, teens = count % 10, 10 < count % 100 < 20
         form = "many" if teens or not 0 < last < 5 else "one" if last == 1 else "few"
         return str(self.said["counts"]["parts"][form]).format(count=count)
@@ -174,11 +174,11 @@ class Report:
 
     @property
     def place(self) -> Rich:
-        """Where the driver stands in the calculated position."""
+        """Position of the driver in the calculated position."""
         return self.place_of(self.project.calculated)
 
     def place_of(self, number: int) -> Rich:
-        """Return where the driver stands in a position."""
+        """Return the driver's coordinate in a position."""
         value = self.shown_places[number]
         if self.one.problem.drive.coordinate.unit == "m":
             return with_unit(self.say.given(value), self.unit("m"))
@@ -186,17 +186,17 @@ class Report:
 
     @property
     def shown_places(self) -> list[float]:
-        """Where the driver stands in each position, as tables have it."""
+        """Coordinates of the driver in all positions, as in tables."""
         return [round(self.one.problem.shown(value), 4) for value in self.project.positions]
 
     @property
     def of_position(self) -> Rich:
-        """Of the calculated position, after a blank; nothing where it is the only one."""
+        """Phrase "of the calculated position", after a blank; empty where it is the only one."""
         return self._told(self.said.of_position)
 
     @property
     def in_position(self) -> Rich:
-        """In the calculated position, after a blank; nothing where it is the only one."""
+        """Phrase "in the calculated position", after a blank; empty where it is the only one."""
         return self._told(self.said.in_position)
 
     @property
@@ -225,11 +225,11 @@ class Report:
         return kind_of_motion(self.one.problem.mechanism)
 
     def link(self, link: str, case: str = "who") -> Rich:
-        """Return what a link is called with its number, in a case of the language."""
+        """Return the name of a link with its number, in a case of the language."""
         return self.said.of_link.format(role=self.role(link, case), link=link)
 
     def role(self, link: str, case: str = "who") -> Rich:
-        """Return what a link is called, in a case of the language."""
+        """Return the name of a link, in a case of the language."""
         kind = next(kind for kind in self.kinds if kind.link == link)
         roles: Words = self.said["roles"][case]
         return str(roles[kind.role.value])

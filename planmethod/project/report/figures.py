@@ -31,17 +31,17 @@ LETTER, ON_SHEETS = 3.2, 3.5
 """Heights of the letters of a figure as it is shown, and as it is drawn at first, mm."""
 
 WISHED, MOST = 120.0, 1.35
-"""How large a small picture shall be, mm, and how many times at the most it is enlarged."""
+"""Target size of a small picture, mm, and its maximum enlargement factor."""
 
 MARGIN = 2.0
 """White around the ink, mm."""
 
 ALIKE = 0.05
-"""Share by which a picture may be shrunk before its letters are drawn larger."""
+"""Relative reduction of a picture above which its letters are drawn larger."""
 
 
 class FittedView(Struct, frozen=True, dict=True):
-    """A picture of the sheets that fits a room, made when a writer asks for it (вид по ширине).
+    """A picture of the sheets fitted to an area, made when a writer needs it (вид по ширине).
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class FittedView(Struct, frozen=True, dict=True):
 
     @cached_property
     def fitted(self) -> tuple[DrawingView, float]:
-        """The picture, and how many times larger it is shown than it is drawn."""
+        """The picture, and the ratio of its displayed to its drawn size."""
         block = self.made(ON_SHEETS)
         factor = self._factor(block)
         if abs(factor - 1.0) > ALIKE:
@@ -98,7 +98,7 @@ class FittedView(Struct, frozen=True, dict=True):
         view.draw(canvas)
 
     def png(self, dpi: float) -> bytes:
-        """Return a PNG file with so many dots to the inch."""
+        """Return a PNG file with a resolution in dots per inch."""
         view, factor = self.fitted
         return view.png(dpi * factor)
 
@@ -138,7 +138,7 @@ def bare(view: Block) -> Block:
 
 
 def of_sheet(kind: str, solution: Solution, words: Language, *, column: float) -> Made:
-    """Return what makes a block of the sheets by its kind, without its name, mm.
+    """Return the function that makes a block of the sheets by its kind, without its name, mm.
 
     ``column`` is the width of the texts of the sheet, which diagrams are measured by.
     """

@@ -1,4 +1,4 @@
-"""The chapter on the flywheel: what is reduced, diagrams, moment of inertia, sizes (маховик)."""
+"""Chapter on the flywheel: reduction, diagrams, moment of inertia, sizes (маховик)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SMALL = 5e-4
 
 
 def machine_of(report: Report) -> MachineTeller:
-    """Return who tells the machine of a project."""
+    """Return the narrator of the machine of a project."""
     flywheel = flywheel_of(report.every)
     return MachineTeller(drawing_of(flywheel, report.every.profile), report.words)
 
@@ -184,7 +184,7 @@ def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
 
 
 def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]:
-    """Yield how far the construction is from the exact flywheel, and the check of the motion."""
+    """Yield the error of the construction from the exact flywheel, and the motion check."""
     flywheel, say = tell.flywheel, report.say
     exact, unit = flywheel.exact.inertia, report.unit("kg·m²")
     delta = say.number(f"{flywheel.delta_reached:.4f}")
@@ -225,7 +225,7 @@ def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]
 
 
 def _quicker(report: Report, tell: MachineTeller, said: Words) -> Rich:
-    """Return what the flywheel would be on the quick shaft of the train; nothing without one."""
+    """Return the text on a flywheel on the fast shaft of the train; empty if there is none."""
     shaft = quick_shaft(report.project)
     if shaft is None or abs(shaft[1] / tell.flywheel.machine.wheel.ratio - 1.0) <= ALIKE:
         return ""

@@ -65,7 +65,7 @@ class ForceChapter:
 
     def nodes(self) -> Iterator[Node]:
         """Yield the chapter."""
-        self.reading.statics.si  # noqa: B018 - what cannot be drawn is told before anything else
+        self.reading.statics.si  # noqa: B018 - errors of drawing come before anything else
         said: Words = self.said
         yield Chapter(said.title.format())
         yield Part(said.loads.format())
@@ -115,7 +115,7 @@ class ForceChapter:
             yield sentences(form.format(links=report.listed(massless)))
 
     def _senses(self, couples: list[GivenLoad]) -> Rich:
-        """Return which way the couples of inertia turn."""
+        """Return the senses of the inertia couples."""
         said: Words = self.said
         senses: dict[Rich, list[Rich]] = {}
         for one in couples:
@@ -231,7 +231,7 @@ class ForceChapter:
 
     @staticmethod
     def _of_guide(lines: list[Rich]) -> list[Rich]:
-        """Return the sentences of where a guide's force acts, each ended."""
+        """Return the sentences on the place of a guide's force, each ended."""
         return [line if line.endswith((".", ":", ",", ";")) else f"{line}." for line in lines]
 
     def _moments(self, voice: MomentNarrator, equation: Moments) -> Iterator[Node]:
@@ -244,7 +244,7 @@ class ForceChapter:
         whose = f"Σ_{{{','.join(equation.links)}}}M"  # the sentence before says it
         summed, _, zero = told.equation.replace(whose, "ΣM", 1).partition(": ")
         yield displayed(f"{summed}.")
-        if zero:  # it is nothing for want of moments
+        if zero:  # the equation without moments
             yield sentences(said.no_moments.format(point=equation.about))
             yield from chain([zero])
         lead = said.hence.format()
@@ -330,7 +330,7 @@ class ForceChapter:
         )
 
     def _beside(self) -> Iterator[Rich]:
-        """Yield what bearings share, and what statics leaves open across the plane."""
+        """Yield the loads of the bearings, and the indeterminate out-of-plane forces."""
         solution, words = self.report.one, self.report.words.note
         for joint in self.reading.statics.reactions:
             if (shared := bearings_of(self.reading.statics, joint)) is not None:
@@ -462,7 +462,7 @@ def largest_reactions(report: Report) -> Iterator[Rich]:
 
 
 def _between(position: float, report: Report) -> Rich:
-    """Return between which positions a position of the crank is, with its angle."""
+    """Return the positions that enclose a position of the crank, with its angle."""
     places = report.project.positions
     step = places[1] - places[0]
     before = int((position - places[0]) / step % len(places))

@@ -48,7 +48,7 @@ LINKS = ("n", "ω", "ε", "φ", "m", "J", "length")
 
 
 def title_page(report: Report) -> TitlePage:
-    """Return the first page: what ``[stamp]`` says."""
+    """Return the first page, with the data of ``[stamp]``."""
     problem, said = report.project.problem, report.said["front"]
     stamp = {key: escape(text) for key, text in problem.title_block.items()}
     kind = said.project if len(report.project.parts) > 1 else said.homework
@@ -70,7 +70,7 @@ def title_page(report: Report) -> TitlePage:
 
 
 def front(report: Report) -> Iterator[Node]:
-    """Yield all that stands before the first chapter."""
+    """Yield everything before the first chapter."""
     yield title_page(report)
     yield from _assignment(report)
     yield PageBreak()
@@ -122,7 +122,7 @@ def _tasks(report: Report) -> Iterator[Rich]:
 
 
 def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
-    """Return the rows of the table of data, and what is given that is no number with a letter."""
+    """Return the rows of the data table, and the given facts that are not a lettered number."""
     problem, words = report.one.problem, report.words
     facts = given(problem, words, [float(report.one.positions[0])])
     if report.has(PartName.FORCES):
@@ -137,7 +137,7 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
         if told is None or name is None:
             further.append(fact)
         elif told[1] == _ratio(report) and report.has(PartName.GEARS):
-            continue  # the teeth tell it, and the chapter on gears finds it
+            continue  # it follows from the teeth, in the chapter on gears
         elif not (series and told[1] == report.coordinate):
             rows.append((lettered(name), told[1], _value(told[2], report)))
     for slide in problem.slides.values():
@@ -168,7 +168,7 @@ def _given(value: float, unit: str, report: Report) -> Rich:
 
 
 def _driving(report: Report) -> dict[Rich, Rich]:
-    """Return what the letters of the crank's rotational speed stand for, or of its train's."""
+    """Return the names of the letters of the crank's rotational speed, or of its train's."""
     geared, quantities = report.one.problem.drive.geared, report.said["quantities"]
     if geared is None:
         drive = report.one.problem.drive
@@ -231,12 +231,12 @@ def _value(text: Rich, report: Report) -> Rich:
     """Return a value; of one that is constant that it is."""
     value, const, _ = text.partition(_CONST)
     if report.one.problem.drive.geared is not None:
-        value = value.rpartition(" = ")[2]  # whose wheel's speed it is, is no value
+        value = value.rpartition(" = ")[2]  # the name of the wheel is not part of the value
     return report.said["front"].constant.format(value=value) if const else value
 
 
 def _name(symbol: Rich, report: Report) -> Rich | None:
-    """Return what a letter with its index stands for; None of those that have no name."""
+    """Return the name of a letter with its index; None if it does not have one."""
     letter, _, index = symbol.partition("_{")
     index = index.removesuffix("}")
     quantities, problem = report.said["quantities"], report.one.problem
@@ -262,7 +262,7 @@ def _loads(report: Report) -> list[Rich]:
 
 
 def _load_tables(report: Report) -> Iterator[Node]:
-    """Yield the tables of the loads as the file has them: one who reads can do the task again."""
+    """Yield the tables of the loads as in the file, so that the task can be repeated."""
     said, say = report.said["front"], report.say
     dynamics = report.every.problem.dynamics
     for number, load in enumerate(dynamics.loads if dynamics is not None else ()):
@@ -295,7 +295,7 @@ def _load_tables(report: Report) -> Iterator[Node]:
 
 
 def _beside(report: Report) -> Iterator[Rich]:
-    """Yield where a force balances the mechanism, what friction and bearings there are."""
+    """Yield the balancing force's point, the friction data and the bearings."""
     said: Words = report.said["front"]
     problem, say = report.every.problem, report.say
     if problem.drive.pushed is not None:
@@ -340,7 +340,7 @@ def _load(load: Load | Couple, report: Report) -> Rich:
 
 
 def _way(load: Load | Couple, fixed: Fixed, report: Report) -> Rich:
-    """Return the way of a force that stays on the paper."""
+    """Return the direction of a force that is constant on the paper."""
     largest = max(load.size.values, key=abs) if isinstance(load.size, SizeTable) else load.size
     angle = (fixed.angle + (180.0 if largest < 0 else 0.0)) % 360.0
     forces = report.words.forces

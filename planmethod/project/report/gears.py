@@ -52,10 +52,10 @@ COLUMN = 185.0
 """Width of the texts of the sheet, mm."""
 
 _FURTHER = {"meshing.b", "meshing.cutter", "meshing.s_a_min"}
-"""What is given of a meshing beside the wheels and the rack, which the first sentence has."""
+"""Given data of a meshing except the wheels and the rack, which the first sentence has."""
 
 SEEN = 0.005
-"""Least difference of construction and calculation that a table shows, per cent."""
+"""Minimum difference of construction and calculation that a table shows, per cent."""
 
 
 def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
@@ -95,7 +95,7 @@ def _compared(report: Report, problem: GearProblem, motion: TrainMotion) -> Iter
 
 
 def _module(report: Report, motion: TrainMotion, said: Words) -> Rich:
-    """Return whose module the scheme is drawn with, where the train has none of its own."""
+    """Return the sentence on the module of the scheme, where the train has none."""
     train, ends = motion.train, wheels_of(report)
     if not train.toothed or draw(motion) is None:
         return ""
@@ -185,9 +185,9 @@ def _derived(lines: Iterable[DerivedLine], said: Words) -> Iterator[Node]:
 
 
 def asked_of(motion: TrainMotion, report: Report) -> TrainMotion:
-    """Return a train that is asked for its ratios: those of the file, else input to output.
+    """Return a train with its requested ratios: those of the file, else input to output.
 
-    Of one that drives the crank that of the whole is among them.
+    For a train that drives the crank they include the overall ratio.
     """
     train, geared = motion.train, report.one.problem.drive.geared
     ask = [one for one in train.ask if one.startswith("U")]
@@ -347,7 +347,7 @@ def _led(lead: Rich, lines: list[Rich]) -> Iterator[Node]:
 
 
 def _undercut(solved: SolvedMeshing, report: Report, said: Words) -> Iterator[Rich]:
-    """Yield of every wheel that the rack would undercut without a shift what its shift does."""
+    """Yield the effect of the shift of every wheel that the rack would undercut unshifted."""
     least = solved.pair.x_min
     for k, (count, shift) in enumerate(zip(solved.problem.z, solved.problem.x, strict=True)):
         bound = float(least[k])
@@ -375,7 +375,7 @@ def failed_conditions(problem: GearProblem, report: Report) -> list[Rich]:
 
 
 def ratios_of(problem: GearProblem, report: Report) -> list[Rich]:
-    """Return the ratios that are asked for and that of the whole train, with their symbols."""
+    """Return the requested ratios and that of the whole train, with their symbols."""
     motion = asked_of(solve_motion(problem), report)
     known = tuple(motion.train.body_of)
     asked = [parse(name, known) for name in motion.train.ask if answer(motion, name).value]

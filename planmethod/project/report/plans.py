@@ -1,7 +1,7 @@
 """The velocity and the acceleration plan of the calculated position (планы скоростей, ускорений).
 
-The steps of the construction are told group by group: the equations, what is laid off with its
-formulas, the lines that meet, what is measured, and what follows from it.
+The steps of the construction are described group by group: the equations, the laid-off lengths
+with their formulas, the lines that intersect, the measurements, and their results.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ class PlanChapter:
     # Before the drawing --------------------------------------------------------------------------
 
     def _known_turning(self, section: Section) -> Iterator[Rich]:
-        """Yield how links of a group turn, where that is known before; told with velocities."""
+        """Yield the known rotations of links of a group, with the velocities."""
         assert section.group is not None
         if self.kind is not PlanKind.VELOCITY:
             return
@@ -104,7 +104,7 @@ class PlanChapter:
                 yield self.said.shared.format(link=link, other=other, **symbols)
 
     def _coincident(self, section: Section) -> Iterator[Rich]:
-        """Yield which points of two links are in one place."""
+        """Yield the coincident points of two links."""
         assert section.group is not None
         if self.kind is not PlanKind.VELOCITY:
             return
@@ -122,7 +122,7 @@ class PlanChapter:
                 )
 
     def _on_frame(self, relative: Relative) -> Iterator[Rich]:
-        """Yield that a point goes along a fixed guide, and what the point under it is called."""
+        """Yield that a point moves along a fixed guide, and the name of the point under it."""
         for equation in self.plan.equations:
             for term in equation.right:
                 ends = (term.tail, term.head)
@@ -138,7 +138,7 @@ class PlanChapter:
                     return
 
     def _capital(self, point: PointName) -> Rich:
-        """Return a point of the mechanism by its letter on the plan: ``a_{3}`` stands for A3."""
+        """Return a point of the mechanism by its letter on the plan: ``a_{3}`` for A3."""
         if self.names.point(point) == self.names.pole(self.kind):
             return ""
         letter = self.names.point(point)
@@ -204,13 +204,13 @@ class PlanChapter:
                 pass
 
     def _computed(self, step: Compute) -> Iterator[Node]:
-        """Keep what is computed of what was measured."""
+        """Store a number computed from measurements."""
         found = self.narrator.motion.found(step)
         kind = next((k for k in RATES if step.out in self.names.kin.rates(k).values()), None)
         if kind is None:
             self._formulas += found
             return
-        # The sense stands in a sentence of its own.
+        # The sense has a sentence of its own.
         self._formulas.append(found[0].rpartition(", ")[0] if self.say.number(step.out) else "")
         self._formulas = [text for text in self._formulas if text]
         read = self.names.kin.turnings[kind, self.names.owner(step.out)]
@@ -233,7 +233,7 @@ class PlanChapter:
         yield from ()
 
     def _flush(self) -> Iterator[Node]:
-        """Yield what was measured and what follows from it, and keep nothing."""
+        """Yield the stored measurements and their results, and clear them."""
         said = self.said
         if self._drawing:
             yield sentences(said.on_drawing.format(segments=self.report.listed(self._drawing)))
@@ -271,7 +271,7 @@ class PlanChapter:
         yield sentences(sentence)
 
     def _where(self, step: steps.LayOff) -> list[Rich]:
-        """Return what the letters of a product are that were not explained yet."""
+        """Return explanations of the letters of a product that are new."""
         length = self.names.step[step.length]
         assert isinstance(length, Compute)
         made = self.names.step[length.powers[0][0]]
@@ -307,7 +307,7 @@ class PlanChapter:
         )
 
     def _ray(self, name: LineName) -> Rich:
-        """Return a line that is drawn on the plan, and what it carries."""
+        """Return a line that is drawn on the plan, and its vector."""
         step, said = self.names.step[name], self.said
         ray = self.names.ray(name)
         carried = "" if ray is None else said.carried.format(symbol=ray.symbol)

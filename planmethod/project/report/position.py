@@ -69,7 +69,7 @@ def _scale(report: Report, said: Words) -> Iterator[Node]:
 
 
 def _series(report: Report, said: Words) -> Iterator[Node]:
-    """Yield how the positions are numbered, and the picture of all of them."""
+    """Yield the numbering of the positions, and the picture of all of them."""
     problem, every = report.every.problem, report.every
     count = len(every.positions)
     if problem.cycle is not None and problem.drive.is_crank and turn_of(every).range is None:
@@ -110,7 +110,7 @@ def _shown(report: Report, said: Words) -> Node:
 
 
 def _building(report: Report, said: Words) -> Iterator[Node]:
-    """Yield how the calculated position is drawn, group by group."""
+    """Yield the construction of the calculated position, group by group."""
     narrator, problem = report.narrator, report.one.problem
     sections = [s for s in report.one.construction.sections if s.kind is PlanKind.POSITION]
     for section in sections:
@@ -136,7 +136,7 @@ def _building(report: Report, said: Words) -> Iterator[Node]:
 
 
 def _told(step: Step, report: Report, said: Words) -> list[Rich]:
-    """Return the sentences of a step; a guide that is level or upright is told to be so."""
+    """Return the sentences of a step, with the direction of a horizontal or vertical guide."""
     names = report.names
     guide = names.guide(step.out) if isinstance(step, AtAngle) else None
     if guide is None:
@@ -153,7 +153,7 @@ def _told(step: Step, report: Report, said: Words) -> list[Rich]:
 
 
 def _fixed(report: Report) -> Rich:
-    """Return where the fixed points are on the drawing."""
+    """Return the places of the fixed points on the drawing."""
     points = []
     for name in report.one.problem.bodies[FRAME].points:
         place = report.formulas.place(name)  # type: ignore[arg-type]
@@ -186,7 +186,7 @@ def _extremes(report: Report, said: Words) -> Iterator[Node]:
 
 
 def _constructed(report: Report, said: Words) -> Iterator[Rich]:
-    """Yield how the extreme positions are constructed, and the angles that are measured."""
+    """Yield the construction of the extreme positions, and the measured angles."""
     made = extreme_construction(report.every)
     if made is None:
         yield said.no_construction.format()
@@ -210,12 +210,12 @@ def _stroke(report: Report, said: Words, turn: Turn) -> Iterator[Node]:
 
 
 def has_equal_strokes(strokes: Strokes) -> bool:
-    """Tell whether the output goes there and back in the same time."""
+    """Return whether both strokes of the output take the same time."""
     return strokes.K_v is not None and abs(strokes.K_v - 1.0) < EQUAL
 
 
 def loads_drive(report: Report) -> bool:
-    """Tell whether the loads that decide of the strokes drive the mechanism, as a gas does."""
+    """Return whether the loads that determine the strokes drive the mechanism, as gas does."""
     turn, strokes = turn_of(report.every), report.project.strokes
     if strokes is None or turn.ends is None or strokes.by in (LONGER, TOLD):
         return False
@@ -225,7 +225,7 @@ def loads_drive(report: Report) -> bool:
 
 
 def _why_working(strokes: Strokes, said: Words, *, drives: bool, four: bool) -> Rich:
-    """Return why a stroke is the working one; nothing of strokes that nothing tells apart."""
+    """Return the reason why a stroke is the working one; empty for equal strokes."""
     by: Words = said["by"]
     if strokes.by == TOLD:
         return by.told.format()

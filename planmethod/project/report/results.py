@@ -24,7 +24,7 @@ MANY_SIGMAS = 3.0
 """Sigmas beyond which a difference is named."""
 
 FAINT = 1e-6
-"""Share of the largest of its kind below which a quantity is nothing."""
+"""Fraction of the largest of its kind below which a quantity is negligible."""
 
 
 def compared(
@@ -89,7 +89,7 @@ def _compared(report: Report, said: Words) -> Iterator[Node]:
             say.number(sigma_text(one.sigma)),
         )
         for of, one in found
-        if one.sigma  # what is given has no error
+        if one.sigma  # given values have no error
     ]
     yield Table(
         tuple(text.format() for text in said["columns_compared"]),

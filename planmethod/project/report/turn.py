@@ -37,13 +37,13 @@ SIDE = 100.0
 
 
 def has_turn(report: Report) -> bool:
-    """Tell whether the file asks for a cycle."""
+    """Return whether the file asks for a cycle."""
     problem = report.every.problem
     return problem.cycle is not None and problem.drive.is_crank
 
 
 def diagrams_part(report: Report) -> Iterator[Node]:
-    """Yield how the kinematic diagrams are made."""
+    """Yield the construction of the kinematic diagrams."""
     said: Words = report.said["turn"]
     diagrams, words = diagrams_of(report.every), report.words
     turn, task, say = diagrams.turn, diagrams.task, report.say
@@ -179,7 +179,7 @@ def _senses(said: Words, told: TransferNarrator, plan: PlanKind) -> Iterator[Nod
 
 
 def _over_the_turn(report: Report) -> Iterator[Node]:
-    """Yield the transfer functions of the output, of all points and links, and asked graphs."""
+    """Yield the transfer functions of the output, of all points and links, and requested graphs."""
     said: Words = report.said["turn"]
     diagrams = diagrams_of(report.every)
     turn, drive = turn_of(report.every), report.every.problem.drive
