@@ -1,4 +1,4 @@
-"""What sources print of a moving point, beside the exact values and the ruler's (сверка)."""
+"""Printed values of a moving point beside the exact and the measured ones (сверка)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is drawn of a moving point at one moment, as a program of steps (построение точки).
+"""Construction of a moving point at one moment, as a program of steps (построение точки).
 
 Velocity and acceleration are laid off by their components from two poles; their lengths, the
 projections of the acceleration on tangent and normal, and the radius of curvature are read off.
@@ -73,7 +73,7 @@ class MomentConstruction(Struct, frozen=True):
     results: Mapping[str, NumberName]
 
     def read(self, arithmetic: Arithmetic | None = None) -> Trace:
-        """Return the values of every step; float64 when no arithmetic is named."""
+        """Return the values of every step; default: float64."""
         return evaluate(self.program, self.data, arithmetic or Float64())
 
     def ruled(self, ruler: float) -> dict[str, float]:
@@ -110,7 +110,7 @@ class _Draft(Struct):
     def laid(
         self, plan: str, symbol: str, value: float, origin: PointName, line: LineName
     ) -> PointName:
-        """Lay a vector off along a line through its tail, as long as the scale makes it."""
+        """Lay a vector off along a line through its tail, at its scale."""
         size = self.known(symbol, value, symbol)
         length = self.b.compute(f"{symbol}, mm", (size, 1), factor=1 / self.scales[plan].per_mm)
         self.letters[length] = symbol
@@ -145,7 +145,7 @@ class _Draft(Struct):
 def construct(
     problem: PointProblem, motion: Motion, k: int, scales: Mapping[str, Scale]
 ) -> MomentConstruction | None:
-    """Return the construction of moment ``k``; None where there is no velocity.
+    """Return the construction of moment ``k``; None where the velocity does not exist.
 
     Parameters
     ----------
@@ -209,7 +209,7 @@ def _velocity_parts(problem: PointProblem, value: Mapping[str, float]) -> tuple[
 
 
 def _heading(problem: PointProblem, value: Mapping[str, float]) -> float:
-    """Return the direction in which a natural path runs, radians."""
+    """Return the direction of a natural path, radians."""
     if problem.radius is None:
         return 0.0
     return float(np.arctan2(value["y"], value["x"]) + np.pi / 2)
@@ -218,7 +218,7 @@ def _heading(problem: PointProblem, value: Mapping[str, float]) -> float:
 def _acceleration_parts(
     problem: PointProblem, value: Mapping[str, float]
 ) -> list[tuple[str, float, _Parts]]:
-    """Return base lines by name and angle, degrees, and what is laid off along and across them."""
+    """Return base lines by name and angle, degrees, and the components along and across them."""
     match problem.law:
         case Law.POLAR:
             angle, r = degrees(value["phi"]), value["r"]
@@ -299,8 +299,8 @@ def _rolling_velocity(
 class ChordReading(Struct, frozen=True):
     """Accelerations that the drawn hodograph of the velocity gives (ускорения по годографу).
 
-    The chord between the instants before and after stands for the tangent: what it misses is the
-    error of the method, beside which stands that of the drawing.
+    The chord between the instants before and after replaces the tangent: their difference is the
+    error of the method, shown beside that of the drawing.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What of a motion is drawn: the interval, the curve between, the numbered instants."""
+"""Drawn part of a motion: the interval, its curve, the numbered instants."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from planmethod.moving.series import Reals
 Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 
 DENSE = 4000
-"""Moments of the interval that are looked at."""
+"""Number of sampled moments of the interval."""
 
 BEND = np.radians(2.0)
 """Turn of the tangent between two points of a drawn curve."""
@@ -30,10 +30,10 @@ LEAST, MOST = 300, 1500
 """Points of a drawn curve."""
 
 GREW = 6.0
-"""How many times their mean the velocity and the acceleration may be in an interval of our own."""
+"""Maximum ratio of velocity and acceleration to their means in an automatic interval."""
 
 FAR = 4.0
-"""How many times the usual extent of a curve may reach before it is cut: it has a pole there."""
+"""Extent of a curve, in usual extents, beyond which it is cut: it has a pole there."""
 
 CORNER = np.radians(40.0)
 """Turn between two chords of a drawn curve from which it has a corner there: a cusp."""
@@ -85,20 +85,20 @@ class Course(Struct, frozen=True, eq=False):
         return np.where(np.abs(places - middle) > reach, np.nan, places)
 
     def unbroken(self, x: str, y: str, first: int, last: int) -> bool:
-        """Tell whether a curve runs without a break between two numbered instants."""
+        """Return whether a curve runs without a break between two numbered instants."""
         start, end = (self.marks.columns["t"][k] for k in (first, last))
         times = self.path.columns["t"]
         return not self._lost(x, y)[(start <= times) & (times <= end)].any()
 
     def _lost(self, x: str, y: str) -> NDArray[np.bool_]:
-        """Tell where along the path a curve is not drawn: it does not exist, or runs to a pole."""
+        """Return where along the path a curve is not drawn: undefined, or near a pole."""
         places = places_of(self.path, x, y)
         middle, reach = self._within(x, y)
         lost: NDArray[np.bool_] = ~(np.abs(places - middle) <= reach)
         return lost
 
     def _within(self, x: str, y: str) -> tuple[complex, float]:
-        """Return the middle of a curve, and how far from there it is drawn, SI."""
+        """Return the middle of a curve, and the distance from it to which it is drawn, SI."""
         places = places_of(self.path, x, y)
         there = places[~np.isnan(places)]
         if not len(there):
@@ -114,7 +114,7 @@ def places_of(motion: Motion, x: str, y: str) -> Complexes:
 
 
 def course_of(problem: PointProblem) -> Course:
-    """Return what of a motion is drawn.
+    """Return the part of a motion that is drawn.
 
     The file's ``show``, or from its first to its last moment; about a single moment an interval in
     which the velocity changes by about itself, within which everything exists.
@@ -142,7 +142,7 @@ def course_of(problem: PointProblem) -> Course:
 
 
 def _turned(ways: Complexes) -> float:
-    """Return how far a direction turns in all, radians; at a cusp and at a break it does not."""
+    """Return the total turning of a direction, radians; a cusp or a break adds nothing."""
     ways = ways[~np.isnan(ways)]
     turns = np.abs(np.angle(ways[1:] * np.conj(ways[:-1])))
     return float(np.sum(turns[turns < CORNER]))
@@ -199,7 +199,7 @@ def _interval(problem: PointProblem) -> tuple[float, float]:
 
 
 def _is_mild(problem: PointProblem, start: float, end: float) -> bool:
-    """Tell whether everything exists in an interval, and nothing grows out of all proportion."""
+    """Return whether everything exists in an interval, and nothing grows out of all proportion."""
     columns = at(problem, np.linspace(start, end, 401)).columns
     for name in ("v", "a"):
         values = columns[name]

@@ -1,4 +1,4 @@
-"""Numbers of a moving point as students are asked for them, and mistakes (величины, ошибки)."""
+"""Numbers of a moving point that students answer, and typical mistakes (величины, ошибки)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ROOTS = {"v": ("vx", "vy"), "a": ("ax", "ay")}
 
 
 class PointFigures:
-    """All that can be asked of a moving point; see `planmethod.problem.figures.Figures`."""
+    """Quantities of a moving point for questions; see `planmethod.problem.figures.Figures`."""
 
     def __init__(self, problem: PointProblem) -> None:
         self.problem, self.count = problem, len(problem.times)
@@ -49,7 +49,7 @@ class PointFigures:
         return AnswerValue(quantity.symbol, quantity.unit, value, signed=column not in SIZES)
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
-        """Return its segment on the drawing, mm, and one sigma of what is read."""
+        """Return its segment on the drawing, mm, and one sigma of the reading."""
         scales = sheet_scales(self.problem, course_of(self.problem), profile)
         built = construct(self.problem, self.motion, position, scales)
         column = column_of(name) or ""
@@ -80,7 +80,7 @@ class PointFigures:
         return _value(self.motion, column, position)
 
     def _exchanged(self, name: str, position: int) -> float | None:
-        """Take a_n for a_tau and the other way round."""
+        """Mistake a_n for a_tau and vice versa."""
         parts = dict(zip(PARTS, PARTS[::-1], strict=True))
         column = column_of(name) or ""
         return self._of(parts.get(column, column), position)
@@ -126,4 +126,4 @@ def _value(motion: Motion, name: str, position: int) -> float | None:
 
 
 asked_of = PointFigures
-"""What such a kind of problem is asked by."""
+"""Quantities of this kind of problem."""

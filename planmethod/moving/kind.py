@@ -31,13 +31,13 @@ class MovingPoints(ProblemKind["PointProblem"]):
         return load(path, variant=variant)
 
     def record(self, problem: PointProblem, lang: str) -> dict[str, Any]:
-        """Return what ``solve --json`` prints."""
+        """Return the record of ``solve --json``."""
         from planmethod.moving.record import record
 
         return record(problem, lang)
 
     def solved_document(self, problem: PointProblem, words: Language) -> Document:
-        """Return what ``solve`` prints."""
+        """Return the document of ``solve``."""
         from planmethod.moving.text import solved_document
 
         return Document.of(solved_document(problem, words))
@@ -45,7 +45,7 @@ class MovingPoints(ProblemKind["PointProblem"]):
     def protocol_document(
         self, problem: PointProblem, words: Language, profile: Profile
     ) -> Document:
-        """Return what ``protocol`` prints."""
+        """Return the document of ``protocol``."""
         from planmethod.moving.protocol import protocol_document
 
         return Document.of(protocol_document(problem, words, profile))
@@ -71,13 +71,13 @@ class MovingPoints(ProblemKind["PointProblem"]):
         return audited(problem, ruler)
 
     def given(self, problem: PointProblem, words: Language) -> list[GivenFact]:
-        """Return what is given, one fact each; the file can be written again of their data."""
+        """Return the given data, one fact each; the file can be rebuilt from them."""
         from planmethod.moving.text import given
 
         return given(problem, words)
 
     def figures(self, problem: PointProblem) -> Figures:
-        """Return what students can be asked for."""
+        """Return the quantities for questions to students."""
         from planmethod.moving.figures import asked_of
 
         return asked_of(problem)

@@ -16,7 +16,7 @@ from planmethod.problem.model import Scales
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short
 
 ANGULAR = ("sin", "cos", "tg", "ctg")
-"""Those of angles."""
+"""Names of the functions of angles."""
 
 
 class TimeFunction(Struct, frozen=True):
@@ -35,7 +35,7 @@ class TimeFunction(Struct, frozen=True):
 
     @property
     def is_constant(self) -> bool:
-        """Whether time does not stand in it."""
+        """True if it does not contain time."""
         return all(operation.kind is not FormulaKind.TIME for operation in self.operations)
 
     @property
@@ -56,7 +56,7 @@ def read_formula(
     Parameters
     ----------
     constant : bool
-        Time may not stand in it.
+        It may not contain time.
     """
     if is_number(value):
         value = repr(value)
@@ -85,7 +85,7 @@ def read_formula(
 
 
 class Law(Enum):
-    """How the motion of a point is stated (способ задания движения)."""
+    """Form in which the motion of a point is stated (способ задания движения)."""
 
     COORDINATES = "coordinates"
     POLAR = "polar"
@@ -114,8 +114,8 @@ class Wheel(Struct, frozen=True):
         From the x axis to the point, seen from the centre, where phi is 0.
     track : float, m
         Radius of the fixed circle about the origin that it rolls on from outside; negative: within;
-        0: it rolls on the x axis. Where phi is 0 the wheel stands above the origin, within a circle
-        below it.
+        0: it rolls on the x axis. At phi = 0 the wheel is above the origin, or below it when inside
+        a circle.
     arm : float, m
         Of the carrier that turns about the origin and has the wheel's centre at its end, of a
         satellite that a train turns in a way of its own (law ``theta``); 0: the wheel rolls.

@@ -91,7 +91,7 @@ class Motion(Struct, frozen=True, eq=False):
     Attributes
     ----------
     columns : dict of str to array of float, shape (n,)
-        SI, radians; NaN where a quantity does not exist. What cannot be told from zero within the
+        SI, radians; NaN where a quantity does not exist. A value that is zero within the
         bound of rounding is zero. ``a_tangential`` is positive where the point speeds up.
     reasons : tuple of (Undefined or None)
         Why something does not exist, at every moment.
@@ -122,7 +122,7 @@ def move(problem: PointProblem) -> Motion:
 
 
 LARGEST = 1e60
-"""From where on a number of a motion is none: powers of it are to be numbers, too."""
+"""Limit above which a number of a motion is undefined: its powers must be finite, too."""
 
 
 def _reals(names: tuple[str, ...], found: list[Bounded]) -> dict[str, Reals]:
@@ -141,7 +141,7 @@ _LEVELS = {
 
 
 def _whole(columns: dict[str, Reals]) -> dict[str, Reals]:
-    """Leave no component without the others: a vector exists or does not."""
+    """Make all components of a vector NaN where one is: a vector exists or does not."""
     lost = np.zeros(len(columns["t"]), dtype=bool)
     told = dict(columns)
     for own, polar in _LEVELS.values():
@@ -195,7 +195,7 @@ def _coordinates(problem: PointProblem, times: Reals) -> tuple[Jet, Jet, dict[st
 
 
 def _given(value: float) -> Bounded:
-    """Return a number of the file, which float64 may have rounded."""
+    """Return a number of the file with the bound of its rounding to float64."""
     return Bounded(value, ROUNDOFF * abs(value))
 
 

@@ -35,7 +35,7 @@ AXIS = "axis of coordinates"
 SMALL = 3.5
 """Height of the numbers of instants and of the letters of components, mm."""
 
-_BEYOND = 9.0  # mm: an axis goes on beyond what is drawn
+_BEYOND = 9.0  # mm: an axis extends beyond the drawing
 _HEAD = 3.5  # mm: arrowhead of an axis
 _TICK = 1.0  # mm: half of a tick
 _APART = 14.0  # mm: between the numbers of an axis
@@ -164,7 +164,7 @@ def _roughly(items: Sequence[Item]) -> Picture:
 
 
 def _curve(parts: Iterable[Complexes], per_mm: float, tag: str) -> list[Item]:
-    """Return the smooth parts of a curve; a part that is nothing on paper is left out."""
+    """Return the smooth parts of a curve; a part of negligible size on paper is left out."""
     drawn: list[Item] = []
     for part in parts:
         points = part / per_mm
@@ -235,7 +235,7 @@ def _letter(symbol: str, tail: complex, head: complex, height: float, prefix: st
 def _curvature(
     marks: Motion, k: int, per_mm: float, here: complex, height: float
 ) -> tuple[list[Item], list[Label]]:
-    """Return the circle of curvature with its centre, where it is not larger than the picture."""
+    """Return the circle of curvature with its centre, unless it is larger than the picture."""
     value = {name: float(column[k]) for name, column in marks.columns.items()}
     radius = value["rho"] / per_mm
     if not 3.0 < radius <= _CURVED:
@@ -298,8 +298,8 @@ def hodograph_picture(
 ) -> Picture:
     """Return the hodograph of ``plan``, v or a, with the construction of the first shown instant.
 
-    Parts of the vector are thin; the chord of its neighbours stands for the tangent, which the
-    acceleration is read from. ``draft`` is that of `trajectory_picture`.
+    Parts of the vector are thin; the chord of its neighbours replaces the tangent, from which
+    the acceleration is read. ``draft`` is that of `trajectory_picture`.
     """
     per_mm, names = scales[plan].per_mm, (f"{plan}x", f"{plan}y")
     marks = course.numbered(*names) / per_mm
@@ -356,7 +356,7 @@ def _axes(
     items: Sequence[Item], names: Sequence[str], height: float, labels: list[Label],
     *, scale: Scale | None = None, say: Notation | None = None,
 ) -> list[Item]:  # fmt: skip
-    """Return both axes around what is drawn, with numbers where a scale is named.
+    """Return both axes around the drawing, with numbers where a scale is named.
 
     They cross at the origin; where that is far off, at the edge of the picture.
     """

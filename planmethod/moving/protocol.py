@@ -1,4 +1,4 @@
-"""How a moving point is drawn, step by step, in the words of the explanatory note (протокол)."""
+"""Drawing of a moving point, step by step, in the words of the explanatory note (протокол)."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ class PointNarrator(StepNarrator):
         return text.format(point=self.built.letters[name])
 
     def line(self, step: Line) -> list[Rich]:
-        """Tell a ray, a line across the wheel, or the direction of the tangent."""
+        """Describe a ray, a line across the wheel, or the direction of the tangent."""
         match step:
             case steps.AtAngle(_, through, _, angle):
                 text = self.said.ray if self._number(angle) else self.said.level
@@ -138,11 +138,11 @@ class PointNarrator(StepNarrator):
                 return []
 
     def meet(self, step: steps.MeetLines) -> list[Rich]:
-        """Tell the foot of the perpendicular on the tangent."""
+        """Describe the foot of the perpendicular on the tangent."""
         return [self.said.foot.format(point=self.built.letters[step.out])]
 
     def measure(self, step: Reading) -> list[Rich]:
-        """Tell a side of the wheel; other segments are told with what is read."""
+        """Describe a side of the wheel; other segments are described with their readings."""
         if any(self._is_value(one, step.out) for one in self.columns):
             return []
         length = self._put(self._number(step.out))
@@ -153,7 +153,7 @@ class PointNarrator(StepNarrator):
         return isinstance(made, steps.Compute) and made.powers[0][0] == length
 
     def lay_off(self, step: steps.LayOff) -> list[Rich]:
-        """Tell a vector, or a side of the wheel: how long, from where, along what."""
+        """Describe a vector, or a side of the wheel: its length, origin and direction."""
         said, made, letters = self.said, self.step[step.length], self.built.letters
         assert isinstance(made, steps.Compute)
         mm, symbol = self._number(step.length), letters[step.length]
@@ -180,7 +180,7 @@ class PointNarrator(StepNarrator):
         ]
 
     def compute(self, step: steps.Compute) -> list[Rich]:
-        """Tell what is read off the drawing."""
+        """Describe a value read off the drawing."""
         column = self.columns.get(step.out)
         if column is None:
             return []

@@ -135,7 +135,7 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
 
 
 def _read_law(faults: Faults, point: Mapping[str, Any], *, is_whole: bool) -> Law | None:
-    """Tell by its keys how the motion is stated."""
+    """Return the form in which the motion is stated, by its keys."""
     told = set(point) - {"phi"} if {"wheel", "r"} & set(point) else set(point)
     found = [law for law, wanted in FORMULAS.items() if any(key in told for key in wanted)]
     if "wheel" in point:
@@ -268,7 +268,7 @@ def _number_of(formula: TimeFunction) -> float:
 
 
 def _read_published(faults: Faults, table: object, moments: int) -> tuple[Published, ...]:
-    """Read ``[published]``; what stands in ``what`` are columns of the record."""
+    """Read ``[published]``; its ``what`` names columns of the record."""
 
     def check(path: str, what: str, _: str) -> str:
         return _column(faults, path, what) if what else ""

@@ -14,7 +14,7 @@ SCHEMA = 1
 
 
 def record(problem: PointProblem, lang: str = "ru") -> dict[str, Any]:
-    """Return the motion of a point as plain data; null with a reason for what does not exist."""
+    """Return the motion of a point as plain data; a missing value is null, with a reason."""
     motion = move(problem)
     rows: list[dict[str, Any]] = []
     for k, why in enumerate(motion.reasons):

@@ -1,7 +1,8 @@
 """Formulas read in jets: values with first and second derivative in time, exact but for rounding.
 
-The parts of a jet are `Bounded` numbers over all moments at once: zero is told from what only
-rounding left. A point at rest has a velocity of 1e-16, and a straight line curvature of as much.
+The parts of a jet are `Bounded` numbers over all moments at once: zero is distinguished from
+rounding residue. Otherwise a point at rest would have a velocity of 1e-16, and a straight line a
+curvature.
 """
 
 from __future__ import annotations
@@ -65,7 +66,7 @@ class Bounded:
     __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Bounded:
-        """Divide; by what may be zero: NaN."""
+        """Divide; NaN where the divisor may be zero."""
         other = bounded(other)
         by = np.where(np.abs(other.value) <= other.radius, np.nan, other.value)
         value = self.value / by
@@ -80,9 +81,9 @@ class Bounded:
         return Bounded(np.abs(self.value), self.radius)
 
     def settled(self) -> Bounded:
-        """Return the values with exact zeros for what cannot be told from zero.
+        """Return the values with exact zeros where they are zero within the bound of rounding.
 
-        What is infinite, or may be off by any amount, is NaN.
+        A value that is infinite, or has an infinite bound, is NaN.
         """
         value = np.where(np.isfinite(self.value + self.radius), self.value, np.nan)
         nothing = np.abs(value) <= self.radius
@@ -304,4 +305,4 @@ DEGREES: Mapping[str, Callable[[Jet], Jet]] = MappingProxyType(
         "ctg deg": lambda jet: _composed(jet, _cos_deg) / _composed(jet, _sin_deg),
     }
 )
-"""Those of a calculator set to degrees, whose owner differentiates as of radians."""
+"""Functions of a calculator set to degrees, differentiated as if of radians."""

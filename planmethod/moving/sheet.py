@@ -59,7 +59,7 @@ SIZES = Sizes(5.0, 5.0, 3.5, 120.0)
 """Sizes of letters and texts."""
 
 TRAJECTORY_BOX, HODOGRAPH_BOX = (170.0, 125.0), (105.0, 95.0)
-"""What trajectory and hodographs shall fill, mm, times the factors that are tried."""
+"""Boxes of trajectory and hodographs, mm, before the factors that are tried."""
 
 FACTORS = (1.9, 1.6, 1.35, 1.15, 1.0, 0.87, 0.75, 0.65, 0.56, 0.48, 0.4, 0.32, 0.25)
 COLUMN_WIDTHS = (SIZES.column, 95.0)
@@ -90,7 +90,7 @@ class _Plan(Viewed, frozen=True):
 
 
 class _Point(Struct, frozen=True):
-    """How the sheets of a point are searched for: views smaller and smaller, on more sheets."""
+    """Search for the sheets of a point: smaller and smaller views, on more sheets."""
 
     problem: PointProblem
     course: Course
@@ -101,7 +101,7 @@ class _Point(Struct, frozen=True):
     formats = TRIED
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[_Sheets]:
-        """Yield scales and widths of the texts, for one sheet, then for several of the asked one.
+        """Yield scales and text widths, for one sheet, then for several of the requested format.
 
         Of several sheets the first has the views.
         """
@@ -117,7 +117,7 @@ class _Point(Struct, frozen=True):
                             yield _Sheets(self, paper, count, scales, column)
 
     def scales(self, factor: float) -> dict[str, Scale]:
-        """Return the scales of views that are so many times as large as usual."""
+        """Return the scales of views that are ``factor`` times as large as usual."""
         asked, found = self.problem.scales, dict[str, Scale]()
         box = (factor * HODOGRAPH_BOX[0], factor * HODOGRAPH_BOX[1])
         for plan, mu in (("v", asked.mu_v), ("a", asked.mu_a)):
@@ -189,7 +189,7 @@ class _Point(Struct, frozen=True):
         return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
 
     def _statement(self, width: float) -> Block:
-        """Return "Дано" and what is asked."""
+        """Return "Дано" and the required quantities."""
         said, decimal = self.words.point, self.words.say.decimal
         facts = given(self.problem, self.words, lambda text: textbook(text, decimal))
         # A formula is not broken within.
@@ -213,7 +213,7 @@ class _Point(Struct, frozen=True):
         return Column([*blocks, *blocks_of(nodes, SIZES.text, width=width)], gap=2.6)
 
     def _read(self, built: MomentConstruction, k: int) -> Block:
-        """Return what the drawing gives beside the exact values, and its error."""
+        """Return the values of the drawing beside the exact ones, and its error."""
         whole = read_rows(built, self.course.marks, k, self.words, self.profile)
         rows, said = [row for row in whole if row[2] != "—"], self.words.point
         columns = [
@@ -259,14 +259,14 @@ class _Point(Struct, frozen=True):
 
 
 def _is_short(node: Formula | Note) -> bool:
-    """Tell whether a node is a formula without a calculation, of which two fit a line."""
+    """Return whether a node is a formula without a calculation; two of them fit on a line."""
     return isinstance(node, Formula) and node.text.count("=") == 1
 
 
 def read_rows(
     built: MomentConstruction, marks: Motion, k: int, words: Language, profile: Profile
 ) -> Iterator[tuple[str, str, str, str]]:
-    """Yield what the drawing gives beside the exact values, rich text: symbol, exact, read, σ."""
+    """Yield the values of the drawing beside the exact ones, rich text: symbol, exact, read, σ."""
     ruled, sigma, say = built.ruled(profile.ruler), built.sigma(profile), words.say
     for name in built.results:
         one = ComparedNumber(float(marks.columns[name][k]) + 0.0, ruled[name], sigma[name])
@@ -286,7 +286,7 @@ class _Sheets(Struct, frozen=True):
     column: float
 
     def laid(self) -> Laid | None:
-        """Return the sheets, each view as large as the others leave it room."""
+        """Return the sheets, each view as large as the others allow."""
         given, scales = self.of.problem.scales, self.scales
         laid = self._at({key: scale.per_mm for key, scale in scales.items()})
         if laid is None:
@@ -329,7 +329,7 @@ def drawings(
     fields : mapping, optional
         Texts of the title block that outrank the file's.
     profile : Profile
-        How well it is drawn: the ruler and the errors of what is read.
+        Drafting accuracy: the ruler and the errors of readings.
     before, total : int
         Sheets of the set before this one, and of the whole set.
 
@@ -338,7 +338,7 @@ def drawings(
     ProblemError
         The point is nowhere in the shown interval.
     LayoutError
-        When everything fits no format, or not the asked one.
+        The content fits no format, or not the requested one.
     """
     furniture = Furniture.of(problem.sheet, before=before, total=total)
     strategy, title = _strategy(problem, course_of(problem), profile), problem.title or problem.name

@@ -113,7 +113,7 @@ def raised_powers(text: str) -> str:
 
 
 def _end_of_power(tail: str) -> int:
-    """Return where the power ends that a text begins with: ``-t``, ``(1/2)``, ``2^t``."""
+    """Return the end of the power at the beginning of a text: ``-t``, ``(1/2)``, ``2^t``."""
     named = re.match(_POWER, tail)
     end = named.end() if named else 0
     if tail[end : end + 1] == "(":
@@ -130,7 +130,7 @@ _POWER = r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?
 
 
 def law(problem: PointProblem, words: Language) -> Iterator[Formula | Item]:
-    """Yield the law of motion: its formulas, and along what the point moves."""
+    """Yield the law of motion: its formulas, and the path of the point."""
     for fact in law_facts(problem, words):
         is_formula = any(key.removeprefix("point.") in problem.formulas for key in fact.data)
         yield Formula(fact.text) if is_formula else Item(fact.text)
@@ -139,9 +139,9 @@ def law(problem: PointProblem, words: Language) -> Iterator[Formula | Item]:
 def given(
     problem: PointProblem, words: Language, written: Callable[[str], Rich] = escape
 ) -> list[GivenFact]:
-    """Return what is given: of the law and the moments the motion follows (дано).
+    """Return the given data: the law and the moments, which determine the motion (дано).
 
-    ``written`` tells how the text of a formula is written.
+    ``written`` formats the text of a formula.
     """
     return [*law_facts(problem, words, written), moments(problem, words)]
 
@@ -197,7 +197,7 @@ def moments(problem: PointProblem, words: Language) -> GivenFact:
 def moment(
     problem: PointProblem, motion: Motion, k: int, words: Language
 ) -> Iterator[Formula | Note]:
-    """Yield one moment: every formula with its numbers, and what does not exist."""
+    """Yield one moment: every formula with its numbers, and the undefined quantities."""
     value = {name: float(column[k]) + 0.0 for name, column in motion.columns.items()}
     why, say = motion.reasons[k], words.say
 
@@ -238,7 +238,7 @@ def moment(
 def _other_velocities(
     problem: PointProblem, value: dict[str, float], line: Callable[..., Formula], say: Notation
 ) -> list[Formula]:
-    """Return what a polar motion, or a rolling wheel, has besides."""
+    """Return the further quantities of a polar motion, or of a rolling wheel."""
     if problem.law is Law.POLAR:
         return [line("v_r"), line("v_phi")]
     if problem.law is Law.ROLLING:
