@@ -37,7 +37,7 @@ from planmethod.construct.program import Builder, Program
 from planmethod.construct.steps import LineName, NumberName, PointName, Way
 
 APART = 140.0
-"""From the axis of a diagram to that of the next below it, mm."""
+"""Distance between the axes of neighbouring diagrams, mm."""
 
 FREE = frozenset(map(PointName, ("O_a", "O_v", "O_s", "B", "O")))
 """Points that may stand anywhere."""
@@ -69,7 +69,7 @@ class CamConstruction(Struct, frozen=True, dict=True):
     bounds: tuple[Bound, ...]
 
     def read(self, arithmetic: Arithmetic | None = None) -> Trace:
-        """Return the values of every step; float64 when no arithmetic is named."""
+        """Return the values of every step; default: float64."""
         return evaluate(self.program, self.data, arithmetic or Float64())
 
     @cached_property
@@ -78,7 +78,7 @@ class CamConstruction(Struct, frozen=True, dict=True):
         return self.read()
 
     def ruled(self, ruler: float) -> Trace:
-        """Return what a ruler of this step, mm, gives."""
+        """Return the readings of a ruler of this step, mm."""
         return self.read(Hand(ruler=ruler))
 
     def sigma(self, profile: Profile) -> dict[str, float]:
@@ -169,7 +169,7 @@ class _Draft(Struct):
         design, b, mm = self.design, self.b, self.scales.region
         one, plate = design.problem, is_plate(design)
         if plate and one.r_min is not None:
-            return {}  # the axis is where it is asked to be
+            return {}  # the axis is given
         start = self.given("B")
         level = b.at_angle(start, None, self.known("level", 0.0))
         up = b.perpendicular(start, level)
@@ -262,7 +262,7 @@ class _Draft(Struct):
         return {0: k}
 
     def _steepest(self) -> int:
-        """Return the division whose line leaves the least of what the convexity asks."""
+        """Return the division whose line limits the axis most by convexity."""
         one, geometry, side = self.design.problem, self.design.geometry, self.design.side
 
         def spare(node: CamNode) -> float:
@@ -284,7 +284,7 @@ class _Draft(Struct):
         self, start: PointName, level: LineName, pivot: PointName | None,
         rays: Mapping[int, LineName],
     ) -> tuple[PointName | None, dict[int, int]]:  # fmt: skip
-        """Draw the limiting lines and find the axis where they meet, or where it is asked."""
+        """Draw the limiting lines and find the axis: their intersection, or the given point."""
         design, b, mm = self.design, self.b, self.scales.region
         one, z = design.problem, design.axis
         lines: list[LineName] = []

@@ -54,7 +54,7 @@ class CamExtreme(NamedTuple):
 
 
 class Undercut(NamedTuple):
-    """Where a profile is cut away (подрез): the worst angle, from which to which, rad.
+    """Undercut of a profile (подрез): the worst angle and the range, rad.
 
     ``rho``: radius of curvature of the theoretical profile there, m; ``point`` in the frame of the
     cam, m; ``outer``: on the outer side of a groove.
@@ -82,7 +82,7 @@ class CamDesign(Struct, frozen=True, dict=True):
     # Places of the axis ---------------------------------------------------------------------------
 
     def velocity_end(self, moved: Reals) -> tuple[Complexes, Complexes]:
-        """Return D from the roller at rest, m, and what turns the follower's way upright.
+        """Return D from the roller at rest, m, and the rotation to an upright follower path.
 
         The frame is that of the follower: at rest it moves along +y; the pivot is at ``side·arm``.
         """
@@ -114,7 +114,7 @@ class CamDesign(Struct, frozen=True, dict=True):
                 yield from ((stretch, 1), (stretch, -1))
 
     def worst(self, x: float, y: float) -> tuple[float, list[tuple[Stretch, float, int]]]:
-        """Return by how much an axis breaks the limits, m, and the angle of each limit's worst."""
+        """Return the excess of an axis over each limit, m, and the angle of its maximum."""
 
         def broken(stretch: Stretch, sign: int, phi: Reals) -> Reals:
             a, b, c = self.half_planes(stretch, phi, sign)
@@ -224,7 +224,7 @@ class CamDesign(Struct, frozen=True, dict=True):
 
     @cached_property
     def bare(self) -> CamGeometry:
-        """The cam of the centre of the roller, or under the plate."""
+        """Geometry of the pitch curve, or of the cam under the flat face."""
         one = self.problem
         if one.contact is not Contact.FLAT:
             z = self.axis
@@ -244,7 +244,7 @@ class CamDesign(Struct, frozen=True, dict=True):
         return CamGeometry(one, found.value + one.least, e=e)
 
     def _least_plate(self, centre: float) -> float:
-        """Return the least distance of a swinging plate at which the profile is convex enough."""
+        """Return the minimum distance of a swinging flat face for a convex enough profile."""
         one = self.problem
 
         def broken(delta: float) -> float:
@@ -298,7 +298,7 @@ class CamDesign(Struct, frozen=True, dict=True):
         return CamExtreme(1 / value if value > 0 else float("inf"), phi)
 
     def _turns(self, jump: Jump) -> float:
-        """Return by how much the profile turns at a jump, rad; negative where it is convex."""
+        """Return the turn of the profile at a jump, rad; negative where it is convex."""
         phi = np.array(jump.phi)
         first, second = (self.bare.points(phi, at).normal for at in (jump.before, jump.after))
         return float(np.angle(second / first))
@@ -320,7 +320,7 @@ class CamDesign(Struct, frozen=True, dict=True):
         limits = [OF_RHO * self.rho_min.value]
         if one.closure is Closure.FORM:
             limits.append(OF_RHO * self.hollow.value)
-        # Over a corner no roller rolls: the undercut is told then.
+        # A roller cannot roll over a corner: the undercut is reported then.
         most = min([OF_R_MIN * bare.r_min, *(limit for limit in limits if limit > 0)])
         return replace(bare, roller=floor(most / STEP + 1e-9) * STEP if most > 2 * STEP else most)
 
@@ -356,7 +356,7 @@ class CamDesign(Struct, frozen=True, dict=True):
 
     @cached_property
     def undercut(self) -> Undercut | None:
-        """Where the profile is cut away: the roller, or the plate, does not touch it there."""
+        """Undercut parts of the profile, which the roller, or the flat face, does not touch."""
         one, geometry = self.problem, self.geometry
         if one.contact is Contact.POINTED:
             return None
@@ -376,7 +376,7 @@ class CamDesign(Struct, frozen=True, dict=True):
     def _cut(
         self, phi: float, rho: float, outer: bool, is_cut: Callable[[Reals], Flags]
     ) -> Undercut:
-        """Return an undercut with the angles between which it is."""
+        """Return an undercut with its range of angles."""
         offsets = np.linspace(0.0, np.pi, 20001)
 
         def reach(way: int) -> float:

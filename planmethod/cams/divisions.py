@@ -66,7 +66,7 @@ class CamScales(Struct, frozen=True):
 def scales_of(
     design: CamDesign, share: float = 1.0, region: float = 150.0, profile: float = 220.0
 ) -> CamScales:
-    """Return scales from the series: diagrams of a share, a region and a profile of so many mm."""
+    """Return scales from the series: diagrams by a factor, region and profile by size in mm."""
     sizes = np.abs(
         np.concatenate([ends(design.problem, one) for one in design.problem.stretches], 1)
     )
@@ -102,7 +102,7 @@ def outline(design: CamDesign) -> Complexes:
 
 
 def is_plate(design: CamDesign) -> bool:
-    """Whether the follower touches the cam with a plate."""
+    """Return whether the follower touches the cam with a plate."""
     return design.problem.contact is Contact.FLAT
 
 
@@ -116,7 +116,7 @@ def nodes_of(problem: CamProblem) -> tuple[CamNode, ...]:
             phi = start + length * k / problem.parts
             found.append(CamNode(len(found), phase, phi, starts=k == 0))
     if problem.length(CamPhase.LOWER) == 0:
-        found.pop()  # the turn begins anew
+        found.pop()  # the next turn begins
     return tuple(found)
 
 
@@ -132,7 +132,7 @@ def moved_in(problem: CamProblem, node: CamNode) -> Reals:
 
 
 def step_between(problem: CamProblem, start: float, end: float) -> float:
-    """Return the height of the step that stands for a_q between two divisions, m.
+    """Return the height of the step that replaces a_q between two divisions, m.
 
     The ordinate in the middle; where a_q jumps between them, that of the same area.
     """

@@ -24,12 +24,12 @@ class CamFollower(Lifted, frozen=True, kw_only=True):
     cam: CamProblem
 
     def given(self, words: Language) -> list[GivenFact]:
-        """Return the facts of a statement that the motion of the follower is given by: its law."""
+        """Return the given facts of the follower's motion: its law."""
         return motion_given(self.cam, words)
 
 
 def followed(faults: Faults, table: object) -> Lifted | None:
-    """Return how the follower moves the driving link over a turn of the cam.
+    """Return the motion that the follower gives the driving link over a turn of the cam.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def followed(faults: Faults, table: object) -> Lifted | None:
     Returns
     -------
     Lifted or None
-        None where the cam is faulty; ``faults`` say why.
+        None where the cam is faulty; ``faults`` have the reasons.
     """
     before = len(faults)
     told = read_cam(faults, table)
@@ -53,10 +53,10 @@ def followed(faults: Faults, table: object) -> Lifted | None:
 
 
 def lifted(problem: CamProblem) -> Lifted:
-    """Return the motion of the follower from its lowest place.
+    """Return the motion of the follower from its lowest position.
 
-    The way of a translating follower grows with the rise; an oscillating one turns in the rise by
-    the sense of the cam, or against it.
+    The displacement of a translating follower grows with the rise; during the rise an oscillating
+    one turns in the sense of the cam, or against it.
     """
     size = problem.stroke
     if problem.oscillates:

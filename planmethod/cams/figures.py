@@ -1,4 +1,4 @@
-"""Numbers of a cam as students are asked for them, and mistakes (величины, ошибки)."""
+"""Numbers of a cam that students answer, and typical mistakes (величины, ошибки)."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ POWERS = {"v_q": 1, "a_q": 2}
 
 
 class CamFigures:
-    """All that can be asked of a cam; see `planmethod.problem.figures.Figures`."""
+    """Quantities of a cam for questions; see `planmethod.problem.figures.Figures`."""
 
     def __init__(self, problem: CamProblem) -> None:
         self.problem, self.count = problem, problem.count
@@ -56,7 +56,7 @@ class CamFigures:
         return construct(self.design, sheet_scales(self.problem))
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
-        """Return its segment on the drawing, mm, and one sigma of what is read."""
+        """Return its segment on the drawing, mm, and one sigma of the reading."""
         built, value = self.built, self._of(name, position)
         if value is None:
             return None
@@ -96,7 +96,7 @@ class CamFigures:
         yield Mistaken("Q5", "", self._in_degrees)
 
     def _other(self, code: str, problem: CamProblem) -> Iterator[Mistaken]:
-        """Yield a mistake that makes another cam of it, if there is such a cam."""
+        """Yield a mistake that results in another cam, if that exists."""
         take: Taken = partial(value_of, CamDesign(problem))
         try:
             take("r_min", 0)
@@ -114,7 +114,7 @@ class CamFigures:
 
 
 def value_of(design: CamDesign, name: str, position: int) -> float | None:
-    """Return a quantity of a cam, m or degrees; None where it has none."""
+    """Return a quantity of a cam, m or degrees; None if it is unknown."""
     problem, geometry = design.problem, design.geometry
     if name in PLACED:
         phi = problem.angles()[position : position + 1]
@@ -138,4 +138,4 @@ def value_of(design: CamDesign, name: str, position: int) -> float | None:
 
 
 asked_of = CamFigures
-"""What such a kind of problem is asked by."""
+"""Quantities of this kind of problem."""

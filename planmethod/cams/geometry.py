@@ -21,7 +21,7 @@ Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 
 
 class CamPoints(NamedTuple):
-    """What belongs to angles of the cam; all arrays of their shape.
+    """Points and angles for angles of the cam; all arrays have their shape.
 
     ``roller``: its centre (the pointed edge, the point of the plate) in the resting frame;
     ``theoretical``, ``actual``, ``outer``: profiles in the frame of the cam, the last is the other
@@ -56,7 +56,7 @@ class CamGeometry(Struct, frozen=True):
 
     @property
     def s0(self) -> float:
-        """How high the roller is above the axis at rest, m."""
+        """Height of the roller above the axis at rest, m."""
         return float(np.sqrt(self.r_min**2 - self.e**2))
 
     @property
@@ -78,7 +78,7 @@ class CamGeometry(Struct, frozen=True):
         return complex(self.side * self.centre)
 
     def points(self, phi: Reals, moved: Reals) -> CamPoints:
-        """Return what belongs to angles of the cam.
+        """Return the points for angles of the cam.
 
         Parameters
         ----------

@@ -30,25 +30,25 @@ class Cams(ProblemKind["CamProblem"]):
         return load(path, variant=variant)
 
     def record(self, problem: CamProblem, lang: str) -> dict[str, Any]:
-        """Return what ``solve --json`` prints."""
+        """Return the record of ``solve --json``."""
         from planmethod.cams.record import record
 
         return record(problem, lang)
 
     def spreadsheet(self, problem: CamProblem) -> SpreadsheetRows:
-        """Return what ``solve --csv`` prints."""
+        """Return the text of ``solve --csv``."""
         from planmethod.cams.record import spreadsheet
 
         return spreadsheet(problem)
 
     def solved_document(self, problem: CamProblem, words: Language) -> Document:
-        """Return what ``solve`` prints."""
+        """Return the document of ``solve``."""
         from planmethod.cams.text import solved_document
 
         return Document.of(solved_document(problem, words))
 
     def protocol_document(self, problem: CamProblem, words: Language, profile: Profile) -> Document:
-        """Return what ``protocol`` prints."""
+        """Return the document of ``protocol``."""
         from planmethod.cams.protocol import protocol_document
 
         return Document.of(protocol_document(problem, words, profile))
@@ -74,13 +74,13 @@ class Cams(ProblemKind["CamProblem"]):
         return live_page(problem, lang)
 
     def given(self, problem: CamProblem, words: Language) -> list[GivenFact]:
-        """Return what is given, one fact each; the file can be written again of their data."""
+        """Return the given data, one fact each; the file can be rebuilt from them."""
         from planmethod.cams.text import given
 
         return given(problem, words, numbered=True)
 
     def figures(self, problem: CamProblem) -> Figures:
-        """Return what students can be asked for."""
+        """Return the quantities for questions to students."""
         from planmethod.cams.figures import asked_of
 
         return asked_of(problem)

@@ -97,7 +97,7 @@ class UnitLaw(Struct, frozen=True, dict=True):
 
     @property
     def knots(self) -> tuple[float, ...]:
-        """Where bits begin and end."""
+        """Boundaries of the bits."""
         return (*(bit.start for bit in self.bits), 1.0)
 
     def on(self, k: int, u: Reals) -> Reals:
@@ -110,7 +110,7 @@ class UnitLaw(Struct, frozen=True, dict=True):
     def terms(self, k: int) -> tuple[list[float], float, float, float]:
         """Return the law on bit ``k``, counted from its start: powers of it, and a sine.
 
-        The sine is told by size, rate and phase: ``size·sin(rate·x + phase)``.
+        The sine is given by size, rate and phase: ``size·sin(rate·x + phase)``.
         """
         bit, (value, slope), whole = self.bits[k], self._constants[k], self._constants[-1][0]
         powers = [value, slope]

@@ -1,7 +1,7 @@
 """The page of a cam that turns: cam, follower, normal, pressure angle, the diagram with a cursor.
 
-Its numbers are rows of every half degree, between which the page goes straight: at a jump it has
-what is after it.
+Its numbers are rows for every half degree, which the page interpolates linearly; at a jump a row
+has the value after it.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def live_page(problem: CamProblem, lang: str) -> str:
     Raises
     ------
     ProblemError
-        No cam keeps what is asked.
+        No cam satisfies the requirements.
     """
     words, design = language(lang), CamDesign(problem)
     canvas = SvgCanvas(Options())

@@ -17,14 +17,14 @@ TURN = 2 * pi
 
 
 class Follower(Enum):
-    """How the follower moves (вид толкателя)."""
+    """Motion of the follower (вид толкателя)."""
 
     TRANSLATING = "translating"
     OSCILLATING = "oscillating"
 
 
 class Contact(Enum):
-    """What the follower touches the cam with (вид контакта)."""
+    """Contact of the follower with the cam (вид контакта)."""
 
     ROLLER = "roller"
     POINTED = "pointed"
@@ -32,14 +32,14 @@ class Contact(Enum):
 
 
 class Closure(Enum):
-    """What keeps the follower at the cam (замыкание): a spring, or a groove."""
+    """Closure of the follower and the cam (замыкание): a spring, or a groove."""
 
     FORCE = "force"
     FORM = "form"
 
 
 class ArmSense(Enum):
-    """Whether an oscillating follower rises the way the cam turns (направление поворота)."""
+    """Sense of an oscillating follower's rise, with or against the cam (направление поворота)."""
 
     OPPOSITE = "opposite"
     SAME = "same"
@@ -93,14 +93,14 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
     offset, r_min, roller, centre : float or None, m
         None: chosen.
     least : float, m
-        Least radius of curvature that is allowed under a flat follower.
+        Minimum allowed radius of curvature under a flat-faced follower.
     count : int
         Positions of a turn.
     n : float or None, rev/min
         Of the cam, counter-clockwise positive.
     mass, load, margin : float
-        Of the follower, kg; force on it against the rise, N; by how much the spring shall be
-        stronger than it must.
+        Of the follower, kg; force on it against the rise, N; margin of
+        the spring force over the required one.
     """
 
     follower: Follower
@@ -126,7 +126,7 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
 
     @property
     def oscillates(self) -> bool:
-        """Whether the follower swings about a pivot."""
+        """True if the follower swings about a pivot."""
         return self.follower is Follower.OSCILLATING
 
     @property
@@ -136,17 +136,17 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
 
     @property
     def has_forces(self) -> bool:
-        """Whether the file tells what the forces on the follower come from."""
+        """True if the file gives the sources of the forces on the follower."""
         return bool(self.mass and self.n)
 
     @cached_property
     def starts(self) -> dict[CamPhase, float]:
-        """Where phases begin, rad from the start of the rise."""
+        """Starts of the phases, rad from the start of the rise."""
         sums = np.concatenate([[0.0], np.cumsum(self.phases)])
         return {phase: float(at) for phase, at in zip(CamPhase, sums, strict=False)}
 
     def length(self, phase: CamPhase) -> float:
-        """Return how long a phase is, rad."""
+        """Return the length of a phase, rad."""
         return self.phases[list(CamPhase).index(phase)]
 
     @cached_property

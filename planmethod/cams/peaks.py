@@ -14,10 +14,9 @@ RealFunction = Callable[[Reals], Reals]
 
 
 def peak(of: RealFunction, start: float, end: float) -> tuple[float, float]:
-    """Return where a smooth function is greatest on an interval, and how great.
+    """Return the argument and the value of a smooth function's maximum on an interval.
 
-    Every summit of the samples is looked at closer and closer, so that of two nearly equal ones
-    the greater is found.
+    Every peak of the samples is refined, so that the greater of two nearly equal ones is found.
     """
     x = np.linspace(start, end, SAMPLES)
     with np.errstate(all="ignore"):
@@ -86,7 +85,7 @@ def _nearest_corner(unit: Reals, off: Reals, slack: float) -> Reals | None:
 def first_kept(
     rough: Callable[[float], float], exact: Callable[[float], float], tried: Reals
 ) -> float | None:
-    """Return the first number at which a function is no longer positive; None where it stays so.
+    """Return the first number at which a function is not positive; None if it is positive.
 
     Parameters
     ----------
@@ -116,7 +115,7 @@ def first_kept(
 
 
 def least(of: Callable[[float], float], start: float, end: float, *, samples: int = 121) -> float:
-    """Return where a function of one number is least, by finer and finer grids."""
+    """Return the minimizer of a function of one number, by finer and finer grids."""
     for _ in range(14):
         x = np.linspace(start, end, samples)
         k = int(np.argmin([of(float(one)) for one in x]))

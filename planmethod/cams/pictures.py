@@ -122,7 +122,7 @@ def _curve(view: CamView, row: int, per_mm: float) -> Curve:
 
 
 def _diagram(view: CamView, k: int) -> Picture:
-    """Return the diagram of a_q, v_q or s with what it is integrated by."""
+    """Return the diagram of a_q, v_q or s with its integration construction."""
     name, row = "avs"[k], 2 - k
     built, scales = view.built, view.built.scales
     origin = view.at(f"O_{name}")
@@ -168,7 +168,7 @@ def _diagram(view: CamView, k: int) -> Picture:
 
 
 def _pressure(view: CamView) -> Picture:
-    """Return the diagram of the pressure angle with what is allowed."""
+    """Return the diagram of the pressure angle with the allowed values."""
     design, per = view.built.design, view.built.scales.degree
     problem = design.problem
     found: list[tuple[complex, ...]] = []
@@ -206,7 +206,7 @@ def _per_mm(values: Sequence[Reals], room: float) -> float:
 
 
 def region_picture(view: CamView) -> Picture | None:
-    """Return s over v_q with limiting lines and the axis; None where none is constructed."""
+    """Return s over v_q with limiting lines and the axis; None if no axis is constructed."""
     built = view.built
     if not built.results:
         return None

@@ -1,4 +1,4 @@
-"""How a cam is constructed, step by step, in the words of the explanatory note (протокол)."""
+"""Construction of a cam, step by step, in the words of the explanatory note (протокол)."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
 
 TOLD = 2
-"""How many parts of the diagrams are told in full."""
+"""Number of parts of the diagrams that are described in full."""
 
 
 def protocol_document(problem: CamProblem, words: Language, profile: Profile) -> Iterator[Node]:
@@ -41,7 +41,7 @@ def protocol_document(problem: CamProblem, words: Language, profile: Profile) ->
     Raises
     ------
     ProblemError
-        No cam keeps what is asked.
+        No cam satisfies the requirements.
     LayoutError
         The sheet cannot be drawn.
     """
@@ -178,7 +178,7 @@ def _profile(built: CamConstruction, drawn: CamReadings, words: Language) -> Ite
 
 
 class CamNarrator(StepNarrator):
-    """Tells the steps by which the diagrams are integrated (рассказчик)."""
+    """Narrator of the steps that integrate the diagrams (рассказчик)."""
 
     def __init__(self, built: CamConstruction, drawn: CamReadings, words: Language) -> None:
         self.built, self.drawn, self.words, self.said = built, drawn, words, words.cam
@@ -197,7 +197,7 @@ class CamNarrator(StepNarrator):
         return self.words.say.short(value + 0.0, 4)
 
     def lay_off(self, step: steps.LayOff) -> list[Rich]:
-        """Tell the mean ordinate of a part."""
+        """Describe the mean ordinate of a part."""
         if not step.out.startswith("m_"):
             return []
         size, k = self.drawn.number(step.length), step.out[3:-1]
@@ -208,13 +208,13 @@ class CamNarrator(StepNarrator):
         ]
 
     def line(self, step: Line) -> list[Rich]:
-        """Tell a ray from a pole."""
+        """Describe a ray from a pole."""
         if isinstance(step, steps.Join):
             return [self.said.ray.format(ray=step.tail + step.head)]
         return []
 
     def meet(self, step: steps.MeetLines) -> list[Rich]:
-        """Tell the end of a chord, its middle, and that on the axis of ordinates."""
+        """Describe the end of a chord, its middle, and that on the axis of ordinates."""
         letter, _, rest = step.out.partition("_")
         k = rest[1:-1]
         match letter:
@@ -233,7 +233,7 @@ class CamNarrator(StepNarrator):
                 return []
 
     def measure(self, step: Reading) -> list[Rich]:
-        """Tell an ordinate that is read."""
+        """Describe an ordinate that is read."""
         exact = self.words.say.number(f"{self.drawn.number(step.out, exact=True) + 0.0:.2f}")
         length = self.words.say.ruled(self.drawn.number(step.out) + 0.0)
         return [self.said.read_ordinate.format(symbol=step.out, length=length, exact=exact)]

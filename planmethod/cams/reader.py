@@ -26,7 +26,7 @@ TOP = ("title", "source", "units", "stamp", "sheet", "answers", "compare", "vari
 
 WHOLE = ("r_min", "e", "centre_distance", "roller", "theta_max", "theta_max_return", "rho_min")
 PLACED = ("s", "v_q", "a_q", "theta")
-"""What students are asked for: of the cam, and of each of its positions."""
+"""Quantities that students answer: of the cam, and of each of its positions."""
 
 OF_LAW: Mapping[CamLawName, tuple[str, float, float]] = {
     CamLawName.CONSTANT: ("ratio", 0.05, 20.0),
@@ -93,7 +93,7 @@ def _speed(crank: object) -> float | None:
     """Return the speed of the crank that a file has beside the cam, rev/min."""
     if not isinstance(crank, Mapping):
         return None
-    said = fields.Faults()  # that of the crank is read, and its faults are told, with the driver
+    said = fields.Faults()  # the crank's is read, and its faults are reported, with the driver
     if "n" in crank:
         return fields.read_number(said, "", crank["n"], "a rotational speed in rev/min")
     omega = fields.read_number(said, "", crank.get("omega"), "an angular velocity in 1/s")
@@ -101,7 +101,7 @@ def _speed(crank: object) -> float | None:
 
 
 def _read(faults: Faults, body: Mapping[str, Any], speed: float | None) -> dict[str, Any] | None:
-    """Return the fields of a problem that stand in its table."""
+    """Return the fields of a problem that its table has."""
     sizes = ("offset", "centre", "r_min", "roller")
     own: dict[str, OwnReader] = dict.fromkeys(sizes, _read_size)
     own |= dict.fromkeys(("law", "pressure"), _kept)  # both need other keys

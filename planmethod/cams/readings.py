@@ -1,4 +1,4 @@
-"""What a ruler gives of a construction beside the exact values (снятые величины)."""
+"""Ruler readings of a construction beside the exact values (снятые величины)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SYMBOLS = {"r_min": "r_{min}", "e": "e", "centre_distance": "a"}
 
 
 class CamReadings(Struct, frozen=True, dict=True):
-    """What the ruler gives of a construction beside the exact values (снятые величины)."""
+    """Ruler readings of a construction beside the exact values (снятые величины)."""
 
     built: CamConstruction
     words: Language
@@ -47,7 +47,7 @@ class CamReadings(Struct, frozen=True, dict=True):
         return float(np.ravel(trace.value[NumberName(name)])[0])
 
     def found(self) -> Iterator[tuple[str, ComparedNumber]]:
-        """Yield what is read of the region beside the exact sizes, mm."""
+        """Yield the sizes read off the region beside the exact ones, mm."""
         geometry = self.built.design.geometry
         exact = {
             "r_min": geometry.r_min, "e": geometry.e, "centre_distance": geometry.centre,
@@ -56,7 +56,7 @@ class CamReadings(Struct, frozen=True, dict=True):
             yield name, ComparedNumber(MM * exact[name], MM * self.number(of), MM * self.sigma[of])
 
     def table(self) -> Table:
-        """Return what is read of the region beside the exact sizes, mm."""
+        """Return the sizes read off the region beside the exact ones, mm."""
         say, rows, symbols = self.words.say, [], dict(SYMBOLS)
         if self.built.design.problem.contact is Contact.FLAT:
             symbols["r_min"] = "r_{0}"
@@ -66,7 +66,7 @@ class CamReadings(Struct, frozen=True, dict=True):
         return table_of(self.words.cam["region_heads"], rows)
 
     def off(self, trace: Trace) -> float:
-        """Return how far the profile of a reading is from the exact one at most, mm of the cam."""
+        """Return the maximum deviation of a reading's profile from the exact one, mm of the cam."""
         places = [
             np.ravel(trace.value[NumberName(f"B_{{{node.number}}}")])[0]
             for node in self.built.nodes
@@ -80,7 +80,7 @@ class CamReadings(Struct, frozen=True, dict=True):
         return max(self.sigma[f"R_{{{node.number}}}"] for node in self.built.nodes)
 
     def deviation(self) -> Rich:
-        """Return how far the drawn profile is from the exact one."""
+        """Return the text on the deviation of the drawn profile from the exact one."""
         say = self.words.say
         return self.words.cam.deviation.format(
             most=say.number(f"{self.off(self.ruled):.2f}"),

@@ -1,4 +1,4 @@
-"""What JSON says of a cam (запись для JSON), and the table of its profile."""
+"""JSON record of a cam (запись для JSON), and the table of its profile."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LEGEND = (
 
 
 def rows(design: CamDesign, count: int = 0) -> list[dict[str, float]]:
-    """Return the positions, or so many; m, degrees; ``rho`` is of the theoretical profile."""
+    """Return all or ``count`` positions; m, degrees; ``rho`` is of the pitch curve."""
     count = count or design.problem.count
     phi = TURN * np.arange(count) / count
     return _rows(design, 360.0 * np.arange(count) / count, phi, design.problem.at(phi))
@@ -75,7 +75,7 @@ def record(problem: CamProblem, lang: str = "ru") -> dict[str, Any]:
     Raises
     ------
     ProblemError
-        No cam keeps what is asked.
+        No cam satisfies the requirements.
     """
     design = CamDesign(problem)
     geometry, cut = design.geometry, design.undercut

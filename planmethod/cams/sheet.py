@@ -46,7 +46,7 @@ TEXT_WIDTH = STAMP_WIDTH - 5.0
 
 
 class CamTry(Struct, frozen=True):
-    """How large things are tried: diagrams a share, region and profile mm; letters."""
+    """Sizes of an attempt: diagrams as a fraction, region and profile in mm; letters."""
 
     share: float
     region: float
@@ -86,9 +86,9 @@ def drawings(
     Raises
     ------
     ProblemError
-        No cam keeps what is asked.
+        No cam satisfies the requirements.
     LayoutError
-        When all this has no room on the paper that is asked for.
+        The content does not fit on the requested paper.
     """
     words = language(problem.sheet.lang or LANGUAGES[0])
     furniture = Furniture.of(problem.sheet, before=before, total=total)
@@ -127,7 +127,7 @@ class CamProposal(Struct, frozen=True):
     scales: CamScales
 
     def laid(self) -> Laid | None:
-        """Return the sheet with views as large as it bears, or None without room."""
+        """Return the sheet with the largest views that fit, or None."""
 
         def draw(
             wish: Mapping[str, float], seen: CamReadings | None = self.of.rough
@@ -149,7 +149,7 @@ class CamProposal(Struct, frozen=True):
 
 
 class _Cam(Struct, frozen=True, dict=True):
-    """How the sheet of a cam is searched for: by smaller views and letters."""
+    """Search for the sheet of a cam, by smaller views and letters."""
 
     design: CamDesign
     words: Language
@@ -159,7 +159,7 @@ class _Cam(Struct, frozen=True, dict=True):
 
     @cached_property
     def rough(self) -> CamReadings:
-        """What is read at scales that are tried first: its table is as large as any other."""
+        """Readings at the first scales tried: their table has the same size as any other."""
         first = TRIES[0]
         scales = scales_of(self.design, first.share, first.region, first.profile)
         return CamReadings(construct(self.design, scales), self.words, self.profile)
@@ -171,7 +171,7 @@ class _Cam(Struct, frozen=True, dict=True):
             yield CamProposal(self, paper, tried, scales)
 
     def parts(self, tried: CamTry, scales: CamScales, seen: CamReadings | None) -> Iterator[Packed]:
-        """Yield the blocks in reading order; ``seen`` are readings that are ready for a trial."""
+        """Yield the blocks in reading order; ``seen`` are readings for a trial."""
         built, said, letters = construct(self.design, scales), self.words.cam, tried.sizes
         view = CamView(built, self.words, letters.letter)
         yield Packed(self._viewed(diagrams_picture(view), "diagrams", built, letters, "sva"))

@@ -1,4 +1,4 @@
-"""A cam for the reader: what is given, sizes, checks, positions (данные, размеры, проверки)."""
+"""Text of a cam: given data, sizes, checks, positions (данные, размеры, проверки)."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MM = 1000.0
 
 
 def solved_document(problem: CamProblem, words: Language) -> Iterator[Node]:
-    """Yield what is given, the sizes, what is checked, and the positions.
+    """Yield the given data, the sizes, the checks and the positions.
 
     Raises
     ------
@@ -49,7 +49,7 @@ def solved_document(problem: CamProblem, words: Language) -> Iterator[Node]:
 
 
 def head(problem: CamProblem, words: Language) -> Iterator[Node]:
-    """Yield the title and what is given."""
+    """Yield the title and the given data."""
     variant = f" ({problem.variant})" if problem.variant else ""
     yield Title(words.cam.title.format(title=escape((problem.title or problem.name) + variant)))
     facts = given(problem, words)
@@ -58,9 +58,9 @@ def head(problem: CamProblem, words: Language) -> Iterator[Node]:
 
 
 def given(problem: CamProblem, words: Language, *, numbered: bool = False) -> list[GivenFact]:
-    """Return what is given, part by part: of it alone the cam can be designed again.
+    """Return the given data, part by part: they suffice to design the cam again.
 
-    ``numbered``: with what the numbers of positions mean that answers are asked at.
+    ``numbered``: with the meaning of the position numbers of answers.
     """
     facts = [*_follower(problem, words), *_turn(problem, words), *_limits(problem, words)]
     if numbered:
@@ -70,14 +70,14 @@ def given(problem: CamProblem, words: Language, *, numbered: bool = False) -> li
 
 
 def motion_given(problem: CamProblem, words: Language) -> list[GivenFact]:
-    """Return what is given of the motion that the cam gives to its follower, but for its speed."""
+    """Return the given data of the follower's motion, but for the speed of the cam."""
     facts = [*_follower(problem, words), *_turn(problem, words)]
     others = {"cam.closure", "cam.parts", "cam.n"}
     return [fact for fact in facts if not others & {*fact.data}]
 
 
 def _follower(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
-    """Yield what follower there is, how far it goes, what keeps it at the cam."""
+    """Yield the follower, its stroke and its closure."""
     said, say = words.cam, words.say
     kind = {"cam.follower": problem.follower.value, "cam.contact": problem.contact.value}
     yield GivenFact(said["followers"][problem.follower.value][problem.contact.value], kind)
@@ -94,7 +94,7 @@ def _follower(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
 
 
 def _turn(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
-    """Yield the phases of a turn, the laws, and into how many parts a turn is divided."""
+    """Yield the phases of a turn, the laws, and the number of divisions of a turn."""
     said, say = words.cam, words.say
     names, keys = (
         ("rise", "upper", "back", "lower"),
@@ -117,7 +117,7 @@ def _turn(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
 
 
 def _limits(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
-    """Yield allowed pressure angles, sizes, and what forces come from."""
+    """Yield allowed pressure angles, sizes, and the sources of forces."""
     said, say = words.cam, words.say
     flat = problem.contact is Contact.FLAT
     if not flat:
@@ -188,7 +188,7 @@ def sizes(design: CamDesign, words: Language) -> Table:
 
 
 def checks(design: CamDesign, words: Language) -> Iterator[Rich]:
-    """Yield what is to be said of pressure angles, undercut, the roller and impacts."""
+    """Yield the remarks on pressure angles, undercut, the roller and impacts."""
     problem, said, say = design.problem, words.cam, words.say
 
     def mm(value: float) -> Rich:
