@@ -21,11 +21,11 @@ from planmethod.synthesis.model import Synthesis
 
 
 class SynthesisModule(Protocol):
-    """What the module of a kind has."""
+    """Interface of the module of a kind."""
 
     @property
     def TAKES(self) -> tuple[str, ...]:  # noqa: N802
-        """Options that it takes."""
+        """Options that it accepts."""
 
     def synthesize(self, asked: Mapping[str, Any]) -> Synthesis:
         """Find the mechanism."""
@@ -44,7 +44,7 @@ KINDS: Mapping[str, SynthesisModule] = MappingProxyType(
 
 
 def takes(kind: str) -> tuple[str, ...]:
-    """Return the options that a kind takes."""
+    """Return the options that a kind accepts."""
     return KINDS[kind].TAKES
 
 
@@ -56,13 +56,13 @@ def synthesize(kind: str, asked: Mapping[str, Any]) -> Synthesis:
     kind : str
         One of `KINDS`.
     asked : mapping
-        Values of the options of the kind, SI and degrees; None of those that are not given.
+        Values of the options of the kind, SI and degrees; None for an option that is not given.
 
     Raises
     ------
     InputError
-        Too little or too much is asked, or it contradicts itself.
+        Too few or too many options are given, or they contradict each other.
     AssemblyError
-        There is no such mechanism; the message tells the limit.
+        There is no such mechanism; the message has the limit.
     """
     return KINDS[kind].synthesize(asked)

@@ -1,4 +1,4 @@
-"""Crank-rocker (кривошипно-коромысловый механизм) from the swing, K_v and where the crank stands.
+"""Crank-rocker (кривошипно-коромысловый механизм) from swing, K_v and the crank's pivot.
 
 The rocker's ends B' and B'' are seen from the crank's pivot O at the angle θ of K_v: O is on a
 circle over the chord. Both positions close on one side of OC where O is outside of the angle
@@ -43,7 +43,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     Parameters
     ----------
     asked : mapping
-        ``K_v``, ``swing`` (degrees), ``rocker`` CB (m; 1 when absent), and at most one of ``beta``
+        ``K_v``, ``swing`` (degrees), ``rocker`` CB (m; default: 1), and at most one of ``beta``
         (degrees, negative for a pivot beyond the chord), ``line`` (x and y of a point and the
         direction, m and degrees from C, the rocker's middle position along +y), ``centres`` OC (m).
 
@@ -83,12 +83,12 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
 
 
 def _limits(theta: float, swing: float) -> tuple[float, float, float]:
-    """Return between which β the crank turns on C's side of the chord, and the least beyond it."""
+    """Return the range of β on C's side of the chord for a turning crank, and the least beyond."""
     return max(90.0 - swing / 2, 90.0 + swing / 2 - theta), 180.0 - theta, 90.0 + swing / 2
 
 
 def _limit(asked: Mapping[str, Any], theta: float) -> str:
-    """Return why there is no crank."""
+    """Return the reason why a crank does not exist."""
     if theta == 0.0:
         return say(
             "K_v = 1: O is on the line B'B'' outside of the chord, so OC must be more "
@@ -114,7 +114,7 @@ def _limit(asked: Mapping[str, Any], theta: float) -> str:
 
 
 def _candidates(asked: Mapping[str, Any], theta: float) -> Iterator[tuple[float, Synthesis]]:
-    """Yield mechanisms whose crank turns, with the transmission angle, negative, degrees."""
+    """Yield mechanisms whose crank rotates fully, with the negated transmission angle, degrees."""
     if asked["line"] is None and asked["centres"] is None:
         betas = [asked["beta"]] if asked["beta"] is not None else _best_angles(asked, theta)
         tries = [(False, 1 if beta >= 0 else -1, Way.FORWARD, abs(beta)) for beta in betas]
@@ -164,7 +164,7 @@ def transmission(crank: float, coupler: float, rocker: float, frame: float) -> f
 def _built(
     asked: Mapping[str, Any], theta: float, mirrored: bool, inner: int, way: Way, beta: float
 ) -> tuple[float, Synthesis] | None:
-    """Draw one mechanism, or None where its crank does not turn.
+    """Draw one mechanism; return None where its crank cannot rotate fully.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ def _built(
     inner : int
         +1: O on C's side of the chord; -1: beyond it.
     way : Way
-        Which of two meetings.
+        Which of the two intersections.
     """
     b, half = Board(), (-1.0 if mirrored else 1.0) * asked["swing"] / 2
     c = b.fixed("C", 0j)

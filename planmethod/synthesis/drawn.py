@@ -1,4 +1,4 @@
-"""The construction as it is drawn (чертёж): scale, the ruler's readings, their errors, record."""
+"""Drawing of the construction (чертёж): scale, the ruler's readings, their errors, record."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from planmethod.solved.errors.spread import Errors
 from planmethod.synthesis.model import Synthesis, place, scaled
 
 BOXES = ((170.0, 222.0), (330.0, 130.0))
-"""Boxes that the points of a construction shall fill on A3: standing and lying, mm."""
+"""Boxes for the points of a construction on A3, portrait and landscape, mm."""
 
 FAR = 1.2
-"""A centre further from the rest than so many of its sizes is left off the sheet."""
+"""Distance of a centre from the rest, in sizes of the rest, beyond which it is not drawn."""
 
 
 class Drawn(Struct, frozen=True, dict=True):
@@ -38,7 +38,7 @@ class Drawn(Struct, frozen=True, dict=True):
     ----------
     synthesis : Synthesis
     profile : Profile
-        Who draws it.
+        Accuracy of the drafting.
     scale : float, optional, m per mm
         Its scale, if it is not to be chosen.
     """
@@ -49,7 +49,7 @@ class Drawn(Struct, frozen=True, dict=True):
 
     @cached_property
     def shown(self) -> tuple[str, ...]:
-        """Points that are on the sheet: those of the mechanism, and others not too far off."""
+        """Points on the sheet: those of the mechanism, and others not too far away."""
         made, exact = self.synthesis, self.synthesis.exact()
         own = {p for pose in made.poses for link in pose.links for p in link} | {*made.pivots}
         own |= {*made.guide}
@@ -74,7 +74,7 @@ class Drawn(Struct, frozen=True, dict=True):
         return min(choose_scale((right - left, high - low), box) for box in BOXES)
 
     def extent(self, exact: Trace) -> tuple[float, float, float, float]:
-        """Return the box around what is shown, arcs with it, in the unit of a reading."""
+        """Return the box around the drawing, including arcs, in the unit of a reading."""
         places = np.array([place(exact, p) for p in self.shown])
         for centre, *points in self.synthesis.board.circles:
             if {centre, *points} <= {*self.shown}:
@@ -118,12 +118,12 @@ class Drawn(Struct, frozen=True, dict=True):
         return replace(self, scale=series_near(1.01 * self.mu, up=True))
 
     def way(self, line: LineName, point: PointName) -> float:
-        """Return how far along a line a point is, mm from the line's own point."""
+        """Return the distance of a point along a line from the line's own point, mm."""
         start, course = (complex(value) for value in self.paper.value[line])
         return float(((place(self.paper, point) - start) / course).real * abs(course))
 
     def on_line(self) -> dict[LineName, list[PointName]]:
-        """Return the points that lie on every line that is drawn, and at which it is drawn."""
+        """Return the points on every drawn line that determine its extent."""
         found: dict[LineName, list[PointName]] = {}
         for step in self.synthesis.board.steps:
             match step:
@@ -161,7 +161,7 @@ def arc_over(
 def synthesis_record(
     drawn: Drawn, asked: Mapping[str, Any], checks: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Return lengths (m), checks (m, degrees), and what a drawing by hand gives.
+    """Return lengths (m), checks (m, degrees), and the results of a drawing by hand.
 
     Parameters
     ----------

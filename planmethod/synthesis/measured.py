@@ -1,4 +1,4 @@
-"""The problem file of a mechanism that was found (файл задачи), and what is measured on it.
+"""Problem file of a synthesized mechanism (файл задачи), and its verification.
 
 The file is commented, ready to solve; what the mechanism really does is found with the solver.
 Extreme positions are the roots of the output's velocity, found in the compiled position and
@@ -74,19 +74,19 @@ def _lines(made: Synthesis, source: str, words: Language) -> Iterator[str]:
 
 
 CLOSE = 1e-9
-"""Share by which what is measured back may differ from what was asked."""
+"""Relative difference that is allowed between a measured value and its target."""
 
 _GRID = 720
 _TYPES = ("crank-rocker", "double-rocker", "rocker-crank", "double-crank")
 
 
 def checks(synthesis: Synthesis, problem: Problem) -> dict[str, Any]:
-    """Return what is measured on the mechanism; None, with a reason, for what it does not have.
+    """Return values measured on the mechanism; None, with a reason, for one it does not have.
 
     Raises
     ------
     PlanMethodError
-        It does not do what was asked: rounding is too large, or a mistake of ours.
+        It misses a target: rounding is too large, or there is an internal error.
     """
     way = _Way(synthesis, problem)
     found: dict[str, Any] = {**way.extremes(), **way.angles()}
@@ -107,7 +107,7 @@ def checks(synthesis: Synthesis, problem: Problem) -> dict[str, Any]:
 
 
 def grashof(synthesis: Synthesis) -> dict[str, Any]:
-    """Return whether the shortest link turns fully (условие Грасгофа), by how much, and the type.
+    """Return whether the shortest link turns fully (условие Грасгофа), the margin, and the type.
 
     ``margin`` is what the other two lengths have more than the shortest and the longest, m; of a
     slider-crank l - r - |e|, of a slotted link O1O3 - O1A.
@@ -141,7 +141,7 @@ class _Way:
         )
         points = sorted({p for p in synthesis.pressure if p and p not in synthesis.pivots})
         motion = [f"phi_{output}", f"omega_{output}"] if self.is_link else [output, f"v_{output}"]
-        # The link whose angle to the output tells how it is driven; a stone drives at 90 degrees.
+        # The link whose angle to the output shows how it is driven; a sliding block has 90 degrees.
         self._coupler = ""
         if synthesis.pressure[0]:
             self._coupler = "4" if "5" in problem.mechanism.links else "2"
@@ -158,7 +158,7 @@ class _Way:
     # Extreme positions -----------------------------------------------------------------------
 
     def extremes(self) -> dict[str, Any]:
-        """Return stroke, swing, phases and K_v; None where there are no two extreme positions."""
+        """Return stroke, swing, phases and K_v; None without two extreme positions."""
         found: dict[str, Any] = dict.fromkeys(("K_v", "stroke", "swing", "slow_deg", "quick_deg"))
         found["stroke_unit"] = "deg" if self.is_link else "m"
         found["extremes"] = []
@@ -189,7 +189,7 @@ class _Way:
         return found
 
     def _stops(self) -> list[float]:
-        """Return the driver's positions where the output stops, degrees from the first one on."""
+        """Return the driver's positions where the output stops, degrees from the first one."""
         board = self.synthesis.exact()
         grid = self.start + 360.0 / _GRID * (np.arange(_GRID + 1) + 0.37)
         if len(self.synthesis.poses) == 2:  # both phases are seen, however short one is
@@ -205,7 +205,7 @@ class _Way:
 
     @staticmethod
     def _roots(rate: Function, grid: Reals) -> list[float]:
-        """Return where a rate changes its sign."""
+        """Return the position of a sign change of a rate."""
         return [root(rate, float(grid[k]), float(grid[k + 1])) for k in crossings(rate(grid))]
 
     # Angles ----------------------------------------------------------------------------------
@@ -250,7 +250,7 @@ class _Way:
         }
 
     def _turning(self, phi: Reals) -> Reals:
-        """Return how the coupler turns against what it drives, 1/s."""
+        """Return the angular velocity of the coupler relative to the link it drives, 1/s."""
         if not self._coupler:
             return np.zeros(phi.shape)
         found = self._table(phi)
@@ -260,7 +260,7 @@ class _Way:
     # Three positions -------------------------------------------------------------------------
 
     def positions(self) -> dict[str, Any]:
-        """Return by how much the coupler's points miss their three positions, m."""
+        """Return the deviation of the coupler's points from their three positions, m."""
         made, exact = self.synthesis, self.synthesis.exact()
         tail, head, _ = made.pressure
         found = self._table(np.array(made.positions))

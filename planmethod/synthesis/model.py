@@ -1,4 +1,4 @@
-"""What a synthesis finds (синтез): the construction, the lengths, the mechanism that has them."""
+"""Result of a synthesis (синтез): the construction, the lengths, their mechanism."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from planmethod.construct.steps import LineName, Name, NumberName, PointName, Si
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 
 Said: TypeAlias = tuple[str, Mapping[str, str | float]]
-"""Key of a sentence in ``steps`` of the words, and its places: points by name, and numbers."""
+"""Key of a sentence in ``steps`` of the texts, and its arguments: points by name, and numbers."""
 
 MU = NumberName("mu_l")
 """The scale, m per mm."""
@@ -33,7 +33,7 @@ class Board(Builder):
     data : dict
         Given points (m) and numbers (m, degrees) by their names; without the scale.
     said : dict
-        What is told instead of a step's own sentence; None of what another sentence tells.
+        Sentence that replaces a step's own; None where another sentence covers the step.
     marks : set of PointName
         Auxiliary points, which have no letter.
     sizes : dict
@@ -78,7 +78,7 @@ class Board(Builder):
     def found(
         self, name: str, *read: NumberName, factor: float = 1.0, size: bool = True
     ) -> NumberName:
-        """Compute a length of the mechanism from what was read: the sum of it times a factor, m."""
+        """Compute a length of the mechanism from readings: their sum times a factor, m."""
         whole = read[0] if len(read) == 1 else self.total(f"sum {name}", *read)
         powers = ((whole, 1), (self._scale(), 1))
         length = self.compute(f"l {name}", *powers, factor=factor, size=size)
@@ -112,7 +112,7 @@ class Board(Builder):
 
     def inscribed(self, centre: str, chord: tuple[PointName, PointName], angle: float,
                   side: Side) -> tuple[PointName, NumberName]:  # fmt: skip
-        """Draw the circle on which a chord is seen at an angle from one side of it.
+        """Draw the arc from which a chord is seen at an angle, on one side of it.
 
         Parameters
         ----------
@@ -140,7 +140,7 @@ class Board(Builder):
     def second_meeting(
         self, out: str, point: PointName, line: LineName, centre: PointName
     ) -> PointName:
-        """Find where a line through a point of a circle meets it again: nothing is read for it."""
+        """Find the second intersection of a line and a circle from the first, without a reading."""
         foot = self.meet_lines(f"mark {out}", line, self.perpendicular(centre, line))
         self.marks.add(foot)
         self.said[foot] = None
@@ -164,7 +164,7 @@ class Board(Builder):
 
 
 class InputError(PlanMethodError):
-    """What is asked of a synthesis contradicts itself, or is not enough (неверный запрос)."""
+    """The options of a synthesis are contradictory or insufficient (неверный запрос)."""
 
     exit_code = ExitCode.USAGE
 
@@ -210,12 +210,12 @@ class Synthesis(Struct, frozen=True):
     poses : tuple of Pose
         The first one is drawn with main lines.
     asked : mapping
-        What shall be measured back: ``K_v``, ``stroke``, ``swing``.
+        Targets for the verification: ``K_v``, ``stroke``, ``swing``.
     output : str
         Point on the guide or output link whose extreme positions are measured.
     pressure : (str, str, str)
         Coupler or rod by its two points, and the pivot of the link that its head drives; empty for
-        a guide along x. All empty: the stone on the slotted link, at whose pin it is 0.
+        a guide along x. All empty: the sliding block on the slotted link, at whose pin it is 0.
     grashof : tuple of str
         Lengths of the input, the coupler, the output and the frame.
     tables : tuple of FileTable
@@ -252,7 +252,7 @@ class Synthesis(Struct, frozen=True):
         return self.board.program()
 
     def exact(self, mu: float = 1.0) -> Trace:
-        """Return the exact reading at a scale; at 1 millimetres of the paper stand for metres.
+        """Return the exact reading at a scale; at 1 millimetres of the paper represent metres.
 
         Raises
         ------
@@ -325,7 +325,7 @@ def angle_of_ratio(ratio: float) -> float:
 
 
 def chosen(asked: Mapping[str, Any], kind: str, *ways: str) -> str:
-    """Return which of several sets of options is given, each written as ``K_v centres``.
+    """Return the given one of several sets of options, each written as ``K_v centres``.
 
     Raises
     ------

@@ -83,14 +83,14 @@ def synthesis_sheet(
     problem : Problem
         Its settings of the sheet and its title block.
     asked, checks : mapping
-        What is given, and what was measured on the mechanism.
+        The options, and the values measured on the mechanism.
     fields : mapping, optional
         Texts of the title block that outrank the problem's.
 
     Raises
     ------
     LayoutError
-        When everything does not fit the paper.
+        The content does not fit the paper.
     """
     words = language(problem.sheet.lang or LANGUAGES[0])
     strategy = _Synthesis(drawn, asked, checks, words)
@@ -105,7 +105,7 @@ def synthesis_sheet(
 
 
 class _Synthesis(Struct, frozen=True):
-    """How the sheet of a synthesis is searched for: by smaller letters, then coarser scales."""
+    """Search for the sheet of a synthesis, by smaller letters, then coarser scales."""
 
     drawn: Drawn
     asked: Mapping[str, Any]
@@ -128,7 +128,7 @@ class _Synthesis(Struct, frozen=True):
 
 
 class _Orders(Struct, frozen=True):
-    """A view with what is told of it, in two orders of reading (`Proposal`)."""
+    """View and its texts in two reading orders (`Proposal`)."""
 
     paper: Blank
     view: Viewed
@@ -137,9 +137,9 @@ class _Orders(Struct, frozen=True):
     is_cut_down: bool
 
     def laid(self) -> Laid | None:
-        """Return the sheet with what was measured after the steps, or beside the view.
+        """Return the sheet with the measurements after the steps, or beside the view.
 
-        Of the two the one that leaves the smaller empty rectangle.
+        The one that leaves the smaller empty rectangle is chosen.
         """
         view, room = self.view, self.paper.room()
         told, measured, sizes = self.texts
@@ -171,7 +171,7 @@ def _view(drawn: Drawn, words: Language) -> Viewed:
 def _texts(
     drawn: Drawn, asked: Mapping[str, Any], checks: Mapping[str, Any], words: Language, told: float
 ) -> list[Block]:
-    """Return what is given and the steps ``told`` mm high (none at 0), measured values, sizes."""
+    """Return the given data and the steps, ``told`` mm high (none at 0), measurements, sizes."""
     said = words.synthesis
     facts = words.note.given.format(given="; ".join(given_facts(asked, words)))
     first: list[Block] = [paragraph(facts, SIZES.text, SIZES.column)]
@@ -195,7 +195,7 @@ def _texts(
 
 
 def _kept(sentence: str) -> str:
-    """Return a sentence whose last word does not stand on a line alone."""
+    """Return a sentence whose last word is never alone on a line."""
     return NBSP.join(sentence.rsplit(" ", 1))
 
 
@@ -328,7 +328,7 @@ class _Ink:
                 yield from symbols.revolute(self.at(pin))
 
     def _down(self, pivot: str) -> complex:
-        """Return where the support of a pivot stands: away from its links, up or down."""
+        """Return the side of the support of a pivot: away from its links, up or down."""
         others = [
             self.at(q) - self.at(pivot)
             for pose in self.drawn.synthesis.poses

@@ -37,9 +37,9 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     Parameters
     ----------
     asked : mapping
-        ``stroke`` (m) with two of ``K_v``, ``lambda`` (r/l) and ``offset`` (m; 0 when ``lambda``
-        stands alone); with ``K_v`` alone, of whose mechanisms that of the least pressure angle is
-        taken; or with the largest ``pressure`` angle (degrees) and ``offset``.
+        ``stroke`` (m) with two of ``K_v``, ``lambda`` (r/l) and ``offset`` (m; 0 with ``lambda``
+        alone); with ``K_v`` alone, for the smallest pressure angle; or with the maximum
+        ``pressure`` angle (degrees) and ``offset``.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
 def _check_ratio(
     stroke: float, times: float, theta: float, ratio: float | None, offset: float | None
 ) -> None:
-    """Refuse what the angle θ does not allow, and tell the limit."""
+    """Reject a ratio that the angle θ does not allow, and report the limit."""
     if theta == 0.0:
         raise AssemblyError(
             "K_v = 1: the dead positions are opposite, so the mechanism is central (offset 0) and "
@@ -121,7 +121,7 @@ def _built(
     ratio: float | None,
     offset: float | None,
 ) -> Synthesis:
-    """Draw the loci that are given, and what follows from their meeting."""
+    """Draw the given loci, and the mechanism that follows from their intersection."""
     b = Board()
     near = b.fixed("B''", 0j)
     guide = b.ray(near, None, 0.0)

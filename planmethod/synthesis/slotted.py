@@ -24,7 +24,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     ----------
     asked : mapping
         ``K_v`` or ``swing`` (degrees), ``centres`` O1O3 (m); with ``stroke`` (m) a slider driven by
-        a rod, ``rod`` long or, when absent, O3B/2 (more for swings near 180 degrees).
+        a rod, ``rod`` long; default: O3B/2 (more for swings near 180 degrees).
 
     Raises
     ------

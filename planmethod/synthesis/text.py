@@ -1,4 +1,4 @@
-"""A synthesis in words (текст синтеза): construction step by step, sizes, what was measured."""
+"""Text of a synthesis (текст синтеза): construction step by step, sizes, measurements."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _LAID = frozenset({("inscribed", "rest"), ("again", "angle")})
 def synthesis_document(
     drawn: Drawn, asked: Mapping[str, Any], checks: Mapping[str, Any], words: Language
 ) -> Iterator[Node]:
-    """Yield what is given, the construction, the sizes, and what was measured."""
+    """Yield the given data, the construction, the sizes and the measurements."""
     said = words.synthesis
     yield Title(said["titles"][drawn.synthesis.kind])
     yield Paragraph(words.note.given.format(given="; ".join(given_facts(asked, words))))
@@ -71,7 +71,7 @@ def size_symbol(name: str) -> Rich:
 
 
 def set_angle(angle: float, ruler: float, words: Language) -> Rich:
-    """Return an angle as it is laid off: where a protractor has no mark, by two legs, mm.
+    """Return an angle for laying off: if a protractor has no such mark, by two legs, mm.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def set_angle(angle: float, ruler: float, words: Language) -> Rich:
 
 
 class SynthesisNaming:
-    """What is drawn of a synthesis, as `planmethod.note.narrate.narrator.Naming` has it."""
+    """Drawn elements of a synthesis, as a `planmethod.note.narrate.narrator.Naming`."""
 
     def __init__(self, drawn: Drawn, words: Language) -> None:
         self.drawn, self.words, self.note = drawn, words, words.note
@@ -123,7 +123,7 @@ class SynthesisNaming:
         return point_name(tail) + point_name(head)
 
     def number(self, name: NumberName) -> float:
-        """Return what the hand has of a number; the exact value where its drawing fails."""
+        """Return the drafted value of a number; the exact one where the drawing fails."""
         value = float(self.drawn.by_hand.value[name])
         return value if math.isfinite(value) else self.exact(name)
 
@@ -151,7 +151,7 @@ class SynthesisNaming:
         return note.line_through.format(of=self.of(step.through), direction=self.direction(name))
 
     def direction(self, line: LineName) -> Rich:
-        """Return how a line runs: parallel, perpendicular or at an angle to another."""
+        """Return the direction of a line: parallel, perpendicular or at an angle to another."""
         step, note = self.step[line], self.note
         if isinstance(step, steps.Join):
             return note.along.format(base=self.segment(step.tail, step.head))
@@ -171,7 +171,7 @@ class SynthesisNaming:
         return self.words.synthesis.at_angle.format(angle=laid, base=base) + side
 
     def _base(self, line: LineName) -> Rich:
-        """Return what a line is called: by two of its points, in its sense; or the x axis."""
+        """Return the name of a line: two of its points, in its sense; or the x axis."""
         points = self._on[line]
         ways = {point: self.drawn.way(line, point) for point in points}
         first = points[0]
@@ -193,7 +193,7 @@ class SynthesisNarrator(BoardNarrator):
         self.board, self.step = self.naming.board, self.naming.step
 
     def sentences(self) -> Iterator[Rich]:
-        """Yield the sentences; what follows at once from a reading stands beside it."""
+        """Yield the sentences; a direct consequence of a reading follows it."""
         waiting = ""
         made = self.drawn.synthesis
         if made.theta and "K_v" in made.asked:
@@ -214,7 +214,7 @@ class SynthesisNarrator(BoardNarrator):
             yield waiting
 
     def tell(self, step: Step) -> list[Rich]:
-        """Return the sentence that stands for a step, or that of the step itself."""
+        """Return the sentence that replaces a step's own, or the step's own."""
         if step.out in self.board.said:
             said = self.board.said[step.out]
             return [] if said is None else [self._own(said)]
@@ -238,13 +238,13 @@ class SynthesisNarrator(BoardNarrator):
         return sentence.format(**shown)
 
     def given(self, step: steps.Given) -> list[Rich]:
-        """Tell a given point by its place."""
+        """Describe a given point by its coordinates."""
         at = place(self.drawn.paper, step.out)
         x, y = (given(value + 0.0, self.words, 5) for value in (at.real, at.imag))
         return [self.said.point.format(point=point_name(step.out), x=x, y=y)]
 
     def lay_off(self, step: steps.LayOff) -> list[Rich]:
-        """Tell a length that is laid off."""
+        """Describe a length that is laid off."""
         naming = self.naming
         length = f"{naming.segment(step.origin, step.out)} = {naming.length(step.length)}"
         return [
@@ -258,7 +258,7 @@ class SynthesisNarrator(BoardNarrator):
         ]
 
     def compute(self, step: steps.Compute) -> list[Rich]:
-        """Tell the formula of a length of the mechanism."""
+        """Describe the formula of a length of the mechanism."""
         name = self.board.sizes.get(step.out)
         if name is None:
             return []
@@ -285,7 +285,7 @@ class SynthesisNarrator(BoardNarrator):
 
 
 def given_facts(asked: Mapping[str, Any], words: Language) -> list[str]:
-    """Return what is given, one ``symbol = value unit`` each, as rich text."""
+    """Return the given data, one ``symbol = value unit`` each, as rich text."""
     facts = []
     for name, value in asked.items():
         if value is None:
@@ -314,7 +314,7 @@ def size_rows(drawn: Drawn, words: Language) -> list[tuple[str, str, str, str]]:
 
 
 def check_rows(checks: Mapping[str, Any], words: Language) -> list[tuple[str, str]]:
-    """Return what was measured, one name and value each, as rich text."""
+    """Return the measurements, one name and value each, as rich text."""
     said, say = words.synthesis, words.say
     rows = []
 

@@ -28,7 +28,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     Parameters
     ----------
     asked : mapping
-        ``angles``: three of (φ of OA, ψ of CB), degrees from OC; ``centres`` OC, m, 1 when absent.
+        ``angles``: three of (φ of OA, ψ of CB), degrees from OC; ``centres`` OC, m, default: 1.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     ]
     turned = [ends[0]]
     for k in (1, 2):
-        # CA turned back with the rocker about C, so that the rocker stands as in position 1.
+        # CA rotated back about C with the rocker, so that the rocker is as in position 1.
         back = float(np.degrees(psi[0] - psi[k]))
         radius = b.measure(f"C A{k + 1}", c, ends[k])
         ray = b.ray(c, b.join(c, ends[k]), back)

@@ -43,8 +43,8 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     ----------
     asked : mapping
         ``positions``: three of (xB, yB, angle of BC), m and degrees, or of (xB, yB, xC, yC), m;
-        ``coupler`` BC with the former (m): without it the one with the best transmission angle on
-        the way is taken.
+        ``coupler`` BC with the former (m). Default: the one with the best transmission angle on
+        the path.
 
     Raises
     ------
@@ -209,7 +209,7 @@ _PLACES = 721
 
 
 class Passage(Struct, frozen=True):
-    """What a four-bar makes of three positions (проход через положения).
+    """Motion of a four-bar through three positions (проход через положения).
 
     Attributes
     ----------
@@ -237,7 +237,7 @@ class Passage(Struct, frozen=True):
 
 
 def passage(a: complex, d: complex, b: Sequence[complex], c: Sequence[complex]) -> Passage:
-    """Return how the four-bar A B C D goes, driven by the link that does it better.
+    """Return the passage of the four-bar A B C D, driven by the better link.
 
     Parameters
     ----------
@@ -272,7 +272,7 @@ def _driven(
 
 def _least(a: complex, d: complex, b: Sequence[complex], c: Sequence[complex],
            start: float, turn: float, side: int) -> float:  # fmt: skip
-    """Return the least transmission angle on the way; NaN where the arcs do not meet."""
+    """Return the minimum transmission angle on the path; NaN where the arcs do not intersect."""
     angles = np.radians(start + turn * np.linspace(0.0, 1.0, _PLACES))
     ends = a + abs(b[0] - a) * np.exp(1j * angles)
     coupler, output = abs(c[0] - b[0]), abs(c[0] - d)
