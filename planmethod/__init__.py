@@ -1,10 +1,10 @@
 """The graphical plan method of the theory of mechanisms (метод планов).
 
 Public names: `load` and `loads` read a problem file, `solve` computes it, `Sweep` computes many
-positions of it, `draw` makes its sheets, `document` tells its construction. They are imported when
-they are first asked for (PEP 562): Python imports this package before any module of it, and a
-command that needs none of these, or only one, would wait a quarter of a second for NumPy, the
-sheets and what they stand on.
+positions of it, `draw` makes its sheets, `document` describes its construction. They are imported
+on first use (PEP 562): Python imports this package before any of its modules, and a command that
+needs none of these, or only one, would wait a quarter of a second for NumPy, the sheets and their
+dependencies.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ _HOMES = {
     "loads": "planmethod.kinds:loads",
     "statics": "planmethod.solved.selfcheck:judged_statics",
 }
-"""Where the public names are; those of `TYPE_CHECKING`, which a test compares."""
+"""Locations of the public names; a test compares them with those under `TYPE_CHECKING`."""
 
 
 def solve(
@@ -69,21 +69,21 @@ def solve(
     positions : array_like of shape (n,), optional
         Other positions than the file's; they are copied.
     ruler : float, mm, optional
-        Step of the ruler with which the hand reads the plans; the profile's when absent.
+        Step of the ruler with which the plans are read. Default: the profile's.
     profile : str or Profile
-        How well the hand draws: ``cad``, ``board`` or ``coarse``.
+        Accuracy of the drawing: ``cad``, ``board`` or ``coarse``.
 
     Raises
     ------
     ArgumentError
-        An argument is none that this function takes.
+        An argument has a value that this function does not accept.
     PlanMethodError
-        When the mechanism cannot be analysed, or assembled in one of the positions.
+        The mechanism cannot be analysed, or cannot be assembled in one of the positions.
 
     Warns
     -----
     DoubtWarning
-        What `planmethod solve` warns of: few digits are left, a change point lies between two
+        As `planmethod solve` does: few digits are left, a change point is between two
         positions, a number of the file is unlikely.
 
     Examples
@@ -104,7 +104,7 @@ def solve(
     return solution
 
 
-if not TYPE_CHECKING:  # what is imported above are the names that there are
+if not TYPE_CHECKING:  # type checkers see the imports above
 
     def __getattr__(name: str) -> Any:
         """Import a public name on first use."""

@@ -45,7 +45,7 @@ def _run() -> None:
     atexit.register(gc.freeze)
     # Its matrices are small: to start threads for them costs a third of the import of NumPy.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    if not sys.warnoptions:  # -W and PYTHONWARNINGS: for who develops it
+    if not sys.warnoptions:  # -W and PYTHONWARNINGS: for developers
         warnings.simplefilter("ignore")
     os.environ.pop("SOURCE_DATE_EPOCH", None)  # files have no date, whatever a library writes
     from planmethod.cli import main as run  # with click, and NumPy later, in a process set up

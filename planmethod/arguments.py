@@ -1,4 +1,4 @@
-"""What a program in Python hands in, looked at before anything is made of it (аргументы)."""
+"""Validation of arguments that a Python program passes (аргументы)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _SHORT.maxstring = _SHORT.maxother = 60
 
 
 def describe(value: object) -> str:
-    """Return what a value is, short: a number, a text or a short list itself, else its type."""
+    """Return a short description: a number, a text or a short list itself, else its type."""
     if value is None or isinstance(value, (str, Real, list, tuple)):
         return _SHORT.repr(value)
     return type(value).__name__
@@ -150,7 +150,7 @@ def above_zero(argument: str, value: object) -> float:
 
 
 def number_of(argument: str, value: object, count: int) -> int:
-    """Return the number of one of so many, from 0.
+    """Return the index of one of several items, from 0.
 
     Raises
     ------
@@ -171,7 +171,7 @@ def number_of(argument: str, value: object, count: int) -> int:
 
 
 class UnknownNameError(ArgumentError, KeyError):
-    """A result is asked for by a name that there is not."""
+    """A result is requested by an unknown name."""
 
     __str__ = Exception.__str__  # KeyError quotes it
 
@@ -189,7 +189,7 @@ def known(kind: str, name: object, among: Iterable[str]) -> str:
 
 
 class Named(dict[str, T]):
-    """Results by name; a name that there is not is told with those that there are.
+    """Results by name; an unknown name is reported with the known ones.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ class Named(dict[str, T]):
         """
         try:
             return super().__getitem__(name)
-        except TypeError:  # it is no text
+        except TypeError:  # not a text
             return self.__missing__(name)
 
     def __missing__(self, name: object) -> T:
@@ -219,5 +219,5 @@ class Named(dict[str, T]):
         raise AssertionError(name)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return what makes the same in another process."""
+        """Return the parts to rebuild it in another process."""
         return Named, (dict(self), self.kind)

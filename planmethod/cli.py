@@ -1,8 +1,8 @@
 """Command line: the commands by name, and the last safety nets; no geometry here.
 
 What a command does not need it does not import: a command's module is imported by its name when the
-command is called, as click's documentation has it of lazily loaded subcommands, and the imports of
-the work stand in its functions.
+command is called, as click's documentation has it of lazily loaded subcommands, and the imports
+that do the work are inside its functions.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ HELP = {
         "bench": "speed beside error of your problems",
     },
 }
-"""What the commands do, by groups; each is the function of its name in its module."""
+"""Commands by group; each is the function of its name in the module of its name."""
 
 COMMANDS = tuple(name for group in HELP.values() for name in group)
 
@@ -66,7 +66,7 @@ planmethod draws and computes a mechanism from a problem file. To begin with:
   planmethod sheet my.toml          its sheets, into the folder out
 
 All commands: planmethod --help. One of them: planmethod sheet --help."""
-"""What is said to who calls the program for the first time."""
+"""Text for a user who runs the program for the first time."""
 
 
 def command_of(name: str) -> click.Command:

@@ -36,20 +36,20 @@ class PlanMethodError(Exception):
         super().__init__(say(message, *facts))
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Return what another process makes it of: its sentence as it was said, and its facts."""
+        """Return the parts to rebuild it in another process: translated message and facts."""
         return copyreg.__newobj__, (type(self), *self.args), vars(self)  # type: ignore[attr-defined]
 
 
 class DoubtWarning(UserWarning):
-    """What a program in Python should know of results that it gets all the same (сомнение)."""
+    """Warning about results that a Python program still receives (сомнение)."""
 
 
 class Fault(Struct, frozen=True):
     """One fault of a problem file (ошибка в файле задачи).
 
-    ``path`` is where, as ``links.2.slides.on``; ``expected`` and ``got`` say what stands there;
-    ``hint`` is the next action, for instance the nearest name. ``choices`` are values that may
-    stand there, where the file has to take one of them.
+    ``path`` is the place, as ``links.2.slides.on``; ``expected`` and ``got`` describe the value
+    there; ``hint`` is the next action, for instance the nearest name. ``choices`` are the allowed
+    values, where the file must use one of them.
     """
 
     path: str
@@ -94,17 +94,17 @@ class ConfigError(ProblemError):
 
 
 class ArgumentError(PlanMethodError, ValueError):
-    """A program in Python hands in what a function does not take."""
+    """A Python program passes a value that a function does not accept."""
 
     exit_code = ExitCode.USAGE
 
 
 class ProgramError(PlanMethodError):
-    """A construction program is malformed: a mistake of ours, never of the user."""
+    """A construction program is malformed: an internal error, never the user's."""
 
 
 class AssemblyError(PlanMethodError):
-    """The mechanism cannot be assembled, or a plan cannot be closed, where it was asked."""
+    """The mechanism cannot be assembled, or a plan cannot be closed, in a requested position."""
 
     exit_code = ExitCode.ASSEMBLY
 

@@ -1,4 +1,4 @@
-"""What a kind of problem beside linkages does for the commands (вид задачи)."""
+"""Interface of a kind of problem other than linkages to the commands (вид задачи)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class ProblemKind(ABC, Generic[P]):
     scales : str
         Where its file has the scales.
     is_of_project : bool
-        Whether it may stand beside a linkage, as a part of its project.
+        Whether a linkage's file may have it as a part of its project.
     """
 
     table: ClassVar[str]
@@ -46,27 +46,27 @@ class ProblemKind(ABC, Generic[P]):
 
     @abstractmethod
     def record(self, problem: P, lang: str) -> dict[str, Any]:
-        """Return what ``solve --json`` prints."""
+        """Return the record of ``solve --json``."""
 
     @abstractmethod
     def solved_document(self, problem: P, words: Language) -> Document:
-        """Return what ``solve`` prints."""
+        """Return the document of ``solve``."""
 
     def spreadsheet(self, problem: P) -> SpreadsheetRows | None:
-        """Return what ``solve --csv`` prints; None for what has no table."""
+        """Return the text that ``solve --csv`` prints; None for a kind without a table."""
         return None
 
     def structure_record(self, problem: P) -> dict[str, Any] | None:
-        """Return what ``structure --json`` prints; None for what has no structure."""
+        """Return the record of ``structure --json``; None for a kind without a structure."""
         return None
 
     def structure_document(self, problem: P, words: Language) -> Document | None:
-        """Return what ``structure`` prints; None for what has no structure."""
+        """Return the document of ``structure``; None for a kind without a structure."""
         return None
 
     @abstractmethod
     def protocol_document(self, problem: P, words: Language, profile: Profile) -> Document:
-        """Return what ``protocol`` prints."""
+        """Return the document of ``protocol``."""
 
     @abstractmethod
     def drawings(
@@ -81,7 +81,7 @@ class ProblemKind(ABC, Generic[P]):
         """Return the sheets; ``before`` of the set of ``total`` go before them."""
 
     def has(self, method: str) -> bool:
-        """Return whether there is, of such problems, what a method of this name returns."""
+        """Return whether this kind of problem implements the method of this name."""
         return getattr(type(self), method, None) is not getattr(ProblemKind, method, None)
 
     def live_page(self, problem: P, lang: str) -> str:
@@ -105,15 +105,15 @@ class ProblemKind(ABC, Generic[P]):
         raise self._without(problem, "audit of printed values")
 
     def given(self, problem: P, words: Language) -> list[GivenFact]:
-        """Return what is given, one fact each; the file can be written again of their data."""
+        """Return the given data, one fact each; the file can be rebuilt from them."""
         return []
 
     def scheme(self, problem: P) -> Drawing | None:
-        """Return the scheme without anything that is asked; None for what has none."""
+        """Return the scheme without any results; None for a kind without one."""
         return None
 
     def figures(self, problem: P) -> Figures:
-        """Return what students can be asked for.
+        """Return the quantities for questions to students.
 
         Raises
         ------

@@ -29,7 +29,7 @@ KINDS: tuple[ProblemKind[Any], ...] = (GearTrains(), MovingPoints(), Meshings(),
 """Kinds beside linkages; a file that has links is a linkage whatever else it has."""
 
 PROJECT_KINDS = tuple(kind for kind in KINDS if kind.is_of_project)
-"""Those that may stand beside a linkage, as parts of its project."""
+"""Kinds that a linkage's file may have as parts of its project."""
 
 _HEAD = r"(?m)^[ \t]*(?:\[[ \t]*)?[\"']?(" + "|".join(k.table for k in KINDS) + r")\b"
 
@@ -79,8 +79,7 @@ def load_each(path: str | Path, variants: Iterable[str | None]) -> Iterator[Prob
     Raises
     ------
     ProblemError
-        With every fault of the file: of the linkage, and of the wheels, the meshing and the cam
-        that stand beside it.
+        With every fault of the file: of the linkage, and of its wheels, meshing and cam.
     """
     from planmethod.problem.reader import load_each as read
 
@@ -114,7 +113,7 @@ def _with_beside(faults: Iterable[Fault], path: Path, variant: str | None) -> li
 
 
 def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
-    """Read the same from a text; ``name`` stands for the stem of the file."""
+    """Read the same from a text; ``name`` replaces the stem of the file name."""
     from planmethod.problem.reader import loads as read
 
     words("text", text)
@@ -158,7 +157,7 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Mech
 
 
 def _posed(problem: Problem) -> Problem:
-    """Return a problem with the positions that its output or ``[cycle]`` tells."""
+    """Return a problem with the positions that its output or ``[cycle]`` determines."""
     if problem.drive.posed is not None:
         from planmethod.solved.turn.posed import pose
 

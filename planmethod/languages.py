@@ -1,7 +1,7 @@
 """Languages of all that is written, and the saying of messages in them (языки).
 
-The languages are the folders of `planmethod.note.wording`; the sentences of messages stand in the
-code in English, and in the folders of the other languages by that.
+The languages are the folders of `planmethod.note.wording`; the sentences of messages are in the
+code in English, which is their key in the folders of the other languages.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ SYSTEM_VARIABLES = ("LC_ALL", "LC_MESSAGES", "LANG")
 """Variables that name the language of the system, the first that outranks the others."""
 
 _SPOKEN: ContextVar[str] = ContextVar("language", default=WRITTEN)
-"""Of the thread, or of what is computed beside others in it: two may speak at once."""
+"""Language of the current context: threads and tasks may use different ones at once."""
 
 
 class _Said(str):
-    """Sentence that has been said in a language; saying it again changes nothing (сказанное)."""
+    """Translated sentence; translating it again changes nothing (сказанное)."""
 
     __slots__ = ()
 
@@ -67,15 +67,15 @@ _SENTENCES = _Sentences()
 
 
 def say(sentence: str, *facts: object, **named: object) -> str:
-    """Say a sentence in the language that is spoken.
+    """Translate a sentence into the current language.
 
     Parameters
     ----------
     sentence : str
         In English, with places for the facts as in `str.format`: the key of the other languages.
-        Without facts it is taken as it stands, braces and all.
+        Without facts it is used unchanged, braces included.
     *facts, **named : object
-        Facts that are English phrases of their own are translated.
+        Facts that are English phrases themselves are translated.
     """
     if isinstance(sentence, _Said):
         return sentence
@@ -93,19 +93,19 @@ HIDDEN = (
     "\u2028-\u202e\u2060-\u206f\u3164\ud800-\udfff\ufe00-\ufe0f\ufeff\uffa0\ufff0-\ufffb"
     "\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e0fff]"
 )
-"""What no text of a stranger has on a terminal, or in a file: orders, turned lines, halves, and
-letters without a width, of which two texts differ that look alike."""
+"""Characters of untrusted texts that are not printed: control and direction codes, surrogates, and
+letters without a width, which make texts differ that look the same."""
 
 
 def visible(text: str) -> str:
-    """Return a text with a sign in place of what would not be seen, but would be done."""
+    """Return a text with a sign in place of each invisible control character."""
     return re.sub(HIDDEN, "\ufffd", text)
 
 
 def translated(sentence: str) -> str:
-    """Return a sentence, its places still empty, in the language that is spoken.
+    """Return the template of a sentence in the current language.
 
-    Of the catalogues of messages only those are parsed in which the sentence stands as a key.
+    Only the message catalogues that have the sentence as a key are parsed.
     """
     lang = spoken()
     if lang != WRITTEN:
@@ -127,7 +127,7 @@ def _messages(lang: str) -> Mapping[str, str]:
 
 @cache
 def typed() -> Mapping[str, tuple[str, ...]]:
-    """Return the keys and words of files by what is typed in their place, in any language."""
+    """Return the keys and words of files by their spellings in any language."""
     found: dict[str, tuple[str, ...]] = {}
     for path in sorted(WORDING.glob("*/typed.toml")):
         for key, words in catalogue(path.parent.name, "typed").items():
@@ -138,19 +138,19 @@ def typed() -> Mapping[str, tuple[str, ...]]:
 
 @cache
 def catalogue(lang: str, name: str) -> dict[str, Any]:
-    """Return the words of one file of a language, as they stand there."""
+    """Return the texts of one file of a language, unchanged."""
     import tomllib
 
     return tomllib.loads((WORDING / lang / f"{name}.toml").read_text(encoding="utf-8"))
 
 
 def spoken() -> str:
-    """Return the language that messages are in."""
+    """Return the current language of messages."""
     return _SPOKEN.get()
 
 
 def spoken_to(args: Sequence[str], environ: Mapping[str, str] = os.environ) -> str:
-    """Return the language in which to answer a command line (язык сообщений).
+    """Return the language of the messages for a command line (язык сообщений).
 
     That of ``--lang``, else of `OWN_VARIABLE`, else the system's; English where that is none of
     `LANGUAGES`. What is written of a problem has the same rule, with ``[sheet] lang`` of its file
@@ -168,7 +168,7 @@ def named_language(option: str | None, environ: Mapping[str, str] = os.environ) 
 
 
 def _system_language(environ: Mapping[str, str]) -> str | None:
-    """Return the language of the system; None where it is none of `LANGUAGES`."""
+    """Return the language of the system; None if not one of `LANGUAGES`."""
     name = next(filter(None, (environ.get(name) for name in SYSTEM_VARIABLES)), "")
     if not name and sys.platform == "win32":
         import locale
@@ -186,7 +186,7 @@ def known_language(name: str) -> str | None:
 
 @contextmanager
 def speaking(lang: str) -> Iterator[None]:
-    """Speak a language for a while, in this thread; English where nobody asks for one."""
+    """Use a language for a while, in this thread. Default: English."""
     before = _SPOKEN.set(lang)
     try:
         yield

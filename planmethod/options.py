@@ -46,7 +46,7 @@ class PathType(click.Path):
 
     @property
     def name(self) -> str:
-        """What it is called: a file, a directory or a path."""
+        """Name of the type: a file, a directory or a path."""
         return translated(self._english)
 
     @name.setter
@@ -78,7 +78,7 @@ MOST_SWEPT = 10_000_000
 """The same where they are swept, not drawn: ``--npz`` and ``--ask``."""
 
 COUNTED = 72
-"""Positions that somebody counts: who asks for more does not miss the last one."""
+"""Number of positions up to which a missing last one would be noticed."""
 
 
 def read_positions(
@@ -204,7 +204,7 @@ def hand_options(command: F) -> F:
 
 
 def drawn_by(profile: str | None, ruler: float | None, *, usual: str = "board") -> Profile:
-    """Return the hand of a profile, of the usual one if none is asked, with a ruler if one is."""
+    """Return the drafting profile by its name, or the default one, with a ruler if given."""
     from planmethod.construct.drafting import PROFILES
 
     hand = PROFILES[profile or usual]
@@ -212,7 +212,7 @@ def drawn_by(profile: str | None, ruler: float | None, *, usual: str = "board") 
 
 
 def positions_option(most: int) -> Callable[[F], F]:
-    """Add the positions of the driver, at most so many."""
+    """Add the option of the driver positions, at most ``most``."""
     return click.option(
         "--phi",
         callback=functools.partial(read_positions, most=most),
@@ -251,7 +251,7 @@ def out_option(command: F) -> F:
 
 
 def open_option(command: F) -> F:
-    """Add the showing of what is written."""
+    """Add the option that opens the written files."""
     return click.option(
         "--open", "shown", is_flag=True, help="Show what is written in the system's viewer."
     )(command)
@@ -269,7 +269,7 @@ def position_option(command: F) -> F:
 
 
 def layout_option(command: F) -> F:
-    """Add what is on the sheets and how it is arranged."""
+    """Add the option of the sheets' contents and layout."""
     return click.option(
         "--layout",
         metavar="NAME|FILE",
@@ -295,7 +295,7 @@ def format_option(default: str) -> Callable[[F], F]:
 
 
 def drawing_options(command: F) -> F:
-    """Add what is shown of the drafting errors, and how formats are written."""
+    """Add the options of the shown drafting errors and of the formats."""
     for option in (
         dxf_text_option,
         click.option(
@@ -347,6 +347,6 @@ def lang_option(command: F) -> F:
 def problem_lang_option(command: F) -> F:
     """Add the language of texts of a problem; the command gets the one that the user names.
 
-    None where he names none: then that of the file counts, `language_of` in the commands.
+    Default: None; then the commands use the file's, by `language_of`.
     """
     return _lang_option(named_language)(command)

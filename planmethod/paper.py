@@ -20,9 +20,9 @@ Box: TypeAlias = tuple[float, float, float, float]
 """xmin, ymin, xmax, ymax in mm."""
 
 FRAME_LEFT = 20.0
-"""From the left edge of the sheet to the frame, mm (room for binding)."""
+"""Distance from the left edge of the sheet to the frame, mm (binding margin)."""
 FRAME_OTHER = 5.0
-"""From the other edges to the frame, mm."""
+"""Distance from the other edges to the frame, mm."""
 STAMP_WIDTH, STAMP_HEIGHT = 185.0, 55.0
 """Title block of form 1, mm."""
 
@@ -35,7 +35,7 @@ class Format(Struct, frozen=True):
     name : str
         ``A3``, ``A4x3``, ``A3:portrait``.
     size : str
-        The same without the orientation: what stands after "Формат" under the frame.
+        The same without the orientation: the text after "Формат" under the frame.
     like : str
         Basic format as high as an elongated one that lies (as wide as one that stands), and so of
         the same letter heights and sizes of views; the largest, A0, is like itself.
@@ -61,7 +61,7 @@ class Format(Struct, frozen=True):
 
     @property
     def stands(self) -> bool:
-        """Whether the short side is across, and the title block along it."""
+        """True if the short side is horizontal, with the title block along it."""
         return self.width < self.height
 
     def written(self, letter: str) -> str:
@@ -109,7 +109,7 @@ BASIC = tuple(_BASIC)
 """Basic formats, from A4 to A0."""
 
 TRIED = ("A3", "A2", "A1")
-"""Formats that sheets are tried on in turn where none is asked for."""
+"""Formats that are tried in turn when none is requested."""
 
 FORMATS: Mapping[str, Format] = MappingProxyType({fmt.name: fmt for fmt in _formats()})
 """All formats by name, the basic ones first, from A4 to A0."""
