@@ -1,9 +1,9 @@
 """Graphs behind the structural analysis: matching, strong components, rigidity, contours.
 
-A mechanism is written as a system of equations with coefficients not yet known: only which
-unknown stands in which equation. A link has three unknowns, a shared moving point two; a point
-of a link gives two equations, a prismatic pair two. Everything that the structure of a mechanism
-can say follows from this bipartite graph.
+A mechanism is written as a system of equations with coefficients not yet known: only which unknown
+appears in which equation. A link has three unknowns, a shared moving point two; a point of a link
+gives two equations, a prismatic pair two. All structural properties of a mechanism follow from this
+bipartite graph.
 """
 
 from __future__ import annotations
@@ -86,10 +86,10 @@ class Matching:
 class Rigidity:
     """Independent constraints between bodies of the plane (независимые связи).
 
-    Counts as Laman does for bars and joints: a set of constraints is independent when no part of
-    it has more constraints than its unknowns less three, because a part that floats as a whole
-    keeps the three freedoms of a rigid body. A matching alone overlooks that: two links with two
-    common points match perfectly when they hang on one hinge. The count is tested by adding every
+    Laman's count for bars and joints: a set of constraints is independent when no part of it has
+    more constraints than its unknowns less three, because a part that floats as a whole keeps the
+    three freedoms of a rigid body. A matching alone overlooks that: two links with two common
+    points match perfectly when both are joined to one hinge. The count is tested by adding every
     constraint together with three more copies of itself (the pebble game).
     """
 
@@ -105,7 +105,7 @@ class Rigidity:
         return set()
 
     def fixes(self, support: Sequence[Node]) -> bool:
-        """Whether one more constraint on these unknowns would be redundant."""
+        """Return whether one more constraint on these unknowns would be redundant."""
         return bool(self._test(support))
 
     def _test(self, support: Sequence[Node]) -> set[Node]:
@@ -170,12 +170,12 @@ def blocks(
     Parameters
     ----------
     equations : sequence of sequences
-        Unknown nodes that stand in each equation.
+        Unknown nodes that appear in each equation.
     size : mapping
         How many scalar unknowns a node has.
     rank : mapping
-        Blocks that do not depend on each other stand in the order of their lowest rank; a block
-        of nodes without a rank comes as soon as it can.
+        Blocks that do not depend on each other are sorted by their lowest rank; a block of nodes
+        without a rank comes as early as possible.
 
     Returns
     -------

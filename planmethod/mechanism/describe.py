@@ -15,7 +15,7 @@ class PairKind(Enum):
     REVOLUTE = "revolute"
     PRISMATIC = "prismatic"
     HIGHER = "higher"
-    """Contact of profiles; `pairs` has none, as it looks at what replaces them."""
+    """Contact of profiles; not among `pairs`, which describe the replacing mechanism."""
 
 
 class KinematicPair(Struct, frozen=True):
@@ -127,10 +127,10 @@ def pairs(mechanism: Mechanism) -> list[KinematicPair]:
 def kind_of_motion(mechanism: Mechanism) -> list[LinkKind]:
     """Motion and textbook name of every link, the frame first (виды движения звеньев).
 
-    It is what the pairs alone can tell: a driven link on a fixed hinge is called a rocker, though
-    with other lengths it might turn all the way round. In a pair of a slider with a moving link the
-    stone is the one that has no third pair; when both have none, the one that the file calls the
-    slider.
+    Only the pairs are taken into account: a driven link on a fixed hinge is called a rocker, though
+    with other lengths it might turn all the way round. When a slider and a moving link form a pair,
+    the sliding block is the one without a third pair; if both have none, it is the one that the
+    file calls the slider.
     """
     turning = {
         link for joint in mechanism.revolutes if FRAME in joint.links for link in joint.links

@@ -17,7 +17,7 @@ DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 
 
 class Lead(Struct, frozen=True):
-    """Link of a group with the outer joint it hangs on (поводок).
+    """Leg of a group: a link with its outer joint (поводок).
 
     ``to`` is the link outside the group, already known, on the other side of the joint (the frame,
     the driver or a link of an earlier group).
@@ -35,16 +35,16 @@ class AssurGroup(Struct, frozen=True):
     ----------
     signature : str
         For a dyad the letters of its joints, outer-inner-outer, written as Artobolevsky's kinds
-        are: RRR, RRP, RPR, PRP, RPP (never PRR or PPR). For a larger group, whose class says
-        more, the letters of its outer joints, a hyphen, and those of its inner joints, each
+        are: RRR, RRP, RPR, PRP, RPP (never PRR or PPR). For a larger group, which is described by
+        its class, the letters of its outer joints, a hyphen, and those of its inner joints, each
         sorted: ``RRR-RRR``.
     links : tuple of str
         In file order.
     leads : tuple of Lead
         Outer joints; for a dyad exactly two, in the order of ``links``.
     inner : tuple of Joint
-        Joints between links of the group. A hinge of several links is here as a whole, though
-        links of later groups may hang on it too.
+        Joints between links of the group. A hinge of several links is listed as a whole, although
+        links of later groups may share it.
     class_number, order : int
         Class and order (класс, порядок) as Artobolevsky has them: a dyad is class 2, order 2.
     kind : int or None
@@ -61,7 +61,7 @@ class AssurGroup(Struct, frozen=True):
 
 
 class Legs(Struct, frozen=True):
-    """A triad: its base link and what that hangs on (трёхповодковая группа III класса).
+    """A triad: its base link and the three legs (трёхповодковая группа III класса).
 
     Attributes
     ----------
@@ -126,7 +126,7 @@ def make_group(
     links: Sequence[str],
     known: Mapping[str, int],
 ) -> AssurGroup:
-    """Describe a group whose links and predecessors are found (структурная группа).
+    """Describe a group from its links and the links known before it (структурная группа).
 
     Parameters
     ----------
@@ -135,8 +135,8 @@ def make_group(
     links : sequence of str
         Links of the group, in file order.
     known : mapping of str to int
-        Links known before it, and when they became known: a lead that hangs on a hinge of several
-        known links hangs on the first of them.
+        Links known before it, and when they became known: a leg on a hinge of several known links
+        is joined to the first of them.
     """
     own = tuple(links)
     leads: list[Lead] = []

@@ -232,9 +232,9 @@ def _path(
 
 
 def _passive(mechanism: Mechanism) -> list[str]:
-    """Return the links with two hinges without which the others move definitely.
+    """Return the two-hinge links that can be removed leaving the others with a definite motion.
 
-    Whether such a link is passive (пассивное звено) the lengths tell.
+    The lengths decide whether such a link is passive (пассивное звено).
     """
     found = []
     for link in mechanism.links:

@@ -1,4 +1,4 @@
-"""Links, pairs and driver of a planar mechanism: what is joined to what, no coordinates."""
+"""Links, pairs and driver of a planar mechanism: its joints without coordinates."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Mechanism(Struct, frozen=True):
     frame : str
         Number of the frame as it is printed (номер стойки); among the links it is `FRAME`.
     higher : tuple of HigherPair
-        What some of the links stand for: then this is the replacing mechanism.
+        Higher pairs that some of the links replace: then this is the replacing mechanism.
     """
 
     links: tuple[str, ...]

@@ -61,11 +61,11 @@ class Structure(Struct, frozen=True):
 def analyse(mechanism: Mechanism) -> Structure:
     """Decompose a mechanism into its driver and Assur groups (структурный анализ по Ассуру).
 
-    Links (three unknowns each) and shared moving points (two each) on one side, points of links
-    and prismatic pairs (two equations each) on the other make a square system as soon as frame
-    and driver are known. The irreducible blocks of its Dulmage-Mendelsohn decomposition are the
-    Assur groups. A point shared by k links is closed by the group that can reach it first, and
-    links of later groups hang on it.
+    Links (three unknowns each) and shared moving points (two each) on one side, points of links and
+    prismatic pairs (two equations each) on the other make a square system as soon as frame and
+    driver are known. The irreducible blocks of its Dulmage-Mendelsohn decomposition are the Assur
+    groups. A point shared by k links is closed by the group that can reach it first, and links of
+    later groups are joined to it.
 
     Parameters
     ----------
