@@ -19,13 +19,13 @@ from planmethod.construct.arithmetic import unit_vectors
 Array = npt.NDArray[Any]
 
 BLOCK = 16384
-"""Most positions in a block: so many that a call of NumPy costs less than its arithmetic."""
+"""Maximum number of positions in a block: enough that NumPy's call overhead is small."""
 
 LEAST_BLOCK = 2048
-"""Fewest: below, the calls cost more than what the caches save."""
+"""Minimum number of positions in a block: below it, call overhead outweighs the caches' gain."""
 
 AT_HAND = 16 * 2**20
-"""Bytes of the buffers and rows that are in use at a time: what the caches hold, about."""
+"""Bytes of the buffers and rows in use at a time: about what the caches hold."""
 
 UFUNC: dict[str, np.ufunc] = {
     "add": np.add,
@@ -56,12 +56,13 @@ class Blocks:
     dtype : dtype
         float64, or float32 for a picture.
     block : int, optional
-        Positions in a block; when absent, as many as the numbers in use leave room for.
+        Positions in a block. Default: chosen by the number of values in use.
 
     Attributes
     ----------
     live : int
-        Most numbers of a position that are in use at a time: made, and to be read yet.
+        Largest number of values of a position in use at a time: computed and not yet read for the
+        last time.
     operations : int
         Calls for a block, guards not counted.
     """
@@ -227,7 +228,7 @@ class _Angle:
 # From the tape to a line of calls ---------------------------------------------------------------
 
 Place = str
-"""Where an operand lives: ``x0`` an input, ``o3`` a row of the output, ``b2`` a buffer, ``k5`` a
+"""Place of an operand: ``x0`` an input, ``o3`` a row of the output, ``b2`` a buffer, ``k5`` a
 constant."""
 
 
@@ -241,7 +242,7 @@ class _Step:
 
 
 def _block(in_use: int) -> int:
-    """Return the positions of a block of which so many bytes each are in use at a time."""
+    """Return the positions of a block, given the bytes in use at a time for each position."""
     return max(LEAST_BLOCK, min(BLOCK, AT_HAND // max(in_use, 1) // 1024 * 1024))
 
 

@@ -122,7 +122,7 @@ static inline double degrees(double radians)
 
 
 class Source(NamedTuple):
-    """What is compiled, and the numbers that it is given.
+    """C source of a tape, and its constants and inputs.
 
     Attributes
     ----------
@@ -209,7 +209,7 @@ class _Lines:
                 self._text.append(f"o{row}[i] = {self._name(ref)};")
 
     def _begin(self, stage: Sequence[int]) -> None:
-        """Begin a loop: nothing is at hand."""
+        """Begin a loop with no values computed yet."""
         nodes = [self.tape.nodes[number] for number in stage]
         self._divisors = Counter(node.operands[1] for node in nodes if node.kind == "div")
         self._said: dict[int, str] = {}
@@ -276,7 +276,7 @@ class _Lines:
 
 
 def _places(refs: Sequence[Ref]) -> dict[int, list[int]]:
-    """Return where every node stands in a sequence."""
+    """Return the index of every node in a sequence."""
     found: dict[int, list[int]] = {}
     for place, ref in enumerate(refs):
         if type(ref) is int:
@@ -315,7 +315,7 @@ def _bits(number: int) -> str:
 
 
 def _whole(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
-    """Put the loop into a function, and after it what is done where a margin does not hold."""
+    """Wrap the loop in a function, followed by the handling of margins that do not hold."""
     rows = range(len(needs))
     own = [f"const double k{k} = k[{k}];" for k in range(len(lines.constants))]
     own += [f"double e{k}[{BLOCK}];" for k in range(len(lines.inputs))]

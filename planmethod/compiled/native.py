@@ -1,8 +1,9 @@
 """A tape compiled by the system's C compiler and kept in the user's cache (машинный код).
 
 A library is found by the hash of its source, of the flags and of the machine, and is called by that
-and by the hash of its own bytes. It is loaded only from a folder that nobody else can write to, and
-only if its bytes are those; one that a full disk or a crash has cut short is made anew.
+and by the hash of its own bytes. It is loaded only from a folder that only the user can write to,
+and only if its bytes match the hash; a library truncated by a full disk or a crash is compiled
+again.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ KEPT = 32 * 2**20
 
 
 class NotCompiledError(Exception):
-    """Says in a sentence why there is no library; NumPy does the work."""
+    """Reason, as a sentence, why there is no library; NumPy does the work instead."""
 
 
 class Native:
@@ -194,9 +195,9 @@ _ALIASES = itertools.count(1)
 
 
 def _loaded(path: Path) -> ctypes.CDLL | None:
-    """Load a library that is whole; None where its bytes are not those that its name tells.
+    """Load a library; return None if its bytes do not match the hash in its name.
 
-    What is looked at is what is loaded: both by one descriptor, on systems that can.
+    The checked file is the loaded file: both use one descriptor, on systems that allow it.
     """
     number = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
     with open(number, "rb") as file:  # noqa: PTH123 - by its descriptor

@@ -1,4 +1,4 @@
-"""A tape run for any number of positions, in the way that is quickest for so many (прогон)."""
+"""A tape run for any number of positions by the quickest method for that number (прогон)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ PAYS = 30_000_000
 
 
 class Runner:
-    """A written program and the results wanted of it, made ready to be run.
+    """A program written on a tape and the requested results, prepared for running.
 
     Parameters
     ----------
@@ -44,13 +44,13 @@ class Runner:
         float64, or float32 for a picture.
     native : bool, optional
         Compile the tape with the system's C compiler now (True), or never use such code (False).
-        When absent, it is used from `MANY` positions on if it was compiled before, and compiled
-        where that pays (`PAYS`).
+        Default: used from `MANY` positions on if it was compiled before, and compiled where that
+        pays (`PAYS`).
 
     Attributes
     ----------
     uncompiled : str
-        Why there is no machine code; empty if there is.
+        Reason why there is no machine code; empty if there is some.
     """
 
     def __init__(
@@ -93,17 +93,17 @@ class Runner:
         return tuple(guard.step for guard in self.written.guards)
 
     def few(self, columns: Callable[[], Sequence[Array]], count: int) -> Array | None:
-        """Return the results of a few positions, by one line of Python.
+        """Return the results of a few positions, computed by the Python code.
 
         Parameters
         ----------
         columns : callable
-            Gives the inputs, of shape (count,) or of one number each.
+            Returns the inputs, of shape (count,) or of one number each.
 
         Returns
         -------
         ndarray of shape (k, count) or None
-            None where `run` is quicker, or has to tell which position is impossible.
+            None where `run` is quicker, or must find which position is impossible.
         """
         if count > FEW or self._native is not None or self.dtype != np.float64:
             return None
@@ -121,7 +121,7 @@ class Runner:
         return np.frombuffer(buffer).reshape(count, len(self._results)).T
 
     def expect(self, count: int) -> None:
-        """Look for machine code where so many positions more are worth it."""
+        """Look for machine code if that many more positions justify it."""
         self._done += count
         if self._native is None and self._may_look and count >= MANY:
             self._look(make=self._done >= PAYS)
@@ -154,7 +154,7 @@ class Runner:
             self._blocks.run(mine, out[:, i], None if failed is None else failed[i])
 
     def takes(self, out: Array, failed: Array | None) -> bool:
-        """Tell whether there is machine code that fills these arrays."""
+        """Return whether there is machine code that can fill these arrays."""
         return self._native is not None and self._native.takes(out, failed)
 
     def bound(

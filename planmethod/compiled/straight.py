@@ -21,7 +21,7 @@ BINARY = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
 
 class ImpossibleError(ArithmeticError):
-    """A step is impossible in a position; running the tape in blocks tells which."""
+    """A step is impossible in some position; running the tape in blocks shows which one."""
 
 
 Straight = Callable[[Sequence[Sequence[float]], bytearray], None]
@@ -166,7 +166,7 @@ class _Lines:
                 return c if kind == "cosd" else s
 
     def _named(self, ref: Ref) -> str:
-        """Return an operand that is written twice: a name, not what it stands for."""
+        """Return an operand that is used twice: a variable name, not its expression."""
         said = self._said(ref)
         if type(ref) is int and said.startswith("("):
             self.lines.append(f"t{ref} = {said}")

@@ -137,7 +137,7 @@ class Guard(Struct, frozen=True):
 
 
 class Symbolic(Exact, Struct):
-    """Arithmetic that writes down what is to be computed, and knows some lengths beforehand.
+    """Arithmetic that records operations on a tape and knows some lengths beforehand.
 
     Attributes
     ----------
@@ -168,17 +168,17 @@ class Symbolic(Exact, Struct):
         return lifted(self.tape, value)
 
     def root(self, value: Number) -> Number:
-        """Return the square root, 0 of what is negative."""
+        """Return the square root, 0 of a negative number."""
         symbol = self.lift(value)
         largest = self.tape.make("max", symbol.re, 0.0)
         return Symbol(self.tape, self.tape.make("sqrt", largest))
 
     def guard(self, margin: Number, limit: float, value: Number) -> Number:
-        """Return the value; whoever runs the tape looks at the margins."""
+        """Return the value; the caller that runs the tape checks the margins."""
         return value
 
     def nonzero(self, value: Number) -> Number:
-        """Return the value; whoever runs the tape looks at the margins."""
+        """Return the value; the caller that runs the tape checks the margins."""
         return value
 
     def solid(self, length: Number) -> Number:
@@ -265,8 +265,8 @@ def write(
         Known numbers that differ from position to position; a complex point that varies has two
         inputs, ``name.x`` and ``name.y``.
     parts : mapping of name to int, optional
-        Part of the program that a step begins or goes on with; any other step is of the latest part
-        of what it uses.
+        Part of the program that a step begins or goes on with; any other step belongs to the latest
+        part among its operands.
     """
     ar = Symbolic()
     parts = parts or {}
@@ -308,7 +308,7 @@ def _numbers(bits: int) -> frozenset[int]:
 
 
 def _watched(guard: Guard, tape: Tape) -> Guard | None:
-    """Return a guard stripped of what need not be computed for it; None if it always holds."""
+    """Return a guard without the operations that it does not need; None if it always holds."""
     margin, limit = guard.margin, guard.limit
     while type(margin) is int:
         kind, refs = tape.nodes[margin]

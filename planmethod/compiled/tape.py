@@ -1,4 +1,4 @@
-"""Tape of real operations: what is left of a program when its constants are folded (лента)."""
+"""Tape of real operations: a program after its constants have been folded (лента)."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ FOLD: dict[str, Callable[..., float]] = {
     "degrees": lambda angle: 180.0 if angle <= -math.pi else angle * (180.0 / math.pi),
     "at_zero": lambda size, other, value: other if size == 0.0 else value,
 }
-"""What an operation does to constants."""
+"""Functions that fold an operation on constants."""
 
 
 def same(a: Ref, b: Ref) -> bool:
-    """Tell whether two operands are the same: node 2 is not the constant 2.0, although 2 == 2.0."""
+    """Return whether two operands are the same; node 2 is not the constant 2.0, though equal."""
     return type(a) is type(b) and a == b
 
 
@@ -60,18 +60,18 @@ def _key(kind: str, operands: tuple[Ref, ...]) -> tuple[Any, ...]:
 
 
 class Tape(Struct):
-    """Operations in order, each made once.
+    """Operations in order, each recorded once.
 
-    An operation on constants is carried out at once, and one that changes nothing (times 1, plus
-    0, a + b - a) is not made at all: the tape has no step that a person would skip.
+    An operation on constants is carried out at once, and one that changes nothing (times 1, plus 0,
+    a + b - a) is not recorded: the tape has no step that a person would skip.
 
     Attributes
     ----------
     part : int
-        Part of the program that is being written: of what is made now.
+        Part of the program that is being written, to which new nodes belong.
     parts : list of int
-        Part of every node: the latest of its own and its operands'. Whoever runs one part after
-        the other has few numbers at hand, however long the tape (`used_by`).
+        Part of every node: the latest of its own and its operands'. Running the parts one after the
+        other keeps few values in use, however long the tape is (`used_by`).
     """
 
     nodes: list[Node] = field(default_factory=list)
@@ -227,7 +227,7 @@ class Tape(Struct):
         return (a, b) if type(a) is float else (b, a)
 
     def bare(self, ref: Ref) -> Ref:
-        """Return a node without its sign: what tells vectors of one length."""
+        """Return a node without its sign, to recognise vectors of equal length."""
         if self._is(ref, "neg"):
             return self.nodes[int(ref)].operands[0]
         return abs(ref) if type(ref) is float else ref
