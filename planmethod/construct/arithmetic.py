@@ -13,11 +13,11 @@ Number: TypeAlias = (
 
 
 class Arithmetic(Protocol):
-    """What the evaluator needs beyond operators; one object per number type.
+    """Operations that the evaluator needs beyond operators; one object per number type.
 
-    The second half is where a pencil and a ruler come in: an exact reading returns what it is
-    given (`Exact`), a draughtsman returns what his hand makes of it. ``out`` is the name of the
-    step, so that he can tell which of his strokes was how good.
+    The second half is where a pencil and a ruler come in: an exact reading returns its argument
+    (`Exact`), a draughtsman returns the drawn value. ``out`` is the name of the step, so that the
+    error of each stroke can be identified.
     """
 
     def lift(self, value: Number) -> Number:
@@ -25,7 +25,7 @@ class Arithmetic(Protocol):
         ...
 
     def root(self, value: Number) -> Number:
-        """Return the square root, 0 of what is negative."""
+        """Return the square root, 0 of a negative number."""
         ...
 
     def guard(self, margin: Number, limit: float, value: Number) -> Number:
@@ -37,7 +37,7 @@ class Arithmetic(Protocol):
         ...
 
     def solid(self, length: Number) -> Number:
-        """Return 1 where a length is not zero, else 0: the margin of what needs a direction."""
+        """Return 1 if a length is not zero, else 0: the margin of a step that needs a direction."""
         ...
 
     def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
@@ -153,7 +153,7 @@ class Float64(Exact):
         return np.asarray(value)
 
     def root(self, value: Number) -> Number:
-        """Return the square root, 0 of what is negative."""
+        """Return the square root, 0 of a negative number."""
         return np.sqrt(np.maximum(value, 0.0))
 
     def guard(self, margin: Number, limit: float, value: Number) -> Number:
@@ -197,7 +197,7 @@ class Single(Exact):
         return value
 
     def root(self, value: Number) -> Number:
-        """Return the square root, 0 of what is negative."""
+        """Return the square root, 0 of a negative number."""
         return math.sqrt(value) if value > 0 else value * 0.0
 
     def guard(self, margin: Number, limit: float, value: Number) -> Number:

@@ -90,7 +90,7 @@ def reach(
             slope[i] = _part(row, way)
         lifted[name] = Dual(row, slope)
     trace = evaluate(program, lifted, Duals())
-    with np.errstate(all="ignore"):  # a line of no length, which nothing hangs on
+    with np.errstate(all="ignore"):  # a line of zero length, which no result depends on
         return {name: _reach(as_dual(plain(value))) for name, value in trace.value.items()}
 
 

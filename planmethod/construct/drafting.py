@@ -1,4 +1,4 @@
-"""What a pencil does to a construction: every stroke a little off, and how far (чертёжник).
+"""Drafting errors: random deviations of every stroke and their sizes (чертёжник).
 
 The strokes and their standard deviations are those of a `Profile`. One set of strokes is read in
 two ways: with dual numbers, which carry every error to every result to first order and keep all
@@ -11,7 +11,7 @@ How each step errs, sigma by sigma:
   direction errs by sqrt(2)·point/length;
 - a line through a point: ``point`` off across at the point, turned by ``parallel`` from the line it
   is parallel or perpendicular to, or from the angle of the protractor;
-- an arc: its needle stands as a pricked point, its radius is taken off the ruler to ``lay_off``;
+- an arc: its centre errs like a pricked point, its radius is taken off the ruler to ``lay_off``;
 - a length: laid off to ``lay_off`` and pricked ``point`` beside its line; read to ``measure`` and
   rounded to the ruler's step.
 """
@@ -36,7 +36,7 @@ from planmethod.construct.program import Program
 
 
 class Profile(Struct, frozen=True):
-    """How well somebody draws (точность построений): standard deviations.
+    """Drafting accuracy (точность построений): standard deviations.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ PROFILES: dict[str, Profile] = {
         Profile("coarse", 0.5, 0.5, 0.5, 0.5, 1.0),
     )
 }
-"""Drawing with CAD, on a board with care (the default), and in haste."""
+"""Drawing with CAD, carefully on a board (the default), and roughly."""
 
 
 AS_SCALED: Mapping[str, Number] = MappingProxyType({})
@@ -75,16 +75,16 @@ AS_SCALED: Mapping[str, Number] = MappingProxyType({})
 
 
 class Pencil:
-    """Strokes of a draughtsman; who mixes it with an arithmetic says what an error is.
+    """Strokes of a draughtsman; a class that mixes this with an arithmetic defines an error.
 
     Parameters
     ----------
     profile : Profile
     free : frozenset of str
-        Given points that cannot be off: the poles, which may stand anywhere.
+        Given points without an error: the poles, which may be placed anywhere.
     enlarged : mapping of str to Number
-        How many times larger than by its scale a step is drawn, by its name: what is off on paper
-        counts so much less there.
+        Enlargement of a step relative to its scale, by its name: an error on paper counts that many
+        times less there.
     """
 
     def __init__(
@@ -143,13 +143,13 @@ class Pencil:
         return point + self._spot(out)
 
     def laid(self, out: str, length: Number) -> Number:
-        """Return a length as it is laid off, and how far beside the line; of nothing, nothing."""
+        """Return a laid-off length and its deviation beside the line; a zero length has neither."""
         beside = self._off(out, self.profile.point) * 1j
         off = length + self._off(out, self.profile.lay_off) + beside
         return self.unless_zero(self.drawn_at_all(length), off, length)
 
     def read(self, out: str, length: Number) -> Number:
-        """Return a length as it is read; what is not there at all is read by nobody."""
+        """Return a length as it is read; a length that does not exist is not read."""
         seen = self.rounded(out, length + self._off(out, self.profile.measure))
         return self.unless_zero(self.drawn_at_all(length), seen, length)
 
@@ -286,10 +286,10 @@ EVEN, _TURN = 509, 77
 
 
 class Even(Sampled):
-    """Strokes spread evenly over what they may be, rounding too, as to first order.
+    """Strokes spread evenly over their distribution, rounding included, as to first order.
 
-    A lattice of Korobov (Коробов, 1959): of a few errors it tells as much as 4000 sheets at random.
-    Each error that is asked for is the next coordinate of its points.
+    A lattice of Korobov (Коробов, 1959): for a few errors it gives as much information as 4000
+    random sheets. Each requested error is the next coordinate of its points.
     """
 
     def __init__(
@@ -333,9 +333,9 @@ _MOST_COUNTED = 256
 
 
 def causes_of(program: Program, data: Callable[[], Mapping[str, Any]], free: frozenset[str]) -> int:
-    """Return how many errors a construction has; its steps and what is ``free`` decide it alone.
+    """Return the number of errors of a construction, which depends only on its steps and ``free``.
 
-    ``data`` gives the data of some position, where they have not been counted before.
+    ``data`` returns the data of some position; it is called if they have not been counted before.
     """
     key = (program, free)
     known = _COUNTED.get(key)

@@ -19,16 +19,16 @@ Slope = npt.NDArray[Any] | None
 
 
 class CauseRows:
-    """Which of many causes change a number: most strokes of a drawing do not.
+    """Sparse index of the causes that change a number: most strokes of a drawing do not.
 
-    One for each set of causes of a drawing, so that two are the same object or not the same set.
+    There is one object for each set of causes of a drawing, so that equal sets are the same object.
 
     Attributes
     ----------
     index : ndarray of shape (k,)
         The causes, in order.
     count : int
-        How many there are at all.
+        Number of all causes.
     """
 
     __slots__ = ("_joined", "_known", "_mask", "count", "index")
@@ -168,9 +168,9 @@ def _times(slope: Slope, factor: Number) -> Slope:
 
 
 def _sum(one: Dual, by: Number, two: Dual, times: Number) -> tuple[Slope, CauseRows | None]:
-    """Return the slopes of two numbers, each by a factor if it has one, added up; and their rows.
+    """Return the sum of the slopes of two numbers, each times its factor if any, and its rows.
 
-    No row is added to one that is not there: what is left is what all rows would give.
+    Adding to a missing row is skipped: the result equals that of all rows.
     """
     first, second = _times(one.part, by), _times(two.part, times)
     if first is None or second is None:
@@ -216,7 +216,7 @@ class Duals(Exact):
         return value if isinstance(value, Dual) else Dual(np.asarray(value))
 
     def root(self, value: Number) -> Number:
-        """Return the square root, 0 of what is negative."""
+        """Return the square root, 0 of a negative number."""
         value = as_dual(value)
         root = np.sqrt(np.maximum(value.value, 0.0))
         return value.scaled(root, 0.5 / np.where(root == 0, np.nan, root))

@@ -214,8 +214,8 @@ def evaluate(
         Values of the Given points (complex, mm) and Known numbers, scalars or shape (n,).
     ar : Arithmetic
     put : callable, optional
-        Takes what a step has made and returns what the further steps shall use in its place: a
-        value that somebody has found himself (подстановка).
+        Receives the result of a step and returns the value that further steps use instead: for
+        example a student's own value (подстановка).
     """
     return go_on(Trace({}, {}), program.steps, data, ar, put)
 
@@ -227,12 +227,12 @@ def go_on(
     ar: Arithmetic,
     put: Put | None = None,
 ) -> Trace:
-    """Return a trace with further steps, which may use everything that it has.
+    """Return a trace extended by further steps, which may use all its values.
 
     Parameters
     ----------
     data : mapping
-        Values of what the further steps take as given or known.
+        Values of the given points and known numbers of the further steps.
     put : callable, optional
         As of `evaluate`.
     """

@@ -15,15 +15,15 @@ class Hand(Float64, Struct, frozen=True):
     """Draughtsman who draws exactly and reads with a ruler (чертёжник с линейкой).
 
     Every length read on the drawing is rounded to the nearest ``ruler`` step, ties away from zero
-    as a person reads; what is computed from it goes on along the chain of the construction.
+    as a person reads; values computed from it propagate along the construction.
 
     Attributes
     ----------
     ruler : float, mm
         Step of the ruler (цена деления).
     enlarged : mapping of str to Number
-        How many times larger than by its scale a length is drawn, by its name: it is read there, on
-        an enlarged view or a plan of a scale of its own, and the ruler's step is so much finer.
+        Enlargement of a length relative to its scale, by its name: it is read on an enlarged view
+        or on a plan with its own scale, where the ruler's step is that many times finer.
     """
 
     ruler: float = 0.5

@@ -1,7 +1,7 @@
 """A link that three legs hold: its pose by Newton's method (группа III класса, сборка).
 
-The same steps are made in every arithmetic. Which of several assemblies is meant is told by the
-start, which is near it.
+The same steps are made in every arithmetic. The start, which is near one of several assemblies,
+determines which one is meant.
 """
 
 from __future__ import annotations
@@ -60,10 +60,10 @@ def held(
 def _asks(
     leg: Leg, z: Number, out: str, env: Mapping[Name, Number], ar: Arithmetic
 ) -> Callable[[Number, Number], tuple[Number, Number, Number]]:
-    """Return what tells of a pose how far it is off what a leg asks for, and the leg's line.
+    """Return a function of a pose that gives the residual of a leg's condition, and the leg's line.
 
-    The pose are the link's origin and its direction; the line is given by a unit vector and its
-    moment about the origin.
+    The pose consists of the link's origin and its direction; the line is given by a unit vector and
+    its moment about the origin.
     """
     if leg.line is not None:
         p, u = env[leg.line]

@@ -72,12 +72,12 @@ class Program(Struct, frozen=True):
             made[step.out] = makes(step)
 
     def needed_for(self, asked: Iterable[Name]) -> Program:
-        """Return the program of the steps on which the asked names depend (только нужное).
+        """Return the program of the steps on which the requested names depend (только нужное).
 
         Raises
         ------
         ProgramError
-            When an asked name is made by no step.
+            No step makes a requested name.
         """
         need: set[Name] = set(asked)
         unknown = need - {step.out for step in self.steps}
@@ -116,13 +116,13 @@ class Builder(Struct):
         )
 
     def has(self, name: str) -> bool:
-        """Tell whether a step makes a name."""
+        """Return whether a step makes a name."""
         self._made.update(step.out for step in islice(self.steps, self._seen, None))
         self._seen = len(self.steps)
         return name in self._made
 
     def program(self) -> Program:
-        """Return what was collected; of what was collected before, the same program."""
+        """Return the collected steps as a program; the same steps give the same object."""
         return _checked(tuple(self.steps))
 
     def given(self, out: str) -> PointName:

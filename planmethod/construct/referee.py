@@ -7,7 +7,7 @@ from typing import Any
 from planmethod.construct.arithmetic import Exact, Number
 
 DIGITS = 50
-"""Decimal digits of the referee unless others are asked for."""
+"""Default number of decimal digits of the high-precision check."""
 
 
 class Precise(Exact):
@@ -36,7 +36,7 @@ class Precise(Exact):
         return self.context.convert(value.item() if hasattr(value, "item") else value)
 
     def root(self, value: Number) -> Number:
-        """Return the square root, 0 of what is negative."""
+        """Return the square root, 0 of a negative number."""
         return self.context.sqrt(value) if value > 0 else self.context.zero
 
     def guard(self, margin: Number, limit: float, value: Number) -> Number:

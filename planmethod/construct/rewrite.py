@@ -1,7 +1,7 @@
 """Programs changed: values put in, steps rewritten (подстановка значений, замена шагов).
 
-With the values that a person has found himself, a program gives what follows from them along the
-chain of the construction. With a step rewritten, it gives what a certain mistake leads to.
+With a person's own values, a program gives the results that follow from them along the
+construction. With a step rewritten, it gives the results of a certain mistake.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def substituted(program: Program, names: Iterable[Name]) -> Program:
     Raises
     ------
     ProgramError
-        When no step makes a name, or the step makes a line: a line is told by what is on it.
+        No step makes a name, or the step makes a line: a line is determined by its points.
     """
     given = set(names)
     unknown = given - {step.out for step in program.steps}
@@ -54,15 +54,14 @@ def rewritten(program: Program, change: Callable[[Step], Step | tuple[Step, ...]
     Parameters
     ----------
     change : callable
-        Takes a step and returns what stands in its place: the same step, or another one that makes
-        the same name of the same kind out of what is made before it; or several, the last of which
-        does.
+        Takes a step and returns its replacement: the same step, or another one that makes the same
+        name of the same kind from earlier results; or several, the last of which does.
 
     Raises
     ------
     ProgramError
-        When a step makes another name or kind than the one it stands for, or uses what is not
-        made before it.
+        A step makes another name or kind than the one it replaces, or uses a name that is made
+        later.
     """
     steps: list[Step] = []
     for before in program.steps:

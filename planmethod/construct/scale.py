@@ -1,4 +1,4 @@
-"""Scales of plans: what one millimetre stands for, and how one is chosen."""
+"""Scales of plans: the value of one millimetre, and the choice of a scale."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SERIES: tuple[float, ...] = (1.0, 2.0, 2.5, 4.0, 5.0)
 
 
 class Scale(Struct, frozen=True):
-    """What one millimetre of a plan stands for (масштабный коэффициент).
+    """Value that one millimetre of a plan represents (масштабный коэффициент).
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ def choose_scale(
     Parameters
     ----------
     extent : (float, float)
-        Width and height of what is drawn, in its unit.
+        Width and height of the drawing, in its unit.
     box : (float, float), mm
     mm_per_unit : bool
         Take the round number in mm per unit instead of unit per mm.
@@ -112,8 +112,8 @@ LEAST_AXIS = 160.0
 def angle_scale(way: float, *, mm_per_unit: bool = False) -> float:
     """Return the scale of an axis of angles, degrees per millimetre (масштаб углов).
 
-    That of the series at which so many degrees have the least of such an axis at least, and less
-    than twice of it.
+    It is the scale of the series at which the axis has at least the minimum length and less than
+    twice that.
 
     Examples
     --------

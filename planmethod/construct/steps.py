@@ -139,7 +139,7 @@ class Touch(Struct, frozen=True):
 
 
 class Leg(Struct, frozen=True):
-    """What one of three legs does to the link that they hold (поводок базисного звена).
+    """Constraint of one of the three legs on the base link (поводок базисного звена).
 
     A place of the link is ``radius`` away from ``centre``; or it lies on ``line``; or a straight
     line of the link, through the place and at ``angle`` to its axis, passes through ``centre``.
@@ -160,12 +160,12 @@ class Leg(Struct, frozen=True):
 
 
 class Hold(Struct, frozen=True):
-    """Axis of a link that three legs hold at once, through its origin (группа III класса).
+    """Axis through the origin of a base link held by three legs (группа III класса).
 
-    No arcs alone find it. Without one leg the link is a coupler, and the place of that leg draws a
-    curve: where it meets what the leg asks for, the link is held. Of several such positions it is
-    the one next to ``start``: where the link's origin is, mm, and the direction of its axis,
-    degrees.
+    Arcs alone cannot find it. Without one leg the link is a coupler, and the place of that leg
+    traces a curve: the link is held where the curve meets the constraint of the leg. Among several
+    such poses it is the one nearest to ``start``: the link's origin, mm, and the direction of its
+    axis, degrees.
     """
 
     out: LineName
@@ -184,10 +184,10 @@ class Spot(Struct, frozen=True):
 class Similar(Struct, frozen=True):
     """Point of a plan similar to a point of the link, letters in the same order (теорема подобия).
 
-    Triangle plan_b plan_c out is similar to link_b link_c link_s. ``side`` is the length of
-    plan_b plan_c, mm, as it was read or laid off: the sides of the triangle are computed from it.
-    ``span`` and ``arm`` are the lengths of link_b link_c and link_b link_s, mm, where no given
-    length tells them and they are read on the drawing. The signs of all three do not matter.
+    Triangle plan_b plan_c out is similar to link_b link_c link_s. ``side`` is the length of plan_b
+    plan_c, mm, as read or laid off: the sides of the triangle are computed from it. ``span`` and
+    ``arm`` are the lengths of link_b link_c and link_b link_s, mm, where no given length determines
+    them and they are read on the drawing. The signs of all three do not matter.
     """
 
     out: PointName
@@ -222,10 +222,10 @@ class Carry(Struct, frozen=True):
     """Segment of a plan carried to another point, parallel to itself (перенести отрезок).
 
     ``out`` is ``origin`` plus ``times`` the segment from ``tail`` to ``head``; ``turned``: the
-    segment is turned by +90 degrees, as the plan under a Zhukovsky lever is. ``length`` is what
-    was read of the segment, mm, and is laid off again (its sign does not matter): a force that one
-    plan has given to another; without it the segment is pricked through. A segment of no length has
-    no direction, and needs none.
+    segment is turned by +90 degrees, as the plan under a Zhukovsky lever is. ``length`` is the
+    length read from the segment, mm, and is laid off again (its sign does not matter), as when a
+    force is transferred from one plan to another; if it is None, the segment is pricked through. A
+    segment of zero length has no direction and needs none.
     """
 
     out: PointName
@@ -300,15 +300,15 @@ _KINDS = {"PointName": PointName, "LineName": LineName, "NumberName": NumberName
 
 
 def _kind(annotation: str) -> object:
-    """Return the kind of name an annotation stands for, looking through ``| None``.
+    """Return the kind of name that an annotation denotes, ignoring ``| None``.
 
-    The annotations of this module are strings; reading them as they stand costs a thirtieth of
-    evaluating them, and every command pays it.
+    The annotations of this module are strings; reading them as text costs a thirtieth of evaluating
+    them, and every command pays that.
     """
     return _KINDS.get(annotation.removesuffix(" | None"))
 
 
-# Not by `dataclasses.fields`, which are made when asked for: every command would pay it.
+# Not by `dataclasses.fields`, which are made on request: every command would pay for it.
 _NAMED = {
     kind: [(name, _kind(told)) for name, told in kind.__annotations__.items()]
     for kind in STEP_TYPES
