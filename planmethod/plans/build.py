@@ -35,14 +35,14 @@ class Section(Struct, frozen=True):
 
 
 class Construction(Struct, frozen=True, dict=True):
-    """A problem's program and what its names stand for.
+    """A problem's program and the meaning of its names.
 
     Attributes
     ----------
     structure : Structure
         Groups of the mechanism, in the order of which the plans are drawn.
     program : Program
-        Steps of all three plans; a reading keeps what it needs.
+        Steps of all three plans; a reading keeps the steps that it needs.
     draft : Draft
         Known numbers and given places of the data.
     kinematics : Kinematics
@@ -52,9 +52,9 @@ class Construction(Struct, frozen=True, dict=True):
     sections : tuple of Section
         The program cut where one group ends and the next begins.
     legend : tuple of Quantity
-        What is known of the motion, in the order of the plans.
+        Quantities of the motion, in the order of the plans.
     segments : tuple of PlanSegment
-        What is measured on the plans.
+        Segments that are measured on the plans.
     """
 
     structure: Structure
@@ -106,7 +106,7 @@ def begin_positions(problem: Problem, choice: Choice) -> Draft:
 
 
 def add_group(draft: Draft, group: AssurGroup) -> None:
-    """Add a group to a position plan that has what it hangs on."""
+    """Add a group to a position plan that has the links it is joined to."""
     cutter = _Cutter(draft, len(draft.b.steps))
     place_group(draft, group)
     cutter.cut(PlanKind.POSITION, group)

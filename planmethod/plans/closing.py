@@ -1,4 +1,4 @@
-"""Which way the groups of a mechanism close (способы сборки групп)."""
+"""Assembly modes of the groups of a mechanism (способы сборки групп)."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ Reals: TypeAlias = npt.NDArray[np.float64]
 
 
 class Followed(Struct, frozen=True):
-    """Assembly of a triad, followed from where it was chosen (сборка группы III класса).
+    """Assembly of a triad, tracked from a chosen position (сборка группы III класса).
 
-    No formula tells it: from one position to the next it goes on. Between two of the positions that
-    it was followed through it is told well enough for Newton's method.
+    No formula gives it: it is continued from one position to the next. Interpolation between two
+    tracked positions is a good enough start for Newton's method.
 
     Attributes
     ----------
     places : tuple of float
         Positions of the driver, rising, degrees or m.
     x, y : tuple of float
-        Where the base link's origin is there, m.
+        Coordinates of the base link's origin, m.
     turn : tuple of float
         Direction of its axis, degrees.
     period : float
-        After which all comes again; 0 where it does not. Outside of the positions there is no such
-        assembly.
+        Period of the driver's motion after which the assembly repeats; 0 if it does not. Outside
+        the positions there is no such assembly.
     """
 
     places: tuple[float, ...] = (0.0,)
@@ -49,24 +49,24 @@ class Followed(Struct, frozen=True):
 
 
 class Start(Struct, frozen=True):
-    """One of the numbers that tell where an assembly is (``x``, ``y`` or ``turn``)."""
+    """One of the numbers that locate an assembly (``x``, ``y`` or ``turn``)."""
 
     followed: Followed
     what: str
 
     @property
     def values(self) -> tuple[float, ...]:
-        """It in the positions that the assembly was followed through."""
+        """Values in the tracked positions."""
         found: tuple[float, ...] = getattr(self.followed, self.what)
         return found
 
     def branch(self, positions: Reals) -> Reals:
-        """Return it in some positions of the driver, m or degrees."""
+        """Return the value in some positions of the driver, m or degrees."""
         return self.followed.at(self.what, positions)
 
 
 class Closing(Struct, frozen=True):
-    """In which of its two ways a group closes (способ сборки).
+    """Assembly mode of a group: which of its two ways it closes (способ сборки).
 
     Attributes
     ----------
@@ -114,15 +114,15 @@ Choice = Mapping[tuple[str, ...], Closing]
 
 
 def comes_again(choice: Choice, turn: float) -> float:
-    """Return after how many degrees of the driver all groups close as before.
+    """Return the degrees of the driver after which all groups close as before.
 
-    A group that passes an odd number of change points in its own period is in its other closing
-    then, and in the first one after two of them. Infinite where a group does not come again.
+    A group that passes an odd number of change points in its own period is then in its other mode,
+    and in the first one after two periods. Infinite if a group never closes as before.
 
     Parameters
     ----------
     turn : float, degrees
-        After which the driver stands as before.
+        Period of the driver itself.
     """
     found = 1
     for one in choice.values():

@@ -1,4 +1,4 @@
-"""What the given numbers of a construction tell (размеры)."""
+"""Given numbers of a construction: their kinds and letters (размеры)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from msgspec import Struct
 
 
 class DimensionKind(Enum):
-    """What a given number tells (вид размера), and how its name begins."""
+    """Kind of a given number (вид размера); the value is the beginning of its name."""
 
     LENGTH = "l_"  # distance of two points
     ALONG = "x_"  # from a point along a line

@@ -1,4 +1,4 @@
-"""The drawing board while a construction is being planned: what is placed, what is drawn."""
+"""The drawing board while a construction is being planned: placed points and drawn lines."""
 
 from __future__ import annotations
 
@@ -91,11 +91,11 @@ class Draft:
     places : dict
         Places of the Given points, m, counted from ``origin``.
     branches : dict
-        Closings by the Known number that tells in each position which of their sides is meant, and
-        by those that tell where a triad is.
+        Assembly modes by the known number that gives their side in each position, and triad
+        assemblies by the numbers that locate them.
     origin : complex, m
-        Zero, but for a mechanism that stands far from the origin of its file: coordinates counted
-        from a place of its own keep the digits of its links.
+        Zero, except for a mechanism far from the origin of its file: coordinates relative to its
+        own origin keep the digits of its links.
     placed : dict of str to tuple of str
         Points of each link that the position plan has.
     marked : dict of str to None
@@ -103,11 +103,11 @@ class Draft:
     links_of : dict of str to list of str
         Links that have a point.
     axes : dict of str to LineName
-        Own axis of a link whose direction is not told by two of its points.
+        Own axis of a link whose direction is not given by two of its points.
     read : dict of (str, str) to None
-        Distances that are read on the drawing because no given length tells them, in order.
+        Distances that are read on the drawing because no length is given, in order.
     dimensions : dict of NumberName to Dimension
-        What known numbers of the data tell, and the same on the drawing.
+        Meaning of the known numbers of the data, and of the corresponding lengths on the drawing.
     feet : dict of PointName to str
         Feet of offsets, and the point that each is of.
     special : dict of str to Special
@@ -115,7 +115,7 @@ class Draft:
     plans : dict of Name to PlanKind
         Plan that a step belongs to.
     letters : dict of PointName to str
-        What points of the velocity and acceleration plans are called, where it is known beforehand.
+        Letters of points of the velocity and acceleration plans that are known beforehand.
     """
 
     def __init__(self, problem: Problem, choice: Choice) -> None:
@@ -179,11 +179,11 @@ class Draft:
         return name
 
     def has_length(self, p: str, q: str) -> bool:
-        """Tell whether the distance of two points is given, in this order."""
+        """Return whether the distance of two points is given, in this order."""
         return (p, q) in self._lengths
 
     def branch(self, point: str, closing: Closing) -> NumberName | None:
-        """Return the number that tells a point's side in each position; None if it stays."""
+        """Return the number that gives a point's side in each position; None if it is fixed."""
         if not closing.changes:
             return None
         name = f"branch_{point}"
@@ -211,7 +211,7 @@ class Draft:
         return NumberName(f"({p}{q})")
 
     def segments(self) -> tuple[tuple[str, str], ...]:
-        """Return the segments worth reading: given lengths, and what no length tells."""
+        """Return the segments worth reading: given lengths, and distances that are not given."""
         pairs: list[tuple[str, str]] = []
         for link, body in self.problem.bodies.items():
             if link == FRAME:
@@ -233,7 +233,7 @@ class Draft:
         return self.b.compute(name, (metres, 1), (self.mu_l, -1))
 
     def is_special(self, link: str, place: str) -> bool:
-        """Tell whether a place is the special point of a base link."""
+        """Return whether a place is the special point of a base link."""
         return link in self.special and self.special[link].point == place
 
     def size(self, link: str) -> float:
@@ -282,7 +282,7 @@ class Draft:
         return line
 
     def reference(self, link: str) -> tuple[str, str]:
-        """Return the two placed points of a link that tell its direction best."""
+        """Return the two placed points of a link that determine its direction best."""
         body, here = self.problem.bodies[link], self.placed[link]
         if body.axis is not None and set(body.axis) <= set(here):
             return body.axis
@@ -341,7 +341,7 @@ class Draft:
             self.locate(link, next(ready, None) or next(plain, rest[0]))
 
     def _has(self, link: str, *points: str) -> bool:
-        """Tell whether the plan has points of a link."""
+        """Return whether the plan has points of a link."""
         return set(points) <= set(self.placed.get(link, ()))
 
     def _arm(self, link: str, point: str) -> GivenArm | None:
@@ -390,7 +390,7 @@ class Draft:
         return foot
 
     def in_line(self, link: str, *places: str) -> bool:
-        """Tell whether places of a link lie on one line, wherever sliders stand on it."""
+        """Return whether places of a link lie on one line in all positions of sliders on it."""
         body, lines = self.problem.bodies[link].points, []
         for place in places:
             if place in body:
@@ -500,7 +500,7 @@ class Draft:
 
 
 def _arms(body: Body) -> list[GivenArm]:
-    """Return the arms that the angles of a link tell, but for those that set squares draw."""
+    """Return the arms that a link's angles define, except those drawn with set squares."""
     told = [
         (form.line, (form.point, name))
         for name, form in body.forms.items()

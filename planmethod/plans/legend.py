@@ -1,7 +1,7 @@
 """Legend of a construction: every quantity once, and the step that makes it (перечень величин).
 
-What a quantity is called, how it is asked for, its unit and which columns it has stand here;
-whoever writes quantities down reads it.
+This is the only place with a quantity's name, label, unit and columns; all writers of quantities
+read it.
 """
 
 from __future__ import annotations
@@ -22,24 +22,24 @@ ZERO = "0"
 
 
 class KindFacts(Struct, frozen=True):
-    """What goes with a kind of quantity.
+    """Properties of a kind of quantity.
 
     Attributes
     ----------
     letter : str
-        What the name begins with by which it is asked for: ``omega``.
+        Beginning of its label: ``omega``.
     unit : str
         In SI; degrees of a direction.
     plan : PlanKind
-        That it is found on.
+        Plan on which it is found.
     columns : tuple of str
-        What the names of the columns of a table end with; none where the label is the name.
+        Endings of the names of table columns; none if the label is the name.
     sign : str
         Letter of the symbol, ``ω``; empty where it is ``letter``.
     is_number : bool
-        Whether it is one number and not a vector.
+        True if it is one number and not a vector.
     is_size : bool
-        Whether the hand finds its size alone, without a sign.
+        True if the drawing gives only its size, without a sign.
     """
 
     letter: str
@@ -87,7 +87,7 @@ class QuantityKind(Enum):
 
 
 PLAN_OF = {kind.letter: kind.plan for kind in QuantityKind}
-"""Plans by the letters that quantities are asked for by."""
+"""Plans by the letters at the beginning of labels."""
 
 
 TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
@@ -102,7 +102,7 @@ TRANSFERS = (
 """Kinds of transfer functions, in the order in which tables have them."""
 
 TURNINGS = tuple(kind for kind in TURNING if kind.is_number)
-"""Those of them that the plans give."""
+"""The kinds among them that the plans give."""
 
 MOTION_KINDS = tuple(
     kind
@@ -127,17 +127,17 @@ class Quantity(Struct, frozen=True):
     kind : QuantityKind
     name : Name
         Step that makes it: a point of a plan (its vector is from the pole), a number, or for a
-        direction the line of the link's own axis; `ZERO` for what is zero by nature.
+        direction the line of the link's own axis; `ZERO` if it is zero by nature.
     of : str
         Point, link, or pair; of a reaction its joint and links, ``B_2/1`` (on link 2 from 1).
     size : NumberName or None
-        Number that the hand finds for it; None of places and directions.
+        Number that the drawing gives for it; None for places and directions.
     row : str
-        What the names of its columns begin with, if not with ``of``: ``F.B.2-1``.
+        Beginning of the names of its columns, if not ``of``: ``F.B.2-1``.
     shown : str
-        Its symbol as rich text, if not the letter of its kind with ``of`` as an index.
+        Symbol as rich text, if not the letter of its kind with ``of`` as an index.
     opposite : str
-        How the reaction is called that acts back.
+        Symbol of the opposite reaction.
     """
 
     kind: QuantityKind
@@ -150,7 +150,7 @@ class Quantity(Struct, frozen=True):
 
     @property
     def label(self) -> str:
-        """How it is asked for.
+        """Label by which it is requested.
 
         ``B`` (a place), ``v_B``, ``a_B``, ``phi_2``, ``omega_2``, ``epsilon_2``, ``v_B3/2``,
         ``ak_B3/2``, ``ar_B3/2``; ``u_2``, the direction ``phi_2`` as a unit vector. Transfer
@@ -161,7 +161,7 @@ class Quantity(Struct, frozen=True):
 
     @property
     def symbol(self) -> str:
-        """Its symbol as rich text: ``ω_{2}``."""
+        """Symbol as rich text: ``ω_{2}``."""
         sign = self.kind.sign
         return self.shown or (f"{sign}_{{{self.of}}}" if sign else self.of)
 
@@ -193,17 +193,17 @@ class PlanSegment(Struct, frozen=True):
 
     @property
     def label(self) -> str:
-        """How its drafting error is asked for: ``velocity.p-b3``."""
+        """Label of its drafting error: ``velocity.p-b3``."""
         return f"{self.kind.value}.{self.name}"
 
 
 def motion_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
-    """Yield what is known of the motion: of points, of links, of sliding.
+    """Yield the quantities of the motion: of points, links and sliding.
 
     Parameters
     ----------
     draft : Draft
-        Gets the own axes of links that have no line yet.
+        Receives the own axes of links that have no line yet.
     """
     velocity, acceleration = kin.velocity, kin.acceleration
     zero = draft.known(ZERO, 0.0)

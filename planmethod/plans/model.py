@@ -1,4 +1,4 @@
-"""What a plan is made of besides its steps: vectors, vector equations, letters."""
+"""Parts of a plan besides its steps: vectors, vector equations, letters."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from planmethod.problem.model import Convention, Problem
 
 
 class PlanKind(Enum):
-    """Which plan (вид плана)."""
+    """Kind of plan (вид плана)."""
 
     POSITION = "position"
     VELOCITY = "velocity"
@@ -22,7 +22,7 @@ class PlanKind(Enum):
 
 
 class PlanFacts(Struct, frozen=True):
-    """What goes with a kind of plan (масштаб, полюс и единица плана).
+    """Properties of a kind of plan (масштаб, полюс и единица плана).
 
     Attributes
     ----------
@@ -33,9 +33,9 @@ class PlanFacts(Struct, frozen=True):
     scale : str
         Name of the scale: ``mu_v``, in letters ``μ_{v}``.
     unit : str
-        What a segment stands for.
+        Unit of the value that a segment represents.
     prefix : str
-        What the names of the plan's points begin with in a program.
+        Beginning of the names of the plan's points in a program.
     """
 
     pole: str
@@ -58,11 +58,11 @@ MOTION = (PlanKind.POSITION, PlanKind.VELOCITY, PlanKind.ACCELERATION)
 """Plans that every problem has, in the order in which they are drawn."""
 
 RATES = MOTION[1:]
-"""Those of them that are vectors from a pole."""
+"""The plans among them whose vectors start from a pole."""
 
 
 def is_primed(problem: Problem, kind: PlanKind) -> bool:
-    """Tell whether a plan's letters carry a prime: the acceleration plan of the mm/unit books."""
+    """Return whether a plan's letters carry a prime: the acceleration plan of the mm/unit books."""
     return kind is PlanKind.ACCELERATION and problem.scales.convention is Convention.MM_PER_UNIT
 
 
@@ -72,7 +72,7 @@ def pole_letter(problem: Problem, kind: PlanKind) -> str:
 
 
 class VectorKind(Enum):
-    """What a vector of a plan stands for (вид составляющей)."""
+    """Kind of component that a vector of a plan represents (вид составляющей)."""
 
     ABSOLUTE = "absolute"  # from the pole: v_B, a_B (абсолютная)
     RELATIVE = "relative"  # v_CB, or the whole a_CB (относительная)
@@ -83,7 +83,7 @@ class VectorKind(Enum):
 
 
 class Known(Enum):
-    """How many underlines the term has: what of it is known before the plan is drawn."""
+    """Number of underlines of a term: which parts of it are known before the plan is drawn."""
 
     NOTHING = 0
     ONE = 1  # direction only: one line
@@ -91,7 +91,7 @@ class Known(Enum):
 
 
 class Relation(Enum):
-    """How a vector lies to a line that is on the drawing already."""
+    """Relation of a vector to a line that is already on the drawing."""
 
     ALONG = "along"  # ∥ (параллельно)
     ACROSS = "across"  # ⊥ (перпендикулярно)

@@ -1,7 +1,7 @@
-"""Segments of a plan: how long each is, what it stands for, which step tells (отрезки плана).
+"""Segments of a plan: the length and value of each, and the steps that give them (отрезки плана).
 
-A segment has one length, whoever needs it: what it was laid off to, else what the ruler gives. So
-nothing that was laid off is read, and nothing is read twice.
+A segment has one length for all users: the laid-off length, else the ruler's reading. So a laid-off
+segment is never read, and no segment is read twice.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ class Segments(Struct):
     ----------
     b : Builder
     scale : NumberName
-        What a millimetre stands for.
+        Scale of the plan.
     prefix : str
-        What the names of its values begin with.
+        Beginning of the names of its values.
     lengths : dict of (PointName, PointName) to NumberName
         Length of a segment, mm.
     values : dict of (PointName, PointName) to NumberName
-        What a segment stands for, in the unit of the plan: computed before it was laid off, or from
-        its length. Lengths and values are signed where a segment lies on a line along which the
-        sign is wanted.
+        Value of a segment, in the unit of the plan: computed before it was laid off, or from its
+        length. Lengths and values are signed where a segment lies on a line along which the sign is
+        wanted.
     """
 
     b: Builder
@@ -55,14 +55,14 @@ class Segments(Struct):
     def compute(
         self, name: str, *powers: tuple[NumberName, int], factor: float = 1.0, size: bool = False
     ) -> NumberName:
-        """Compute a number under a name that nothing has yet."""
+        """Compute a number under an unused name."""
         name = self.prefix + name
         while self.b.has(name):
             name += "*"
         return self.b.compute(name, *powers, factor=factor, size=size)
 
     def length(self, tail: PointName, head: PointName) -> NumberName:
-        """Return the length of a segment, mm; it is measured when nothing before tells it."""
+        """Return the length of a segment, mm; it is measured if it is not known yet."""
         if (tail, head) in self.lengths or (head, tail) in self.lengths:
             return self.drawn((tail, head))
         name = self.b.measure(f"|{tail}–{head}|", tail, head)
@@ -71,7 +71,7 @@ class Segments(Struct):
         return name
 
     def value(self, tail: PointName, head: PointName, name: str) -> NumberName:
-        """Return what a segment stands for; ``name`` is what it is called if it is new."""
+        """Return the value of a segment; ``name`` is used if the value is new."""
         if (tail, head) in self.values or (head, tail) in self.values:
             return self.known((tail, head))
         length = self.length(tail, head)
@@ -79,7 +79,7 @@ class Segments(Struct):
         return self.values[tail, head]
 
     def read(self, ends: Ends) -> NumberName | None:
-        """Return the length that the ruler gives of a segment, mm; None of what was laid off."""
+        """Return the ruler's reading of a segment, mm; None if it was laid off."""
         length = self.length(*ends)
         return length if length in self._measured else None
 
@@ -88,11 +88,11 @@ class Segments(Struct):
         return self.lengths[ends] if ends in self.lengths else self.lengths[ends[::-1]]
 
     def known(self, ends: Ends) -> NumberName:
-        """Return what a segment stands for that has been drawn and read."""
+        """Return the value of a segment that has been drawn and read."""
         return self.values[ends] if ends in self.values else self.values[ends[::-1]]
 
     def read_along(self, tail: PointName, head: PointName, line: LineName, name: str) -> NumberName:
-        """Read a segment along its line, with a sign, and return what it stands for."""
+        """Read a segment along its line, with a sign, and return its value."""
         length = self.b.measure_along(f"|{tail}–{head}|{line}", tail, head, line)
         value = self.compute(name, (self.scale, 1), (length, 1))
         self.lengths[tail, head], self.values[tail, head] = length, value

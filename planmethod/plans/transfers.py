@@ -1,8 +1,8 @@
 """Transfer functions through segments of the plans: v_q, u, a_q, ε_q (передаточные функции).
 
-Of a crank OA they are v_qC = l_OA·(pc)/(pa) and u_31 = (l_OA/l_CD)·(pc)/(pa); of the second order
-a_qC = l_OA·(πc)/(πn_A), from what the acceleration plan has without the crank's own ε. Nothing is
-measured that the plans have not given already, but the end of that last vector.
+For a crank OA they are v_qC = l_OA·(pc)/(pa) and u_31 = (l_OA/l_CD)·(pc)/(pa); of the second order
+a_qC = l_OA·(πc)/(πn_A), from the acceleration plan without the crank's own ε. Only the end of that
+last vector needs an additional measurement; everything else is on the plans already.
 
 Source: the homework guide, section 2.1, step 5.
 """
@@ -24,7 +24,7 @@ Powers = tuple[tuple[NumberName, int], ...]
 
 
 class TransferSteps:
-    """Steps that give transfer functions, going on from those of the plans.
+    """Steps of the transfer functions, which continue those of the plans.
 
     Parameters
     ----------
@@ -33,8 +33,8 @@ class TransferSteps:
     draft : Draft
         Construction that is continued.
     by_values : bool
-        From the velocities and rates that the segments have given, v_C/ω₁, and not from the
-        segments themselves: the same numbers, which follow what is put in for those.
+        Computed from the velocities and rates found from the segments, v_C/ω₁, not from the
+        segments: the numbers are the same but follow substituted values.
 
     Attributes
     ----------
@@ -105,7 +105,7 @@ class TransferSteps:
         return self.b.compute(name, (length, 1), *self.per_mm(kind), size=True)
 
     def of_crank(self, point: str) -> bool:
-        """Tell whether a named point is the crank's own: its a_q is its radius."""
+        """Return whether a named point is on the crank itself: its a_q is its radius."""
         link, place = self.kin.velocity.named[point]
         return link == self.drive.link and place in self.draft.problem.bodies[link].points
 
@@ -150,7 +150,7 @@ class TransferSteps:
         return self.b.total(name, *terms)
 
     def turning(self, link: str, kind: PlanKind) -> Turning | None:
-        """Return the segment that tells how a link turns; None of one that turns as the crank."""
+        """Return the segment that gives a link's rotation; None if it turns with the crank."""
         rates = self.kin.rates(kind)
         if rates[link] == rates.get(self.drive.link):
             return None

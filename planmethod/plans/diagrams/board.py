@@ -43,7 +43,7 @@ class DiagramBoard(Struct):
         return self.b.given(name)
 
     def axes(self, name: str, origin: complex = 0j) -> DiagramAxes:
-        """Draw the axes of a diagram; ``name`` begins the names of all that stands in it."""
+        """Draw the axes of a diagram; the names of all its steps begin with ``name``."""
         start = self.given(f"{name} O", origin)
         across = self.b.at_angle(start, None, self.known("0", 0.0))
         return DiagramAxes(name, start, across, self.b.perpendicular(start, across))

@@ -21,7 +21,7 @@ from planmethod.plans.diagrams.board import DiagramAxes, DiagramBoard
 
 
 class Integration(Enum):
-    """What stands for an interval (способ графического интегрирования)."""
+    """Ordinate that represents an interval (способ графического интегрирования)."""
 
     MIDDLE = "middle ordinates"
     TRAPEZOIDS = "trapezoids"

@@ -1,14 +1,14 @@
 """The flywheel by diagrams: moment, work, energy, reduced inertia, energy-mass (энергомасса).
 
-The work is integrated graphically from the moments; what lies between it and the straight line of
-the work of the constant moment is carried to the diagram of energies. Ordinates of the inertia are
+The work is integrated graphically from the moments; the difference between it and the straight line
+of the constant moment's work is carried to the diagram of energies. Ordinates of the inertia are
 projected on a line at 45 degrees and so turned by 90: uprights from there meet the lines of the
 energies in the points of the energy-mass diagram. Two tangents to it, at psi_max and psi_min, cut
 off KL on the axis of energies: J_f = mu_T·KL/(omega²·delta).
 
-By Mertsalov no energy-mass diagram is drawn. The energy T_II = omega²·J/2 of all links at the mean
-speed is plotted at the scale of the energies and taken from dT, position by position: the rest,
-dT_I, is the flywheel's. AB, from its lowest point to its highest, stands for KL.
+Mertsalov's method draws no energy-mass diagram. The energy T_II = omega²·J/2 of all links at the
+mean speed is plotted at the scale of the energies and taken from dT, position by position: the
+rest, dT_I, is the flywheel's. AB, from its lowest point to its highest, replaces KL.
 
 Source: курсовое проектирование по ТММ, section 3 of the press coursework; Wittenbauer's method.
 """
@@ -124,7 +124,7 @@ class EnergyMass(Struct, frozen=True):
 
 
 class _Found(Struct, frozen=True):
-    """What a method draws of energies and inertias: attributes as `EnergyMass` has them."""
+    """Parts of the diagrams that depend on the method: the attributes of `EnergyMass`."""
 
     axes: Mapping[str, DiagramAxes]
     turned: Sequence[PointName]
@@ -251,14 +251,14 @@ def _by_differences(
     energies: Sequence[PointName],
     mu_T: NumberName,
 ) -> _Found:
-    """Draw T_II and what is left of dT without it (Mertsalov)."""
+    """Draw T_II and the rest of dT (Mertsalov)."""
     b = board.b
     over_II, over_I = board.axes("T_II", places.second), board.axes("T_I", places.first)
     second = _plotted(board, "T_II", over_II, at, of.second, mu_T)
     rest = []
     for k, x in enumerate(at):
         spot = board.abscissa(over_I, x)
-        if 0 < k < len(at) - 1:  # at its ends dT is nothing
+        if 0 < k < len(at) - 1:  # at its ends dT is zero
             spot = b.carry(f"T_I + T_II {k}", spot, board.abscissa(over_T, x), energies[k])
         rest.append(b.carry(f"T_I {k}", spot, second[k], board.abscissa(over_II, x)))
     highest, lowest = (rest[k] for k in of.touched)

@@ -29,7 +29,7 @@ PREFIX = FACTS[PlanKind.FORCE].prefix
 
 
 def plain_name(symbol: str) -> str:
-    """Return the letters of a symbol as they stand in the name of a number: ``F_21``."""
+    """Return the letters of a symbol in the form used in names of numbers: ``F_21``."""
     return symbol.replace("^{", "").replace("_{", "_").replace("}", "")
 
 
@@ -60,7 +60,7 @@ class GivenLoad(Struct, frozen=True):
 
 
 class Reaction(Struct, frozen=True):
-    """What one link of a joint does to the other (реакция в кинематической паре).
+    """Reaction of one link of a joint on the other (реакция в кинематической паре).
 
     Attributes
     ----------
@@ -83,13 +83,12 @@ class Reaction(Struct, frozen=True):
 class ForceBoard:
     """State of the force plans while they are being planned (планы сил в работе).
 
-    ``forces`` and ``couples`` hold what acts on every link so far: its own loads, and what the
-    groups that hang on it do to it. ``symbols`` are the letters of the couples; ``shifts`` are the
-    forces of inertia, by link, that stand for their couples as well. ``arms`` are those that were
-    measured: about a point, of a force at a place and of a size. ``changing`` are loads that differ
-    from position to position, by name, with the known numbers that hold them. ``starts`` are the
-    pole and the first points of the plans and of the lever, in this order; ``loose`` are those of
-    plans that are only tried.
+    ``forces`` and ``couples`` hold the loads on every link so far: its own loads, and the reactions
+    of the groups joined to it. ``symbols`` are the letters of the couples; ``shifts`` are the
+    inertia forces, by link, that include their couples. ``arms`` are the measured arms: about a
+    point, of a force at a place and of a size. ``changing`` are loads that differ from position to
+    position, by name, with the known numbers that hold them. ``starts`` are the pole and the first
+    points of the plans and of the lever, in this order; ``loose`` are those of trial plans.
     """
 
     def __init__(self, draft: Draft, kin: Kinematics, dynamics: Dynamics | None = None) -> None:
@@ -130,7 +129,7 @@ class ForceBoard:
         return self.segments.scale
 
     def name(self, hint: str) -> str:
-        """Return a name that nothing has."""
+        """Return an unused name."""
         return f"{PREFIX}{hint}{next(self._counted)}"
 
     def known(self, hint: str, value: Number) -> NumberName:
@@ -149,9 +148,9 @@ class ForceBoard:
     # Loads -----------------------------------------------------------------------------------
 
     def load(self, applied: Iterable[Applied], single: Mapping[str, Applied]) -> None:
-        """Lay off what acts on the links beside the reactions.
+        """Lay off the loads on the links other than the reactions.
 
-        ``single`` are the couples of inertia, by link, that the shifted force stands for.
+        ``single`` are the couples of inertia, by link, that the shifted force includes.
         """
         for one in applied:
             if one is single.get(one.link):

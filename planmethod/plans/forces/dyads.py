@@ -51,7 +51,7 @@ from planmethod.problem.load_records import BalancingForceTask
 
 
 class Driving(Struct, frozen=True):
-    """What balances the driving link (уравновешивающий момент, уравновешивающая сила).
+    """Balance of the driving link (уравновешивающий момент, уравновешивающая сила).
 
     Attributes
     ----------
@@ -61,13 +61,12 @@ class Driving(Struct, frozen=True):
     force : Force or None
         The force on a slider, or at a point of a crank.
     moment : NumberName or None
-        Moment on a crank, N·m, whatever balances it.
+        Moment on a crank, N·m, also if a force balances it.
     along : (PointName, PointName) or None
         A segment in the direction that the file gives the force at a point of a crank; None where
         that is across the crank.
     between : (str, str) or None
-        The ends of an actuator: ``force`` is what it does to the second, positive where it pushes
-        them apart.
+        The ends of an actuator: ``force`` acts on the second, positive if it pushes them apart.
     """
 
     balance: NumberName
@@ -140,7 +139,7 @@ def _middle_revolute(board: ForceBoard, group: AssurGroup) -> None:
 
 
 def _unknown(board: ForceBoard, lead: Lead, through: PointName, middle: PointName) -> LineName:
-    """Draw the line of what is unknown of an outer reaction: along the link, across the guide."""
+    """Draw the line of an outer reaction's unknown part: along the link, across the guide."""
     b = board.draft.b
     if isinstance(lead.joint, Revolute):
         return b.parallel(through, arm(board.draft, lead.link, lead_point(lead), middle).line)
@@ -283,7 +282,7 @@ def unbalanced(board: ForceBoard) -> NumberName:
 def stand_forces(board: ForceBoard) -> NumberName:
     """Find the reaction of the frame on a driving link that its forces leave in equilibrium.
 
-    Return what the plans leave of them, N·m, or N along its guide: nothing, if they are exact.
+    Return the residual of the plans, N·m, or N along its guide: zero if they are exact.
     """
     b, drive, start = board.draft.b, board.draft.problem.drive, board.start()
     links, loads = (drive.link,), list[Edge]()
@@ -370,9 +369,10 @@ def _pushed(
     moment: NumberName,
     loads: list[Edge],
 ) -> Driving:
-    """Balance a crank by a force at one of its points: from moments, then the plan is closed.
+    """Balance a crank by a force at one of its points: from moments; the plan is then closed.
 
-    ``ends`` are the start of the plan and where its loads end; ``moment`` is what is needed, N·m.
+    ``ends`` are the start of the plan and the end of its loads; ``moment`` is the required moment,
+    N·m.
     """
     b, drive, (start, loaded) = board.draft.b, board.draft.problem.drive, ends
     links, at, known = (drive.link,), PointName(task.at), board.couples_on(drive.link)
@@ -384,7 +384,7 @@ def _pushed(
     else:
         turned, one = board.known("angle", task.angle), board.known("1", 1.0)
         action = b.at_angle(at, None, turned)
-        # Where it meets the crank is the point itself; on the crank's own line there is no arm.
+        # Its intersection with the crank is the point itself; the crank's own line has no arm.
         met = b.meet_lines(board.name("x"), lever.line, action)
         board.draft.letters[met] = task.at
         way = b.at_angle(board.pole, None, turned)

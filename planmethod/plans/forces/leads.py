@@ -1,7 +1,8 @@
-"""What the leads of a group give to its force plan: shares of reactions, guides (поводки).
+"""Legs of a group on its force plan: components of reactions, guides (поводки).
 
-The moment of a revolute lead's loads about its inner joint gives the tangential share of its outer
-reaction; a guide's reaction is across it, and the moment about the pin gives where it acts.
+The moment of a revolute leg's loads about its inner joint gives the tangential component of its
+outer reaction; a guide's reaction is perpendicular to it, and the moment about the pin gives its
+point of application.
 """
 
 from __future__ import annotations

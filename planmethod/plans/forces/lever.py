@@ -1,10 +1,10 @@
 """Zhukovsky lever (жёсткий рычаг Жуковского): the velocity plan turned by 90°, loaded with forces.
 
 A force at a point of the mechanism, carried to the like-named point of the turned velocity plan,
-has there a moment about the pole that is its power; all of them and that of the balancing moment
-give none. A couple M on a link stands there as its pair of forces in the like-named points,
-M·(bc)/l_BC each, which comes to M times the link's angular velocity. The place of a shifted force
-of inertia is a point of its link: there the lever has it beside the centre of mass.
+has there a moment about the pole that is its power; together with that of the balancing moment they
+sum to zero. A couple M on a link is represented by its pair of forces in the like-named points,
+M·(bc)/l_BC each, which gives M times the link's angular velocity. A shifted inertia force acts at a
+point of its link, which on the lever lies beside the centre of mass.
 """
 
 from __future__ import annotations

@@ -75,14 +75,14 @@ def numbers_of(one: Applied) -> tuple[Number, ...]:
 
 
 class Shift(Struct, frozen=True):
-    """Force of inertia moved off the centre of mass (смещённая сила инерции).
+    """Inertia force moved off the centre of mass (смещённая сила инерции).
 
     Attributes
     ----------
     letter : str
-        Of the point T where the force acts, in rich text: ``T_{2}``; no point has that name.
+        Of the point T where the force acts, in rich text: ``T_{2}``; not the name of any point.
     moment : Applied
-        The couple M_Φ that the force stands for as well.
+        The couple M_Φ that the force includes.
     couple : NumberName
         Its size, N·m.
     centre, at : PointName

@@ -1,7 +1,7 @@
-"""What the force plans are made of besides their steps: polygons, equations, moments (планы сил).
+"""Parts of the force plans besides their steps: polygons, equations, moments (планы сил).
 
-The numbers come from the steps; these records say which segment is which force, in the order in
-which a plan is drawn, and which equation found it.
+The numbers come from the steps; these records map segments to forces, in the order in which a plan
+is drawn, and which equation found it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from planmethod.plans.segments import Ends
 
 
 class Share(Enum):
-    """What of a force a segment shows (составляющая)."""
+    """Component of a force that a segment shows (составляющая)."""
 
     WHOLE = "whole"
     NORMAL = "normal"  # along the link (нормальная)
@@ -61,7 +61,7 @@ class Edge(Struct, frozen=True):
 
     @property
     def is_aslant(self) -> bool:
-        """Whether it has a direction of its own, so that its arm is measured."""
+        """True if it has a direction of its own, so that its arm is measured."""
         return self.direction is not None and self.direction.relation is Relation.ANGLED
 
 

@@ -1,9 +1,9 @@
 """The force of an actuator that drives a mechanism (сила в гидроцилиндре).
 
 It acts along the line of its two ends on both bodies that it pushes apart. The lever finds it; the
-force plans take it for known, and what they leave unbalanced on the driving link tells how far it
-is off. Where the driver stands there is no lever: the plans are linear in the force, so what the
-driving link needs without it, and what a tried one gives there, tell its size.
+force plans use it as known, and their residual on the driving link measures its error. If the
+driver is at rest there is no lever: the plans are linear in the force, so its size follows from the
+load on the driving link without the force and from the effect of a trial force.
 """
 
 from __future__ import annotations
@@ -22,13 +22,14 @@ from planmethod.plans.forces.lever import Lever, hang_loads, weigh_actuator
 from planmethod.problem.model import Problem
 
 _TRIED_MM = 100.0
-"""How long the force is that is tried on the plans."""
+"""Length of the trial force on the plans."""
 
 
 class Trial(Struct, frozen=True):
-    """What a tried force does to the driving link, where there is no lever.
+    """Effect of a trial force on the driving link, where there is no lever.
 
-    ``without`` it this is left there, N·m or N, and the ``tried`` force, N, alone gives ``given``.
+    ``without`` is the load left there without it, N·m or N; the ``tried`` force, N, alone gives
+    ``given``.
     """
 
     without: NumberName
@@ -46,15 +47,15 @@ class Thrust(Struct, frozen=True):
     ends : (str, str)
         Its points.
     links : (str, str)
-        What it acts on in the first and in the second of them.
+        Links that it acts on in the first and in the second of them.
     pushes : tuple of (str, Force)
-        What it does to each moving link: the end of the force is in that end of the actuator.
+        Its force on each moving link, applied at that end of the actuator.
     force : Force
-        What it does to the second.
+        Its force at the second end.
     lever : Lever or None
-        The lever that finds it.
+        The lever that determines it.
     trial : Trial or None
-        What finds it where there is no lever.
+        The trial that determines it where there is no lever.
     """
 
     value: NumberName
@@ -70,9 +71,9 @@ def pushed_links(problem: Problem) -> tuple[str, str]:
     """Return the bodies on which an actuator acts in its two ends.
 
     They are its own cylinder and rod where the file has them: of two moving links one slides on the
-    other, and each has one of the ends. Else it is the frame in a fixed point, and in another the
-    first link of the file that has it: which of those that a pin joins tells the reaction of that
-    pin alone.
+    other, and each has one of the ends. Otherwise it is the frame at a fixed point, and at any
+    other point the first link of the file that has it: the choice among the links joined by a pin
+    affects only the reaction of that pin.
     """
     ends = problem.drive.actuator
     assert ends is not None
@@ -95,7 +96,7 @@ def pushed_links(problem: Problem) -> tuple[str, str]:
 def find_thrust(board: ForceBoard, groups: Iterable[AssurGroup], *, hung: bool) -> Thrust:
     """Find the force of the actuator, and lay it off on both bodies that it acts on.
 
-    ``hung`` tells whether all loads hang on the lever.
+    ``hung``: all loads are on the lever.
     """
     problem, groups = board.draft.problem, tuple(groups)
     ends, links = problem.drive.actuator, pushed_links(problem)
@@ -117,9 +118,9 @@ def find_thrust(board: ForceBoard, groups: Iterable[AssurGroup], *, hung: bool) 
 
 
 def close_thrust(board: ForceBoard, thrust: Thrust) -> tuple[Driving, Lever | None]:
-    """Find the reaction on the driving link, and by how much its equilibrium is missed.
+    """Find the reaction on the driving link and the residual of its equilibrium.
 
-    The power of what is missing is made up for by the actuator.
+    The actuator makes up for the power of the residual.
     """
     b, drive, value = board.draft.b, board.draft.problem.drive, thrust.value
     left, lever = stand_forces(board), thrust.lever
@@ -147,7 +148,7 @@ def _push(
     b, (one, two) = board.draft.b, map(PointName, ends)
     line = b.parallel(board.pole, b.join(one, two))
     head = board.segments.lay_off(board.name("F"), board.pole, line, value)
-    # It may lie against the line: whoever takes its moment wants its size.
+    # It may lie against the line: the moment needs its size.
     for table in (board.segments.values, board.segments.lengths):
         table[board.pole, head] = b.compute(
             board.name("|F|"), (table[board.pole, head], 1), size=True

@@ -1,8 +1,8 @@
 """Force plans of a triad: moments about the special point give one reaction (метод Риттера).
 
-The legs' own moments give the tangential shares, as in a dyad. Of what is left two reactions act
-along lines through the special point: the moment of the whole group about it has the third alone.
-Then one force plan of the group closes, and the plans of the legs in it give the inner reactions.
+The legs' own moments give the tangential components, as in a dyad. Two of the remaining reactions
+act along lines through the special point: the moment of the whole group about it contains only the
+third. Then one force plan of the group closes, and the legs' plans in it give the inner reactions.
 """
 
 from __future__ import annotations
@@ -75,12 +75,12 @@ class _Leg(Struct):
 
     @property
     def place(self) -> PointName:
-        """Where it holds the base link."""
+        """Place where the leg holds the base link."""
         return PointName(leg_place(self.lead, self.joint))
 
     @property
     def is_stone(self) -> bool:
-        """Whether it holds the base link by a guide."""
+        """True if it holds the base link by a guide."""
         return isinstance(self.joint, Prismatic)
 
     @property
@@ -90,7 +90,7 @@ class _Leg(Struct):
 
     @property
     def slides(self) -> bool:
-        """Whether its outer joint is a guide."""
+        """True if its outer joint is a guide."""
         return isinstance(self.lead.joint, Prismatic)
 
     def weigh(self) -> None:
@@ -117,15 +117,15 @@ class _Leg(Struct):
         return end
 
     def lay(self, start: PointName) -> tuple[PointName, PointName]:
-        """Lay off what is known; return where the loads end and where what is unknown begins.
+        """Lay off known forces; return the end of the loads and the start of the unknown reaction.
 
-        A stone passes on what is unknown as it comes: its loads stand beside it.
+        A sliding block passes the unknown reaction on unchanged: its loads are drawn beside it.
         """
         after = self.board.chain(start, self.link, self.loads)
         return after, start if self.is_stone else self.tangent(after)
 
     def moments(self, about: PointName) -> list[NumberName | None]:
-        """Return the moments of what is known of it about the special point, N·m."""
+        """Return the moments of its known forces about the special point, N·m."""
         board, b = self.board, self.board.draft.b
         forces = board.forces.get(self.link, ())
         if self.is_stone:  # it passes on its own moment, and a force through the special point
@@ -159,7 +159,7 @@ class _Leg(Struct):
         return self.parts.tangential(*self.share)
 
     def sides(self, normal: Ends) -> tuple[Edge, ...]:
-        """Return the outer reaction in the plan; ``normal`` are the ends of what it finds."""
+        """Return the outer reaction in the plan; ``normal`` are the ends of the found component."""
         if self.parts is not None:
             return self.tangential, self.parts.normal(*normal)
         if self.slides:
@@ -218,7 +218,7 @@ def triad_forces(board: ForceBoard, group: AssurGroup, triad: Legs) -> None:
     based = board.chain(after, base, own)
     loaded, begin = three.lay(based)
     end = board.segments.lay_off(board.name("n"), begin, b.parallel(begin, three.line), held)
-    # A guide's whole reaction is this segment: whoever takes it over wants its size.
+    # A guide's whole reaction is this segment: the next step needs its size.
     for table in (board.segments.values, board.segments.lengths):
         table[begin, end] = b.compute(board.name("|n|"), (table[begin, end], 1), size=True)
     turned = b.measure_arm(board.name("h"), special.point, three.place, begin, end)
@@ -245,7 +245,7 @@ def triad_forces(board: ForceBoard, group: AssurGroup, triad: Legs) -> None:
     )
     inner = [leg.inner_edge(base) for leg in legs]
     found = sides[2][-1]
-    if three.is_stone:  # what is laid off is the stone's force on the base link
+    if three.is_stone:  # the laid-off force is the sliding block's force on the base link
         inner[2] = replace(back(inner[2], base), direction=inner[2].direction)
         found = inner[2]
     couples = board.couples_on(base, *(leg.link for leg in legs if leg.parts is not None))

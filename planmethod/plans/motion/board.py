@@ -43,7 +43,7 @@ def letter(point: str) -> str:
 
 
 def _number(vector: Vector) -> str:
-    """Return what the number is called that a vector stands for: ``v_CB``."""
+    """Return the name of the number that a vector represents: ``v_CB``."""
     return vector.symbol.replace("^{", "").replace("_{", "_").replace("}", "")
 
 

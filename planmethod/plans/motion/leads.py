@@ -1,6 +1,6 @@
-"""The two leads of which every dyad is made (поводки), on the velocity and acceleration plans.
+"""The two legs of every dyad (поводки), on the velocity and acceleration plans.
 
-A revolute lead gives a ray across the link: it starts at the plan point of the link's outer joint
+A revolute leg gives a ray across the link: it starts at the plan point of the link's outer joint
 (on the acceleration plan, after the normal component). A prismatic lead gives a ray along the
 guide: it starts at the plan point of the coincident point of the other link (on the acceleration
 plan, after the Coriolis component). The middle joint is where two rays meet.
@@ -52,11 +52,11 @@ class Relative(Struct):
 
     @property
     def name(self) -> str:
-        """What its quantities are of: ``B3/2``."""
+        """Name of the sliding that its quantities describe: ``B3/2``."""
         return f"{self.point}{self.of}/{self.to}"
 
     def label(self, letter: str) -> str:
-        """Return how one of its quantities is asked for: ``v_B3/2``, ``ak_B3/2``."""
+        """Return the label of one of its quantities: ``v_B3/2``, ``ak_B3/2``."""
         return f"{letter}_{self.name}"
 
 
@@ -74,7 +74,7 @@ class Turning(Struct, frozen=True):
 
 
 class Kinematics(Struct):
-    """What both plans know of the links' motion (угловые скорости и ускорения).
+    """Angular motion of the links, shared by both plans (угловые скорости и ускорения).
 
     A link is in ``omega`` only when it turns; it is in ``epsilon`` only when its angular
     acceleration is not zero by nature (a crank at constant speed has none).
@@ -123,9 +123,9 @@ def _inverse(powers: tuple[tuple[NumberName, int], ...]) -> tuple[tuple[NumberNa
 
 
 def revolute_ray(kin: Kinematics, motion: MotionBoard, link: str, joint: str, place: str) -> Ray:
-    """Return the ray of a link that hangs on a revolute joint (вращательный поводок).
+    """Return the ray of a leg with a revolute outer joint (вращательный поводок).
 
-    ``place`` is where on the drawing the middle point is.
+    ``place`` is the middle point's place on the drawing.
     """
     b = kin.draft.b
     start = motion.point[link, joint]
@@ -175,7 +175,7 @@ def slot_name(slide: Slide) -> str:
 
 
 def has_slot_name(slide: Slide, problem: Problem) -> bool:
-    """Tell whether a guide on a moving link joins no two letters: pin and point lie beside it."""
+    """Return whether a guide on a moving link joins no two letters: pin and point lie beside it."""
     told = slide.host == FRAME or slide.through is None or slide.towards is not None
     return not told and bool(slide.offset) and problem.bodies[slide.host].axis is None
 
@@ -217,7 +217,7 @@ def prismatic_ray(
     start = carried(kin, motion, to, place)
     base = motion.label(to, place) if to != FRAME else f"{place}{kin.draft.problem.mechanism.frame}"
     if (to, place) in motion.alias:
-        base = motion.moving[to][0]  # the whole link moves so: its first letter tells it
+        base = motion.moving[to][0]  # the whole link moves so: its first letter represents it
     both = f"{motion.label(of, place)}{base}"
     problem = kin.draft.problem
     direction = track_direction(slide, problem)

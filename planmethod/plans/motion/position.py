@@ -27,7 +27,7 @@ def slide_of(draft: Draft, joint: Prismatic | Revolute) -> Slide:
 
 
 def has_two_closings(group: AssurGroup) -> bool:
-    """Tell whether the same links can be joined in two ways: then a rule must choose."""
+    """Return whether the same links can be joined in two ways, so that a rule must choose."""
     return group.signature in ("RRR", "RRP", "RPR")
 
 
@@ -40,7 +40,7 @@ def place_frame(draft: Draft) -> None:
 
 
 def place_driver(draft: Draft) -> None:
-    """Draw the driving link in the asked position."""
+    """Draw the driving link in the requested position."""
     drive = draft.problem.drive
     if drive.pivot is not None:
         phi = draft.b.known("phi")
@@ -58,12 +58,12 @@ def place_driver(draft: Draft) -> None:
 
 
 def place_group(draft: Draft, group: AssurGroup) -> None:
-    """Place the links of a dyad or a triad between the links that it hangs on.
+    """Place the links of a dyad or a triad between the links it is joined to.
 
     Raises
     ------
     AssemblyError
-        For a group that is neither: it is recognised, and not built by these steps.
+        The group is neither: it is recognised, but these steps cannot build it.
     """
     closing = draft.choice.get(group.links, Closing())
     triad = triad_of(group)
@@ -112,7 +112,7 @@ def split(group: AssurGroup) -> tuple[Lead, Lead]:
 
 
 def base_points(problem: Problem, triad: Legs) -> list[str]:
-    """Return the points of a base link that tell where it is: its hinges first, two at least."""
+    """Return the points of a base link that locate it: its hinges first, two at least."""
     body = problem.bodies[triad.base].points
     hinges = [joint.point for _, joint in triad.legs if isinstance(joint, Revolute)]
     found = list(dict.fromkeys([*hinges, *body]))
@@ -217,7 +217,7 @@ def _special(draft: Draft, triad: Legs, third: int) -> None:
 
 
 def leg_line(draft: Draft, lead: Lead, joint: Prismatic | Revolute) -> LineName:
-    """Return the line of the force by which a leg without loads holds the base link."""
+    """Return the line of force of an unloaded leg on the base link."""
     if isinstance(joint, Prismatic):
         guide = draft.direction(slide_of(draft, joint))
         return draft.b.perpendicular(PointName(lead_point(lead)), guide)
@@ -250,7 +250,7 @@ def _refusal(problem: Problem, group: AssurGroup) -> tuple[str, int, int, str, s
 
 
 def _is_built(mechanism: Mechanism) -> bool:
-    """Tell whether a mechanism falls into groups that are built, its driver being on the frame."""
+    """Return whether all groups of a mechanism can be built and its driver is on the frame."""
     pairs = [
         *(joint.links for joint in mechanism.revolutes),
         *((pair.slider, pair.host) for pair in mechanism.prismatics),
@@ -398,7 +398,7 @@ def _place_rpp(draft: Draft, group: AssurGroup) -> None:
     revolute, prismatic = split(group)
     outer, inner = slide_of(draft, prismatic.joint), slide_of(draft, group.inner[0])
     at = PointName(lead_point(revolute))
-    # Both links turn with the link that the group slides on; the first then hangs on its joint.
+    # Both links turn with the link that the group slides on; the first then moves about its joint.
     draft.turn_with(outer, prismatic.to, at)
     draft.turn_with(inner, prismatic.link, at)
     draft.place_rest(revolute.link)

@@ -70,7 +70,7 @@ def leg_place(lead: Lead, joint: Joint) -> str:
 
 
 def _ray(kin: Kinematics, motion: MotionBoard, base: str, lead: Lead, joint: Joint) -> Ray:
-    """Return the ray of what a leg leaves unknown of the place where it holds the base link."""
+    """Return the ray of the velocity that a leg leaves unknown where it holds the base link."""
     place = leg_place(lead, joint)
     if isinstance(joint, Prismatic):
         return prismatic_ray(kin, motion, slide_of(kin.draft, joint), base, lead.link, place)
@@ -131,7 +131,7 @@ def _through(
 
 
 def _relative(kin: Kinematics, lead: Lead, joint: Joint, label: str) -> tuple[str, Direction]:
-    """Return what the unknown component of the special point is about, and its direction."""
+    """Return the reference point of the special point's unknown component, and its direction."""
     if isinstance(joint, Revolute) and isinstance(lead.joint, Revolute):
         return lead_point(lead), across(joint.point, lead_point(lead))
     pair = joint if isinstance(joint, Prismatic) else lead.joint
