@@ -1,1 +1,1 @@
-"""The solved problem: closings, scales, the readings of its program, what follows from them."""
+"""The solved problem: assembly modes, scales, readings of its program, derived results."""

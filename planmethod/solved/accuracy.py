@@ -1,4 +1,4 @@
-"""Error of the float64 results against the referee, in units of what the data allow (κ·u)."""
+"""Error of the float64 results against the multiprecision check, in units of κ·u."""
 
 from __future__ import annotations
 
@@ -36,22 +36,22 @@ which slopes in float64 are rounding."""
 
 
 class AccuracyVerdict(Struct, frozen=True):
-    """Error of one result in one position, found by the referee (приговор арбитра).
+    """Error of one result in one position, found by the multiprecision check (приговор арбитра).
 
     Attributes
     ----------
     quantity : Quantity
     error : float
-        |float64 - referee|, SI.
+        |float64 - multiprecision|, SI.
     size, reach : float
-        |referee| and its reach (see `planmethod.construct.condition`), SI.
+        |multiprecision value| and its reach (see `planmethod.construct.condition`), SI.
     multiple : float
         Error in units of u times the reach. A result that is zero by nature has no reach: its
         error is counted in units of u times the largest result of its kind.
     kappa : float
         Condition number: reach over size, inf for a zero.
     value : complex or real number of mpmath
-        What the referee finds, to all his digits; of a direction its unit vector.
+        The multiprecision value, to all its digits; for a direction its unit vector.
     """
 
     quantity: Quantity
@@ -64,7 +64,7 @@ class AccuracyVerdict(Struct, frozen=True):
 
     @property
     def label(self) -> str:
-        """How the result is asked for."""
+        """Label by which the result is requested."""
         return self.quantity.label
 
     @property
@@ -111,13 +111,13 @@ class Refereed(Struct, frozen=True):
 def examine(
     problem: Problem, positions: Sequence[float], *, digits: int = DIGITS, closely: bool = True
 ) -> list[Refereed]:
-    """Judge every result of a problem in some positions.
+    """Check every result of a problem in some positions.
 
     Parameters
     ----------
     closely : bool
-        Let the referee measure the reach of every result, and tell what the user is warned of;
-        else take the reach to first order in float64, which costs a tenth, and warn of nothing.
+        Measure the reach of every result in multiprecision, and report the user's warnings; else
+        take the reach to first order in float64, which costs a tenth, and omit the warnings.
     """
     solution = Solution(problem, positions=positions)
     results, data = _with_data(solution)
@@ -170,7 +170,7 @@ def _with_data(solution: Solution) -> tuple[Quantities, dict[str, Any]]:
 
 
 def _moves(solution: Solution) -> bool:
-    """Tell whether the motion exists in every position."""
+    """Return whether the motion exists in every position."""
     try:
         solution.si  # noqa: B018
     except PlanMethodError:
@@ -179,7 +179,7 @@ def _moves(solution: Solution) -> bool:
 
 
 def _told(problem: Problem, position: float) -> tuple[str, float, float | None]:
-    """Return why a position is impossible, or what bounds of its errors are reported."""
+    """Return why a position is impossible, or the reported bounds of its errors."""
     solution = Solution(problem, positions=[position])
     try:
         bound = float(error_bound(solution)[0])
@@ -200,7 +200,7 @@ def _entry(value: Number, i: int) -> Number:
 def _judge(
     results: Sequence[Quantity], trace: Trace, right: Mapping[Name, tuple[Number, Number]], i: int
 ) -> tuple[tuple[AccuracyVerdict, ...], bool]:
-    """Return verdicts on the results that exist, and whether the referee finds the same to."""
+    """Return verdicts on the results that exist, and whether both checks agree on which exist."""
     rows: list[tuple[Quantity, Number, float, float]] = []
     agreed = True
     for result in results:

@@ -16,7 +16,7 @@ def structure_of(problem: Problem) -> Structure:
     Raises
     ------
     StructureError
-        As of `analyse`; it tells of wheels on links, whose meshes are no pairs here.
+        As of `analyse`; also for wheels on links, whose meshes are not pairs here.
     """
     try:
         return analyse(problem.mechanism)

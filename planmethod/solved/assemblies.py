@@ -1,9 +1,9 @@
 """Assemblies of a triad, and one of them over the positions (сборки группы III класса).
 
-In one position: the base link is turned round as a virtual crank, two legs tell where it then is,
-and how far the third is off is a smooth function of the angle. Its zeros are bracketed and bisected
-and made exact by Newton's method. From position to position Newton's method goes on from where the
-motion so far leads, by steps as short as that needs.
+In one position: the base link is rotated as a virtual crank, two legs locate it, and the residual
+of the third is a smooth function of the angle. Its zeros are bracketed, bisected and refined by
+Newton's method. From position to position Newton's method starts from the extrapolated motion, with
+steps as short as necessary.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ from planmethod.solved.reading import Complexes, Reading, Reals
 from planmethod.solved.rules import rule_text, score_of
 
 LOOKS = 1440
-"""How often the virtual crank is looked at over its turn."""
+"""Number of samples of the virtual crank over a full turn."""
 
 DEAD = 1e-7
-"""Margin below which an assembly stands in a dead position: two of them are one there."""
+"""Margin below which an assembly is in a dead position: two of them coincide there."""
 
 _HALVINGS, _ROUNDS = 50, 12
 Env: TypeAlias = dict[Any, Any]
@@ -127,9 +127,9 @@ def _ask(leg: Leg, env: Env) -> Callable[[Reals], tuple[Any, Any, Any, Any]]:
 
 
 class _Turned(Struct, frozen=True):
-    """What is known when the virtual crank stands somewhere, arrays of its angles.
+    """Residuals and places at some angles of the virtual crank.
 
-    ``off``: how far the third leg is off; ``places``: where the origin may be.
+    ``off``: residual of the third leg; ``places``: possible places of the origin.
     """
 
     off: Reals
@@ -213,7 +213,7 @@ class Assembled(Struct, frozen=True):
 
     @property
     def point(self) -> str:
-        """The point of the base link by which assemblies are told apart."""
+        """Point of the base link that distinguishes the assemblies."""
         return base_points(self.draft.problem, self.triad)[0]
 
     @property
@@ -236,12 +236,12 @@ class Assembled(Struct, frozen=True):
 
 
 def choose(made: Assembled, rules: list[Rule], positions: Reals) -> tuple[Closing, list[Fault]]:
-    """Return the assembly of a triad that its rules mean, followed, and what is wrong with them.
+    """Return the tracked assembly of a triad that its rules select, and the faults of the rules.
 
     Raises
     ------
     PositionError
-        When the triad can be assembled in no asked position.
+        The triad cannot be assembled in any requested position.
     """
     problem, trace = made.draft.problem, made.read(positions)
     found = (assemblies(made.step, env_of(made.step, trace, k)) for k in range(len(positions)))
@@ -274,7 +274,7 @@ def choose(made: Assembled, rules: list[Rule], positions: Reals) -> tuple[Closin
 def _untold(
     made: Assembled, rules: list[Rule], point: str, places: list[complex], at: str
 ) -> Fault:
-    """Return the fault of rules that do not tell which of several assemblies is meant."""
+    """Return the fault of rules that do not select one of several assemblies."""
     unit = made.draft.problem.unit
     told = [f"({told_place(place, unit)})" for place in places]
     facts = ", ".join(made.group.links), len(told), at, point, say(" or ").join(told), say(unit)
@@ -329,13 +329,13 @@ _SHORTEST = 1e-7
 """Part of that at which a motion that does not go on has come to its end."""
 
 _AHEAD = 0.02
-"""How far Newton's method may be from where the motion so far leads, radians and sizes."""
+"""Greatest deviation of Newton's method from the extrapolated motion, radians and sizes."""
 
 _FAR = 1e3
-"""How many sizes of a base link it may come away: a guide is not endless."""
+"""Greatest distance that a base link may move away, in its sizes: a guide is not endless."""
 
 _TURNS = 6
-"""After so many turns each of six assemblies has come again, if they pass into one another."""
+"""Number of turns after which each of six assemblies repeats, if they pass into one another."""
 
 
 class _Path(Struct):
@@ -398,7 +398,7 @@ class _Path(Struct):
         return True
 
     def has_come_again(self) -> bool:
-        """Tell whether the pose is the first one again."""
+        """Return whether the pose is the first one again."""
         turned = (self.turns[-1] - self.turns[0] + 180.0) % 360.0 - 180.0
         return abs(self.origins[-1] - self.origins[0]) < 1e-6 * self.size and abs(turned) < 1e-4
 
@@ -406,16 +406,16 @@ class _Path(Struct):
 def follow(
     step: Hold, read: Read, start: float, pose: Assembly, limits: tuple[float, float], turn: float
 ) -> Followed:
-    """Follow an assembly from a position to both sides, until it ends or comes again.
+    """Track an assembly from a position to both sides, until it ends or repeats.
 
     Parameters
     ----------
     start : float
         Position of the driver, degrees or m.
     limits : (float, float)
-        Beyond which a slider cannot come.
+        Range of a slider.
     turn : float
-        After which the driver stands as before: 360, or infinite.
+        Period of the driver: 360, or infinite.
     """
     crank = bool(np.isfinite(turn))
     low, high = (start - _TURNS * turn, start + _TURNS * turn) if crank else limits

@@ -27,9 +27,9 @@ TOUCHING = 1e-9
 """Squared distance of two closings, in parts of the group's size, at which they are one."""
 
 LOOKS = 721
-"""How often the way of the driver is looked at: every half degree of a turn."""
+"""Number of samples of the driver's range: every half degree of a turn."""
 
-_ROUNDS, _PARTS = 8, 32  # what is between two looks is divided into parts, again and again
+_ROUNDS, _PARTS = 8, 32  # the interval between two samples is subdivided again and again
 
 
 def changes(

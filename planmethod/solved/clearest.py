@@ -1,4 +1,4 @@
-"""Which of several positions shows a mechanism best: drawn in full, calculated (расчётное)."""
+"""The position that shows a mechanism best: drawn in full and calculated (расчётное)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _SEEN = 1.0  # mm that a vector of its plans has at least
 
 
 def clear_position(solution: Solution) -> int:
-    """Return which position is drawn in full and calculated where nobody says it.
+    """Return the position to draw in full and calculate if the file does not specify it.
 
     See `clearest_position`; positions count from 0.
     """
@@ -30,13 +30,12 @@ def clear_position(solution: Solution) -> int:
 
 @remembered
 def clearest_position(solution: Solution, indices: tuple[int, ...]) -> int:
-    """Return which of some positions shows the mechanism best.
+    """Return the position that shows the mechanism best.
 
-    Of those in which no two joints lie within 3 mm of paper and no vector of a plan vanishes, one
-    in which no two joined links stand nearly in one line, no velocity nearly vanishes, as it does
-    where the output turns back, and no plan is much larger than the others. Of several the one in
-    which the fewest segments are too short to be read well; of such the furthest from a dead
-    position.
+    No two of its joints lie within 3 mm of paper and no vector of its plans vanishes; if possible,
+    no two joined links lie nearly in one line, no velocity nearly vanishes, as it does where the
+    output turns back, and no plan is much larger than the others. Among several, it has the fewest
+    segments too short to be read well; among those, it is the furthest from a dead position.
     """
     solution, chosen = solution.origin, list(indices)  # whatever scales a sheet tries
     clear = is_clear(solution)
@@ -49,7 +48,7 @@ def clearest_position(solution: Solution, indices: tuple[int, ...]) -> int:
 
 @remembered
 def is_clear(solution: Solution) -> npt.NDArray[np.bool_]:
-    """Tell in which positions no two joints lie together on the paper and no vector vanishes."""
+    """Return in which positions no two joints lie together on the paper and no vector vanishes."""
     return _joints_apart(solution.origin) & _vectors_seen(solution.origin)
 
 
@@ -61,7 +60,7 @@ def _vectors(solution: Solution, kind: PlanKind) -> list[Reals]:
 
 
 def _joints_apart(solution: Solution) -> npt.NDArray[np.bool_]:
-    """Tell in which positions all joints lie apart on the paper, those that ever do."""
+    """Return in which positions all joints that ever lie apart on the paper do so."""
     problem, paper = solution.problem, solution.paper
     names = {joint.point for joint in problem.mechanism.revolutes}
     names |= {slide.pin for slide in problem.slides.values()}
@@ -75,7 +74,7 @@ def _joints_apart(solution: Solution) -> npt.NDArray[np.bool_]:
 
 
 def _vectors_seen(solution: Solution) -> npt.NDArray[np.bool_]:
-    """Tell in which positions no vector of a plan is nothing, but for those that mostly are."""
+    """Return in which positions no vector of a plan vanishes, except those that mostly do."""
     seen = np.ones(len(solution.positions), dtype=bool)
     for kind in RATES:
         per_mm = solution.scales[kind].per_mm
@@ -85,7 +84,7 @@ def _vectors_seen(solution: Solution) -> npt.NDArray[np.bool_]:
 
 
 def _moving(solution: Solution) -> npt.NDArray[np.bool_]:
-    """Tell in which positions no velocity is much smaller than it usually is."""
+    """Return in which positions no velocity is much smaller than it usually is."""
     found = [
         size >= _SMALL * median(size[size > 0]) for size in _vectors(solution, PlanKind.VELOCITY)
     ]
@@ -93,7 +92,7 @@ def _moving(solution: Solution) -> npt.NDArray[np.bool_]:
 
 
 def _links_apart(solution: Solution) -> npt.NDArray[np.bool_]:
-    """Tell in which positions no two joined links stand nearly in one line."""
+    """Return in which positions no two joined links lie nearly in one line."""
     apart = np.ones(len(solution.positions), dtype=bool)
     axes = {
         link: np.exp(1j * np.radians(motion.phi_deg))
@@ -107,7 +106,7 @@ def _links_apart(solution: Solution) -> npt.NDArray[np.bool_]:
 
 
 def _usual(solution: Solution) -> npt.NDArray[np.bool_]:
-    """Tell in which positions no plan is much larger than the others."""
+    """Return in which positions no plan is much larger than the others."""
     usual = np.ones(len(solution.positions), dtype=bool)
     for kind in RATES:
         size = np.maximum(*sizes(solution.construction, solution.si, kind))

@@ -1,10 +1,9 @@
-"""Which of the two closings of a group is meant (способ сборки групп).
+"""Choice of the assembly mode of each group (способ сборки групп).
 
-A rule compares the two candidate places of its point; the side it picks at the first asked
-position of the file that can be assembled (without any, at the first of 0, 10, ... degrees)
-holds for every position, or tells which branch of the
-motion is kept. So a position computed alone and the same one in a batch agree, and no closing
-depends on the one before it.
+A rule compares the two candidate places of its point; the side that it selects at the first
+requested position that can be assembled (if none is given, at the first of 0, 10, ... degrees)
+holds for every position, or selects the branch of the motion. So a position gives the same result
+alone and in a batch, and its assembly does not depend on the position before it.
 """
 
 from __future__ import annotations
@@ -69,7 +68,7 @@ def drive_data(
 
 
 def refuse_untold(problem: Problem, draft: Draft, positions: Reals | None = None) -> None:
-    """Refuse positions, or all motion, where no rule of the file tells how a group closes.
+    """Reject positions, or all motion, in which no rule of the file determines how a group closes.
 
     Raises
     ------
@@ -108,22 +107,21 @@ def construct(problem: Problem) -> Construction:
 
 
 _KEPT: tuple[tuple[Problem, Construction], ...] = ()
-"""The last problems, each itself and no other like it, and what is drawn of them. Never changed,
-but replaced: another thread may be looking through it.
-"""
+"""The latest problems, compared by identity, and their constructions. The tuple is replaced, never
+changed: another thread may be iterating over it."""
 
 
 class WantedReading(Struct, frozen=True):
-    """A reading that is wanted.
+    """Request to evaluate a partly built program.
 
     Attributes
     ----------
     draft : Draft
-        What is drawn.
+        The partly built construction.
     settled : int
-        Steps of it, the first ones, that are the first of all that will be wanted later, too.
+        Number of its first steps that every later request shares.
     positions : ndarray of shape (n,)
-        Of the driver.
+        Positions of the driver.
     """
 
     draft: Draft
@@ -132,7 +130,7 @@ class WantedReading(Struct, frozen=True):
 
     @property
     def program(self) -> Program:
-        """What is drawn as a program."""
+        """Program of the drawn steps."""
         return self.draft.b.program()
 
 
@@ -228,7 +226,7 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
             try:
                 faults.append(_missing(group, both, positions, untold))
             except PositionError:
-                if not faults:  # else an earlier group may stand on the side that is not meant
+                if not faults:  # otherwise an earlier group may be on the side that is not meant
                     raise
     for rule in problem.assembly:
         if rule.point not in used:
@@ -250,7 +248,7 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
 def _assembled(
     settled: Draft, group: AssurGroup, rules: list[Rule], positions: Reals
 ) -> tuple[Closing, list[Fault]]:
-    """Return the assembly of a triad that is placed next, and what is wrong with its rules."""
+    """Return the assembly of the triad to be placed next, and the faults of its rules."""
     problem, triad = settled.problem, triad_of(group)
     assert triad is not None
 
@@ -275,7 +273,7 @@ def _going_on(problem: Problem, tried: Tried, group: AssurGroup, closing: Closin
     draft, program = tried[0], tried[0].b.program()
     turn, low = problem.drive.coordinate.turn, closing.start
     if problem.drive.goes_round:
-        # what the group hangs on may come again after two turns only, and the changes with it
+        # the links it is joined to may repeat only after two turns, and the changes with them
         settled = {links: one for links, one in draft.choice.items() if links != group.links}
         again = comes_again(settled, turn)
         turn = again if isfinite(again) else turn
@@ -298,7 +296,7 @@ def _with(settled: Draft, group: AssurGroup, closing: Closing) -> Draft:
 
 
 class _Settled:
-    """Reads what is wanted: steps that are settled once, and those of a group that is tried."""
+    """Incremental evaluator of reading requests: shared steps are computed once."""
 
     def __init__(self) -> None:
         self._reading: Reading | None = None
@@ -314,25 +312,25 @@ class _Settled:
 
 
 def _further(before: Reading, steps: Sequence[Step], data: Mapping[str, Number]) -> Reading:
-    """Return a reading with further steps; of the data they take what is theirs."""
+    """Return a reading extended by further steps with their part of the data."""
     given = [step.out for step in steps if isinstance(step, Given | GivenNumber)]
     own: dict[str, Number] = {name: data[name] for name in given}
     return before.go_on(steps, own, Float64())
 
 
 class _Extent:
-    """How far points are from the first one that is placed, in every position, m."""
+    """Distance of the farthest point from the first placed one, in every position, m."""
 
     def __init__(self, count: int) -> None:
         self._far = np.full(count, 1e-300)
         self._taken = 0
 
     def take(self, points: Collection[str], read: Sequence[Tried]) -> None:
-        """Take the points in that are new since the last time."""
+        """Add the points that are new since the last call."""
         self._far, self._taken = self._with(points, read), len(points)
 
     def of(self, both: Sequence[Tried]) -> Reals:
-        """Return the extent of what is settled and of a group in both closings."""
+        """Return the extent of the fixed steps and of a group in both modes."""
         return self._with(both[0][0].marked, both)
 
     def _with(self, points: Collection[str], read: Sequence[Tried]) -> Reals:
@@ -364,7 +362,7 @@ def _judge(
     positions: Reals,
     extent: Reals,
 ) -> Closing:
-    """Return the side that a rule asks for in the first position that tells the closings apart."""
+    """Return the side that a rule selects in the first position that distinguishes the modes."""
     scores = [score_of(rule, draft, reading) for draft, reading in both]
     able = np.flatnonzero(np.isfinite(scores[0]) & np.isfinite(scores[1]))
     if not able.size:
@@ -372,7 +370,7 @@ def _judge(
     size = float(extent[able[0]])
     one, two = (reading.point(PointName(rule.point)) for _, reading in both)
     apart = abs(one - two)
-    # A dead position tells the closings of nothing: the next one that is asked does.
+    # A dead position does not distinguish the modes: the next requested one does.
     distinct = able[apart[able] > TIE * size]
     if not distinct.size:
         # The arcs touch: there is one place, which exists. No side is known of the motion, nor of

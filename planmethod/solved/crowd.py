@@ -1,4 +1,4 @@
-"""How many inscriptions stand in one part of a picture (плотность надписей)."""
+"""Density of labels in one part of a picture (плотность надписей)."""
 
 from __future__ import annotations
 
@@ -41,10 +41,10 @@ def densest(places: Sequence[complex] | Complexes) -> tuple[int, complex]:
 
 
 def is_crowded(construction: Construction, si: Reading, per_mm: float, more: int = 0) -> bool:
-    """Tell whether a scheme of many positions has too many letters of points for its area.
+    """Return whether a scheme of many positions has too many point letters for its area.
 
-    Those of links and axes stand beside them, so that as many points as there may be letters are
-    too many. Centres of mass do not count: their letters are the first to be left out.
+    Letters of links and axes are placed beside them, so the limit of letters is already too many
+    for points alone. Centres of mass do not count: their letters are the first to be left out.
 
     Parameters
     ----------
@@ -53,13 +53,13 @@ def is_crowded(construction: Construction, si: Reading, per_mm: float, more: int
     per_mm : float
         Scale of the scheme, m/mm.
     more : int
-        Letters that stand among them besides, of extreme positions.
+        Number of additional letters among them, of extreme positions.
     """
     return any(densest(places)[0] + more >= CROWD for places in _lettered(construction, si, per_mm))
 
 
 def _lettered(construction: Construction, si: Reading, per_mm: float) -> Iterator[Complexes]:
-    """Yield where the points stand on a sheet after another, those that coincide once, mm."""
+    """Yield the places of the points on one sheet after another, coincident ones once, mm."""
     problem, placed = construction.draft.problem, construction.draft.points()
     fixed = placed & set(problem.bodies[FRAME].points)
     still = [complex(si.point(PointName(point))[0]) for point in sorted(fixed)]

@@ -31,7 +31,7 @@ STEEP = 0.02
 """Part of the largest value that a quantity changes by between two positions, to be looked at."""
 
 TIMES = 4.0
-"""How many times more than around it."""
+"""Factor by which such a change must exceed those around it."""
 
 _AROUND = 4  # steps to both sides that a step is compared with
 _PARTS = 32  # parts that a suspected step is cut into
@@ -43,7 +43,7 @@ Rows = npt.NDArray[np.complex128]
 class Piece(Struct, frozen=True):
     """Part of a curve without a jump or a gap: positions and values, ndarrays of shape (m,).
 
-    It may be one position alone, as the dead one in which a resistance is nothing.
+    It may be a single position, such as a dead one in which a resistance is zero.
     """
 
     positions: Reals
@@ -62,21 +62,21 @@ class ReactionPeak(Struct, frozen=True):
 
 
 class Cycle(Remembering):
-    """Reactions and the balance over the course of the driver (реакции за цикл).
+    """Reactions and the balance over the driver's cycle (реакции за цикл).
 
     Parameters
     ----------
     solution : Solution
-        Of several positions of a problem with ``[dynamics]``.
+        Several positions of a problem with ``[dynamics]``.
 
     Attributes
     ----------
     joints : list of JointForce
-        The reactions as the asked positions have them; a curve has its number among them.
+        The reactions in the requested positions; a curve is identified by its index among them.
     smooth : bool
-        False where a load is known in the positions of the file only: then curves are chords.
+        False if a load is known only in the file's positions: then curves are chords.
     positions : ndarray of shape (m,)
-        Driver positions, the asked ones among them.
+        Driver positions, including the requested ones.
     """
 
     def __init__(self, solution: Solution) -> None:
@@ -95,7 +95,7 @@ class Cycle(Remembering):
         self.positions, self._rows, self._jumps = found
 
     def _asked(self) -> Rows:
-        """Return the values of the asked positions, in the order of `Travel.drawn`."""
+        """Return the values of the requested positions, in the order of `Travel.drawn`."""
         s = self.solution
         order = np.unique(s.positions, return_index=True)[1]
         if self.course.closed:
@@ -130,7 +130,7 @@ class Cycle(Remembering):
 
     @cached_property
     def _peaks(self) -> Reals:
-        """Largest force, and largest balance, of the asked positions, for every row."""
+        """Largest force and largest balance among the requested positions, for every row."""
         statics = statics_of(self.solution)
         forces = max((float(np.max(np.abs(j.force))) for j in self.joints), default=0.0)
         balance = float(np.max(np.abs(statics.balance)))
@@ -177,7 +177,7 @@ class Cycle(Remembering):
 
     @property
     def balance(self) -> list[Piece]:
-        """The curve of what balances the driver, N·m or N (a real number as a complex one)."""
+        """Curve of the driver's balance, N·m or N (a real number as a complex one)."""
         return list(self._pieces(self._rows[-1]))
 
     def peak(self, number: int) -> ReactionPeak:
@@ -188,7 +188,7 @@ class Cycle(Remembering):
         return ReactionPeak(float(sizes[k]), float(self.positions[k]), bool(near.any()))
 
     def is_nothing(self, number: int) -> bool:
-        """Tell whether a reaction is nothing beside the largest one, all over."""
+        """Return whether a reaction is negligible beside the largest one in all positions."""
         largest = float(self._peaks[0, 0])
         return self.peak(number).size <= FAINT_SHARE * largest
 

@@ -1,4 +1,4 @@
-"""How the driving link stands and moves in each position (движение начального звена)."""
+"""Position and motion of the driving link in each position (движение начального звена)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from planmethod.solved.reading import Reals
 
 _SLACK = 1e-12 * 2 * np.pi  # rad before a jump that are after it: rounding of its angle
 _NEAR_DEG = 1e-3
-_STILL = 1e-14  # of the way: what a rate has from the rounding of its angle where it is nothing
+_STILL = 1e-14  # of the stroke: rounding error of the angle in a rate that is zero
 
 
 def driven(drive: Drive, positions: Reals) -> tuple[Reals, float | Reals, float | Reals]:

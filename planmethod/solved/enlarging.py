@@ -1,7 +1,7 @@
-"""Knots of short segments of a plan, which are drawn once more, larger (выносные элементы).
+"""Clusters of short segments of a plan, shown enlarged in detail views (выносные элементы).
 
-A segment shorter than `SHORT` is read off an enlarged view, where the step of the ruler is so much
-finer. One that is shorter than the lines of the plan are off is nothing, and stays so enlarged.
+A segment shorter than `SHORT` is read on an enlarged view, where the ruler's step is finer by the
+ratio. A segment shorter than the error of the plan's lines is negligible, also if enlarged.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ RATIOS = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0, 100.0)
 """Enlargements of GOST 2.302."""
 
 NOTHING = 0.25
-"""Shorter than that a segment is nothing on a plan that is drawn by hand, mm: about as much as a
-line is off, and half a division of the ruler."""
+"""Length below which a segment is negligible on a hand-drawn plan, mm: about the error of a line,
+and half a division of the ruler."""
 
 _WANTED = 10.0  # mm that the shortest segment of a knot has on its view
 

@@ -1,7 +1,7 @@
-"""Why a position has no results, or doubtful ones: facts, and the sentence of each (отказы).
+"""Causes of missing or doubtful results of a position: facts, and the sentence of each (отказы).
 
-Who finds a failure fills a record; a message is its ``str``. So positions are numbered anew and
-told of in common without a look at the words.
+The code that finds a failure fills a record; its ``str`` is the message. So positions can be
+renumbered and reported together without looking at the text.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ class Place(Struct, frozen=True):
     Attributes
     ----------
     number : int
-        Among those that were asked, from 0.
+        Index among the requested positions, from 0.
     value : float
-        Of the driver, degrees, or m of a slider.
+        Position of the driver, degrees, or m of a slider.
     coordinate : Coordinate
     unit : str
-        Of the lengths of the file.
+        Unit of the file's lengths.
     alone : bool
-        No other position was asked: its number says nothing.
+        No other position was requested: its number is not informative.
     """
 
     number: int
@@ -48,12 +48,12 @@ class Place(Struct, frozen=True):
         return cls(index, value, problem.drive.coordinate, problem.unit, alone)
 
     def numbered(self, number: int, count: int) -> Place:
-        """Return the place under its number, from 0, among so many positions."""
+        """Return the place with its index, from 0, among ``count`` positions."""
         return replace(self, number=number, alone=count == 1)
 
     @property
     def driver(self) -> str:
-        """Where the driver stands: ``phi = 30 deg``."""
+        """Driver position as text: ``phi = 30 deg``."""
         return self.coordinate.told(self.value, self.unit)
 
     def __str__(self) -> str:
@@ -63,17 +63,17 @@ class Place(Struct, frozen=True):
 
     @property
     def at(self) -> str:
-        """Where something happens, for the end of a clause."""
+        """Place as text for the end of a clause."""
         if self.alone:
             return say(" at {}", self.driver)
         return say(" at position {} ({})", self.number, self.driver)
 
 
 class Cause(Enum):
-    """Why a position has no results: its sentence, and what of it holds for no other position.
+    """Cause of a position without results: its sentence, and the part for this position only.
 
-    In the sentence ``{at}`` and ``{this}`` stand for the position, ``{own}`` for the second text;
-    ``{p}`` and ``{l}`` are the points and lengths of a `Failure`.
+    In the sentence ``{at}`` and ``{this}`` are replaced by the position, ``{own}`` by the second
+    text; ``{p}`` and ``{l}`` are the points and lengths of a `Failure`.
     """
 
     NOT_FINITE = ("{problem}: a value is not finite although every step exists.", "")
@@ -222,29 +222,30 @@ class Evenly(Struct, frozen=True):
 
 
 class Failure(Struct, frozen=True):
-    """Why a position has no results (отказ).
+    """Failure of a position: the reason why it has no results (отказ).
 
     Attributes
     ----------
     out : str
-        What cannot be found, by its letters.
+        Letters of the point or line that cannot be found.
     points : tuple of str
-        Points that it was to be found from.
+        Points from which it should have been found.
     lengths : tuple of float
-        As the sentence needs them, m: radii, the distance of the centres, what is missing.
+        Lengths in the sentence, m: radii, the distance of the centres, the missing length.
     over_turn : tuple of float
-        The most that is missing over a turn, m, and the crank's position there, degrees.
+        Largest missing length over a turn, m, and the crank's position there, degrees.
     reach : tuple of float
-        Where an assembly was chosen, and its first and last position, degrees or m.
+        Position in which an assembly was chosen, and its first and last position, degrees or m.
     plan : PlanKind
     margin : float
-        Of the steps of the position.
+        Margin of the failed step.
     problem : str
-        Its name.
+        Name of the problem.
     alike, others, count : int
-        How many other positions fail for the same cause, and for others, of how many.
+        Numbers of other positions that fail for the same cause and for others, and of all
+        positions.
     instead : Evenly or None
-        Positions over the same turns that all have results, where the asked ones go round evenly.
+        Positions over the same turns that all have results, if the requested ones go round evenly.
     """
 
     cause: Cause
@@ -263,12 +264,12 @@ class Failure(Struct, frozen=True):
     instead: Evenly | None = None
 
     def numbered(self, number: int, count: int) -> Failure:
-        """Return the failure with its position numbered, from 0, among so many."""
+        """Return the failure with its position's index, from 0, among ``count`` positions."""
         return replace(self, place=self.place.numbered(number, count))
 
     @property
     def general(self) -> str:
-        """What is true of every position that fails so."""
+        """Sentence that holds for every position with this failure."""
         return self._sentence("", say("this position"), whole=False)
 
     def __str__(self) -> str:
@@ -313,7 +314,7 @@ def others_fail(count: int) -> str:
 
 
 def same_at(alike: int, count: int) -> str:
-    """Return how many other positions share the lot of one that was told, if any do."""
+    """Return a sentence on the other positions with the same failure; empty if there are none."""
     return say(" The same holds at {} more of {} positions.", alike, count) if alike else ""
 
 
@@ -331,13 +332,13 @@ class Doubt(Struct, frozen=True):
     Attributes
     ----------
     near : bool
-        It is next to a dead one.
+        The position is next to a dead one.
     margin : float
     bound : float
-        Of the error of the worst result, in parts of the largest of its kind in the position: one
-        that is nearly nothing has no digits of its own.
+        Bound of the worst result's error, relative to the largest of its kind in the position: a
+        result close to zero has no digits of its own.
     forces : bool
-        It is its forces that are good to few digits; else its motion.
+        The forces are accurate to few digits; else the motion.
     """
 
     place: Place
@@ -372,16 +373,16 @@ class MoreDoubts(Struct, frozen=True):
 
 
 class Passed(Struct, frozen=True):
-    """Change points that a group passes between the asked positions (точка ветвления).
+    """Change points that a group passes between the requested positions (точка ветвления).
 
     Attributes
     ----------
     places : tuple of float
-        Of the driver, degrees, or m of a slider.
+        Positions of the driver, degrees, or m of a slider.
     unit : str
-        Of the lengths of the file.
+        Unit of the file's lengths.
     point : str
-        Inner joint that a rule of ``[assembly]`` may name; empty where none helps.
+        Inner joint that a rule of ``[assembly]`` may name; empty if no rule helps.
     parallel : bool
         The group closes a parallelogram.
     """
@@ -416,16 +417,16 @@ class Passed(Struct, frozen=True):
 
 
 class Contradiction(Struct, frozen=True):
-    """Two ways to find a motion that differ: a mistake of ours (противоречие).
+    """Two ways to find a motion that give different results: an internal error (противоречие).
 
     Attributes
     ----------
     quantity : str
         ``length``, ``velocity`` or ``acceleration``
     point, about, link : str
-        Of a point about another, of a link.
+        The point, the one it moves about, and the link.
     error, size : float
-        How far it is off, and the largest value of its kind, SI.
+        The difference, and the largest value of its kind, SI.
     """
 
     problem: str
@@ -438,7 +439,7 @@ class Contradiction(Struct, frozen=True):
     size: float
 
     def numbered(self, number: int, count: int) -> Contradiction:
-        """Return the contradiction with its position numbered, from 0, among so many."""
+        """Return the contradiction with its position's index, from 0, among ``count`` positions."""
         return replace(self, place=self.place.numbered(number, count))
 
     def __str__(self) -> str:

@@ -1,4 +1,4 @@
-"""Why a plan cannot be closed: the step that failed, with its numbers."""
+"""Failed step of a plan that cannot be closed, with its numbers."""
 
 from __future__ import annotations
 

@@ -16,19 +16,19 @@ TRANSFER = re.compile("|".join(f"{kind.letter}_" for kind in TRANSFERS)).match
 def quantities_for(
     solution: Solution, labels: Iterable[str] | None, *, forces: bool = False
 ) -> Quantities:
-    """Return the quantities that have all labelled ones: forces are planned only where needed.
+    """Return the quantities that include all labelled ones: forces are planned only if needed.
 
     Parameters
     ----------
     labels : iterable of str, optional
-        Everything of the motion when absent.
+        Default: everything of the motion.
     forces : bool
-        Where nothing is asked by name: everything of the forces, too.
+        If no labels are given: everything of the forces, too.
 
     Raises
     ------
     UnknownQuantityError
-        A force is asked of a problem without masses and loads.
+        A force of a problem without masses and loads is requested.
     """
     quantities = quantities_of(solution.construction)
     if labels is not None:

@@ -1,7 +1,7 @@
-"""As much of a problem file as makes a mechanism: what a sketch shows of it (часть механизма).
+"""The solvable part of an incomplete problem file, for a sketch (часть механизма).
 
-A file that is whole is the whole mechanism. Of another the driver is taken, and structural groups
-are joined to it one after the other, as long as what they say can be read and closes.
+A complete file gives the whole mechanism. From an incomplete one the driver is taken, and
+structural groups are joined to it one after the other, as long as they can be read and assembled.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
 
 GUESSED = 60.0
-"""Where a crank whose position is missing is shown, degrees."""
+"""Position in which a crank without one is shown, degrees."""
 
 LINKS, FIXED, TRIES = 30, 40, 150
 """Links and fixed points that are looked at, and mechanisms of them that are tried."""
@@ -55,26 +55,26 @@ MOST_WAYS = 4
 
 
 class MechanismPart(Struct, frozen=True):
-    """What can be drawn of a file, and what is missing (часть механизма).
+    """The drawable part of a file, and the missing data (часть механизма).
 
     Attributes
     ----------
     solution : Solution or None
-        In those of the asked positions that exist; None where nothing moves yet.
+        Solution in the requested positions that exist; None if the driver is not yet defined.
     faults : tuple of Fault
-        Of the file.
+        Faults of the file.
     trouble : PlanMethodError or None
-        Why the whole file cannot be solved where its parts can be read.
+        Reason why the whole file cannot be solved although its parts can be read.
     failure : Failure or None
-        Of the first asked position that does not exist.
+        Failure of the first requested position that does not exist.
     links : mapping of str to sequence of str
         Links that are not drawn, and the points that the file gives them.
     fixed : mapping of str to complex, m
         Fixed points.
     unsure : tuple of str
-        Points whose closing is not given: one of two is shown.
+        Points whose assembly mode is not given: one of two is shown.
     assemblies : tuple of PartAssembly
-        The ways in which such a part closes, where rules can tell them apart.
+        Assemblies of such a part, if rules can distinguish them.
     """
 
     solution: Solution | None
@@ -97,18 +97,18 @@ def largest_part(
     views: Views | None = None,
     posed: Callable[[Problem], Problem] = lambda problem: problem,
 ) -> MechanismPart:
-    """Return as much of a problem as makes a mechanism in some asked position.
+    """Return the part of a problem that makes a mechanism in some requested position.
 
     Parameters
     ----------
     table : mapping
-        What TOML made of the file.
+        Parsed TOML of the file.
     source, name, variant, train
         As of `read_parsed`.
     views : Views, optional
-        Boxes that the plans shall fill where the file gives no scale.
+        Boxes that the plans should fill if the file gives no scale.
     posed : callable, optional
-        Finds the positions of a whole problem that its output tells (`planmethod.kinds`).
+        Finds the positions of a whole problem that its output determines (`planmethod.kinds`).
     """
     try:
         problem = read_parsed(table, source=source, name=name, variant=variant, train=train)
@@ -128,9 +128,9 @@ def _with_variant(table: Mapping[str, Any], variant: str | None) -> Mapping[str,
 
 
 def _existing(solution: Solution) -> tuple[Reals, Failure | None]:
-    """Return the asked positions with plans, and why the first other has none.
+    """Return the requested positions with plans, and the failure of the first one without.
 
-    Where there is no such position, dead ones are shown from so near that nobody sees it.
+    If there is no such position, dead ones are shifted by an invisible amount.
     """
     draft, program = solution.construction.draft, solution.construction.program
     positions, reading = solution.positions, solution.read(Float64())
@@ -273,7 +273,7 @@ class _Growth:
                 yield PartAssembly(rules, solution.moved(there.tolist()))
 
     def _solved(self, links: tuple[str, ...]) -> Solution | None:
-        """Return the mechanism of some links in the asked positions that exist, if there is one."""
+        """Return the mechanism of some links in the requested positions that exist, or None."""
         self.tries += 1
         if self.tries > TRIES:
             return None

@@ -18,14 +18,14 @@ from planmethod.plans.legend import TRANSFERS, Quantity, QuantityKind
 from planmethod.plans.transfers import transfer_quantities
 
 BY_NAME = (QuantityKind.UNIT, QuantityKind.CORIOLIS, QuantityKind.RELATIVE, *TRANSFERS)
-"""Kinds of what is given only when it is asked for by name."""
+"""Kinds of quantities that are given only when requested by name."""
 
 ACCELERATIONS = (QuantityKind.ACCELERATION, QuantityKind.CORIOLIS, QuantityKind.RELATIVE)
 """Kinds of accelerations, m/s²."""
 
 
 class UnknownQuantityError(PlanMethodError, ValueError):
-    """A quantity is asked for that the problem does not have."""
+    """The problem does not have a requested quantity."""
 
 
 class Quantities(Struct, frozen=True):
@@ -36,13 +36,13 @@ class Quantities(Struct, frozen=True):
     program : Program
         The construction's, and the own axes of links that it has no line for.
     numbers : mapping
-        Known numbers of the program; of forces also where their plans begin.
+        Known numbers of the program; for forces also the starts of their plans.
     all : tuple of Quantity
         Points in the order of the plans: place, velocity, acceleration; then links; then forces.
     draft : Draft
-        From which the program comes.
+        Draft of the program.
     changing : tuple of (str, tuple of NumberName)
-        Loads that differ from position to position, by name, and what is known of each.
+        Loads that differ from position to position, by name, and the known numbers of each.
     """
 
     program: Program
@@ -52,10 +52,10 @@ class Quantities(Struct, frozen=True):
     changing: tuple[tuple[str, tuple[NumberName, ...]], ...] = ()
 
     def choose(self, labels: Iterable[str] | None) -> tuple[Quantity, ...]:
-        """Return the results of some labels, in the order asked; for None all that have columns.
+        """Return the results of some labels, in their order; for None all that have columns.
 
         ``positions``, ``velocities``, ``accelerations``, ``forces``, ``transfers`` and ``units``
-        stand for what they say.
+        select the whole group.
 
         Raises
         ------
@@ -69,7 +69,7 @@ class Quantities(Struct, frozen=True):
         return tuple(chosen.values())
 
     def find(self, label: str) -> Sequence[Quantity]:
-        """Return the results that a label, or the name of a column, stands for; none if none."""
+        """Return the results of a label or a column name; none if it is unknown."""
         if label in WHOLE:
             return [result for result in self.all if result.kind in WHOLE[label]]
         found = [result for result in self.all if result.label == label]
@@ -114,7 +114,7 @@ WHOLE = {
     "units": (QuantityKind.UNIT,),
     "transfers": TRANSFERS,
 }
-"""Whole groups of results that can be asked for at once."""
+"""Groups of results that can be requested at once."""
 
 
 def quantities_of(construction: Construction, *, transfers: bool = False) -> Quantities:

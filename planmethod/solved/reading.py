@@ -26,7 +26,7 @@ Column = TypeVar("Column", bound=npt.NDArray[Any])
 
 
 def fixed(values: Column) -> Column:
-    """Return an array that nobody can write to: results are kept, and others have them, too."""
+    """Return a read-only array: results are kept and shared."""
     if values.flags.writeable:
         values = values.view()
         values.flags.writeable = False
@@ -79,7 +79,7 @@ class Reading(Struct, frozen=True):
         return np.broadcast_to(through, (self.count,))
 
     def has(self, name: Name) -> Flags:
-        """Tell where there is a value, and no division by nothing; ndarray of shape (n,)."""
+        """Return where there is a value, and no division by zero; ndarray of shape (n,)."""
         value = self.value[name]
         parts = value if isinstance(value, tuple) else (value,)
         there = [np.isfinite(np.asarray(part, dtype=complex)) for part in parts]
@@ -99,7 +99,7 @@ class Reading(Struct, frozen=True):
 
 
 class _Part(Mapping[Name, Number]):
-    """Values of some of the positions, cut out when they are asked for."""
+    """Values of some of the positions, cut out on request."""
 
     def __init__(self, whole: Mapping[Name, Number], chosen: slice) -> None:
         self._whole, self._chosen = whole, chosen
@@ -125,17 +125,17 @@ def _part(value: Number, chosen: slice) -> Number:
 
 
 class Remembering:
-    """Something of which others work out things that they need again (память результатов)."""
+    """Mixin that memoizes derived results for each instance (память результатов)."""
 
     def __init__(self) -> None:
         self._worked_out: dict[Any, Any] = {}
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what another process is told: what is worked out of it is worked out there."""
+        """Return the state for another process: memoized results are computed again there."""
         return vars(self) | {"_worked_out": {}}
 
     def once(self, work_out: Callable[..., Made], *arguments: Any, **named: Any) -> Made:
-        """Return what a function makes of this, worked out when it is first asked for."""
+        """Return the result of a function of this object, computed at the first call."""
         key = (work_out, arguments, *named.items())
         if key not in self._worked_out:
             self._worked_out[key] = work_out(self, *arguments, **named)
@@ -146,7 +146,7 @@ class Remembering:
 def remembered(
     work_out: Callable[Concatenate[Memory, Asked], Made],
 ) -> Callable[Concatenate[Memory, Asked], Made]:
-    """Have what a function works out of its first argument remembered there, and die with it."""
+    """Memoize a function's result on its first argument, for the lifetime of that object."""
 
     @wraps(work_out)
     def remember(of: Memory, /, *arguments: Asked.args, **named: Asked.kwargs) -> Made:

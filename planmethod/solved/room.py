@@ -1,7 +1,7 @@
-"""What a sheet has room for (поле листа): its blocks at estimated sizes, cut apart as on paper.
+"""Space on a sheet (поле листа): its blocks at estimated sizes, packed as on paper.
 
-So scales and formats are chosen without a letter being set: `solve` speaks of the same millimetres
-as the sheet. The sizes of texts are those of the shipped compositions, by what they tell.
+So scales and formats are chosen without typesetting: `solve` and the sheet use the same
+millimetres. The sizes of texts are those of the shipped compositions, by their contents.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ EDGE, GAP = 5.0, 9.0
 """White between blocks and the frame, and between two blocks, mm."""
 
 CORNER = 14.0
-"""Height of graph 26, which stands in the upper left corner, mm."""
+"""Height of graph 26, which is in the upper left corner, mm."""
 
 LETTERS = {"A4": (2.5, 2.5), "A3": (3.5, 2.5), "A2": (3.5, 3.0), "A1": (4.2, 3.5), "A0": (5.0, 3.5)}
-"""Heights of the texts and of the calculation that a format is to have room for, mm."""
+"""Heights of the texts and of the calculation that a format must have space for, mm."""
 
 _OPTIONS = 8  # shapes of a run of blocks that are kept
 
 
 class Texts(Struct, frozen=True):
-    """How much the texts of a sheet tell: vector equations and vectors of both plans."""
+    """Contents of a sheet's texts: numbers of vector equations and of vectors of both plans."""
 
     equations: tuple[int, int]
     vectors: tuple[int, int]
@@ -61,7 +61,7 @@ class Texts(Struct, frozen=True):
         return _blocks(self, paper, positions)
 
 
-@lru_cache(maxsize=128)  # asked for at every scale that is tried
+@lru_cache(maxsize=128)  # called for every tried scale
 def _blocks(texts: Texts, paper: Format, positions: int) -> Sequence[Blocks]:
     letter, small = LETTERS[paper.like or paper.name]
     equations = [(13.2 * letter, 4.3 * letter * (count + 0.3)) for count in texts.equations]
@@ -84,7 +84,7 @@ def _blocks(texts: Texts, paper: Format, positions: int) -> Sequence[Blocks]:
 def has_room(
     paper: Format, texts: Sequence[Blocks], views: Sequence[Ways], positions: int, over: float = 1.0
 ) -> bool:
-    """Tell whether texts and views have room on a format, mm, ``over`` times as high as it is.
+    """Return whether texts and views fit on a format, mm, whose height is multiplied by ``over``.
 
     ``views`` are the scheme, the velocity and the acceleration plans. They are grouped as in the
     shipped compositions for one, for a few and for many positions.
@@ -116,7 +116,7 @@ def has_room(
 
 
 def _stand(groups: list[tuple[Box, ...]], last: tuple[Box, ...], room: Box) -> bool:
-    """Tell whether groups and a last one have room; their areas are looked at first."""
+    """Return whether groups and a last one fit; their areas are compared first."""
     whole = (*groups, last)
     if not all(whole):
         return False
@@ -133,7 +133,7 @@ def shapes(blocks: Blocks, room: Box) -> tuple[Box, ...]:
     return _in_order(tuple(shapes(block, room) for block in blocks), room)
 
 
-@lru_cache(maxsize=1024)  # of what is tried, most blocks are as they were before
+@lru_cache(maxsize=1024)  # most blocks of a new trial are unchanged
 def _in_order(blocks: tuple[tuple[Box, ...], ...], room: Box) -> tuple[Box, ...]:
     """Return the sizes of blocks in reading order, of each of which several sizes are known."""
     kept = {(k, k + 1): block for k, block in enumerate(blocks)}

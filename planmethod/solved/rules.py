@@ -1,6 +1,6 @@
-"""Rules that tell which closing of a group is meant (правила сборки).
+"""Rules that select the assembly mode of a group (правила сборки).
 
-How well a closing satisfies one, how it is written in the file, and what is wrong with it.
+The score of a mode under a rule, the rule's text in the file, and its faults.
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ def rule_text(rule: Rule, unit: str) -> str:
 
 
 def ambiguous_fault(rule: Rule, both: list[Tried], index: int, where: str) -> Fault:
-    """Return the fault of a rule that both closings satisfy, with one that tells them apart."""
+    """Return the fault of a rule that both modes satisfy, with rules that distinguish them."""
     draft = both[0][0]
     unit = draft.problem.unit
     places = [
@@ -158,10 +158,10 @@ def ambiguous_fault(rule: Rule, both: list[Tried], index: int, where: str) -> Fa
 
 
 def telling_rules(point: str, both: list[Tried], asked: slice) -> list[str]:
-    """Return the rules, one for each closing, that tell them apart widest in all asked positions.
+    """Return the rules, one for each mode, that separate them most in the given positions.
 
-    Empty where none does: neither beside a point that does not depend on the closing, nor beside a
-    line through two of them.
+    Empty if there is none, with a point that does not depend on the mode or a line through two such
+    points.
     """
 
     def at(reading: Reading, name: str) -> Complexes:
@@ -206,7 +206,7 @@ def _outer(problem: Problem, group: AssurGroup, point: str) -> str | None:
 
 
 def from_joint(problem: Problem, group: AssurGroup, rule: Rule) -> Rule:
-    """Return a rule that tells the way from a joint with that joint beside its point."""
+    """Return a rule of direction from a joint with that joint added after its points."""
     if rule.where not in (Where.TOWARDS, Where.AWAY):
         return rule
     joint = _outer(problem, group, rule.point)
@@ -219,10 +219,10 @@ def from_joint(problem: Problem, group: AssurGroup, rule: Rule) -> Rule:
 
 
 def slotted_rule(problem: Problem, group: AssurGroup) -> Rule | None:
-    """Return what a slotted link does not tell: whether a point of it lies towards the other joint.
+    """Return the rule that a slotted link needs: a point of it lies towards the other joint.
 
-    None where the line runs on from the joint of its link, so that the stone is on that ray, and
-    where nothing could lie on the other side: of a block and of a stone alone.
+    None if the line starts at the joint of its link, so that the sliding block is on that ray, and
+    if no point can lie on the other side: for a block and a single sliding block.
     """
     inner = group.inner[0]
     assert isinstance(inner, Prismatic)

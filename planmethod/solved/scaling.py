@@ -24,20 +24,20 @@ from planmethod.solved.room import FEW, Box, Texts, Ways, has_room
 
 
 class Views(Struct, frozen=True):
-    """Room that the drawn mechanism and the plans shall fill, mm (поля видов).
+    """Space that the drawn mechanism and the plans should fill, mm (поля видов).
 
-    It goes with a paper format: the sheet's layout keeps just this room, and the numbers of `solve`
-    and the drawing of `sheet` therefore have the same scales.
+    It goes with a paper format: the sheet's layout reserves just this space, and the numbers of
+    `solve` and the drawing of `sheet` therefore have the same scales.
 
     Attributes
     ----------
     paper : str
     position, velocity, acceleration : Box, mm
-        Of many positions the room of all plans of a kind on a sheet, in rows.
+        Box of each kind; for many positions the space of all its plans on a sheet, in rows.
     many : bool
         There are several positions.
     kept : frozenset of PlanKind
-        Kinds whose box is that of each single plan and is kept to exactly: a composition gave it.
+        Kinds whose box, given by a composition, is that of each single plan and is kept exactly.
     """
 
     paper: str
@@ -53,11 +53,11 @@ class Views(Struct, frozen=True):
         return box
 
     def in_rows(self, kind: PlanKind) -> bool:
-        """Tell whether the room of a kind is that of many plans."""
+        """Return whether the space of a kind is that of many plans."""
         return self.many and kind is not PlanKind.POSITION and kind not in self.kept
 
     def plan_box(self, kind: PlanKind, count: int) -> Box:
-        """Return what one plan of so many positions has for itself, mm."""
+        """Return the space of one of ``count`` plans, mm."""
         width, height = self.box(kind)
         if not self.in_rows(kind):
             return width, height
@@ -81,7 +81,7 @@ class Views(Struct, frozen=True):
 
 
 AS_HIGH = {fmt.name: fmt.like for fmt in FORMATS.values() if fmt.like != fmt.name}
-"""Basic format whose room an elongated or a standing one has."""
+"""Base format whose space is used for an elongated or a portrait one."""
 
 ONE_POSITION: dict[str, tuple[Box, Box, Box]] = {
     "A4": ((80.0, 50.0), (60.0, 50.0), (60.0, 55.0)),
@@ -130,73 +130,72 @@ NAME = {"A4": 28.0, "A3": 32.0, "A2": 35.0, "A1": 40.0, "A0": 40.0}
 """Room that a view's letters take above and below it, with its name and its scale, mm."""
 
 SCHEME = {"A4": 70.0, "A3": 110.0, "A2": 150.0, "A1": 200.0, "A0": 250.0}
-"""How wide the scheme shall be on a format, mm."""
+"""Intended width of the scheme on a format, mm."""
 
 CLOSE = 1.03
-"""So many times the height of the paper the estimate may be before a scale of many positions is
-made coarser: rows of many plans take less, as letters of the one stand in hollows of the other."""
+"""Ratio of the estimate to the height of the paper above which a scale of many positions is made
+coarser: rows of many plans take less, because letters of one fit into gaps of the other."""
 
 SPARE = 0.93
-"""So much of the height of the paper the estimate may take at a finer scale of many positions: the
-table of measured values is higher than the estimated one. Of one and of few it may take all."""
+"""Ratio of the estimate to the height of the paper allowed at a finer scale of many positions: the
+table of measured values is higher than the estimated one. For one and for few it may be 1."""
 
 WHOLE = 1.0
-"""So much of it a scheme may take whose letters would be thinned without."""
+"""The same ratio for a scheme whose letters would otherwise be thinned out."""
 
 CROWDED = 1.5
-"""So many times wider the scheme of many positions shall be, to be no tangle."""
+"""Factor by which the scheme of many positions should be wider, for clarity."""
 
 PLAN = 60.0
-"""Larger side that a plan shall have, mm."""
+"""Intended larger side of a plan, mm."""
 
 FULL, AROUND_PLAN = 25.0, 20.0
-"""Vectors per square decimetre of the plan of one position, and the room around it that is counted,
-mm: of more most have no name, and the plan is to be larger."""
+"""Limit of vectors per square decimetre of the plan of one position, and the margin counted around
+it, mm: above it most vectors have no name, and the plan should be larger."""
 
 STEP = 0.55
-"""What of these sizes is enough: the scales of the series lie as far apart."""
+"""Sufficient fraction of these sizes: the scales of the series are as far apart."""
 
 LESS = 0.8
-"""So much of the sizes of a composition is tried where all of them have no room."""
+"""Fraction of a composition's sizes that is tried if all of them do not fit."""
 
 DEAD = 40.0
-"""A plan that many times larger than the middle one stands nearly in a dead position: at one scale
-with it all others would be nothing, enlarged or not."""
+"""Ratio of a plan to the median one above which it is nearly in a dead position: at a common scale
+all others would be negligible, enlarged or not."""
 
 LEAST = 9.0
-"""Larger side that the middle one of many plans shall not fall short of for the room of all, mm."""
+"""Minimum larger side of the median of many plans that must not be sacrificed for space, mm."""
 
 OUTLIER = 5.0
-"""A plan that many times larger than the middle one is not looked at where a paper is chosen: it
-stands near a dead position. It has room on the paper all the same."""
+"""Ratio of a plan to the median one above which it is ignored in the choice of the paper: it is
+near a dead position. It still fits on the paper."""
 
 MOST_DRAWN = 120
-"""Most positions drawn in one call: ten sheets of a dozen."""
+"""Maximum number of positions drawn in one call: ten sheets of a dozen."""
 
 RAGGED = 1.15
-"""So many times wider rows may be for their plans to stand in columns."""
+"""Factor by which rows may be wider for their plans to be aligned in columns."""
 
 BETWEEN = 6.0
 """White between the plans of a row, and between rows, mm."""
 
 
 def per_row(count: int) -> int:
-    """Return how many of so many plans stand in a row."""
+    """Return the number of plans in a row, given their count."""
     return count if count <= FEW else 6
 
 
 def even_columns(wide: Sequence[float] | Reals, step: int) -> list[float]:
-    """Return widths of columns for plans in rows of so many, mm.
+    """Return the widths of columns for plans in rows of ``step``, mm.
 
-    None where one large plan would widen the column of many small ones: then rows stand for
-    themselves.
+    Empty if one large plan would widen the column of many small ones: then rows are not aligned.
     """
     columns = [float(max(wide[k::step])) for k in range(step)]
     return columns if sum(columns) <= RAGGED * _widest_row(wide, step) else []
 
 
 def row_width(wide: Sequence[float] | Reals, step: int) -> float:
-    """Return how wide rows of so many plans are, mm."""
+    """Return the width of rows of ``step`` plans, mm."""
     return (sum(even_columns(wide, step)) or _widest_row(wide, step)) + BETWEEN * (step - 1)
 
 
@@ -225,9 +224,9 @@ def plan_extent(construction: Construction, si: Reading, kind: PlanKind, index: 
 
 
 def sizes(construction: Construction, si: Reading, kind: PlanKind) -> tuple[Reals, Reals]:
-    """Return width and height of what is drawn in every position, in its unit, shape (n,).
+    """Return width and height of a plan in every position, in its unit, shape (n,).
 
-    Of the mechanism it is that of all positions laid over each other.
+    For the mechanism it is the size of all positions superposed.
     """
     if kind is PlanKind.POSITION:
         draft = construction.draft
@@ -249,7 +248,7 @@ def least_plan(construction: Construction, si: Reading, kind: PlanKind) -> float
 
 
 def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
-    """Return the size of what is drawn, in its own unit: of plans the largest, without outliers."""
+    """Return the size of the drawing, in its own unit: for plans the largest, without outliers."""
     return _usual(*sizes(construction, si, kind))
 
 
@@ -276,9 +275,9 @@ def typical(sizes: Reals) -> float:
 
 
 class Extents:
-    """How large a mechanism and its plans are, at unit scales (размеры планов).
+    """Sizes of a mechanism and its plans, at unit scales (размеры планов).
 
-    What is asked of it for one paper after another is found once.
+    Values needed for one paper after another are computed once.
 
     Parameters
     ----------
@@ -306,7 +305,7 @@ class Extents:
 
     @cached_property
     def sizes(self) -> dict[PlanKind, tuple[Reals, Reals]]:
-        """Width and height of what is drawn in every position, shape (n,)."""
+        """Width and height of the drawing in every position, shape (n,)."""
         scheme = sizes(self.construction, self.si, PlanKind.POSITION)
         return {PlanKind.POSITION: scheme, **self.plans}
 
@@ -317,7 +316,7 @@ class Extents:
 
     @cached_property
     def texts(self) -> Texts:
-        """How much the texts of a sheet tell."""
+        """Contents of the texts of a sheet."""
         return Texts.of(self.construction)
 
     def chosen(self, views: Views, asked: Scales) -> _Chosen:
@@ -352,10 +351,10 @@ def choose_views(extents: Extents, problem: Problem) -> Views:
 
 
 def decide(extents: Extents, problem: Problem, *, moved: bool) -> tuple[Views, Scales]:
-    """Return the room, and the scales that are given: for all that is told of some positions.
+    """Return the space and the given scales for all outputs of some positions.
 
-    Those of the file hold for its own positions. For others (``moved``) that of a plan may be too
-    fine for the largest paper: then the file's scales of plans are left.
+    The file's scales hold for its own positions. For others a plan's scale may be too fine for the
+    largest paper: then the file's scales of plans are ignored.
     """
     given, count = problem.scales, extents.si.count
     views = choose_views(extents, problem)
@@ -440,16 +439,16 @@ class _Chosen(Struct, frozen=True):
         return found
 
     def has_room(self, over: float = 1.0) -> bool:
-        """Tell whether the views have room on the paper, texts and all."""
+        """Return whether the views, with their texts, fit on the paper."""
         one = self.drawn[PlanKind.POSITION]
         texts = one.extents.texts.blocks(paper_format(self.views.paper), one.si.count)
         boxes = [self.drawn[kind].ways(self.per_mm[kind]) for kind in MOTION]
         return has_room(paper_format(self.views.paper), texts, boxes, one.si.count, over)
 
     def is_large(self) -> bool:
-        """Tell whether scheme and plans are as large as they shall be on the paper.
+        """Return whether scheme and plans have their intended sizes on the paper.
 
-        What the file gives a scale for is as large as it is.
+        Plans whose scale is given by the file are not checked.
         """
         return all(
             self._large(kind, self.per_mm[kind]) >= STEP and not self._is_full(kind)
@@ -457,7 +456,7 @@ class _Chosen(Struct, frozen=True):
         )
 
     def _is_full(self, kind: PlanKind) -> bool:
-        """Tell whether the plan of one position has no room for the names of its vectors."""
+        """Return whether the plan of one position has no space for the names of its vectors."""
         one = self.drawn[kind]
         if one.si.count > 1 or kind is PlanKind.POSITION:
             return False
@@ -467,7 +466,7 @@ class _Chosen(Struct, frozen=True):
         return count > FULL * wide * high / 1e4
 
     def _large(self, kind: PlanKind, per_mm: float) -> float:
-        """Return what of the size that it shall have a view has at a scale."""
+        """Return the ratio of a view's size at a scale to its intended size."""
         scheme = SCHEME[AS_HIGH.get(self.views.paper, self.views.paper)]
         if self.drawn[kind].si.count > FEW:
             scheme *= CROWDED
@@ -476,7 +475,7 @@ class _Chosen(Struct, frozen=True):
 
 
 class _Drawn(Struct, frozen=True, dict=True):
-    """What is drawn of a kind, in SI, and the room that it has."""
+    """A drawing of one kind, in SI, and its available space."""
 
     extents: Extents
     views: Views
@@ -485,7 +484,7 @@ class _Drawn(Struct, frozen=True, dict=True):
 
     @property
     def si(self) -> Reading:
-        """What is drawn, at unit scales."""
+        """Exact reading at unit scales."""
         return self.extents.si
 
     @property
@@ -512,7 +511,7 @@ class _Drawn(Struct, frozen=True, dict=True):
 
     @property
     def rows(self) -> bool:
-        """Whether it is many plans in rows."""
+        """True if it consists of many plans in rows."""
         return self.views.in_rows(self.kind)
 
     @cached_property
@@ -534,16 +533,16 @@ class _Drawn(Struct, frozen=True, dict=True):
         return found
 
     def share(self, per_mm: float) -> float:
-        """Return how much of its room it takes at a scale."""
+        """Return the fraction of its space that it takes at a scale."""
         return self.taken(per_mm) / self.room()
 
     def room(self) -> float:
-        """Return the room that it has: the height of plans in rows, mm, else the area, mm²."""
+        """Return its available space: the height of plans in rows, mm, else the area, mm²."""
         width, height = self.box
         return height if self.rows else (width + BESIDE) * (height + UNDER)
 
     def taken(self, per_mm: float) -> float:
-        """Return what it takes of the room at a scale."""
+        """Return the space that it takes at a scale, in the unit of the available space."""
         if not self.rows:
             return (self.size[0] / per_mm + BESIDE) * (self.size[1] / per_mm + UNDER)
         _, high = self._on_paper(per_mm)
@@ -552,11 +551,11 @@ class _Drawn(Struct, frozen=True, dict=True):
         return max(sum(lines[k : k + ROWS]) for k in range(0, len(lines), ROWS))
 
     def is_crowded(self, per_mm: float) -> bool:
-        """Tell whether a scheme has more letters at a scale than its area bears."""
+        """Return whether a scheme has more letters at a scale than fit its area."""
         return is_crowded(self.extents.construction, self.si, per_mm)
 
     def stretches(self, per_mm: float, times: float = STRETCH) -> bool:
-        """Tell whether it is not too wide, nor a single view too high, at a scale."""
+        """Return whether it is neither too wide nor, as a single view, too high, at a scale."""
         if self.rows:
             return self.on_paper(per_mm)[0] <= times * self.box[0]
         return max(self.size[0] / self.box[0], self.size[1] / self.box[1]) <= times * per_mm
@@ -575,7 +574,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         return width + BESIDE + several, height + name + several + stroke
 
     def ways(self, per_mm: float) -> Ways:
-        """Return the sizes of the view at a scale, mm: of plans in rows with so many in a row."""
+        """Return the possible sizes of the view at a scale, mm: plans in rows of some lengths."""
         found, count = {self.on_paper(per_mm)}, self.si.count
         if self.rows and count <= ROWS * per_row(count):
             wide, high = self._on_paper(per_mm)
@@ -607,7 +606,7 @@ class _Drawn(Struct, frozen=True, dict=True):
 
     @property
     def own_only(self) -> bool:
-        """Whether the file wants all plans of several positions to have scales of their own."""
+        """True if the file requests own scales for all plans of several positions."""
         several = self.si.count > 1 and self.kind is not PlanKind.POSITION
         return several and self.asked.own and not self.given
 
@@ -615,8 +614,8 @@ class _Drawn(Struct, frozen=True, dict=True):
     def own(self) -> Reals:
         """Scales of plans that have their own, shape (n,); NaN where the common one holds.
 
-        Beside those that the file wants: a plan so near a dead position that all others would be
-        nothing beside it.
+        These are requested by the file, or belong to a plan so near a dead position that all others
+        would be negligible beside it.
         """
         width, height = self.sizes
         size, own = np.maximum(width, height), np.full(self.si.count, np.nan)
@@ -633,7 +632,7 @@ class _Drawn(Struct, frozen=True, dict=True):
 
     @property
     def given(self) -> bool:
-        """Whether the file has the scale."""
+        """True if the file gives the scale."""
         return getattr(self.asked, FACTS[self.kind].scale) is not None
 
 

@@ -47,10 +47,10 @@ NEAR = 1e-3
 """Margin below which a position is called next to a dead one."""
 
 AT = 1e-7
-"""How well a change point is found, in parts of the driver's way."""
+"""Accuracy of a change point, relative to the driver's range."""
 
 LEAST, FEW = 3, 72
-"""Positions of a turn, at least and at most, that others without a dead one are told for."""
+"""Limits of the number of positions of a turn for which others without a dead one are suggested."""
 
 SHARES = (1 / 2, 1 / 3, 1 / 6, 1 / 12, 1 / 30)
 """Parts of a step by which position 0 is moved to come past dead positions."""
@@ -63,7 +63,7 @@ LIMIT = 1e-7
 
 
 class SelfCheckError(PlanMethodError):
-    """The plans of a solution contradict each other: a mistake of ours (exit code 5)."""
+    """The plans of a solution contradict each other: an internal error (exit code 5)."""
 
     def __init__(self, found: Contradiction) -> None:
         self.found = found
@@ -71,10 +71,10 @@ class SelfCheckError(PlanMethodError):
 
 
 def warnings(solution: Solution, *, forces: bool = False) -> list[Doubt | MoreDoubts]:
-    """Return what a user should know of the accuracy: a doubt for each doubtful position.
+    """Return the accuracy warnings for a user: one for each doubtful position.
 
-    Of many positions the worst few are named and the rest counted. With ``forces`` those of a
-    problem with loads have doubts of their own.
+    Of many positions the worst few are named and the rest counted. With ``forces`` the forces of a
+    problem with loads have warnings of their own.
     """
     said: list[Doubt | MoreDoubts] = []
     for found in (doubts(solution), force_doubts(solution) if forces else []):
@@ -116,10 +116,10 @@ def _doubts(
 
 
 def changed_branches(solution: Solution) -> list[Passed]:
-    """Return what a user should know of change points between the positions, group by group.
+    """Return the warnings about change points between the positions, group by group.
 
-    The way goes from the first position of the file, where the closings are chosen, to all asked
-    ones. A group that keeps a parallelogram or goes on continuously has nothing to be told of.
+    The range is from the first position of the file, where the assembly modes are chosen, to all
+    requested ones. A group that keeps a parallelogram or moves continuously needs no warning.
     """
     drive, draft = solution.problem.drive, solution.construction.draft
     way = np.append(solution.positions, (drive.judged or drive.positions)[0])
@@ -138,7 +138,7 @@ def changed_branches(solution: Solution) -> list[Passed]:
             low,
             high,
         )
-        # What is asked last, the motion comes to and does not pass.
+        # The motion reaches the last requested position but does not pass it.
         slack = AT * (high - low)
         passed = [place for place in found if low + slack < place < high - slack]
         if passed:
@@ -202,16 +202,16 @@ def verify(solution: Solution, *, forces: bool = False) -> None:
 
 
 def without_dead(solution: Solution, failure: Failure, *, forces: bool) -> Evenly | None:
-    """Return even positions without a dead one, in place of even ones that have one.
+    """Return equally spaced positions without a dead one, to replace such positions that have one.
 
-    None where the asked ones do not go round evenly, or where no others are found.
+    None if the requested ones do not go round evenly, or if no others are found.
 
     Parameters
     ----------
     solution : Solution
-        In the positions that are asked.
+        Solution in the requested positions.
     failure : Failure
-        That of one of them.
+        Failure of one of them.
     forces : bool
         The forces must exist in the others, too.
     """
@@ -291,14 +291,14 @@ def judged_statics(solution: Solution) -> Statics:
     from planmethod.solved.forces.statics import statics_of  # few files have any
 
     statics = statics_of(solution)
-    with suppress(PlanMethodError):  # it is told when the forces are read
+    with suppress(PlanMethodError):  # it is reported when the forces are read
         for doubt in force_doubts(solution):
             warn(f"{solution.problem.name}: {doubt}", DoubtWarning, stacklevel=2)
     return statics
 
 
 def refused(solution: Solution) -> Flags:
-    """Return in which positions `verify` or `warnings` would have something to say; shape (n,)."""
+    """Return the positions that `verify` or `warnings` would report, as flags; shape (n,)."""
     found = ~(error_bound(solution) <= DOUBTFUL)
     for _, error, size in _contradictions(solution):
         found |= _is_too_large(solution, error, size)

@@ -1,4 +1,4 @@
-"""A solved problem: its plans read in numbers, each made when it is first asked for."""
+"""A solved problem: numeric readings of its plans, each made on request."""
 
 from __future__ import annotations
 
@@ -70,9 +70,9 @@ def at_positions(
 
 
 def filled(values: Mapping[str, Number], count: int) -> dict[str, Any]:
-    """Return values as columns of so many positions.
+    """Return values as columns of ``count`` positions.
 
-    As of variants that are read together (`planmethod.solved.many.variants`), to the last bit:
+    As for variants that are read together (`planmethod.solved.many.variants`), to the last bit:
     NumPy multiplies a column by one complex number in another way than by a column.
     """
     return {name: np.full(count, value) for name, value in values.items()}
@@ -126,31 +126,31 @@ class Solution(Remembering):
     ----------
     problem : Problem
     positions : array_like of shape (n,), optional
-        Other positions of the driver than the file asks (degrees, or m for a driving slider). The
-        closings of the groups stay those of the file's own positions.
+        Other positions of the driver than those of the file (degrees, or m for a driving slider).
+        The assembly modes of the groups remain those of the file's own positions.
     ruler : float, mm, optional
-        Step of the ruler with which the hand reads the plans; the profile's when absent.
+        Step of the ruler with which the plans are read. Default: the profile's.
     profile : Profile or str
-        How well the hand draws: what the drafting errors follow from. By name ``cad``, ``board``
-        or ``coarse``.
+        Drafting accuracy, from which the drafting errors follow. By name ``cad``, ``board`` or
+        ``coarse``.
     views : Views, optional
-        Boxes that the plans shall fill where the file gives no scale.
+        Boxes that the plans should fill if the file gives no scale.
     scales : mapping of PlanKind to Scale, optional
-        Scales of the plans, where neither the file nor the views shall tell them.
+        Scales of the plans, if neither the file nor the views should determine them.
     construction : Construction, optional
-        That of the problem, where it is made already; scales and paper do not change it.
+        Construction of the problem, if it exists already; scales and paper do not change it.
 
     Attributes
     ----------
     origin : Solution
-        That which this one is drawn anew of, at other scales; itself mostly.
+        The solution that this one redraws at other scales; usually itself.
 
     Raises
     ------
     ArgumentError
-        An argument is none.
+        An argument is not valid.
     StructureError, ProblemError, AssemblyError
-        When the mechanism cannot be analysed or assembled.
+        The mechanism cannot be analysed or assembled.
 
     Examples
     --------
@@ -214,7 +214,7 @@ class Solution(Remembering):
     def filling(self, views: Views | None, scales: Scales | None = None) -> Solution:
         """Return the same mechanism in the same positions with plans that fill other views.
 
-        ``scales`` are those that are given; the problem's when absent.
+        ``scales`` are the given scales. Default: the problem's.
         """
         if scales is not None:
             of_type("scales", scales, Scales)
@@ -236,7 +236,7 @@ class Solution(Remembering):
         other = self._alike(**changed)
         other.origin = self.origin
         if "si" in vars(self):
-            other.si = self.si  # no scale changes what is exact
+            other.si = self.si  # scales do not change the exact reading
         return other
 
     def _alike(self, **changed: Any) -> Solution:
@@ -263,7 +263,7 @@ class Solution(Remembering):
 
     @property
     def together(self) -> int:
-        """How many positions are of one mechanism."""
+        """Largest number of positions of one mechanism."""
         return len(self.positions)
 
     @property
@@ -272,7 +272,7 @@ class Solution(Remembering):
         return ((self, EVERY),)
 
     def numbers_of(self, plan: Callable[[Construction], Mapping[str, float]]) -> dict[str, Number]:
-        """Return the known numbers of what goes on from the construction."""
+        """Return the known numbers of a continuation of the construction."""
         if not callable(plan):
             raise ArgumentError("{}: a function is wanted, got {}.", "plan", describe(plan))
         return dict(plan(self.construction))
@@ -306,7 +306,7 @@ class Solution(Remembering):
         return data
 
     def _given_at(self, chosen: npt.NDArray[np.intp] | slice) -> Mapping[str, Any]:
-        """Return what is given, for some positions, at unit scales."""
+        """Return the given data of some positions, at unit scales."""
         return drive_data(self.problem, self.construction.draft, self.positions[chosen])
 
     def read(self, arithmetic: Arithmetic, scales: Mapping[str, Number] = UNIT_SCALES) -> Reading:
@@ -320,12 +320,12 @@ class Solution(Remembering):
 
     @cached_property
     def si(self) -> Reading:
-        """Exact reading at unit scales: what is a millimetre of a plan is here a metre (m/s, m/s²).
+        """Exact reading at unit scales: one metre (m/s, m/s²) per millimetre of a plan.
 
         Raises
         ------
         PositionError
-            When a step is impossible in some position.
+            A step is impossible in some position.
         """
         reading, program = self.read(Float64()), self.construction.program
         if (failing(program, reading.trace, len(self.positions)) >= 0).any():
@@ -336,7 +336,7 @@ class Solution(Remembering):
 
     @cached_property
     def extents(self) -> Extents:
-        """How large the mechanism and its plans are, at unit scales."""
+        """Sizes of the mechanism and its plans, at unit scales."""
         return Extents(self.construction, self.si)
 
     @cached_property
@@ -351,7 +351,7 @@ class Solution(Remembering):
             raise ArgumentError("positions: at least one is wanted, got [].")
         scales = choose_scales(self.extents, self.views, self.given_scales)
         for kind, own in self._own_scales.items():
-            if not np.isnan(own).any():  # there is no common one: one of them stands for it
+            if not np.isnan(own).any():  # there is no common scale: one of them represents it
                 scales[kind] = replace(scales[kind], per_mm=float(median(own)))
         return scales
 
@@ -370,7 +370,7 @@ class Solution(Remembering):
 
     @property
     def _too_many(self) -> bool:
-        """Whether nobody draws so many positions."""
+        """True if there are too many positions to draw."""
         return len(self.positions) > MOST_DRAWN
 
     def own_scale(self, kind: PlanKind, index: int) -> Scale:
@@ -383,7 +383,7 @@ class Solution(Remembering):
         return replace(common, per_mm=float(own[index]))
 
     def has_common(self, kind: PlanKind) -> bool:
-        """Tell whether plans of a kind have one scale."""
+        """Return whether plans of a kind have one scale."""
         of_type("kind", kind, PlanKind)
         own = self._own_scales.get(kind)
         return own is None or bool(np.isnan(own).any())
@@ -397,7 +397,7 @@ class Solution(Remembering):
 
     @property
     def views(self) -> Views:
-        """Boxes that the plans shall fill: those of the format that a sheet is tried on first."""
+        """Boxes that the plans should fill: those of the format on which a sheet is tried first."""
         return self._decided[0]
 
     @cached_property
@@ -418,7 +418,7 @@ class Solution(Remembering):
 
     @property
     def repeated(self) -> int:
-        """How many times the motion is gone through in a cycle: twice of a four-stroke engine."""
+        """Number of repetitions of the motion in a cycle: two for a four-stroke engine."""
         again = self.closes_after
         return self.turns // round(again) if isfinite(again) else self.turns
 
@@ -442,7 +442,7 @@ class Solution(Remembering):
     @cached_property
     def paper(self) -> Reading:
         """Exact reading at the plans' scales: millimetres on the paper."""
-        self.si  # noqa: B018 - an impossible step must be told first, in metres
+        self.si  # noqa: B018 - an impossible step must be reported first, in metres
         return self.read(Float64(), self.per_mm)
 
     @cached_property
@@ -466,7 +466,7 @@ class Solution(Remembering):
         return small_plans(self.construction, self.paper)
 
     def knots_of(self, kind: PlanKind, index: int) -> tuple[Knot, ...]:
-        """Return what is enlarged of a plan in one position."""
+        """Return the enlarged views of a plan in one position."""
         number_of("position", index, len(self.positions))
         small = self.small_plans[of_type("kind", kind, PlanKind)].get(index)
         return self.knots[kind] if small is None else (small,)
@@ -483,7 +483,7 @@ class Solution(Remembering):
 
     @cached_property
     def hand(self) -> Hand:
-        """Draughtsman with a ruler: short segments he reads where they are enlarged."""
+        """Draughtsman with a ruler, who reads short segments where they are enlarged."""
         if len(self.positions) == 1:
             alone: dict[str, Number] = {n: knot.times for n, knot in self.read_on(0).items()}
             return Hand(self.profile.ruler, alone)
@@ -504,7 +504,7 @@ class Solution(Remembering):
 
     @cached_property
     def by_hand(self) -> Reading:
-        """Reading of a draughtsman with a ruler, along his own chain."""
+        """Reading with a ruler, along the draughtsman's own chain."""
         self.si  # noqa: B018
         return self.read(self.hand, self.per_mm)
 
@@ -578,7 +578,7 @@ class Solution(Remembering):
         return Named({one.label: one for one in self.construction.legend}, "quantity")
 
     def quantities(self, *kinds: QuantityKind) -> dict[str, list[Quantity]]:
-        """Return the quantities of the motion of some kinds by what they are of."""
+        """Return the quantities of the motion of some kinds, grouped by their point or link."""
         for kind in kinds:
             of_type("kinds", kind, QuantityKind)
         found: dict[str, list[Quantity]] = {}

@@ -29,9 +29,10 @@ class Transfers:
     Attributes
     ----------
     quantities : tuple of Quantity
-        Of points and links, velocities before accelerations; what is nothing by nature is left out.
+        Quantities of points and links, velocities before accelerations; those that are zero by
+        nature are left out.
     program : Program
-        That of the construction, and their steps.
+        Program of the construction with their steps.
     added : tuple of Step
         These.
     numbers : mapping of str to Number
@@ -53,7 +54,7 @@ class Transfers:
 
     @cached_property
     def steps(self) -> TransferSteps:
-        """What the formulas consist of; its draft is one of its own."""
+        """Steps of the formulas, on a separate draft."""
         return TransferSteps(self.solution.construction.kinematics, self.draft.copy())
 
     @cached_property
@@ -68,7 +69,7 @@ class Transfers:
 
     @cached_property
     def by_hand(self) -> Reading:
-        """Reading of the draughtsman with his ruler."""
+        """Reading with the draughtsman's ruler."""
         return self.solution.by_hand.go_on(self.added, self.numbers, self.solution.hand)
 
     def exact(self, quantity: Quantity) -> Reals:

@@ -1,4 +1,4 @@
-"""The way of the driver between its asked positions (ход начального звена)."""
+"""The path of the driver between its requested positions (ход начального звена)."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ _ADDED = 400  # positions more, at the most
 
 
 class Travel(Struct, frozen=True, dict=True):
-    """Driver positions that a smooth line goes through (ход начального звена).
+    """Driver positions along a smooth curve (ход начального звена).
 
-    A full turn asked in even steps is closed; other positions are joined from the first to the
-    last. What is asked of several turns goes over one again.
+    A full turn in equal steps is closed; other positions are joined from the first to the last.
+    Positions over several turns are mapped to one.
 
     Attributes
     ----------
     step : float, degrees
         Greatest step of a crank between points of the line.
     least : int
-        Steps of the line at the least.
+        Minimum number of steps of the curve.
     turns : int
-        Of a crank after which all is as before: two of loads over 720 degrees; more where the
-        links are not where they were then.
+        Turns of a crank after which everything repeats: two for loads over 720 degrees; more if the
+        links are then not where they were.
     """
 
     solution: Solution
@@ -54,13 +54,13 @@ class Travel(Struct, frozen=True, dict=True):
 
     @property
     def falling(self) -> bool:
-        """Whether positions fall in the order of their numbers."""
+        """True if positions fall in the order of their numbers."""
         asked = self.solution.positions
         return len(asked) > 1 and bool(asked[1] < asked[0])
 
     @cached_property
     def asked(self) -> Reals:
-        """The asked positions in order, each once."""
+        """Distinct requested positions in order."""
         # Not np.unique: with it numpy.ma is imported.
         asked = np.asarray(sorted(set(self.solution.positions.tolist())))
         if len(asked) < 2 or np.ptp(asked) <= self._turn + _SAME:
@@ -79,7 +79,7 @@ class Travel(Struct, frozen=True, dict=True):
 
     @cached_property
     def positions(self) -> Reals:
-        """Driver positions, the asked ones among them, in order, ndarray of shape (n,)."""
+        """Driver positions, including the requested ones, in order, ndarray of shape (n,)."""
         drawn = self.drawn
         if len(drawn) < 2:
             return drawn
@@ -99,7 +99,7 @@ class Travel(Struct, frozen=True, dict=True):
 
     @cached_property
     def closed(self) -> bool:
-        """Whether the asked positions go all round."""
+        """True if the requested positions go all round."""
         drawn = self.asked
         gaps = np.diff(np.append(drawn, drawn[:1] + self._turn))
         return len(drawn) > 2 and bool(np.ptp(gaps) < 1e-6)

@@ -1,8 +1,8 @@
-"""Poses in which ranks are judged: the problem's sizes closed by Newton's method, group by group.
+"""Poses for evaluating ranks: the problem's sizes closed by Newton's method, group by group.
 
-Any class of groups closes here and no rule of assembly is asked: a rank in a general position does
-not depend on which of the assemblies it is. Where there are no sizes, or none that close, joints
-and lines stand at random.
+Groups of any class close here, and assembly rules are not used: a rank in a general position does
+not depend on the assembly. If there are no sizes, or none that close, joints and lines are placed
+at random.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ STEP, STEPS = radians(15.3), 24
 """Between two poses of a sweep (no divisor of a right angle), and how many there are at most."""
 
 STARTS, ELSEWHERE, TRIES, ITERATIONS = 16, 4, 3, 14
-"""How often all groups are begun at random at the asked position of the driver, and at another; how
-often each of them, and how often Newton's method mends it."""
+"""Numbers of random starts of all groups at the requested position of the driver and at another
+one, of starts of each group, and of Newton iterations."""
 
 CLOSED = 1e-10
 """Gap at which a group counts as closed, in parts of the mechanism's size or radians."""
@@ -83,7 +83,7 @@ class _Sizes(Struct):
 
     def swept(self) -> list[PlanePose]:
         drive, rng = self.problem.drive, Random(1)
-        # The output tells a position that nobody has looked for yet, and it is no number.
+        # The output determines a position that has not been found yet, so it is not a number.
         asked = (0.0,) if drive.posed is not None else drive.judged or drive.positions
         if drive.followed is not None:  # positions are of the cam: it is moved from its lowest
             asked = (drive.followed.lowest,)
@@ -124,7 +124,7 @@ class _Sizes(Struct):
         self, position: float, rng: Random, starts: int, last: Links | None = None
     ) -> Links | None:
         """Return the links at a position of the driver, near those of the last one, if any."""
-        for _ in range(starts):  # anew from the first group: a later one may not close on another
+        for _ in range(starts):  # again from the first group: a later one may not close on another
             links = {FRAME: (0j, 1 + 0j), self.problem.mechanism.driver: self._driver(position)}
             if all(self._joined(group, links, rng, last) for group in self.structure.groups):
                 return links

@@ -41,7 +41,7 @@ REGULAR = 1e-7
 """Least pivot of a regular matrix; lengths are in parts of the group's size."""
 
 GENERIC = 3
-"""Which pose of a sweep is in general position: at no round angle of the driver."""
+"""Index of the pose in a sweep that is in general position: not at a round driver angle."""
 
 PLANE = ("1v", "1p", "4l")
 """Classes of the pairs as they are in the plane."""
@@ -90,7 +90,7 @@ class AlignedScheme(Struct, frozen=True):
 
     @property
     def changes(self) -> int:
-        """How many pairs are not what they were."""
+        """Number of pairs whose class has changed."""
         return sum(name not in PLANE for name in self.classes)
 
 
@@ -144,7 +144,7 @@ class SelfAligning(Struct, frozen=True):
 
     @property
     def counts(self) -> dict[int, int]:
-        """How many pairs of the first scheme have so many mobilities: p1, p2, p3."""
+        """Number of pairs of the first scheme with mobility 1, 2 and 3: p1, p2, p3."""
         found: dict[int, int] = {}
         for name in self.schemes[0].values() if self.schemes else ():
             found[int(name[0])] = found.get(int(name[0]), 0) + 1
@@ -167,9 +167,9 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
     Parameters
     ----------
     problem : Problem
-        Its sizes tell the positions in which ranks are judged; without sizes they are random.
+        Its sizes determine the poses in which ranks are evaluated; if it has none, they are random.
     structure : Structure
-        What `planmethod.mechanism.structure.analyse` says of its mechanism.
+        Result of `planmethod.mechanism.structure.analyse` for its mechanism.
     """
     mechanism = problem.mechanism
     places = poses(problem, structure) if structure.groups else []
@@ -333,7 +333,7 @@ class _Search(Struct):
 
     @property
     def need(self) -> int:
-        """How many freedoms out of the plane the contours need."""
+        """Number of freedoms out of the plane that the contours need."""
         return 3 * (len(self.pairs) - len(self.links))
 
     @property
@@ -354,7 +354,7 @@ class _Search(Struct):
                     break
                 if self._measure(self.generic, classes) >= REGULAR:
                     good.append(AlignedScheme(classes, steady=self._steady(classes)))
-        # One that jams where the problem is asked is left out as long as there is another.
+        # A scheme that jams in the requested position is left out if there is another.
         first = [one for one in good if self._measure(0, one.classes) >= REGULAR]
         return first or good or self._freer(every)
 
@@ -377,10 +377,10 @@ class _Search(Struct):
         return good
 
     def _made(self, changes: Sequence[int], more: int = 0) -> Iterator[tuple[str, ...]]:
-        """Yield the schemes of so many changes that are right by count, or have freedoms more."""
+        """Yield schemes of given numbers of changes that fit by count or have more freedoms."""
         touching, every = self.touching, range(len(self.pairs))
         for count in changes:
-            # Of the changed pairs so many have one freedom more, the others two.
+            # `twos` of the changed pairs have one freedom more, the others two.
             twos = 2 * count - self.need - more + 2 * len(touching)
             if not 0 <= twos <= count:
                 continue
@@ -403,9 +403,9 @@ class _Search(Struct):
         return next(k for k in range(self.need, -1, -1) if _least_pivot(vectors, k))
 
     def _steady(self, classes: tuple[str, ...]) -> bool:
-        """Whether the matrix stays regular over the sweep: its determinant keeps its sign."""
+        """Return whether the matrix is regular over the sweep: its determinant keeps its sign."""
         every = range(len(self.places))
-        if len(self._vectors(0, classes)) > self.need:  # it has none, and a sign tells nothing
+        if len(self._vectors(0, classes)) > self.need:  # not square: no determinant
             return all(self._measure(k, classes) >= REGULAR for k in every)
         values = [_determinant(self._vectors(k, classes)) for k in every]
         return len({0 if abs(value) < REGULAR else value > 0 for value in values}) == 1

@@ -11,7 +11,7 @@ from msgspec import Struct
 Reals = npt.NDArray[np.float64]
 
 NODES = 16
-"""Nodes of a piece, the roots of a Chebyshev polynomial: none stands on an edge of it."""
+"""Nodes of a piece, the roots of a Chebyshev polynomial: none lies on an edge of the piece."""
 
 TOLERANCE = 1e-12
 """Last coefficients of a piece that is taken as it is, as a share of the function's size."""
@@ -133,11 +133,11 @@ def resolved(read: Callable[[Reals], Reals], edges: Reals, scale: Reals | None =
     Parameters
     ----------
     read : callable
-        Makes of arguments of shape (n,) the values of shape (n, k).
+        Maps arguments of shape (n,) to values of shape (n, k).
     edges : ndarray of shape (m + 1,)
-        Where the functions jump, have kinks, or shall be cut anyway.
+        Places of jumps, kinks and other cuts of the functions.
     scale : ndarray of shape (k,), optional
-        Size of each function; its own largest value when absent.
+        Size of each function. Default: its own largest value.
     """
     todo = np.column_stack((edges[:-1], edges[1:]))
     done: list[tuple[float, float, Reals]] = []

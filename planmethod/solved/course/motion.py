@@ -32,7 +32,8 @@ LEANING = np.radians(30.0)
 strokes of an indicator to be counted from it."""
 
 ASTRAY = np.radians(45.0)
-"""How far from its dead position a piston may be that works like another one after a shift, rad."""
+"""Greatest distance from its dead position of a piston that works like another after a shift, rad.
+"""
 
 _SAME = 1e-9  # share of the largest size by which the ends of a cycle may differ
 _ASIDE = 1.6e-3  # rad off round angles, where singular places like to be
@@ -173,7 +174,7 @@ class TurnMotion:
         return round(again) if isfinite(again) else 1
 
     def numbers(self, count: int) -> list[int]:
-        """Return the numbers of so many positions as the crank comes through them, and 0 again.
+        """Return the numbers of n positions in the order of the crank's motion, and 0 again.
 
         ``[cycle] direction`` may be against the crank's rotation.
         """
@@ -239,7 +240,7 @@ class TurnMotion:
 
     @property
     def _remedy(self) -> str:
-        """What helps where the links are not where they were after a cycle."""
+        """Hint for links that are not where they were after a cycle."""
         if self._solution.closes_after == 2.0:
             return "The motion closes after 720 degrees: give [machine] cycle_deg = 720."
         return "Check [assembly]: the way of closing must come back with the cycle."
@@ -252,7 +253,7 @@ class TurnMotion:
             x, y, vx, vy, ax, ay = rows[_COLUMNS * number : _COLUMNS * (number + 1)]
             points[name] = PointMotion(x + 1j * y, vx + 1j * vy, ax + 1j * ay)
         first = _COLUMNS * len(points)
-        nothing = np.full(len(turned), np.nan)  # nobody asks the directions of links here
+        nothing = np.full(len(turned), np.nan)  # the directions of links are not needed here
         links = {
             link: LinkMotion(nothing, rows[first + 2 * k], rows[first + 2 * k + 1])
             for k, link in enumerate(self._names[1])
@@ -284,7 +285,7 @@ class TurnMotion:
         return self.curve.mixed(weights)
 
     def course(self, point: str) -> complex:
-        """Return the direction in which a point moves where it is quickest; 1 of what stands."""
+        """Return the direction of a point's motion where it is fastest; 1 for a fixed point."""
         velocity = self.sampled.points[point].velocity
         fastest = complex(velocity[int(np.argmax(np.abs(velocity)))])
         return fastest / abs(fastest) if fastest else 1.0 + 0j

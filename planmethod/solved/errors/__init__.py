@@ -1,1 +1,1 @@
-"""How far what a hand draws may be off (погрешности построения)."""
+"""Errors of hand-drawn plans (погрешности построения)."""

@@ -1,4 +1,4 @@
-"""What is taken off a drawing: quantities, the steps that they need, how they are read."""
+"""Quantities taken from a drawing: the steps that they need and how they are read."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from planmethod.construct.steps import Name, PointName
 from planmethod.solved.reading import Flags
 
 RADIAN = float(np.degrees(1.0))
-"""What the sigma of a direction is to be compared with, degrees: the length it is the turn of."""
+"""Size with which the sigma of a direction is compared, degrees: one radian."""
 
 
 class DrawnKind(Enum):
-    """What a quantity is: near zero no error of a length is normal, nor that of its direction."""
+    """Kind of a quantity: near zero the errors of a length and its direction are not normal."""
 
     NUMBER = "number"
     LENGTH = "length"
@@ -42,10 +42,10 @@ class DrawnQuantity(Struct, frozen=True):
         The quantity from a trace.
     kind : DrawnKind
     absent : callable or None
-        The positions in which nobody draws what it is taken from: there it has no error.
+        Returns the positions in which its segment is not drawn: there it has no error.
     direction : str
-        Label of the direction of a length, if the drawing gives it: where that is not believed, the
-        length is not either, for what is off across a segment then makes it longer.
+        Label of the direction of a length, if the drawing gives it: if that is unreliable, so is
+        the length, because an error across a segment then lengthens it.
     """
 
     label: str
@@ -57,7 +57,7 @@ class DrawnQuantity(Struct, frozen=True):
 
 
 class Drafted(Struct, frozen=True):
-    """What is drawn, and what is taken off it (чертёж).
+    """A construction and the quantities read from it (чертёж).
 
     Attributes
     ----------
@@ -69,13 +69,13 @@ class Drafted(Struct, frozen=True):
     profile : Profile
         The hand.
     free : frozenset of str
-        Points that may stand anywhere: they cannot be off.
+        Points that may be placed anywhere: they have no error.
     items : sequence of DrawnQuantity
     points : tuple of PointName
-        Those whose ellipses may be asked for.
+        Points whose ellipses can be requested.
     enlarged : mapping of str to Number
-        How many times larger than by its scale a step is drawn, by its name: in all positions, or
-        in each, shape (count,).
+        Enlargement of a step relative to its scale, by its name: in all positions, or in each,
+        shape (count,).
     """
 
     program: Program

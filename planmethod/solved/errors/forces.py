@@ -54,7 +54,7 @@ def moment_label(joint: JointForce | Reaction) -> str:
 
 
 class Balances(Struct, frozen=True):
-    """What balances the driver by the force plans and by the lever, N·m or N, shape (n,)."""
+    """Balance of the driver by the force plans and by the lever, N·m or N, shape (n,)."""
 
     plans: Reals
     lever: Reals
@@ -116,7 +116,7 @@ class DrawnForces(Errors):
 
     @property
     def balance(self) -> Reals:
-        """What balances the driver by the force plans, as the ruler gives it, N·m or N."""
+        """Balance of the driver by the force plans, as read with the ruler, N·m or N."""
         return self.read(BALANCE)
 
     @property
@@ -136,7 +136,7 @@ class DrawnForces(Errors):
 
 
 def drawn_forces(statics: Statics) -> DrawnForces:
-    """Return what a hand makes of the force plans, worked out when it is first asked for."""
+    """Return the drawn force plans, computed at the first call."""
     return statics.once(DrawnForces)
 
 
@@ -162,9 +162,9 @@ def all_errors(statics: Statics) -> Errors:
 
 
 def _ends(statics: Statics) -> dict[PointName, Reals]:
-    """Return the points of the force plans that are drawn, and how much larger than by scale.
+    """Return the drawn points of the force plans, and their enlargement relative to the scale.
 
-    A load stands on the plan of its link.
+    A load is drawn on the plan of its link.
     """
     found: dict[PointName, Reals] = {}
     for plan, share in zip(statics.board.plans, statics.shares, strict=True):
@@ -221,7 +221,7 @@ def _direction(force: Force) -> Callable[[Trace], Number]:
 
 
 def _absent(statics: Statics, force: Force) -> Flags:
-    """Tell where the plan of a reaction has no force at all: nobody draws it."""
+    """Return where the plan of a reaction has no force at all, so that it is not drawn."""
     ends = {force.tail, force.head}
     plan = next(
         plan

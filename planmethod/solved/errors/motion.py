@@ -1,4 +1,4 @@
-"""How far drawn position, velocity and acceleration plans may be off (погрешности построения)."""
+"""Errors of drawn position, velocity and acceleration plans (погрешности построения)."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ class Drafting(Errors):
                 yield self._known_absent(item, quantity.kind.plan)
 
     def _known_absent(self, item: DrawnQuantity, kind: PlanKind) -> DrawnQuantity:
-        """Return an item that knows where its plan is drawn by nobody, having no vector."""
+        """Return an item that knows where its plan is not drawn because it has no vector."""
         if kind is PlanKind.POSITION:
             return item
         return replace(item, absent=lambda: self._absent[kind])
@@ -114,7 +114,7 @@ class Drafting(Errors):
 
 
 def drafting_of(solution: Solution) -> Drafting:
-    """Return how far the hand's drawing may be off, worked out when it is first asked for."""
+    """Return the errors of the hand's drawing, computed at the first call."""
     return of_type("solution", solution, Solution, "planmethod.solve()").once(Drafting)
 
 

@@ -1,8 +1,9 @@
-"""How far what a program draws may be off: sigma of every quantity, how they err together.
+"""Errors of a program's drawing: sigma of every quantity, and their covariance.
 
-The strokes are those of a pencil (`planmethod.construct.drafting`). First order where it holds. Of
-what is nearly nothing only the last readings are made again, in many drawings with points that are
-off to first order; where a step itself is as good as impossible, whole sheets are drawn at random.
+The strokes are those of a pencil (`planmethod.construct.drafting`). First-order propagation is used
+where it holds. For quantities close to zero only the last readings are repeated, in many drawings
+whose points have first-order errors; where a step itself is almost impossible, whole sheets are
+drawn at random.
 """
 
 from __future__ import annotations
@@ -49,13 +50,13 @@ DRAWS = 4000
 """Random sheets where first order does not hold."""
 
 MOST_DRAWS = 10_000_000
-"""Random sheets that may be asked for."""
+"""Maximum number of random sheets that can be requested."""
 
 STRAINED = 0.1
 """Sigma of a step's margin, in parts of it, from which first order is not believed."""
 
 BENT = 0.03
-"""The same from which what is nearly nothing is not believed to be off to first order."""
+"""The same limit for quantities that are close to zero."""
 
 SHORT = 3.0
 """Sigmas that a length must have for first order to be believed."""
@@ -68,7 +69,7 @@ AT_ONCE = 128
 
 
 class UnknownItemError(PlanMethodError, ValueError):
-    """A covariance is asked of what a drawing does not give."""
+    """A covariance is requested for a quantity that a drawing does not give."""
 
 
 class Spread(Struct, frozen=True):
@@ -126,8 +127,8 @@ class Errors:
 
     def _propagate(self, chosen: npt.NDArray[np.intp]) -> _Slopes:
         if len(chosen) == 1:
-            # NumPy multiplies a number by one complex number in another way than by many: what is
-            # told of a position alone is to be what is told of it among others, to the last bit.
+            # NumPy multiplies a number by one complex number in another way than by many: the
+            # results of a position alone must equal those of it among others to the last bit.
             return self._propagate(np.repeat(chosen, 2)).at(np.zeros(1, dtype=np.intp))
         pencil = Propagated(
             self.profile, self.drawing.free, self._causes, self.drawing.times(chosen)
@@ -151,7 +152,7 @@ class Errors:
 
     @cached_property
     def _first(self) -> _First:
-        """What first order says in all positions; slopes of one are found anew when asked for."""
+        """First-order results in all positions; slopes of one are recomputed on request."""
         count = self.drawing.count
         parts = [
             self._reduced(self._propagate(np.arange(start, min(start + BLOCK, count))))
@@ -191,7 +192,7 @@ class Errors:
 
     @cached_property
     def _readings(self) -> dict[str, tuple[tuple[Step, ...], tuple[Name, ...]]]:
-        """The last steps of every length and direction: what is read, and from which names."""
+        """Last steps of every length and direction: the read value and the names it depends on."""
         made = {step.out: step for step in self.drawing.program.steps}
         order = {name: k for k, name in enumerate(made)}
         found: dict[str, tuple[tuple[Step, ...], tuple[Name, ...]]] = {}
@@ -218,9 +219,9 @@ class Errors:
         return tuple({name: None for _, leaves in self._readings.values() for name in leaves})
 
     def _read_again(self, label: str, part: _Slopes, where: Flags) -> Reals:
-        """Return the sigma where a length is nearly nothing, NaN elsewhere; shape (n,).
+        """Return the sigma where a length is close to zero, NaN elsewhere; shape (n,).
 
-        Infinite where it cannot be told so.
+        Infinite where it cannot be found in this way.
         """
         found = np.where(where, np.inf, np.nan)
         if label in self._readings:
@@ -275,7 +276,7 @@ class Errors:
         return _ancestors(self.drawing.program)
 
     def strained(self, *names: Name, limit: float = STRAINED) -> Flags:
-        """Tell where a step that some others hang on is as good as impossible for this hand.
+        """Return where a step that others depend on is almost impossible for this hand.
 
         Its margin there is not much larger than its own error.
         """
@@ -298,7 +299,7 @@ class Errors:
 
     @cached_property
     def spreads(self) -> Mapping[str, Spread]:
-        """Drafting error of every quantity, by its label; each is found when it is asked for."""
+        """Drafting error of every quantity, by its label; each is computed on request."""
         return _Spreads(self)
 
     def _spread(self, label: str) -> Spread:
@@ -417,7 +418,7 @@ class _Spreads(Mapping[str, Spread]):
 
 
 class _Slopes(Struct, frozen=True):
-    """What is taken, margins, points, leaves: with their slopes; the strokes behind the causes."""
+    """Quantities, margins, points and leaves with their slopes, and the strokes of the causes."""
 
     count: int
     taken: dict[str, Dual]
@@ -445,8 +446,8 @@ class _Slopes(Struct, frozen=True):
 class _First(Struct, frozen=True):
     """First order: sigmas, strain of steps, covariances of points (2, 2, n).
 
-    ``strain``: sigma of a step's margin, in parts of it. ``short``: sigmas of what is nearly
-    nothing, NaN where it is not.
+    ``strain``: sigma of a step's margin, in parts of it. ``short``: sigmas of quantities close to
+    zero, NaN where they are not.
     """
 
     sigmas: dict[str, Reals]

@@ -1,4 +1,4 @@
-"""Sigmas of numbers by their slopes, and half widths of what was drawn at random (разброс)."""
+"""Sigmas of numbers by their slopes, and half widths of random samples (разброс)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ CENTRAL = (0.158655253931457, 0.841344746068543)
 """Quantiles of one sigma either side of the mean of a normal error."""
 
 NOISE = 1e-12
-"""Variances, in parts of the largest, that are what rounding leaves of nothing."""
+"""Variance, relative to the largest, below which it is the rounding of a zero."""
 
 
 def sigma_of(value: Dual) -> Reals:
@@ -72,7 +72,7 @@ def _at_share(ordered: npt.NDArray[np.float32], share: float) -> Reals:
 
 
 def half_width(item: DrawnQuantity, values: Reals) -> float:
-    """Return half of the interval of the middle 68 % of what was drawn and could be."""
+    """Return half the interval of the middle 68 % of the random values that exist."""
     able = values[np.isfinite(values)]
     if not able.size:
         return float("nan")

@@ -1,4 +1,4 @@
-"""How far the forces of a solution can be trusted: their conditioning, position by position."""
+"""Accuracy of a solution's forces: their conditioning, position by position."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ class JudgedForces(Struct, frozen=True):
 
     @property
     def _balances(self) -> list[NumberName]:
-        """What balances the driver, by the plans and by the lever."""
+        """Balance of the driver, by the plans and by the lever."""
         hung = [] if self.lever is None else [self.lever.balance]
         moment = [] if self.driving.moment is None else [self.driving.moment]
         return list(dict.fromkeys([self.driving.balance, *moment, *hung]))
@@ -118,7 +118,7 @@ class JudgedForces(Struct, frozen=True):
         couples: Sequence[Name],
         chosen: Places,
     ) -> Reals:
-        """Return the largest reach of a force, as a share of what it is small against."""
+        """Return the largest reach of a force, relative to the size it is compared with."""
         solution, shape, data = self.solution, chosen.shape, self.data(chosen)
         told = self.board.data.items()
         down = {name for name, value in told if np.all(np.asarray(value) == DOWN)}
@@ -136,7 +136,7 @@ class JudgedForces(Struct, frozen=True):
             names = list(names)
             small = np.max([times * largest, *_rows(sizes, names, shape)], 0)
             for name, span in zip(names, _rows(spans, names, shape), strict=True):
-                # There is no lever where the driver stands.
+                # There is no lever if the driver is at rest.
                 hung = self.lever is not None and name == self.lever.balance
                 there = (small > 0) & ~(stands & hung)
                 span = np.where(np.isnan(span), np.inf, span)

@@ -1,9 +1,9 @@
-"""Where the reaction of a guide acts, and what acts at the edges of a slider (направляющая).
+"""Position of a guide's reaction, and the forces at the edges of a slider (направляющая).
 
-A prismatic pair has a force F across its guide and a moment M about a joint of the slider. Both
-are one force at the distance b = M/F from that joint. A slider as long as a holds it only within
-a/2 of its middle. Further out the force is but the resultant of two forces at the edges, against
-one another; of a moment alone, of a pair of them.
+A prismatic pair has a force F across its guide and a moment M about a joint of the slider. Together
+they equal one force at the distance b = M/F from that joint. A slider of length a can exert it only
+within a/2 of its middle. Further out the force is the resultant of two opposite forces at the
+edges; a moment alone is a couple of them.
 
 Source: the homework guide's section 1, on the forces in lower pairs.
 """
@@ -26,7 +26,7 @@ from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 
 VANISHING = 1e-12
-"""Share of the largest force of a position below which a reaction is nothing."""
+"""Fraction of a position's largest force below which a reaction is negligible."""
 
 Masks = npt.NDArray[np.bool_]
 
@@ -37,7 +37,7 @@ def across(force: Complexes, along: Complexes) -> Reals:
 
 
 def distance(normal: Reals, moment: Reals, nothing: Masks) -> Reals:
-    """Return how far along the guide a force acts, m; not a number where it is nothing.
+    """Return the position of a force along the guide, m; NaN where the force is zero.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def distance(normal: Reals, moment: Reals, nothing: Masks) -> Reals:
     moment : ndarray, N·m
         Counter-clockwise positive.
     nothing : ndarray of bool
-        Where the force is nothing.
+        True where the force is zero.
 
     Returns
     -------
@@ -139,7 +139,7 @@ class SlideReaction(Struct, frozen=True, dict=True):
 
     @cached_property
     def at_edges(self) -> Masks:
-        """Where two reactions at the edges act in place of one."""
+        """True where two reactions at the edges act instead of one."""
         if self.length is None:
             return np.zeros(self.normal.shape, dtype=bool)
         moment = np.abs(self._about_middle)

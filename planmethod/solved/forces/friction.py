@@ -2,8 +2,8 @@
 
 Friction is a load on both links of a pair: along a guide f·N, about a pin f′·r·F, against the
 relative motion. The force plans are linear in these loads, so those that the reactions themselves
-cause are found by Newton's method, along the way on which friction grows from nothing: where the
-way ends before all friction is there, no driving force overcomes it.
+cause are found by Newton's method, along the path on which friction grows from zero: if the path
+ends before the full friction is reached, no driving force overcomes it.
 """
 
 from __future__ import annotations
@@ -280,7 +280,7 @@ class Friction(Remembering):
 
     @cached_property
     def _shares(self) -> Reals:
-        """Friction for a newton of what presses, shape (k, n): none where nothing moves."""
+        """Friction per newton of the pressing force, shape (k, n): zero where nothing moves."""
         return np.array([pair.share * np.abs(pair.sense) for pair in self.pairs]).reshape(
             len(self.pairs), len(self.solution.positions)
         )
@@ -317,7 +317,7 @@ class Friction(Remembering):
 
     @property
     def jammed(self) -> Flags:
-        """Where no driving force overcomes the friction (заклинивание), shape (n,)."""
+        """True where no driving force overcomes the friction (заклинивание), shape (n,)."""
         return self._grown[1]
 
     def _forces(self, sizes: Reals) -> RubbedForces:
@@ -361,7 +361,7 @@ class Friction(Remembering):
 
     @cached_property
     def change(self) -> Reals:
-        """How far one correction is from the converged balance, as a part of that; NaN of none."""
+        """Relative difference of one correction from the converged balance; NaN for no balance."""
         once, end = self.corrected.balance, self.converged.balance
         there = np.abs(self.converged.power) > NOTHING * self.scale
         return np.where(there, np.abs(end - once) / np.where(there, np.abs(end), 1.0), np.nan)
@@ -383,7 +383,7 @@ class Friction(Remembering):
 
     @property
     def drives(self) -> Flags:
-        """Where the driver drives the loads, and is not driven by them."""
+        """True where the driver drives the loads, not the reverse."""
         return self.without.power > 0
 
     @cached_property
@@ -402,12 +402,12 @@ class Friction(Remembering):
 
     @cached_property
     def locks(self) -> Flags:
-        """Where the mechanism locks itself (самоторможение): no efficiency above nothing."""
+        """True where the mechanism locks itself (самоторможение): efficiency zero or negative."""
         return self.jammed | (self.efficiency <= 0)
 
 
 def friction_of(solution: Solution) -> Friction:
-    """Return the friction of a solution, worked out when it is first asked for."""
+    """Return the friction of a solution, computed at the first call."""
     return solution.once(Friction)
 
 
@@ -431,7 +431,7 @@ def rubbed_reading(solution: Solution, index: int) -> RubbedReading:
 
 
 class PairData(NamedTuple):
-    """What a file gives of the friction of a pair: its name, coefficient, radius of the pin, m."""
+    """Friction data of a pair in a file: its name, coefficient, radius of the pin, m."""
 
     name: str
     slides: bool
@@ -440,7 +440,7 @@ class PairData(NamedTuple):
 
     @property
     def rubs(self) -> bool:
-        """Whether it has friction."""
+        """True if the pair has friction."""
         return bool(self.f if self.slides else self.f * self.radius)
 
 

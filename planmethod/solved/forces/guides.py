@@ -15,13 +15,13 @@ from planmethod.solved.reading import remembered
 
 
 class Guided(Struct, frozen=True, dict=True):
-    """What one link of a prismatic pair does to the other, in one position.
+    """Reaction of one link of a prismatic pair on the other, in one position.
 
     Attributes
     ----------
     reading : ForceReading
     number : int
-        Of the reaction, among those of the force analysis.
+        Index of the reaction in the force analysis.
     on, by : str
         The link that the force acts on, and the link that exerts it.
     """
@@ -59,20 +59,20 @@ class Guided(Struct, frozen=True, dict=True):
 
     @cached_property
     def b(self) -> float | None:
-        """Where the force acts, m from the joint in the guide's direction; None of no force."""
+        """Position of the force, m from the joint along the guide; None if there is no force."""
         if self.is_none:
             return None
         return 0.0 if self.is_no_couple else float(self.contact.b(FAINT_SHARE)[self.reading.index])
 
     @property
     def is_none(self) -> bool:
-        """Whether the force is nothing beside the others."""
+        """True if the force is negligible beside the others."""
         size = abs(complex(self.contact.joint.force[self.reading.index]))
         return size <= FAINT_SHARE * self.reading.peak
 
     @property
     def is_no_couple(self) -> bool:
-        """Whether the moment about the joint is nothing beside the others."""
+        """True if the moment about the joint is negligible beside the others."""
         moment = abs(float(self.contact.joint.moment[self.reading.index]))
         return moment <= FAINT_SHARE * self.reading.peak_moment
 
@@ -97,17 +97,17 @@ class Guided(Struct, frozen=True, dict=True):
 
     @property
     def is_read(self) -> bool:
-        """Whether the force is something, on the paper too."""
+        """True if the force is neither negligible nor zero on the paper."""
         return not self.is_none and self.read_force > 0
 
     @property
     def read_distance(self) -> float:
-        """How far from the joint the force acts that is read, m."""
+        """Distance of the read force from the joint, m."""
         return self.read_moment / self.read_force
 
     @property
     def centred(self) -> bool:
-        """Whether the middle of the contact lies across the guide from the joint."""
+        """True if the middle of the contact lies across the guide from the joint."""
         middle = abs(float(self.contact.middle[self.reading.index]))
         return middle <= 1e-9 * (self.contact.length or 1.0)
 

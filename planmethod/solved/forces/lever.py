@@ -1,8 +1,8 @@
 """The Zhukovsky lever of one position as it is drawn and measured (рычаг Жуковского в масштабе).
 
-The velocity plan is turned by +90 degrees. A couple on a link stands there for its pair of forces
-in the link's points: its arm is a segment of the plan over the length of the link, and it turns the
-other way where the link goes counter-clockwise, for the segment then lies against the link.
+The velocity plan is turned by +90 degrees. A couple on a link is drawn there as its pair of forces
+in the link's points: its arm is a segment of the plan over the length of the link, and its sense is
+reversed if the link rotates counter-clockwise, because the segment then points against the link.
 """
 
 from __future__ import annotations
@@ -47,11 +47,11 @@ class LeverForce(Struct, frozen=True):
 
 
 class OnLink(Struct, frozen=True):
-    """Something on a link as the lever has the link.
+    """A segment of the lever that represents a link.
 
-    ``segment`` is the segment of the plan, mm, that stands for the link, ``ends`` are its points,
-    ``joints`` those of the link, ``length`` is their distance as the hand has it, m. ``ratio`` is
-    the link's |omega| as the hand has it over the plan's scale, mm/m.
+    ``segment`` is the segment of the plan, mm, that represents the link, ``ends`` are its points,
+    ``joints`` those of the link, ``length`` is their distance as read by hand, m. ``ratio`` is the
+    link's |omega| as read by hand over the plan's scale, mm/m.
     """
 
     symbol: str

@@ -1,9 +1,8 @@
-"""How much larger than the velocity plan a lever is drawn (масштаб рычага).
+"""Enlargement of a lever relative to the velocity plan (масштаб рычага).
 
-Of few loads the lever is the turned plan itself. Where so many hang on it that none of their
-letters has a place, it is drawn at a scale of its own, as one would on paper. So it is in a
-project: its velocity plans are as small as those of all positions must be, its lever has a place
-for itself.
+With few loads the lever is the turned plan itself. With too many loads for their letters it is
+drawn at its own scale, as one would on paper. The same holds in a project: its velocity plans are
+as small as those of all positions must be, but its lever has a place of its own.
 """
 
 from __future__ import annotations
@@ -19,13 +18,13 @@ from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.room import Box
 
 TIMES = (2.0, 2.5, 4.0, 5.0, 10.0)
-"""How many times larger a lever may be drawn: those of GOST 2.302 as far as they are needed."""
+"""Enlargements of a lever: those of GOST 2.302 as far as they are needed."""
 
 FULL = 10.0
 """Loads per square decimetre of the lever and the room around it: more have no letters nearby."""
 
 FEW = 15
-"""Loads on a lever that is never full: the arrows of so many find other lines."""
+"""Number of loads that never overfill a lever: their arrows find other lines."""
 
 PLACE: Box = (150.0, 120.0)
 """Width and height that the lever of a project may fill, mm, beside arrows and letters."""
@@ -74,6 +73,6 @@ def filling(
 
 
 def _size(paper: Reading, points: Sequence[PointName]) -> tuple[Reals, Reals]:
-    """Return width and height of what lies between points, mm."""
+    """Return width and height of the box around points, mm."""
     at = np.asarray([np.broadcast_to(paper.point(one), paper.count) for one in points])
     return np.ptp(at.real, axis=0), np.ptp(at.imag, axis=0)

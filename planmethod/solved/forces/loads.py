@@ -49,7 +49,7 @@ AHEAD = {
     MovingSense.LEFT: -1 + 0j,
     MovingSense.RIGHT: 1 + 0j,
 }
-"""Which way a point moves."""
+"""Unit vector of each sense of a point's motion."""
 
 _LOOKS, _HALVINGS = 720, 40  # positions between which a load may begin and end, and how finely
 
@@ -59,7 +59,7 @@ Mask = npt.NDArray[np.bool_]
 
 
 class MotionValues(Protocol):
-    """What loads need to know of the motion; a `Solution` knows it.
+    """Motion data that loads need; a `Solution` has them.
 
     ``positions`` is of shape (n,), as are the arrays of ``points`` and ``links``.
     """
@@ -74,7 +74,7 @@ class MotionValues(Protocol):
 
     @property
     def construction(self) -> Construction:
-        """Its construction: what can move at all."""
+        """Construction of the mechanism, which shows the links that can move."""
 
     @property
     def points(self) -> Mapping[str, PointMotion]:
@@ -86,16 +86,17 @@ class MotionValues(Protocol):
 
 
 def applied(solution: MotionValues) -> tuple[Applied, ...]:
-    """Return all that acts on the links beside the reactions, link by link.
+    """Return the loads on the links, without the reactions, link by link.
 
     A link has its weight, the main vector of its inertia forces Φ = -m·a_S (главный вектор сил
     инерции), their main moment M_Φ = -J·ε (главный момент), then its external loads in file order.
-    What is zero by nature is left out: inertia of what cannot accelerate, loads of size zero.
+    Loads that are zero by nature are left out: inertia of what cannot accelerate, loads of size
+    zero.
 
     Raises
     ------
     ProblemError
-        A load is known in the positions of the file only, and others are asked.
+        A load is known only in the file's positions, and others are requested.
     """
     dynamics = solution.problem.dynamics
     if dynamics is None:
@@ -125,13 +126,13 @@ def changing(solution: MotionValues) -> dict[str, Applied]:
 
 
 def only_in_positions(dynamics: Dynamics) -> bool:
-    """Tell whether a load is known in the positions of the file only."""
+    """Return whether a load is known only in the file's positions."""
     tables = (load.size for load in dynamics.loads if isinstance(load.size, SizeTable))
     return any(table.over is Over.POSITION for table in tables)
 
 
 def needs_motion(load: Load | Couple) -> bool:
-    """Whether a load is known only where the motion is, not by the driver's position alone."""
+    """Return whether a load depends on the motion, not on the driver's position alone."""
     phase = load.phase
     if isinstance(load.sense, Against):
         return True
@@ -178,7 +179,7 @@ def _of_mass(solution: MotionValues, gravity: float, link: str, mass: Mass) -> I
 
 
 def _stands(solution: MotionValues) -> bool:
-    """Whether the driver stands, and all links with it."""
+    """Return whether the driver, and all links with it, are at rest."""
     drive = solution.problem.drive
     return drive.rate == 0 and not drive.accelerates
 
@@ -214,7 +215,7 @@ def external(solution: MotionValues, dynamics: Dynamics, link: str) -> Iterator[
 
 
 def _is_nothing(solution: MotionValues, load: Load | Couple) -> bool:
-    """Whether a load is zero by nature: of size zero, or against what never moves."""
+    """Return whether a load is zero by nature: of size zero, or against an immovable point."""
     if load.size == 0:
         return True
     if not isinstance(load.sense, Against):
@@ -278,7 +279,7 @@ def acting(solution: Solution, load: Load | Couple, start: float, turn: float) -
 
 
 def _acts(solution: MotionValues, load: Load | Couple, phase: Phase) -> Mask:
-    """Whether a load acts, position by position."""
+    """Return whether a load acts, position by position."""
     acts = np.ones(solution.positions.shape, dtype=bool)
     if phase.phi:
         spans = [_within(solution.positions, *span) for span in phase.phi]
@@ -293,7 +294,7 @@ def _acts(solution: MotionValues, load: Load | Couple, phase: Phase) -> Mask:
 
 
 def _within(phi: Reals, start: float, end: float) -> Mask:
-    """Whether angles lie in a span, its ends included, degrees."""
+    """Return whether angles lie in a span, its ends included, degrees."""
     width = (end - start) % TURN or TURN
     return _from(phi, start) <= width + SLACK
 
@@ -402,12 +403,12 @@ def read(table: SizeTable, at: Reals) -> Reals:
 
 
 def _numbers(solution: MotionValues, path: str) -> npt.NDArray[np.intp]:
-    """Tell which positions of the file the asked ones are.
+    """Return the indices of the requested positions in the file.
 
     Raises
     ------
     ProblemError
-        With the first one that is none of them.
+        For the first one that is not in the file.
     """
     own, asked = np.asarray(solution.problem.drive.positions), solution.positions
     if np.array_equal(own, asked):

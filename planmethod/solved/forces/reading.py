@@ -156,18 +156,18 @@ class ForceReading(Remembering):
         return 0.0 if arm is None else self.read_number(arm)
 
     def turns(self, edge: Edge, about: PointName) -> bool:
-        """Tell whether a force turns its link counter-clockwise about a point."""
+        """Return whether a force turns its link counter-clockwise about a point."""
         lever = self.place(edge.at) - self.place(about)
         return (lever.conjugate() * self.by_hand(*edge.ends)).imag > 0
 
     @property
     def balancing(self) -> BalancingQuantity:
-        """What balances the driving link."""
+        """Balancing force or moment of the driving link."""
         return self.solution.problem.drive.balancing
 
     @property
     def balancing_symbol(self) -> str:
-        """The letter of what balances the driving link."""
+        """Letter of the driving link's balancing force or moment."""
         return self.balancing.symbol
 
     # What there is to show -------------------------------------------------------------------
@@ -186,17 +186,17 @@ class ForceReading(Remembering):
         return max([*moments, self.peak * max(lengths, default=0.0)])
 
     def is_none(self, edge: Edge) -> bool:
-        """Tell whether a force is nothing beside the others."""
+        """Return whether a force is negligible beside the others."""
         return abs(self.force(edge)) <= FAINT_SHARE * self.peak
 
     def is_no_couple(self, couple: CoupleOn) -> bool:
-        """Tell whether a couple is nothing beside the others."""
+        """Return whether a couple is negligible beside the others."""
         return abs(self.number(couple.moment)) <= FAINT_SHARE * self.peak_moment
 
     def shown(self, plan: ForcePlan) -> list[Edge]:
-        """Return the sides of a plan that are something.
+        """Return the sides of a plan that are not negligible.
 
-        A component that is the whole reaction, for the other is nothing, is so shown.
+        If one component of a reaction is negligible, the other is shown as the whole reaction.
         """
         sides = [edge for edge in plan.polygon if not self.is_none(edge)]
         parts = [(edge.on, edge.at) for edge in sides if edge.share is not Share.WHOLE]

@@ -18,14 +18,14 @@ from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
 
 FAINT = 0.02
-"""Share of the largest acceleration of a position: of less nobody reads the length to divide by."""
+"""Fraction of the largest acceleration below which a length is too short to divide by."""
 
 _NOTHING = 1e-9
 """Share of the longest shift below which a shift is rounding: the link turns evenly."""
 
 
 class Hindrance(Enum):
-    """Why a link keeps the force and the couple."""
+    """Reason why a link keeps the force and the couple."""
 
     NO_FORCE = "no force"  # no mass, or the centre of mass is fixed
     FAINT = "faint"  # in some position its acceleration is too small on the plan
@@ -52,7 +52,7 @@ class UnshiftedInertia(Struct, frozen=True):
 def shifted_inertia(
     solution: Solution, loads: Iterable[Applied]
 ) -> tuple[dict[str, Applied], tuple[UnshiftedInertia, ...]]:
-    """Tell of which links the force of inertia is shifted, in all positions alike.
+    """Return the links whose inertia force is shifted, the same in all positions.
 
     Returns
     -------

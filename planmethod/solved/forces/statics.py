@@ -1,7 +1,7 @@
 """Forces of a solved problem: reactions, balancing moment, Zhukovsky lever (кинетостатика).
 
-The force plans go on from the program of the kinematics, so that arms and accelerations are those
-of the drawings, whoever reads them.
+The force plans continue the program of the kinematics, so that arms and accelerations are those of
+the drawings in every reading.
 """
 
 from __future__ import annotations
@@ -55,16 +55,16 @@ from planmethod.solved.trust.conditioning import SPOILT
 
 UNIT = FACTS[PlanKind.FORCE].unit
 COMMON_BOX: Box = (100.0, 100.0)
-"""What the largest of all force plans fills at the scale that they have in common, mm."""
+"""Box that the largest of all force plans fills at the common scale, mm."""
 
 PLAN_BOX: Box = (200.0, 150.0)
-"""What each force plan of a group fills at the scale of its own at which it is drawn, mm."""
+"""Box that each force plan of a group fills if drawn at its own scale, mm."""
 
 LAST_BOX: Box = (140.0, 100.0)
-"""What that of the driving link fills, which closes with one force, mm."""
+"""Box of the driving link's plan, which closes with one force, mm."""
 
 FAINT = 1e-6
-"""A plan that is so small a part of what it is in its largest position is nothing."""
+"""Fraction of its size in its largest position below which a plan is negligible."""
 
 
 class Planned(Struct, frozen=True):
@@ -94,11 +94,11 @@ def plan_forces(
     draft : Draft
         Construction that is continued.
     loads : iterable of Applied
-        What acts on the links beside the reactions.
+        Loads on the links other than the reactions.
     single : mapping of str to Applied
-        Couples that the force of inertia of their link stands for as well, by link.
+        Couples that the inertia force of their link includes, by link.
     hung : bool
-        The loads hang on the lever, too: not those of friction, which act on both links of a pair.
+        The loads act on the lever, too: not those of friction, which act on both links of a pair.
     """
     start = len(draft.b.steps)
     board = ForceBoard(draft, solution.construction.kinematics, _dynamics(solution))
@@ -118,7 +118,7 @@ def plan_forces(
 
 
 class Loads(Struct, frozen=True):
-    """What acts on the links, and which forces of inertia stand for their couples (нагрузки).
+    """Loads on the links, and the inertia forces that include their couples (нагрузки).
 
     ``single`` are those couples by link; ``unshifted`` the links that keep theirs.
     """
@@ -129,7 +129,7 @@ class Loads(Struct, frozen=True):
 
     @property
     def kind(self) -> tuple[object, ...]:
-        """What loads have in common that are planned alike."""
+        """Key that loads planned in the same way have in common."""
         named = ((one.name, one.link, one.point, one.kind) for one in self.applied)
         return (*named, *self.single)
 
@@ -202,7 +202,7 @@ class Statics(Remembering):
     solution : Solution
         Of a problem with ``[dynamics]``; every group must be a dyad.
     rubbing : sequence of Applied
-        Forces and couples of friction, which act beside the other loads; then there is no lever.
+        Forces and couples of friction, in addition to the other loads; then there is no lever.
 
     Attributes
     ----------
@@ -254,7 +254,7 @@ class Statics(Remembering):
 
     @cached_property
     def si(self) -> Reading:
-        """Exact reading: what is a millimetre of a force plan is here a newton.
+        """Exact reading at unit scale: one newton per millimetre of a force plan.
 
         Raises
         ------
@@ -275,7 +275,7 @@ class Statics(Remembering):
     @cached_property
     def exact(self) -> Reading:
         """The same, NaN in positions where a force plan does not close."""
-        self.solution.si  # noqa: B018 - an impossible position must be told first
+        self.solution.si  # noqa: B018 - an impossible position must be reported first
         return self.read(Float64(), {**UNIT_SCALES, SCALE: 1.0})
 
     @cached_property
@@ -285,7 +285,7 @@ class Statics(Remembering):
 
     @property
     def closes(self) -> npt.NDArray[np.bool_]:
-        """Whether the force plans close, shape (n,)."""
+        """True where the force plans close, shape (n,)."""
         return np.asarray(self.failing < 0)
 
     @cached_property
@@ -318,7 +318,7 @@ class Statics(Remembering):
     def _number(self, name: NumberName | None) -> Reals:
         if name is None:
             return fixed(np.zeros(self.solution.positions.shape))
-        return fixed(self.si.number(name) + 0.0)  # no force is nothing, and not minus nothing
+        return fixed(self.si.number(name) + 0.0)  # a zero force is 0.0, not -0.0
 
     @cached_property
     def reactions(self) -> list[JointForce]:
@@ -342,7 +342,7 @@ class Statics(Remembering):
 
     @cached_property
     def balance(self) -> Reals:
-        """What balances the driver: moment on a crank, N·m; force at its point, on a slider, N."""
+        """Balance of the driver: moment on a crank, N·m; force at its point or on a slider, N."""
         return self._number(self.driving.balance)
 
     @cached_property
@@ -352,7 +352,7 @@ class Statics(Remembering):
 
     @cached_property
     def driving_rate(self) -> Reals | float:
-        """What the power of the driver is of: 1/s of its moment, m/s of its force, as it grows."""
+        """Rate whose product with the balance is power: 1/s for a moment, m/s for a force."""
         drive = self.solution.problem.drive
         if drive.actuator is None:
             return driven(drive, self.solution.positions)[1]
@@ -449,7 +449,7 @@ class Statics(Remembering):
 
     @cached_property
     def shares(self) -> list[Reals]:
-        """How many times larger than by `scale` each plan is drawn, by positions, shape (n,)."""
+        """Enlargement of each plan relative to `scale`, by positions, shape (n,)."""
         return [self.mu / own for own in self.own_scales]
 
     def own_scale(self, number: int, index: int) -> Scale:
@@ -473,7 +473,7 @@ class Statics(Remembering):
 
     @cached_property
     def lever_times(self) -> Reals:
-        """How many times larger than the velocity plan the lever is drawn, shape (n,)."""
+        """Enlargement of the lever relative to the velocity plan, shape (n,)."""
         assert self.lever_plan is not None
         solution, fills = self.solution, np.ones(self.paper.count)
         if solution.problem.calculated is not None:  # a project's, at scales of all positions
@@ -499,7 +499,7 @@ class Statics(Remembering):
 
     @cached_property
     def by_hand(self) -> Reading:
-        """Reading of a draughtsman who measures with a ruler, along his own chain."""
+        """Reading with a ruler, along the draughtsman's own chain."""
         return self.read(self.hand, self.per_mm)
 
 
@@ -512,7 +512,7 @@ def _enlarge(own: Reals, sizes: tuple[Reals, Reals], room: Box, *, inverse: bool
 
 
 def statics_of(solution: Solution) -> Statics:
-    """Return the force analysis of a solution, made when it is first asked for."""
+    """Return the force analysis of a solution, made at the first call."""
     return of_type("solution", solution, Solution, "planmethod.solve()").once(Statics)
 
 

@@ -3,8 +3,9 @@
 The rod is replaced by two masses in its pins, statically: m_A = m·(1 - w), m_B = m·w, where w is
 the centre of mass on the line from A to B, 0 in A and 1 in B. With w a complex number this holds
 for a centre beside the line, too (Berkof and Lowen's independent vectors). The counterweight of a
-link then closes the polygon of vectors m·r of what its axis carries, and the centre of all masses
-stands. A slider-crank has a counterweight on the rod first, which brings rod and slider to the pin.
+link then closes the polygon of vectors m·r of the masses on its axis, and the centre of all masses
+is at rest. A slider-crank has a counterweight on the rod first, which brings rod and slider to the
+pin.
 
 Source: Артоболевский, Теория механизмов и машин, гл. 13.
 """
@@ -73,13 +74,13 @@ class Counterweight(Struct, frozen=True):
 
     @property
     def place(self) -> complex:
-        """Where it stands, as a part of the line of the link from the pivot; 0 of none."""
+        """Its position, as a fraction of the link's line from the pivot; 0 if there is none."""
         size = abs(self.moment)
         return self.moment / size * self.radius / self.length if size else 0j
 
     @property
     def angle_deg(self) -> float:
-        """Its direction from the line of the link, degrees from 0 to 360."""
+        """Direction from the line of the link, degrees from 0 to 360."""
         return float(degrees(np.angle(self.place)) % 360.0)
 
 
@@ -297,5 +298,5 @@ class Balancing(Remembering):
 
 @remembered
 def balancing_of(solution: Solution) -> Balancing:
-    """Return the balancing of a solution's problem, made when first asked for."""
+    """Return the balancing of a solution's problem, made at the first call."""
     return Balancing(solution.problem)

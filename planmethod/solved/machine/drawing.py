@@ -64,7 +64,7 @@ class FlywheelDrawing:
     profile : Profile
         The hand that draws them.
     count : int, optional
-        Positions; those of the file when absent.
+        Number of positions. Default: those of the file.
     """
 
     def __init__(self, flywheel: Flywheel, profile: Profile, count: int | None = None) -> None:
@@ -94,7 +94,7 @@ class FlywheelDrawing:
 
     @property
     def by_mertsalov(self) -> bool:
-        """Whether dT without T_II is drawn, and no tangents to an energy-mass diagram."""
+        """True if dT without T_II is drawn instead of tangents to an energy-mass diagram."""
         return self.flywheel.machine.method is FlywheelMethod.MERTSALOV
 
     @property
@@ -222,7 +222,7 @@ class FlywheelDrawing:
 
     @cached_property
     def errors(self) -> Errors:
-        """How far KL or AB, mm, and J_f, kg·m², may be off: labels ``KL`` or ``AB``, ``J_f``."""
+        """Errors of KL or AB, mm, and J_f, kg·m²: labels ``KL`` or ``AB``, ``J_f``."""
         made = self.made
         items = tuple(
             DrawnQuantity(name, (name,), number(name), DrawnKind.NUMBER)
@@ -259,7 +259,7 @@ class FlywheelDrawing:
 
 @remembered
 def drawing_of(flywheel: Flywheel, profile: Profile) -> FlywheelDrawing:
-    """Return the diagrams of a flywheel as a hand draws them, made when first asked for."""
+    """Return the diagrams of a flywheel as drawn by hand, made at the first call."""
     return FlywheelDrawing(flywheel, profile)
 
 
@@ -268,18 +268,19 @@ def _fitting(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]], most: fl
 
 
 class Split(Struct, frozen=True):
-    """What a construction is off by, kg·m², in parts that add up (разложение расхождения).
+    """Error of a construction, kg·m², in parts that add up (разложение расхождения).
 
     Attributes
     ----------
     slopes : float
-        Of slopes 1 ± delta for (1 ± delta/2)²; 0 of Mertsalov's.
+        From slopes 1 ± delta instead of (1 ± delta/2)²; 0 for Mertsalov's method.
     method : float
-        Of the mean speed in T_II for the greatest and the least (Mertsalov); 0 of Wittenbauer's.
+        From the mean speed in T_II instead of the greatest and the least (Mertsalov); 0 for
+        Wittenbauer's method.
     positions : float
-        Of so many positions for all.
+        From the finite number of positions.
     pencil : float
-        Of lengths read with the ruler; ``sigma`` is what all strokes together may do.
+        From lengths read with the ruler; ``sigma`` is the standard deviation due to all strokes.
     """
 
     slopes: float
@@ -290,7 +291,7 @@ class Split(Struct, frozen=True):
 
 
 def split(drawing: FlywheelDrawing) -> Split:
-    """Tell what the construction is off by, and by what (разложить расхождение)."""
+    """Return the error of the construction and its parts (разложить расхождение)."""
     wheel = drawing.flywheel
     whole = wheel.tangents(*wheel.usual_slopes, wheel.middle_speed).inertia
     off = whole - wheel.exact.inertia

@@ -84,7 +84,7 @@ class MachineRows(Struct, frozen=True):
 
 
 class Points(Struct, frozen=True):
-    """What a construction by so many positions has without a pencil (построение по точкам).
+    """Exact ordinates of a construction by a number of positions (построение по точкам).
 
     Attributes
     ----------
@@ -322,24 +322,24 @@ class Flywheel(Remembering):
     # By positions ----------------------------------------------------------------------------
 
     def turned(self, count: int) -> Reals:
-        """Return the angles turned of so many even positions, rad."""
+        """Return the angles turned of ``count`` equally spaced positions, rad."""
         return np.asarray(self.cycle * np.arange(count) / count, dtype=float)
 
     @remembered
     def solved(self, count: int) -> Solution:
-        """Return the motion in so many even positions, by their own plans."""
+        """Return the motion in ``count`` equally spaced positions, by their own plans."""
         return self.turn.solved(self.turned(count))
 
     @remembered
     def reduced(self, count: int) -> Reduced:
-        """Return what is reduced to the crank in so many even positions, by their own plans."""
+        """Return the reduced quantities in ``count`` equally spaced positions, by their plans."""
         return reduce(self.solved(count), self.machine)
 
     @remembered
     def lever(self, count: int) -> Reals:
-        """Return the reduced moment in so many positions by the Zhukovsky lever, N·m, shape (n,).
+        """Return the reduced moment in ``count`` positions by the Zhukovsky lever, N·m, shape (n,).
 
-        Loads and weights hang on the turned velocity plan of each position; no inertia.
+        Loads and weights act on the turned velocity plan of each position; inertia does not.
         """
         problem, dynamics = self.turn.problem, self.problem.dynamics
         assert dynamics is not None
@@ -386,7 +386,7 @@ class Flywheel(Remembering):
         ordinates: Quadrature,
         slopes: tuple[float, float],
     ) -> Points:
-        """Return what a construction finds that knows so many positions only.
+        """Return the results of a construction that knows only ``count`` positions.
 
         Parameters
         ----------
@@ -435,7 +435,7 @@ def touching(
 
 @remembered
 def flywheel_of(solution: Solution) -> Flywheel:
-    """Return the machine of a solution, worked out when it is first asked for."""
+    """Return the machine of a solution, computed at the first call."""
     return Flywheel(solution.problem)
 
 

@@ -23,11 +23,11 @@ class MachinePower(Struct, frozen=True):
         Mean power over the cycle: of the resistance where a motor drives the machine, of the
         engine where it drives itself.
     efficiency : float or None
-        Of the train between the motor and the crank; None where it is not given.
+        Efficiency of the train between the motor and the crank; None if it is not given.
     at_motor : float or None, W
-        What the motor gives; None where there is no train with an efficiency, and for an engine.
+        Power of the motor; None if there is no train with an efficiency, and for an engine.
     rated : float or None, W
-        Least power of the series that is no smaller; None where the series ends before.
+        Smallest power of the series that is not less; None if the series ends before.
     """
 
     at_crank: float

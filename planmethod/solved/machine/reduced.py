@@ -26,7 +26,7 @@ NEVER = 1e-12
 
 
 class Reduced(Struct, frozen=True):
-    """What is reduced to the crank, in some positions, ndarrays of shape (n,).
+    """Quantities reduced to the crank, in some positions, ndarrays of shape (n,).
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Reduced(Struct, frozen=True):
 
 
 def power(motion: MotionValues, one: Applied) -> Reals:
-    """Return the power of what acts on a link, W, ndarray of shape (n,)."""
+    """Return the power of the loads on a link, W, ndarray of shape (n,)."""
     if one.point is None:
         return one.couple * motion.links[one.link].omega
     velocity = motion.points[one.point].velocity

@@ -1,9 +1,9 @@
 """Run-up by a motor, the steady motion that it keeps, and the stop (разбег, останов).
 
-With z = omega²/2 and the angle turned as the argument the equation of motion is
-dz/dphi = (M_motor(omega) - M - z·dJ/dphi)/(J_f + J), dt/dphi = 1/omega. Dormand and Prince's steps
-of order 5 with their own error of order 4 stand in cells of the cycle that end where a moment
-jumps; what the cells need of M, J and dJ/dphi is read once, and a cell that errs is halved.
+With z = omega²/2 and the angle turned as the argument the equation of motion is dz/dphi =
+(M_motor(omega) - M - z·dJ/dphi)/(J_f + J), dt/dphi = 1/omega. Dormand and Prince's steps of order 5
+with their own error of order 4 are taken in cells of the cycle that end where a moment jumps; M, J
+and dJ/dphi of the cells are read once, and a cell with too large an error is halved.
 """
 
 from __future__ import annotations
@@ -232,7 +232,7 @@ class RunUp(Remembering):
 
     @cached_property
     def failure(self) -> StalledError | None:
-        """Where the motor stops under the load with the flywheel; None where it does not.
+        """Stall of the motor under the load with the flywheel; None if it does not stall.
 
         A motion that is not steady after `MOST_CYCLES` has an endless time.
         """
@@ -341,7 +341,7 @@ class RunUp(Remembering):
 
 @remembered
 def run_up_of(flywheel: Flywheel) -> RunUp:
-    """Return the run-up and the stop of a machine, made when first asked for."""
+    """Return the run-up and the stop of a machine, made at the first call."""
     return RunUp(flywheel)
 
 

@@ -115,7 +115,7 @@ def adopted(wheel: FlywheelTask, sizes: FlywheelSizes) -> FlywheelSizes:
 
 
 def too_wide(wheel: FlywheelTask, inertia: float, omega: float) -> str | None:
-    """Return what is told of a flywheel that is wide for its diameter; None of a usual one.
+    """Return the warning about a flywheel that is wide for its diameter; None for a usual one.
 
     Parameters
     ----------

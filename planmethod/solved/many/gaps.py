@@ -1,4 +1,4 @@
-"""A sweep and where it has gaps: what a command tells of any number of positions."""
+"""Sweep with its gaps: the report of commands on any number of positions."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ CHUNK = 16384
 
 
 class GappedSweep:
-    """A sweep over positions that were looked at first.
+    """A sweep over positions that were checked first.
 
-    Every position that a step fails in is found. The self-check of `selfcheck.verify` and the
-    doubts, which need all steps, see a thousand possible positions at most, evenly spread. Where
-    only some results are asked, positions whose motion rounding spoils are doubts, not gaps; those
-    whose forces it spoils are gaps where forces are asked.
+    Every position in which a step fails is found. The self-check of `selfcheck.verify` and the
+    warnings, which need all steps, cover at most a thousand possible positions, evenly spread. If
+    only some results are requested, positions whose motion is spoilt by rounding are warnings, not
+    gaps; those whose forces are spoilt are gaps if forces are requested.
 
     Parameters
     ----------
     problem : Problem
     positions : ndarray of shape (n,)
     asked : iterable of str, optional
-        Labels of results; everything when absent.
+        Labels of results. Default: everything.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class GappedSweep:
     ) -> None:
         labels = None if asked is None else tuple(asked)
         self.problem, self.positions = problem, positions
-        # By NumPy: what is printed does not depend on what a compiler left in a cache.
+        # By NumPy: the printed values must not depend on a compiler's cache.
         self.sweep = Sweep(problem, labels, forces=problem.dynamics is not None, native=False)
         gaps = Gaps.of(self._failed(), self._why)
         some = evenly(np.flatnonzero(gaps.reason < 0))

@@ -64,9 +64,9 @@ class LoadColumns:
     problem : Problem
     construction : Construction
     loads : sequence of (str, tuple of NumberName)
-        By name, and the known numbers of a program that each stands in.
+        Names, and the known numbers of a program that depend on each.
     motion : callable
-        Sweeps the motion; called only for loads that depend on it.
+        Function that sweeps the motion; called only for loads that depend on it.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class LoadColumns:
     loads : tuple of str
         Names of the loads, in the order of the inputs: two of a force, one of a couple.
     need_motion : bool
-        Some load is known only where the motion is.
+        True if some load depends on the motion.
     """
 
     def __init__(
@@ -99,7 +99,7 @@ class LoadColumns:
         Raises
         ------
         ProblemError
-            A load is known in the positions of the file only, and others are asked.
+            A load is known only in the file's positions, and others are requested.
         """
         moved = SweptMotion(self.problem, self.construction, positions, self._motion)
         found = changing(moved)

@@ -51,7 +51,7 @@ _SPOILT = np.iinfo(np.int16).max
 
 
 _UNTOLD = np.int16(_SPOILT - 1)
-"""Code of a position whose places exist, and of whose motion no side is known."""
+"""Code of a position whose places exist, but whose motion has no known side."""
 
 
 class Gaps(Struct, frozen=True):
@@ -60,11 +60,11 @@ class Gaps(Struct, frozen=True):
     Attributes
     ----------
     reason : ndarray of int16 of shape (n,)
-        -1 where there are results, else an index into ``told``.
+        -1 where there are results, else an index of a failure.
     told : tuple of Failure
-        Why, for the first position of each kind; in the order of these positions.
+        Failure of the first position of each kind; in the order of these positions.
     unforced : int
-        The last kinds, so many, leave the motion as it is: only forces do not exist there.
+        Number of kinds at the end whose motion exists: only their forces do not.
     """
 
     reason: Codes
@@ -78,7 +78,7 @@ class Gaps(Struct, frozen=True):
         Parameters
         ----------
         tell : callable
-            Says why the position of an index is impossible; called once for each code.
+            Returns the failure of the position with an index; called once for each code.
         """
         bad = np.flatnonzero(codes >= 0)
         _, first, which = np.unique(codes[bad], return_index=True, return_inverse=True)
@@ -101,7 +101,7 @@ class Gaps(Struct, frozen=True):
 
     @property
     def of_forces(self) -> Gaps:
-        """Those that leave the motion as it is."""
+        """The gaps among them where the motion exists."""
         first = len(self.told) - self.unforced
         reason = np.where(self.reason >= first, self.reason - first, -1).astype(np.int16)
         return Gaps(reason, self.told[first:], self.unforced)
@@ -126,7 +126,7 @@ class Gaps(Struct, frozen=True):
         return self.sentences[0] + others_fail(others)
 
     def warning(self) -> str:
-        """Return what is said of a request whose impossible positions stay empty."""
+        """Return the sentences about a request whose impossible positions stay empty."""
         left = (
             "{0} of {1} positions {0:|is impossible and left empty|are impossible, left empty}. {2}"
         )
@@ -160,13 +160,13 @@ class CheckedPositions(Struct, frozen=True):
 
 
 def blocks(count: int, size: int = BLOCK) -> Iterator[slice]:
-    """Yield slices of so many positions at most."""
+    """Yield consecutive slices of at most ``size`` positions."""
     for start in range(0, count, size):
         yield slice(start, min(start + size, count))
 
 
 def evenly(places: Places, most: int = SAMPLE) -> Places:
-    """Return so many of some places at most, evenly spread, the first and the last among them."""
+    """Return at most a given number of places, evenly spread, with the first and the last."""
     if len(places) <= most:
         return places
     return places[np.linspace(0, len(places) - 1, most).round().astype(np.intp)]

@@ -23,9 +23,9 @@ class SweepRow(Struct, frozen=True):
         ``B.x``, ``B.vy``, ``2.phi_deg``, ``2.cos``, ``2.omega``, ``F.B.2-1.x``: the columns of
         ``solve --csv``.
     label : str
-        The result it belongs to, as it is asked for: ``B``, ``v_B``, ``phi_2``.
+        Label of its result: ``B``, ``v_B``, ``phi_2``.
     is_force : bool
-        It is a force or a moment.
+        True for a force or a moment.
     """
 
     name: str

@@ -48,33 +48,33 @@ class SweepTable(Named[Array]):
 class Sweep:
     """Results of a problem in any number of positions (развёртка по положениям).
 
-    The program is cut down to what is asked, compiled once, and run in blocks that stay in the
-    cache: memory holds the answers, not the steps.
+    The program is reduced to the requested results, compiled once, and run in blocks that stay in
+    the cache: memory holds the results, not the steps.
 
     Parameters
     ----------
     problem : Problem
     asked : iterable of str, optional
         Labels of results (``v_E``, ``omega_3``, ``F_B_2/1``), or ``positions``, ``velocities``,
-        ``accelerations``, ``forces``, ``units``; everything of the motion when absent.
+        ``accelerations``, ``forces``, ``units``. Default: everything of the motion.
     varied : sequence of str
         Numbers of the file that `run` will be given: ``l_BC``, ``omega_1``, ``x_C``; see
         `parameters`, or dotted keys, ``links.2.D.at``. The results are those of the file with these
-        numbers: what follows from one, a side of a triangle or the way in which a group closes,
-        follows as it does when a file is read. A rate costs nothing; with each set of sizes the
-        file is read again, some milliseconds.
+        numbers: dependent values, such as a side of a triangle or the assembly of a group, follow
+        as they do when a file is read. A rate has no extra cost; for each set of sizes the file is
+        read again, which takes some milliseconds.
     dtype : dtype
         float64; float32 is for pictures only.
     forces : bool
-        Where nothing is asked by name: everything of the forces, too.
+        If no labels are given: everything of the forces, too.
     drawn : sequence of Name
         Points and numbers of the plans that are results as well, SI, each as ``.x`` and ``.y``:
         ``v:c.x``; places as they lie on their plan.
     native : bool, optional
         Compile the tape with the system's C compiler now (True), or never use such code (False).
-        When absent, it is used for thousands of positions if it was compiled before, and compiled
-        where that pays (`Runner`). Without a compiler, with ``PLANMETHOD_NATIVE=0`` and in float32
-        NumPy gives the same numbers to rounding; `uncompiled` says why.
+        Default: it is used for thousands of positions if it was compiled before, and compiled where
+        that pays (`Runner`). Without a compiler, with ``PLANMETHOD_NATIVE=0`` and in float32 NumPy
+        gives the same numbers to rounding; `uncompiled` is the reason.
 
     Attributes
     ----------
@@ -84,14 +84,14 @@ class Sweep:
         lengths ``l_AB`` (of slots ``e_B``), third points of links along and across them ``x_D``,
         ``y_D`` (``x_B_D`` of one counted from B), fixed points and guides ``x_O``, ``y_O``,
         ``x_x-x``, angles ``angle_x-x``, ``angle_3``, ``angle_BAD``, rates ``omega_1``,
-        ``epsilon_1``, ``v``, ``a``; where forces are asked for also masses and moments of inertia
+        ``epsilon_1``, ``v``, ``a``; if forces are requested also masses and moments of inertia
         ``m_2``, ``J_2``, ``g``, loads by their name ``F_5`` and ``angle_F_5``.
     forces : bool
         Forces are among the results.
     branches : dict
-        Closings that go on through change points, by the number that tells their side.
+        Assembly modes that continue through change points, by the number that gives their side.
     loads : LoadColumns or None
-        Loads that must be told for every position.
+        Loads that must be given for every position.
     steps : int
         Steps of the program that are needed.
 
@@ -151,7 +151,7 @@ class Sweep:
         self.rows = self._tape.rows
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Return what another process makes it of: it is compiled there anew."""
+        """Return how another process rebuilds the sweep: it is compiled there again."""
         return _made_again, self._made_of
 
     def _written(self, case: Case, free: Sequence[str]) -> CaseTape:
@@ -174,7 +174,7 @@ class Sweep:
 
     @property
     def uncompiled(self) -> str:
-        """Why there is no machine code; empty if there is."""
+        """Reason why there is no machine code; empty if there is some."""
         return self._runner.uncompiled
 
     def run(
@@ -206,13 +206,13 @@ class Sweep:
         Raises
         ------
         SweepError
-            When the shapes do not go together.
+            The shapes do not match.
         """
         angle = reals("positions", positions, self._runner.dtype)
         parameters = {} if parameters is None else of_type("parameters", parameters, Mapping)
         if self._untold:
             refuse_untold(self.problem, self._draft, angle)
-        # Alone they are of one shape: there is nothing to be looked at.
+        # A single variant has one shape: nothing needs to be checked.
         if not (self.varied or parameters) and angle.ndim == 1 and out is None and failed is None:
             found = self._runner.few(lambda: [angle, *self._told(angle)], len(angle))
             if found is not None:
@@ -352,14 +352,15 @@ class Sweep:
     ) -> Callable[[], Array]:
         """Return a function that does `run` for these arrays: all is prepared and checked now.
 
-        An array of float64 is read anew at every call, so that new positions and parameters are
-        written into it. For few positions that are asked again and again: the tape is compiled if
-        it can be.
+        An array of float64 is read at every call, so that new positions and parameters are written
+        into it. Intended for few positions that are computed repeatedly: the tape is compiled if
+        possible.
 
         Returns
         -------
         callable
-            Of nothing; it fills ``out`` (and ``failed``) and returns it, the same array every time.
+            Function without arguments; it fills ``out`` (and ``failed``) and returns it, the same
+            array every time.
         """
         angle = reals("positions", positions, self._runner.dtype)
         sizes = {} if parameters is None else of_type("parameters", parameters, Mapping)
@@ -436,10 +437,10 @@ class Sweep:
     def table(
         self, positions: npt.ArrayLike, parameters: Mapping[str, npt.ArrayLike] | None = None
     ) -> dict[str, Array]:
-        """Return the results by the names of their rows, and by what they are asked for as.
+        """Return the results by the names of their rows, and by their labels.
 
-        ``3.omega`` and ``omega_3`` are one; of a vector, as ``v_E``, the parts ``E.vx`` and
-        ``E.vy`` are its rows, and it itself is complex.
+        ``3.omega`` and ``omega_3`` are the same; a vector such as ``v_E`` has the rows ``E.vx`` and
+        ``E.vy`` and is itself complex.
         """
         found = self.run(positions, parameters)
         rows = {row.name: values for row, values in zip(self.rows, found, strict=True)}
@@ -474,7 +475,7 @@ class Sweep:
         Parameters
         ----------
         number : int, optional
-            Number of the position, from 0, for the message; without it, it is the only one.
+            Number of the position, from 0, for the message. Default: it is the only one.
 
         Returns
         -------

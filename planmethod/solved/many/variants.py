@@ -1,9 +1,9 @@
 """Variants of a problem as rows of one solution (варианты как строки одного решения).
 
 Variants that are drawn by the same steps differ in their numbers alone: each number is a column,
-and one reading of the program has the positions of all of them. What holds of one variant only (its
-scales, what is enlarged, random sheets) its own solution tells, whose readings are rows of the
-common ones. A variant of which something is to be said is left to be solved alone.
+and one reading of the program has the positions of all of them. Properties of a single variant (its
+scales, enlarged views, random sheets) belong to its own solution, whose readings are rows of the
+common ones. A variant with a warning is left to be solved alone.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ from planmethod.solved.trust.conditioning import DOUBTFUL
 class Batch(Solution):
     """Variants that are drawn by the same steps, each with its rows (варианты одной схемы).
 
-    Everything that is asked of it by positions has a row for each position of each variant, in
-    order. Where a step is impossible there is NaN.
+    All values by positions have a row for each position of each variant, in order. They are NaN
+    where a step is impossible.
 
     Parameters
     ----------
@@ -61,14 +61,14 @@ class Batch(Solution):
         self._counts, self._of = counts, np.repeat(np.arange(len(problems)), counts)
 
     def some(self, numbers: Sequence[int]) -> Batch:
-        """Return a batch of some of the variants, which keep what is known of them alone."""
+        """Return a batch of some of the variants, which keep their own readings."""
         chosen = [self.problems[k] for k in numbers], [self.constructions[k] for k in numbers]
         found = Batch(*chosen, self.profile)
         found.alone = [self.alone[k] for k in numbers]
         return found
 
     def _given_at(self, chosen: npt.NDArray[np.intp] | slice) -> Mapping[str, Any]:
-        """Return what is given, for some rows, at unit scales."""
+        """Return the given data of some rows, at unit scales."""
         return at_positions(self._given, chosen)
 
     @cached_property
@@ -78,7 +78,7 @@ class Batch(Solution):
         return _columns(own, self._counts)
 
     def numbers_of(self, plan: Callable[[Construction], Mapping[str, float]]) -> dict[str, Number]:
-        """Return the known numbers of what goes on from the constructions, in every row."""
+        """Return the known numbers of the continued constructions, in every row."""
         return _columns([plan(made) for made in self.constructions], self._counts)
 
     def length(self, link: str, p: str, q: str) -> Reals:
@@ -103,7 +103,7 @@ class Batch(Solution):
 
     @property
     def together(self) -> int:
-        """Most positions of a variant."""
+        """Largest number of positions of a variant."""
         return max(self._counts)
 
     @cached_property
@@ -113,7 +113,7 @@ class Batch(Solution):
 
     @cached_property
     def good(self) -> Flags:
-        """Which variants are solved, and nothing is to be said of them; shape (variants,)."""
+        """Flags of the variants that are solved without any warning; shape (variants,)."""
         rows = failing(self.construction.program, self.si.trace, self.si.count) < 0
         rows &= ~refused(self)
         told = np.array([bool(rows[own].all()) for own in self.rows])
@@ -123,9 +123,9 @@ class Batch(Solution):
 
     @property
     def kinds(self) -> list[tuple[object, ...] | None]:
-        """What loads the variants have: those of one kind are planned alike.
+        """Kinds of loads of the variants: those of one kind are planned in the same way.
 
-        None of one that is not solved, or of which something is to be said.
+        None for a variant that is not solved, or that has a warning.
         """
         good = self.good
         if self.problem.dynamics is None or not good.all():
@@ -163,7 +163,7 @@ class Batch(Solution):
 
     @cached_property
     def hand(self) -> Hand:
-        """Draughtsman with a ruler: in every row what is short is read as in its variant."""
+        """Draughtsman with a ruler: in every row short segments are read as in its variant."""
         enlarged: dict[str, Number] = {}
         for k in np.flatnonzero(self._short):
             one, own = self.alone[k], self.rows[k]
@@ -174,7 +174,7 @@ class Batch(Solution):
 
     @property
     def _short(self) -> Flags:
-        """Which variants may have something enlarged, by a look at all; shape (variants,)."""
+        """Flags of the variants that may need enlarged views, by an estimate; shape (variants,)."""
         found = np.zeros(len(self.positions), dtype=bool)
         for kind in RATES:
             ends = [(v.tail, v.head) for v in self.construction.plan(kind).vectors]
@@ -184,10 +184,10 @@ class Batch(Solution):
 
 
 def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batch, list[int]]]:
-    """Return variants together as far as they are drawn by the same steps, and their numbers.
+    """Return batches of variants that are drawn by the same steps, and their indices.
 
-    Those of which something is to be said, and those that are like no other, are in none of them:
-    each is to be solved alone.
+    Variants with warnings and variants unlike all others are in none of them: each must be solved
+    alone.
     """
     plain = [k for k, problem in enumerate(problems) if _is_plain(problem)]
     made = dict(zip(plain, constructed([problems[k] for k in plain]), strict=True))
@@ -218,7 +218,7 @@ def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batc
 
 
 def _is_plain(problem: Problem) -> bool:
-    """Tell whether a problem asks for plans of a few positions, and nothing beyond them."""
+    """Return whether a problem consists only of plans of a few positions."""
     more = (problem.cycle, problem.machine, problem.balancing, problem.project)
     rubs = problem.dynamics is not None and problem.dynamics.friction is not None
     whole = not rubs and not any(part is not None for part in more)
@@ -226,7 +226,7 @@ def _is_plain(problem: Problem) -> bool:
 
 
 def _kind(problem: Problem, construction: Construction) -> tuple[Any, ...]:
-    """Return what problems have in common that are drawn and told by the same names."""
+    """Return the key that problems with the same steps and names have in common."""
     bodies = tuple((link, tuple(body.points)) for link, body in problem.bodies.items())
     draft = construction.draft
     given = tuple(draft.numbers), tuple(draft.places), tuple(draft.branches)
@@ -236,7 +236,7 @@ def _kind(problem: Problem, construction: Construction) -> tuple[Any, ...]:
     dynamics = problem.dynamics
     if dynamics is None:
         return kind
-    # A guide and bearings are asked for their numbers; a force pushes along its own line.
+    # Guides and bearings are looked up by number; a force pushes along its own line.
     shared = tuple(problem.slides.items()), tuple(dynamics.bearings.items()), problem.drive.pushed
     return (*kind, tuple(dynamics.masses), dynamics.resultant, shared)
 
@@ -253,7 +253,7 @@ def _loads_kind(solution: Solution) -> tuple[object, ...] | None:
 def constructed(problems: Sequence[Problem]) -> list[Construction | None]:
     """Return the constructions of problems, None where there is none.
 
-    Their closings are judged side by side: what is drawn by the same steps is read at once.
+    Their assembly modes are chosen together: programs with the same steps are read at once.
     """
     found: list[Construction | None] = [None] * len(problems)
     structures: dict[Mechanism, Structure] = {}
@@ -303,7 +303,7 @@ def _read_together(wanted: Mapping[int, WantedReading]) -> list[tuple[int, Readi
 
 
 def _rows(counts: Sequence[int]) -> list[slice]:
-    """Return the rows of each variant that has so many positions, in order."""
+    """Return the rows of each variant, given their numbers of positions, in order."""
     return [slice(start, end) for start, end in pairwise(np.cumsum([0, *counts]).tolist())]
 
 

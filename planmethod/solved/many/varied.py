@@ -41,7 +41,7 @@ class SweepError(PlanMethodError, ValueError):
 
 
 class Case(Struct, frozen=True, eq=False):
-    """A problem as a sweep needs it: the program of what is asked, and its numbers (случай).
+    """Problem of a sweep: the program of the requested results, and its numbers (случай).
 
     Attributes
     ----------
@@ -49,15 +49,15 @@ class Case(Struct, frozen=True, eq=False):
     construction : Construction
     results : Quantities
     chosen, moved : tuple of Quantity
-        What is asked, and what loads depend on besides.
+        Requested results, and additional ones on which loads depend.
     program : Program
         Steps that are needed.
     constants : mapping
         Data that are the same in every position.
     loads : LoadColumns or None
-        Loads that must be told for every position.
+        Loads that must be given for every position.
     told : str
-        Of a file with other numbers, those: ``l_AB = 0.3``.
+        Changed numbers of the file, if any: ``l_AB = 0.3``.
     """
 
     problem: Problem
@@ -72,13 +72,13 @@ class Case(Struct, frozen=True, eq=False):
 
     @property
     def followed(self) -> tuple[str, ...]:
-        """What a cam's follower tells in every position."""
+        """Names of the values that a cam's follower gives in every position."""
         drive = self.problem.drive
         return drive.given if drive.followed is not None else ()
 
     @property
     def given(self) -> tuple[str, ...]:
-        """What differs from position to position beside the driver's coordinate."""
+        """Names of the inputs that vary with the position, besides the driver's coordinate."""
         loads = () if self.loads is None else self.loads.names
         return (*self.followed, *self.results.draft.branches, *loads)
 
@@ -91,12 +91,12 @@ class Case(Struct, frozen=True, eq=False):
 
     @property
     def kind(self) -> tuple[object, ...]:
-        """What cases have in common that one tape holds."""
+        """Key that cases on one tape have in common."""
         return self.program.steps, self.results.draft.origin, self.given, tuple(self.constants)
 
 
 class SweepTask(Struct, frozen=True):
-    """What is asked of a sweep, of whichever numbers.
+    """Request of a sweep, independent of the numbers.
 
     Attributes
     ----------
@@ -104,7 +104,7 @@ class SweepTask(Struct, frozen=True):
     forces : bool
     drawn : tuple of Name
     motion : callable
-        Gives what sweeps the motion of a problem.
+        Returns the sweep of a problem's motion.
     """
 
     asked: tuple[str, ...] | None
@@ -146,7 +146,7 @@ class SweepTask(Struct, frozen=True):
     def _loads(
         self, solution: Solution, results: Quantities, chosen: Sequence[Quantity]
     ) -> LoadColumns | None:
-        """Return the loads that must be told for every position; None if there are none."""
+        """Return the loads that must be given for every position; None if there are none."""
         if not (results.changing and any(result.kind.is_force for result in chosen)):
             return None
         from planmethod.solved.many.loads import LoadColumns
@@ -208,7 +208,7 @@ class CaseTape:
         self.runner = Runner(written, refs, depends, dtype=dtype, native=native)
 
     def lacks(self, cases: Sequence[Case]) -> list[str]:
-        """Return the numbers in which cases differ from the first one that are no inputs."""
+        """Return the numbers that are not inputs and in which cases differ from the first one."""
         mine = self.case.constants
         return [
             name
@@ -287,7 +287,7 @@ class Varied:
             raise SweepError(str(error)) from error
         for name, one in found.items():
             assert one is not None
-            # A rate of nothing leaves steps out.
+            # A zero rate leaves steps out.
             if one.part == "drive" and one.value and not forces and one.name in case.constants:
                 self.rates[name] = one.name
             else:
@@ -348,7 +348,7 @@ class Varied:
         """Return the construction of a problem that the positions of the file do not close."""
         try:
             return construct(problem)
-        except AssemblyError:  # the steps are there, and tell in which positions they fail
+        except AssemblyError:  # the steps exist and show in which positions they fail
             mine = self.case.construction
             choice: Choice = mine.draft.choice
             return build(problem, mine.structure, choice)

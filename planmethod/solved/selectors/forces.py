@@ -54,7 +54,7 @@ class ForceValues:
     position : int
         From 0.
     mu_f : float or None, N/mm
-        Scale of the source's force plans; the program's own where the source tells none.
+        Scale of the source's force plans; the program's own if the source gives none.
     """
 
     def __init__(self, solution: Solution, position: int, mu_f: float | None = None) -> None:
@@ -129,12 +129,12 @@ class ForceValues:
         return self._joint(*selector.names).sense
 
     def directed(self, selector: Selector) -> Ends:
-        """Return the ends of the segment that has the direction an ``angle`` asks for.
+        """Return the ends of the segment whose direction an ``angle`` selects.
 
         Raises
         ------
         NoValueError
-            When the force is nothing.
+            The force is zero.
         """
         line = self._line(selector.kind.partition(" ")[2], selector.names)
         self._directed(line)
@@ -155,7 +155,7 @@ class ForceValues:
         return self._at(force.head) - self._at(force.tail)
 
     def _is_nothing(self, size: float) -> bool:
-        """Tell whether a force is rounding beside the largest of the position."""
+        """Return whether a force is rounding beside the largest of the position."""
         return abs(size) <= VANISHING * self.statics.largest(self.position)
 
     @property
@@ -277,7 +277,7 @@ class ForceValues:
         return ForceLine(given.force)
 
     def _given(self, kind: str, name: str) -> GivenLoad | None:
-        """Return a load: of a link, or by its letter; None of what is zero by nature."""
+        """Return a load: of a link, or by its letter; None if it is zero by nature."""
         for given in self.statics.board.given:
             of = given.applied
             if kind == "load":

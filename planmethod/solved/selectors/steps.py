@@ -38,11 +38,11 @@ MAGNITUDES: Mapping[str, PlanKind] = {
 
 
 class NoValue(Enum):
-    """Why a quantity has no value."""
+    """Reason why a quantity has no value."""
 
     NO_WHAT = "no what"  # the file does not say which quantity it is
     NO_POSITION = "no position"  # the driver is never there
-    NO_SCALE = "no scale"  # millimetres of a plan whose scale the source does not tell
+    NO_SCALE = "no scale"  # millimetres of a plan whose scale the source does not give
     NO_POINT = "no point"  # a name that the plans do not have
     NO_LINK = "no link"  # turning of a point about one that no link joins it to
     NO_ARM = "no arm"  # a force in the axis of the crank cannot balance it
@@ -51,13 +51,13 @@ class NoValue(Enum):
     ZERO_DIVISOR = "zero divisor"
     NO_FORCES = "no forces"  # the file has neither masses nor loads
     NO_JOINT = "no joint"  # the links do not touch each other
-    NO_DIRECTION = "no direction"  # a force that is nothing has no angle and no arm
+    NO_DIRECTION = "no direction"  # a zero force has no angle and no arm
     NO_MACHINE = "no machine"  # the file has no [machine]
     STANDS = "stands"  # the lever of a driving link that does not move
 
 
 class NoValueError(Exception):
-    """A selector asks for what the solution does not have."""
+    """A selector requests a value that the solution does not have."""
 
     def __init__(self, why: NoValue) -> None:
         super().__init__(why.value)

@@ -1,7 +1,8 @@
 """Quantities of a solved problem by the short grammar of ``[published]``: exact, and by hand.
 
-What is asked are steps that go on from the program, and they are read as it was: exactly at unit
-scales, and by the draughtsman, who reads every length with the ruler and carries it on.
+The requested values are steps that continue the program, and they are read like it: exactly at unit
+scales, and by the draughtsman, who reads every length with the ruler and continues with the
+reading.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from planmethod.solved.solution import Solution
 
 
 def is_angle(selector: Selector) -> bool:
-    """Whether a quantity is taken with a protractor."""
+    """Return whether a quantity is measured with a protractor."""
     return selector.kind == "phi" or selector.kind.startswith("angle ")
 
 
@@ -34,7 +35,7 @@ class SelectorValues:
     position : int
         From 0.
     mu_f : float or None, N/mm
-        Scale of the source's force plans; the program's own where the source tells none.
+        Scale of the source's force plans; the program's own if the source gives none.
     """
 
     def __init__(self, solution: Solution, position: int = 0, mu_f: float | None = None) -> None:

@@ -1,1 +1,1 @@
-"""How far float64 results can be trusted: conditioning, the referee (достоверность)."""
+"""Accuracy of float64 results: conditioning and the multiprecision check (достоверность)."""

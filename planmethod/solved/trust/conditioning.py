@@ -1,4 +1,4 @@
-"""How far the results of a solution can be trusted: their conditioning, position by position."""
+"""Accuracy of a solution's results: their conditioning, position by position."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ BLOCK = 256
 """Positions looked at in one go."""
 
 PLACING = (DimensionKind.LENGTH, DimensionKind.ALONG, DimensionKind.ACROSS)
-"""Kinds of dimensions that tell how large a mechanism is."""
+"""Kinds of dimensions that determine the size of a mechanism."""
 
 JUDGED = (
     QuantityKind.PLACE,
@@ -86,7 +86,7 @@ def _suspects(solution: Solution) -> npt.NDArray[np.intp]:
 
 
 def least_gap(solution: Solution, program: Program, value: Mapping[Name, Number]) -> Reals:
-    """Return the shortest line of each position, as a share of what places are differences of."""
+    """Return each position's shortest line, relative to the size of the subtracted coordinates."""
     ends, least = extent(solution) or 1.0, np.full(solution.positions.shape, np.inf)
     for step in program.steps:
         if isinstance(step, Join):
@@ -95,7 +95,7 @@ def least_gap(solution: Solution, program: Program, value: Mapping[Name, Number]
 
 
 def extent(solution: Solution) -> float:
-    """Return the size of what places are differences of: the longest length or distance given."""
+    """Return the size of subtracted coordinates: the longest given length or distance."""
     draft = solution.construction.draft
     lengths = [
         abs(draft.numbers[name])

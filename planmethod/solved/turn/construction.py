@@ -34,13 +34,13 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
 PRIMES = ("′", "″")
-"""What the extreme positions are called, in the order of the angle from 0 to 360 degrees."""
+"""Primes of the extreme positions, in the order of the angle from 0 to 360 degrees."""
 
-_AGREE = 1e-6  # degrees within which what is constructed is the root
+_AGREE = 1e-6  # degrees within which a constructed position is the root
 
 
 class Locus(Enum):
-    """What the end of the rod goes along, or what the crank's circle is touched from."""
+    """Path of the rod's end, or the point from which the crank's circle is touched."""
 
     GUIDE = "guide"
     CIRCLE = "circle"
@@ -87,7 +87,7 @@ class ExtremesConstruction(Struct, frozen=True, dict=True):
 
     @property
     def is_rod_longer(self) -> bool:
-        """Whether the rod is longer than the crank."""
+        """True if the rod is longer than the crank."""
         return self.length("l") > self.length("r")
 
     @cached_property
@@ -109,7 +109,7 @@ class ExtremesConstruction(Struct, frozen=True, dict=True):
         return float(self.exact.value[NumberName(name)])
 
     def angle(self, trace: Trace, name: str) -> float:
-        """Return the direction of what is measured along x and y, degrees from 0 to 360."""
+        """Return a direction from its measured x and y, degrees from 0 to 360."""
         x, y = (float(trace.value[NumberName(f"{name} {axis}")]) for axis in "xy")
         return degrees(atan2(y, x)) % TURN
 
@@ -159,7 +159,7 @@ class ExtremesConstruction(Struct, frozen=True, dict=True):
 
 
 def _dyads(solution: Solution) -> Iterator[tuple[AssurGroup, Lead, Lead]]:
-    """Yield the dyads that hang on the crank and on the frame: the leads on them, in this order."""
+    """Yield the dyads that join the crank to the frame: their legs on them, in this order."""
     for group in solution.structure.groups:
         by = {lead.to: lead for lead in group.leads}
         drive = solution.problem.drive.link

@@ -1,12 +1,13 @@
 """Kinematic diagrams of the output over a turn (кинематические диаграммы): s, v and a.
 
-Of a crank that does not turn fully over the range that there is.
+For a crank that does not turn fully, over its range.
 
-The path is taken off the scheme, differentiated with a pole, and once more; all of it is a program
-of steps that any hand can read. Beside it stand the exact curves, and what the plans give.
+The path is read from the scheme and differentiated twice with a pole; all of it is a program of
+steps that can be read in any arithmetic. The exact curves and the values of the plans are compared
+with it.
 
-Every ordinate is in millimetres of its diagram. The path grows the way in which the output leaves
-position zero; diagrams are over the angle of a crank that turns evenly.
+Every ordinate is in millimetres of its diagram. The path grows in the direction in which the output
+leaves position zero; diagrams are over the angle of a crank that turns evenly.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import Turn, turn_of
 
 HEIGHT = 80.0
-"""Height that the diagram of the path shall have where the file gives no scale of lengths, mm."""
+"""Intended height of the diagram of the path if the file gives no scale of lengths, mm."""
 
 HEIGHTS = 80.0, 110.0
 """Heights that those of velocity and acceleration keep to, mm."""
@@ -121,7 +122,7 @@ class Graph(Struct, frozen=True):
 
 
 class Deviation(Struct, frozen=True):
-    """How far a way is off the exact diagram, mm: the greatest and the mean square (отклонение)."""
+    """Error relative to the exact diagram, mm: greatest and mean square (отклонение)."""
 
     most: float
     rms: float
@@ -235,7 +236,7 @@ class Diagrams(Remembering):
 
     @cached_property
     def mu_s(self) -> float:
-        """Of the path, m or radians per mm: the file's ``mu_l`` where the diagram is then fit."""
+        """Scale of the path, m or radians per mm: the file's ``mu_l`` if the diagram then fits."""
         problem, output = self.turn.solution.problem, self.turn.output
         s, given = _height(self.path(self.fine)), problem.scales.mu_l
         asked = given is not None and not problem.scales.decided
@@ -258,10 +259,10 @@ class Diagrams(Remembering):
         return v, a
 
     def _pole(self, per_mm: float, rate: float, most: float, height: float) -> float:
-        """Return the pole distance that the finest round scale of a derivative sets, mm.
+        """Return the pole distance for the finest round scale of a derivative, mm.
 
-        It keeps to a height, and the pole to a distance. ``per_mm`` is the scale of what is
-        differentiated, ``most`` the height of the derivative in its unit.
+        The derivative's height and the pole's distance are limited. ``per_mm`` is the scale of the
+        differentiated diagram, ``most`` the height of the derivative in its unit.
         """
         if not rate or not most:
             return POLE
@@ -270,22 +271,22 @@ class Diagrams(Remembering):
         return per_mm * rate / (self.mu_phi * round_one)
 
     def _next_scale(self, per_mm: float, pole: float) -> float:
-        """Return the scale of what is found of a diagram with a pole, units per mm."""
+        """Return the scale of a diagram's derivative with a pole, units per mm."""
         return per_mm * self.rate / (self.mu_phi * pole)
 
     @property
     def mu_t(self) -> float | None:
-        """Seconds per mm; None where the crank stands still."""
+        """Scale of time, seconds per mm; None if the crank is at rest."""
         return self.mu_phi / self.rate if self.rate else None
 
     @property
     def mu_v(self) -> float | None:
-        """Of the velocity, m/s or 1/s per mm: mu_s omega / (mu_phi K)."""
+        """Scale of the velocity, m/s or 1/s per mm: mu_s omega / (mu_phi K)."""
         return rounded(self._next_scale(self.mu_s, self.poles[0])) if self.rate else None
 
     @property
     def mu_a(self) -> float | None:
-        """Of the acceleration, m/s² or 1/s² per mm: mu_v omega / (mu_phi K)."""
+        """Scale of the acceleration, m/s² or 1/s² per mm: mu_v omega / (mu_phi K)."""
         return None if self.mu_v is None else rounded(self._next_scale(self.mu_v, self.poles[1]))
 
     @property
@@ -343,9 +344,9 @@ class Diagrams(Remembering):
 
     @cached_property
     def plans(self) -> tuple[Deviation, Deviation] | None:
-        """How far velocities and accelerations read off the plans are off, mm of the diagrams.
+        """Errors of velocities and accelerations read from the plans, mm of the diagrams.
 
-        None where there are no plans in some position, or the crank stands still.
+        None if there are no plans in some position, or the crank is at rest.
         """
         turn = self.turn
         solution = turn.solution.moved(turn.at(self.shares[:-1]).tolist()).filling(None)

@@ -1,7 +1,7 @@
 """Numbered positions of the cycle (нумерация положений): one decision for all outputs.
 
-``[cycle]`` tells which positions there are and which one is 0. They stand for what the driver
-leaves out, and outrank several that it lists; a single one stays what it is.
+``[cycle]`` determines the positions and which one is 0. They are used if the driver lists none, and
+override a list of several; a single one stays as it is.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ def number(problem: Problem) -> Problem:
     Raises
     ------
     PlanMethodError
-        The driver tells no position, and the mechanism cannot be assembled or has no output; or
-        the machine starts in another position than the cycle.
+        The driver gives no position, and the mechanism cannot be assembled or has no output; or the
+        machine starts in another position than the cycle.
     """
     drive = problem.drive
     if problem.cycle is None or not drive.goes_round:
@@ -70,9 +70,9 @@ def number(problem: Problem) -> Problem:
 def counting(problem: Problem, positions: Sequence[float]) -> Problem:
     """Return a problem whose cycle numbers these positions, so that a number names one of them.
 
-    Numbers that the file tells, by ``[cycle]`` or ``[machine]``, stay; where it tells none, the
-    positions of an even turn, or of as many as the motion needs to come again, are those of the
-    cycle, in their order and from the first on.
+    Numbers that the file gives, by ``[cycle]`` or ``[machine]``, are kept; if it gives none,
+    equally spaced positions over a turn, or over the turns after which the motion repeats, are
+    those of the cycle, in their order and starting from the first.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def counting(problem: Problem, positions: Sequence[float]) -> Problem:
 
 
 def _is_same(some: Sequence[float], others: Sequence[float], turns: int) -> bool:
-    """Tell whether positions are the same ones of so many turns, in the same order."""
+    """Return whether positions over a number of turns are the same, in the same order."""
     if len(some) != len(others):
         return False
     whole, apart = TURN * turns, np.subtract(some, others)

@@ -1,4 +1,4 @@
-"""What a mechanism puts out (выходное звено): its path or angle, and the pressure angle on it."""
+"""The output of a mechanism (выходное звено): its path or angle, and the pressure angle on it."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Output(Struct, frozen=True):
 
     @property
     def per_radian(self) -> float:
-        """How much of the value's unit a unit of its rates is: a turning link is told in degrees.
+        """Units of the value per unit of its rates: the value of a turning link is in degrees.
 
         The rates are m and m, or radians, per radian of the crank.
         """
@@ -115,11 +115,11 @@ def _of_link(solution: Solution, link: str, slide: Slide | None) -> Output:
 
 
 def pressure_on(solution: Solution, output: Output) -> Pressure | None:
-    """Return what tells the pressure angle (угол давления) on the output link.
+    """Return a function that gives the pressure angle (угол давления) on the output link.
 
-    It is the angle between the force that the other link of its group, weightless, acts with and
-    the velocity of the point of the output link that it acts on. None where the output link does
-    not close a dyad on the frame.
+    It is the angle between the force of the other link of its group, taken as weightless, and the
+    velocity of the point of the output link on which it acts. None if the output link does not
+    close a dyad on the frame.
     """
     group = next(group for group in solution.structure.groups if output.link in group.links)
     if group.class_number != 2:
@@ -149,7 +149,7 @@ def pressure_on(solution: Solution, output: Output) -> Pressure | None:
 def _force(
     solution: Solution, group: AssurGroup, other: Lead
 ) -> tuple[PointName, Callable[[Reading], Complexes]] | None:
-    """Return the point that a weightless link acts at, and what tells the line of its force."""
+    """Return the point on which a weightless link acts, and a function giving its line of force."""
     axes, inner, outer = solution.construction.draft.axes, group.inner[0], other.joint
     if isinstance(inner, Revolute):
         acting = PointName(inner.point)

@@ -1,7 +1,7 @@
-"""Positions of the driver that an output tells, as roots (положение, заданное выходом).
+"""Positions of the driver determined by an output, as roots (положение, заданное выходом).
 
-Which way a group closes is judged in the position that is looked for, so every way in which the
-mechanism assembles anywhere is tried, and a root counts if the rules close the groups so there.
+The rules select an assembly in the position that is sought, so every assembly that exists in some
+position is tried, and a root counts if the rules select that assembly there.
 """
 
 from __future__ import annotations
@@ -38,15 +38,15 @@ Found = list[tuple[float, float]]
 
 
 def pose(problem: Problem) -> Problem:
-    """Return a problem with the positions that its output tells.
+    """Return a problem with the positions that its output determines.
 
     Raises
     ------
     ProblemError
-        Several positions fit and no ``root`` says which, or the groups close in no way that the
-        file tells.
+        Several positions fit and no ``root`` selects one, or the groups have no assembly that the
+        file's rules allow.
     AssemblyError
-        The output never comes there.
+        The output never reaches the value.
     """
     posed = problem.drive.posed
     if posed is None:
@@ -54,7 +54,7 @@ def pose(problem: Problem) -> Problem:
     ways, trouble = _ways(problem)
     if isinstance(trouble, ProblemError | PositionError) and not ways:
         raise trouble
-    if not ways:  # of a mechanism that no plans can be made of there are no positions
+    if not ways:  # a mechanism that has no plans has no positions
         return problem
     first: list[tuple[Solution, float, float]] = []
     for solution in ways:
@@ -120,7 +120,7 @@ def _closed(problem: Problem, position: float) -> Solution | None:
 
 
 def _ways(problem: Problem) -> tuple[list[Solution], PlanMethodError | None]:
-    """Return the ways in which the rules close the groups, and what was said where they do not."""
+    """Return the assemblies that the rules select, and the error where they select none."""
     ways: dict[object, Solution] = {}
     trouble: PlanMethodError | None = None
     count = _TRIES if problem.drive.is_crank else _SLIDER_TRIES
@@ -132,7 +132,7 @@ def _ways(problem: Problem) -> tuple[list[Solution], PlanMethodError | None]:
             trouble = error
             continue
         ways.setdefault(repr(_sides(solution)), solution)
-    if not ways:  # what is said of the first position that can be assembled
+    if not ways:  # the error in the first position that can be assembled
         drive = replace(problem.drive, positions=tuple(_grid(problem, LOOKS).tolist()))
         try:
             Solution(replace(problem, drive=drive))
@@ -148,7 +148,7 @@ def _sides(solution: Solution) -> list[tuple[tuple[str, ...], int, bool]]:
 
 
 def _grid(problem: Problem, count: int, turns: int = 1) -> Reals:
-    """Return positions over turns, so many of each, or over all that a slider can reach."""
+    """Return positions over turns, ``count`` in each, or over the whole range of a slider."""
     if problem.drive.is_crank:
         return _ASIDE + TURN * np.arange(count * turns + 1) / count
     sizes = [abs(length) for _, _, length in problem.lengths]
@@ -164,7 +164,7 @@ def _turns(solution: Solution) -> int:
 
 
 def _as_judged(solution: Solution, positions: Reals) -> Flags:
-    """Tell where a motion has its first closings: there the rules that it is judged by hold."""
+    """Return where a motion has its first assembly modes, for which the rules are evaluated."""
     kept = np.ones(positions.shape, dtype=bool)
     for closing in solution.construction.draft.choice.values():
         kept &= closing.branch(positions) > 0
@@ -172,7 +172,7 @@ def _as_judged(solution: Solution, positions: Reals) -> Flags:
 
 
 def _value(solution: Solution, posed: Posed, index: int) -> Callable[[Reals], Reals]:
-    """Return what tells the output in positions of the driver: m or degrees.
+    """Return a function that gives the output in positions of the driver: m or degrees.
 
     The angle between links is signed, from the first to the second; a distance from a line, too.
     """
@@ -319,7 +319,7 @@ def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> Found:
 
 
 def _ends(turn: Turn) -> tuple[Extreme, Extreme]:
-    """Return the extreme that ``zero`` names, the usual one without it, and the other one."""
+    """Return the extreme that ``zero`` names, by default the usual one, and the other one."""
     if turn.ends is None:
         why = turn.why_no_stroke
         raise _unknown(turn.solution, say("the output has no stroke: {}", why.value if why else ""))
@@ -327,7 +327,7 @@ def _ends(turn: Turn) -> tuple[Extreme, Extreme]:
 
 
 def _extreme(turn: Turn, posed: Posed, index: int) -> Found:
-    """Return the position so many degrees of the crank after an extreme."""
+    """Return the position at a given angle of the crank after an extreme."""
     where, after = posed.extremes[index], turn.sense * posed.values[index]
     if where in EXTREMES:
         phi = np.array([one.phi for one in turn.extremes])

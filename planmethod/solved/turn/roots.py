@@ -12,7 +12,7 @@ Function = Callable[[Reals], Reals]
 """From places, ndarray of shape (n,), to values of the same shape; NaN: there is none."""
 
 _PARTS = 32
-_ROUNDS = 11  # a quarter of a degree over 32^11 is less than a binary fraction can tell
+_ROUNDS = 11  # a quarter of a degree over 32^11 is less than the spacing of binary fractions
 _TOP_ROUNDS = 6  # near its top a smooth function is flat: more rounds would follow its rounding
 _VERTEX = 1 / 6  # share of the first bracket to both sides of a top where a parabola is laid
 
@@ -20,7 +20,7 @@ _VERTEX = 1 / 6  # share of the first bracket to both sides of a top where a par
 def crossings(values: Reals) -> list[int]:
     """Return the indices k between which and k + 1 a row of values changes its sign.
 
-    A zero counts with what is before it; a gap (NaN) is no change.
+    A zero counts with the value before it; a gap (NaN) is not a change.
     """
     found, last = [], 0.0
     for k, value in enumerate(values):
@@ -34,9 +34,9 @@ def crossings(values: Reals) -> list[int]:
 
 
 def root(function: Function, low: float, high: float) -> float:
-    """Return where a function changes its sign between two places with different ones.
+    """Return the place where a function changes its sign between two places of different signs.
 
-    What is no number counts with the sign at ``low``: the change is where the function still is.
+    NaN counts with the sign at ``low``: the change is at the edge of the function's domain.
     """
     sign = np.sign(function(np.array([high]))[0])
     if not sign:
@@ -56,7 +56,7 @@ def root(function: Function, low: float, high: float) -> float:
 def top(function: Function, low: float, high: float, *, looks: int = _PARTS) -> tuple[float, float]:
     """Return the place and the size of the greatest value between two places.
 
-    ``looks`` parts of the way are looked at first: so many that one of them holds the greatest.
+    The interval is first divided into ``looks`` parts: enough that one of them holds the greatest.
     """
 
     def one(places: Reals) -> Reals:
@@ -88,7 +88,7 @@ def tops(
         k = np.argmax(values, axis=-1)
         at, size = places[row, k], values[row, k]
         low, high = places[row, np.maximum(k - 1, 0)], places[row, np.minimum(k + 1, parts)]
-    # Within rounding of its value the place of a smooth top is told by what is around it.
+    # Within rounding of its value the place of a smooth top is found from its surroundings.
     before, here, after = function(np.stack([at - vertex, at, at + vertex], axis=-1)).T
     with np.errstate(divide="ignore", invalid="ignore"):
         bend = before - 2 * here + after

@@ -1,8 +1,8 @@
-"""Which stroke of the output works (рабочий и холостой ход): by the loads, the longer, or as told.
+"""Working stroke of the output (рабочий и холостой ход): by the loads, the longer, or as given.
 
-The loads decide, those of the file beside weights and inertia: a machine is driven against them,
-so the working stroke is the one in which they resist most; loads that drive, as those of an engine,
-give their work there.
+The file's loads decide, without weights and inertia: a machine is driven against them, so the
+working stroke is the one in which they resist most; driving loads, as those of an engine, do their
+work in it.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ COUNTS = 0.05
 """Share of the work of the working stroke from which a load is one that decides."""
 
 LONGER, TOLD = "longer stroke", "[cycle] working"
-"""What decides of the strokes where no load does."""
+"""Criteria of the working stroke if no load decides."""
 
 SENSES = {
     StrokeSense.UP: 1j,
@@ -36,7 +36,7 @@ SENSES = {
     StrokeSense.LEFT: -1 + 0j,
     StrokeSense.RIGHT: 1 + 0j,
 }
-"""Which way a point moves."""
+"""Unit vector of each sense of a point's motion."""
 
 
 class Strokes(Struct, frozen=True):
@@ -68,7 +68,7 @@ def powers(solution: Solution, start: float, positions: Reals) -> dict[str, Real
     Parameters
     ----------
     start : float, degrees
-        Position 0 of the cycle, where nothing tells it yet.
+        Position 0 of the cycle, before it is determined.
     positions : ndarray of shape (n,)
     """
     problem = solution.problem
@@ -105,7 +105,7 @@ def looked_at(problem: Problem, start: float, turns: int) -> Reals:
 
 
 def over_strokes(problem: Problem) -> bool:
-    """Tell whether a load is given over the strokes of the cycle, as an indicator diagram."""
+    """Return whether a load is given over the strokes of the cycle, as an indicator diagram."""
     loads = () if problem.dynamics is None else problem.dynamics.loads
     sizes = (load.size for load in loads)
     return any(isinstance(size, SizeTable) and size.over is Over.STROKES for size in sizes)

@@ -1,8 +1,8 @@
 """The turn of a crank (цикл): how far the mechanism assembles, extremes, phases, pressure angle.
 
-Everything is read off the program itself, driven at one radian a second, so that velocities are
-first and accelerations second transfer functions (аналоги); places where the output stands still,
-or a group just closes, are roots of what the program says there.
+Everything is read from the program itself, driven at one radian a second, so that velocities are
+first and accelerations second transfer functions (аналоги); places where the output is at rest, or
+where a group just closes, are roots of the program's values.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ MOST = 6
 """Turns of the crank after which links that are not where they were do not come again."""
 
 LOOKS = 1440
-"""How often a turn is looked at: every quarter of a degree."""
+"""Number of samples of a turn: every quarter of a degree."""
 
 _ASIDE = 0.0931  # degrees that the looks stand off round numbers, where singular places like to be
 _SAME = 1e-9  # share of a stroke, or degrees, within which two extremes are alike
@@ -58,7 +58,7 @@ _LEVEL, _MOST_TOPS = 0.01, 8  # degrees of pressure angle within which peaks are
 
 
 class NoNumber(Enum):
-    """Why a number of the cycle does not exist; the sentence of records."""
+    """Reason why a number of the cycle does not exist; the sentence of records."""
 
     PARTIAL = "the crank does not turn fully"
     STILL = "the output does not move"
@@ -160,7 +160,7 @@ class Turn(Remembering):
         ]
 
     def _closed(self, reading: Reading) -> Flags:
-        """Tell in which positions every point of the position plan has its place."""
+        """Return in which positions every point of the position plan has its place."""
         able = np.ones(reading.count, dtype=bool)
         for name in self.unit.construction.draft.points():
             able &= np.isfinite(reading.point(PointName(name)))
@@ -173,7 +173,7 @@ class Turn(Remembering):
         return np.where(np.isnan(margin), -1.0, margin)
 
     def _short(self, name: Name, positions: Reals) -> Reals:
-        """Return by how much the margin of a step is short of nothing."""
+        """Return the negative margin of a step."""
         return -self._margin(name, positions)
 
     @cached_property
@@ -267,7 +267,7 @@ class Turn(Remembering):
 
     @cached_property
     def gain(self) -> float:
-        """How much the value grows in a period, degrees of an output that goes round; else 0."""
+        """Growth of the value in a period, degrees for an output that goes round; else 0."""
         if self.output.slide is not None or self.range is not None:
             return 0.0
         _, value, _ = self._course
@@ -297,7 +297,7 @@ class Turn(Remembering):
 
     @cached_property
     def is_still(self) -> bool:
-        """Whether the output does not move at all."""
+        """True if the output does not move at all."""
         size = max((abs(length) for *_, length in self.unit.problem.lengths), default=1.0)
         return self.fastest <= _STILL * (size if self.output.slide is not None else 1.0)
 
@@ -352,7 +352,7 @@ class Turn(Remembering):
         one, two = self.ends
         is_other, zero = self.task.zero is Zero.OTHER, self.task.zero
         if zero in (Zero.WORKING, Zero.USUAL) and (strokes := self.strokes) is not None:
-            # Strokes of an indicator count from position 0: they cannot tell where that is.
+            # Strokes of an indicator count from position 0, so they cannot determine it.
             circular = strokes.by != TOLD and over_strokes(self.solution.problem)
             is_known = strokes.by != LONGER and not circular
             is_other = (zero is Zero.WORKING or is_known) and strokes.start_deg == two.phi
@@ -360,7 +360,7 @@ class Turn(Remembering):
 
     @cached_property
     def why_no_stroke(self) -> NoNumber | None:
-        """Why the output has no stroke between two extremes."""
+        """Reason why the output has no stroke between two extremes."""
         if self.is_still:
             return NoNumber.STILL
         if self.gain:
@@ -421,7 +421,7 @@ class Turn(Remembering):
         return by_loads(powers(self.solution, start, positions), ahead < quick)
 
     def _told_stroke(self) -> bool | None:
-        """Return whether the quicker stroke goes as ``[cycle] working`` says; None without."""
+        """Return whether the quicker stroke moves as ``[cycle] working`` specifies, if given."""
         sense, problem = self.task.working, self.solution.problem
         if sense is None or self.ends is None:
             return None
@@ -443,7 +443,7 @@ class Turn(Remembering):
 
     @cached_property
     def why_no_ratio(self) -> NoNumber | None:
-        """Why there is no K_v."""
+        """Reason why there is no K_v."""
         if self.ends is None or self.range is not None:
             return self.why_no_stroke or NoNumber.PARTIAL
         ends = [value for end in self.ends or () for value in (end.value,)]
@@ -476,7 +476,7 @@ class Turn(Remembering):
 
     @cached_property
     def zero_is_asked(self) -> bool:
-        """Whether position zero is what was asked: there is the extreme, or the angle."""
+        """True if position zero is as requested: the extreme exists, or the angle is the same."""
         if isinstance(self.task.zero, Zero):
             return self.ends is not None
         return not (self.zero - self.task.zero) % TURN
@@ -493,7 +493,7 @@ class Turn(Remembering):
 
     @property
     def is_against(self) -> bool:
-        """Whether positions are numbered against the rotation of the crank."""
+        """True if positions are numbered against the rotation of the crank."""
         direction = self.task.direction
         return direction is not None and (direction is TurningSense.CCW) != (self.sense > 0)
 
@@ -501,7 +501,7 @@ class Turn(Remembering):
     def positions(self) -> Reals:
         """Positions of the cycle in the order of their numbers, ndarray of shape (count,).
 
-        Of a crank that does not turn fully so many within its range, the limits left out.
+        For a crank that does not turn fully, positions within its range, without the limits.
         """
         numbers = np.arange(self.count)
         if self.is_against:
@@ -518,12 +518,12 @@ class Turn(Remembering):
 
     @property
     def way(self) -> float:
-        """How far the crank goes, degrees: a turn or two, or its range."""
+        """Range of the crank, degrees: a turn or two, or its limits."""
         return TURN * self.turns if self.range is None else self.range[1] - self.range[0]
 
     @property
     def first(self) -> float:
-        """How many intervals from the start position 0 stands: half of one from a limit."""
+        """Offset of position 0 from the start, in intervals: half of one from a limit."""
         return 0.0 if self.range is None else 0.5
 
     def at(self, shares: Reals) -> Reals:
@@ -578,7 +578,7 @@ class Turn(Remembering):
 
 
 def task_of(problem: Problem) -> CycleTask:
-    """Return what is asked of the cycle: without ``[cycle]`` a machine tells its positions."""
+    """Return the task of the cycle; if there is no ``[cycle]``, that of the machine's positions."""
     machine = problem.machine
     if problem.cycle is not None or machine is None:
         return problem.cycle or CycleTask()
