@@ -1,1 +1,1 @@
-"""Checking of answers: keys, works of students, verdicts, mistakes, marks (проверка работ)."""
+"""Checking of answers: keys, students' submissions, verdicts, mistakes, marks (проверка работ)."""

@@ -37,11 +37,11 @@ from planmethod.solved.selectors.steps import NoValueError
 SCALED = {facts.scale for facts in FACTS.values() if facts.scale}
 
 TOO_NEAR = 1e-4
-"""Chance with which a hand comes as near to the exact values as some answers do."""
+"""Chance of such accurate answers by hand, below which they are suspicious."""
 
 
 def check(task: Task, work: Work) -> CheckedWork:
-    """Judge a work: a pure function of a task and what was written.
+    """Grade a submission: a pure function of the task and the written answers.
 
     Answers that were not requested are graded, but do not affect the points.
     """
@@ -144,12 +144,12 @@ def unknown_variant(work: Work) -> CheckedWork:
 
 
 def unmarked(work: Work, variant: str | None, failure: CheckFailure) -> CheckedWork:
-    """Return a work that is not marked, and why."""
+    """Return a submission that is not marked, with the reason."""
     return CheckedWork(work, variant, (), failure=failure)
 
 
 def failure_of(error: Exception) -> CheckFailure:
-    """Return a fault of the program as the reason why a work is not marked."""
+    """Return an internal error as the reason why a submission is not marked."""
     said = say("a fault of the program ({}: {})", type(error).__name__, visible(str(error))[:200])
     trace = "".join(traceback.format_exception(error))
     return CheckFailure(str(said), trace.replace(f"{Path(__file__).parents[2]}{os.sep}", ""))
@@ -231,7 +231,7 @@ def share_of(one: Examined, settings: Settings) -> float:
 
 
 def _suspicious(found: Sequence[Examined]) -> bool:
-    """Return whether answers are nearer to the exact values than a hand ever draws."""
+    """Return whether answers are more accurate than any drawing by hand."""
     seen = [
         one
         for one in found

@@ -1,4 +1,4 @@
-"""Copied work: the numbers of another variant, and two works by one hand (списанные работы)."""
+"""Copied submissions: another variant's numbers, another student's drawing (списанные работы)."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ ALIKE = 0.01
 """Maximum chance, over a whole group, that two submissions are this close by coincidence."""
 
 STROKES = 4
-"""Readings by which two works are compared, at least."""
+"""Minimum number of readings for comparing two submissions."""
 
 BOUND = 4.0
-"""Sigmas beyond which a reading is a mistake, not the pencil: mistakes may be made by two."""
+"""Sigmas beyond which a reading is a mistake, not a drafting error: two students may share one."""
 
 HAND = 0.15
 """Minimum drafting error of any student, as a fraction of the profile's."""
@@ -113,7 +113,7 @@ def compared(works: Iterable[CheckedWork]) -> list[CheckedWork]:
     """Return submissions, marking those whose readings agree better than two drawings can.
 
     Every stroke errs by itself. What is left of a reading when the earlier numbers are given is
-    the fingerprint of a hand: that of two honest works of one task differ by √2 of a sigma.
+    a fingerprint of the drawing: for two independent submissions it differs by √2 of a sigma.
     """
     whole = list(works)
     alike: dict[int, list[str]] = defaultdict(list)
@@ -130,9 +130,9 @@ def compared(works: Iterable[CheckedWork]) -> list[CheckedWork]:
 
 
 def likeness(one: CheckedWork, two: CheckedWork) -> float:
-    """Return how often two honest works come as near each other in all readings as these (Fisher).
+    """Return the chance that two independent submissions agree as well in all readings (Fisher).
 
-    Each reading gives the chance that two pencils agree so well; twice the negative logarithms add
+    Each reading gives the chance that two drawings agree so well; twice the negative logarithms add
     up to chi-squared with two degrees of freedom each.
     """
     hands = _hand(one), _hand(two)

@@ -1,4 +1,4 @@
-"""Why answers are wrong: the explanation that clearly fits best, or honest doubt (диагностика)."""
+"""Causes of wrong answers: the clearly best explanation, or none (диагностика)."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ from planmethod.check.task import Task
 from planmethod.plans.model import MOTION
 
 FEW = 1.0
-"""Answers that an exact hand must have given before it is believed to be one."""
+"""Prior number of answers of usual accuracy, before a student counts as accurate."""
 
 EXACT = 0.15
-"""Nobody is believed to err less than this share of the errors of a careful drawing."""
+"""Minimum drafting error of a student, as a fraction of the errors of a careful drawing."""
 
 CLEARLY = 6.0
 """Score by which the best explanation must beat the next one to be named."""
@@ -239,7 +239,7 @@ def _scaled(task: Task, sheet: Sheet, found: list[Examined]) -> Iterator[Explana
 
 
 def _share(one: Examined) -> float:
-    """Return how far an answer may be off as a share of it."""
+    """Return the relative tolerance of an answer."""
     return max(one.limit.tolerance(one.step), one.limit.spread) / abs(one.limit.exact)
 
 

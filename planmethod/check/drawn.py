@@ -1,7 +1,7 @@
-"""Works as a pencil draws them, honest or with a planted mistake (начерченные работы).
+"""Simulated drawn submissions, faultless or with a planted mistake (начерченные работы).
 
 Every stroke errs as the profile of the settings says, lengths are read off a ruler, and whatever is
-written down is rounded and gone on with, as a student does. The same seed draws the same works.
+written is rounded before further use, as by a student. The same seed draws the same submissions.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def drawn_works(
     scales: Mapping[str, float] | None = None,
     mm: bool = False,
 ) -> list[Work]:
-    """Draw works of one position.
+    """Draw submissions of one position.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def as_written(values: Number) -> tuple[Row, Row]:
 def _column(
     sheet: Sheet, item: TaskItem, trace: Trace, count: int, *, mm: bool
 ) -> list[WrittenAnswer]:
-    """Return the answers of all works to one question."""
+    """Return the answers of all submissions to one question."""
     question = item.question
 
     def row(number: Number) -> list[float]:
@@ -141,7 +141,7 @@ def _ways(item: TaskItem, trace: Trace, count: int) -> list[Sense | None]:
 
 
 def planted(sheet: Sheet, items: Sequence[TaskItem]) -> Iterator[Change]:
-    """Yield every mistake that a work of a sheet can have: of the plans, and in one number."""
+    """Yield every mistake that a sheet's submission can have: of the plans, and in one number."""
     scene = MistakeContext(sheet)
     yield from changes(scene)
     for plan in MOTION[1:]:

@@ -33,7 +33,7 @@ SHARED = 2.0
 """Average number of answers affected by one stroke: its error is counted in each of them."""
 
 FAR = 30.0
-"""Sigmas squared beyond which it does not matter how far off an answer is."""
+"""Cap of squared sigmas: larger deviations of an answer do not count more."""
 
 KEPT = 500
 """Maximum number of slips whose plans are cached."""
@@ -60,7 +60,7 @@ class Fact(Struct, frozen=True):
     slot : NumberName or None
         Number of the program that the answer determines; None if no value follows from it.
     per_slot : float
-        What it counts in the unit of the answer.
+        Value of that number's unit in the unit of the answer.
     name : NumberName or None
         Number that is the answer itself.
     turn : float
@@ -119,9 +119,9 @@ class Explanation(Struct, frozen=True, eq=False):
     begins : tuple of str
         Answers that it begins with, where that is known.
     free : str
-        Question whose answer it takes as it is.
+        Question whose answer is accepted as written.
     slip : str
-        Question whose number alone is otherwise: what it was read off stays as it is.
+        Question whose number alone differs: the reading it comes from is unchanged.
     fixed : str
         Question whose predicted answer does not depend on earlier answers.
     sigma : float or None
@@ -299,7 +299,7 @@ class Explanations:
         ----------
         numbers : OwnNumbers
         closely : bool
-            With the errors of the plans that have the mistake; else with those of the right ones,
+            Use the errors of the plans with the mistake; else those of the right ones,
             in proportion.
         """
         sheet, change = explanation.sheet, explanation.change

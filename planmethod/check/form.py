@@ -43,7 +43,7 @@ def fingerprint_of(problem: KindProblem) -> str:
 
 
 def _parts(record: Any) -> Any:
-    """Return what a record is made of, for JSON."""
+    """Return the parts of a record, for JSON."""
     if isinstance(record, Struct):
         return asdict(record)
     if isinstance(record, Mapping):

@@ -1,4 +1,4 @@
-"""A group of works checked against the variants of one problem (проверка группы)."""
+"""A group of submissions checked against the variants of one problem (проверка группы)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
 FEW = 2
-"""Variants up to which each is solved when its first work is checked."""
+"""Number of variants up to which each is solved with its first submission."""
 
 _UNKNOWN = "\n"
 """Stands for a variant that the file has not: no name has it."""
@@ -52,7 +52,7 @@ def task_of_problem(
 
 
 def _verified(solution: Solution) -> Solution:
-    """Return a solution whose motion exists and means something: a key is made of it."""
+    """Return a solution after verifying its motion: a key is made from it."""
     verify(solution)
     return solution
 
@@ -65,7 +65,7 @@ class Variants:
     path : Path
     settings : Settings
     default : str, optional
-        Variant of the works that name none.
+        Variant of the submissions that name none.
     """
 
     def __init__(
@@ -114,7 +114,7 @@ class Variants:
             yield self.task(name)
 
     def name_of(self, work: Work) -> str | None:
-        """Return the variant of a work; None of the file itself.
+        """Return the variant of a submission; None for the file itself.
 
         Raises
         ------
@@ -131,7 +131,7 @@ class Variants:
 
 
 class CheckedGroup(Struct, frozen=True):
-    """Checked works with the keys that they were checked by."""
+    """Graded submissions with the keys used for them."""
 
     checked: tuple[CheckedWork, ...]
     keys: dict[str | None, Key]
@@ -140,7 +140,7 @@ class CheckedGroup(Struct, frozen=True):
 def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWork]:
     """Yield the submissions, each checked by its own variant, independently of the others.
 
-    A work that fails, or whose variant cannot be solved, is not marked, and says why in `failure`.
+    One that fails, or whose variant cannot be solved, is not marked; `failure` gives the reason.
 
     Examples
     --------
@@ -165,7 +165,7 @@ def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWo
 
 
 def _checked(variants: Variants, work: Work, name: str | None) -> CheckedWork:
-    """Check a work; what fails in it, or in its variant, stops no other."""
+    """Check a submission; a fault in it, or in its variant, does not affect others."""
     if work.failure:
         return unmarked(work, name, CheckFailure(work.failure.rstrip(".")))
     try:
@@ -186,7 +186,7 @@ def _named(variants: Variants, work: Work) -> str | None:
 
 
 def keys_of(variants: Variants, checked: Sequence[CheckedWork]) -> dict[str | None, Key]:
-    """Return the keys of the variants that works have, of all that they answer."""
+    """Return the keys of the submissions' variants, for all quantities that they answer."""
     found: dict[str | None, Key] = {}
     names = dict.fromkeys(work.variant for work in checked)
     for name in (name for name in names if name is None or name in variants.names):

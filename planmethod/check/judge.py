@@ -65,7 +65,7 @@ class Examined(Struct):
     slot : NumberName or None
         First number of the program that the student's own number replaces.
     per_slot : float
-        What that number counts in the unit of the answer.
+        Value of that number's unit in the unit of the answer.
     """
 
     item: TaskItem
@@ -109,7 +109,7 @@ class Examined(Struct):
 
 
 def distance(item: TaskItem, value: float, other: float, *, signed: bool) -> float:
-    """Return how far two values of an answer are apart: of sizes, of numbers, of angles."""
+    """Return the distance of two values of an answer: of sizes, of numbers, of angles."""
     match item.question.sign:
         case Sign.ANGLE:
             return abs((value - other + 180.0) % 360.0 - 180.0)
@@ -257,7 +257,7 @@ def slot_of(sheet: Sheet, one: Examined) -> tuple[NumberName | None, float]:
 
 
 def replay(task: Task, sheet: Sheet, found: list[Examined]) -> None:
-    """Find what comes out of a student's own earlier numbers for every answer."""
+    """Find the values that follow from a student's own earlier numbers, for every answer."""
     own = put_in(sheet, found)
     if not own:
         return

@@ -1,4 +1,4 @@
-"""The key: what every answer should be, how far it may be off, what it cannot show (ключ)."""
+"""The key: right answers, their tolerances, and the mistakes they cannot show (ключ)."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def key_of(solution: Solution, settings: Settings = DEFAULT) -> Key:
 
 
 Shown: TypeAlias = tuple[str, str, Mapping[str, float]]
-"""A mistake: its code, its place, and what comes out of every question with it."""
+"""A mistake: its code, its place, and its prediction for every question."""
 
 
 def key_of_task(
@@ -133,7 +133,7 @@ def _alike(task: Task, sheet: Sheet, item: TaskItem, limit: Tolerance) -> Iterat
 
 
 class _Seer(NamedTuple):
-    """An answer, and from where on a mistake is seen in it."""
+    """An answer, and the deviation from which a mistake is visible in it."""
 
     item: str
     question: str
@@ -194,7 +194,7 @@ def entry_of(
 def drawn_symbol(task: Task, question: Question) -> str:
     """Return the vector symbol of a quantity, as on the sheet; empty if it is not a vector.
 
-    The letters of a department, ``v_B3B2``, may be others: works are read with both.
+    The letters of a department, ``v_B3B2``, may differ: both are read in submissions.
     """
     if question.ends is None or question.plan not in RATES or question.sign is not Sign.SIZE:
         return ""
@@ -205,7 +205,7 @@ def drawn_symbol(task: Task, question: Question) -> str:
 
 
 def what_of(question: Question) -> str:
-    """Return a quantity in words that a work may name it by: ``v B3``, ``angle v B3``, ``n 5``."""
+    """Return a quantity as a submission may name it: ``v B3``, ``angle v B3``, ``n 5``."""
     selector = question.selector
     if selector.kind in ("number", "read"):
         return selector.names[0]

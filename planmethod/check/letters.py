@@ -1,7 +1,7 @@
 """Spellings of the letters of quantities: ``VB₃``, ``ω_3``, ``a_n ED`` (обозначения).
 
-Forms are compared after all that is only a way of writing is taken away: case of the first letter,
-underscores, spaces, subscripts, and letters of another alphabet that look the same.
+Spellings are compared after normalization: case of the first letter, underscores, spaces,
+subscripts, and letters of another alphabet that look the same.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ PROFILES = ("board", "cad", "coarse")
 """Profiles of drafting errors that a tolerance can follow from."""
 
 POLICIES = ("construction", "department", "wider", "stricter")
-"""Whose tolerance counts: the drawing's, the flat one, the wider of them, the stricter."""
+"""Choice of the tolerance: the drawing's, the flat one, the wider of them, the stricter."""
 
 VALUES = ("always", "decided", "never")
 """When a student's page shows the right values: always; once no answer is open; never."""
@@ -60,7 +60,7 @@ class Settings(Struct, frozen=True):
     department : float
         The department's flat tolerance, a share of the value.
     policy : str
-        Whose tolerance counts, one of `POLICIES`.
+        Choice of the tolerance, one of `POLICIES`.
     profile : str
         One of `PROFILES`.
     ruler_mm : float or None, mm

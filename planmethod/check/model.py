@@ -42,7 +42,7 @@ class Verdict(Enum):
 
 
 class Unread(Enum):
-    """Why something in a work cannot be read (почему не прочитано); the words are in ``note``."""
+    """Why an entry cannot be read (почему не прочитано); the words are in ``note``."""
 
     NUMBER = "number"
     UNIT = "unit"
@@ -149,9 +149,9 @@ class Work(Struct, frozen=True):
         Unreadable entries that are not answers: a scale, a row without a student.
     fingerprint : str
         Of the problem that the form was made for, see `planmethod.check.form.fingerprint_of`; empty
-        of other works.
+        for other submissions.
     drawn : str
-        Of a drawing that was measured: the profile of the hand that drew it; empty of other works.
+        Profile of the measured drawing; empty for other submissions.
     failure : str
         Why one of several submissions in a file cannot be read at all; empty if it was read.
     """
@@ -334,7 +334,7 @@ class PencilTrace(Struct, frozen=True):
     Attributes
     ----------
     off : float
-        How far it is off what the plans give then, in sigmas.
+        Deviation from the value that the plans then give, in sigmas.
     step : float
         Unit of its last digit, in sigmas.
     """
@@ -344,14 +344,14 @@ class PencilTrace(Struct, frozen=True):
 
 
 class CheckFailure(Struct, frozen=True):
-    """Why a work is not marked (почему работа не оценена).
+    """Why a submission is not marked (почему работа не оценена).
 
     Attributes
     ----------
     said : str
         A sentence for the instructor.
     trace : str
-        Of a fault of the program: where it happened; empty where the problem, or the work, is at
+        Traceback of an internal error; empty if the problem, or the submission, is at
         fault.
     """
 
@@ -367,11 +367,12 @@ class CheckedWork(Struct, frozen=True):
     failure : CheckFailure or None
         Why it is not marked; None for a graded submission.
     strokes : mapping of (str, int) to PencilTrace
-        By answer and position: the fingerprint of a hand.
+        By answer and position: the fingerprint of a drawing.
     alike : tuple of str
-        Students whose readings are nearer to these than two pencils come: a finding, never a mark.
+        Students whose readings agree better than two drawings can: reported, without effect on
+        marks.
     suspicious : bool
-        Closer to the exact values than any pencil comes: they are not off the drawing.
+        More accurate than any drawing: the values were not read from one.
     remark : str
         Of the instructor, by hand.
     by_hand : bool

@@ -420,7 +420,7 @@ class Questions:
         return ends, self._selecting.segments(plan).length(*ends)
 
     def lettered(self, plan: PlanKind) -> dict[str, PointName]:
-        """Return the points of a plan by their letters; none of another than v and a."""
+        """Return the points of a velocity or acceleration plan by their letters; else none."""
         if plan not in MOTION[1:]:
             return {}
         found: dict[str, PointName] = {}

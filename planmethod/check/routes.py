@@ -2,7 +2,7 @@
 
 The plans find a quantity in one way. A student may find it in any right one: aⁿ as v²/l and as
 ω²·l, the speed of a centre of mass as ω·l. A route is the powers of the quantities that go into a
-product; what else goes into it, lengths and given numbers, is the same for all.
+product; its other factors, lengths and given numbers, are the same for all.
 """
 
 from __future__ import annotations

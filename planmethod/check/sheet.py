@@ -176,7 +176,7 @@ class Sheet:
         return None if question.length is None else abs(scalar(self.trace.value[question.length]))
 
     def vector(self, question: Question, trace: Trace | None = None) -> complex | None:
-        """Return the segment of a question as it lies on the plan, mm."""
+        """Return the segment of a question as drawn on the plan, mm."""
         if question.ends is None:
             return None
         value = (trace or self.trace).value
@@ -211,7 +211,7 @@ class Sheet:
         program: Program | None = None,
         data: Mapping[str, float] = MappingProxyType({}),
     ) -> tuple[dict[Name, float], Trace]:
-        """Put a student's own numbers in; return what comes out in their places, and everything.
+        """Substitute a student's own numbers; return the values they replace, and the trace.
 
         Parameters
         ----------

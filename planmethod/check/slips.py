@@ -239,7 +239,7 @@ def put_explanation(
 
 
 def _read_anew(one: Examined, value: float) -> float:
-    """Return how far a segment may be off that is read in place of the right one."""
+    """Return the sigma of a segment read in place of the right one."""
     exact = abs(one.limit.exact)
     return one.limit.sigma * (abs(value) / exact if exact else 1.0)
 

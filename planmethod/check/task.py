@@ -291,7 +291,7 @@ class Task:
 
     @property
     def first(self) -> int:
-        """Position that is meant where none is named: the calculated one of a project, else 0."""
+        """Default position: the calculated one of a project, else 0."""
         return self.solution.problem.calculated or 0
 
     # Questions -------------------------------------------------------------------------------
@@ -413,7 +413,7 @@ class Task:
         Parameters
         ----------
         drawn : str
-            Profile of the hand that drew it, where a drawing is measured.
+            Profile of a measured drawing.
         """
         if drawn == "cad":
             return PROFILES["cad"]

@@ -39,7 +39,7 @@ class Tolerance(Struct, frozen=True):
     zero : bool
         Too short to be measured.
     per_mm : float
-        What a millimetre of the plan is worth; 0 where that is not known.
+        Value of a millimetre of the plan; 0 if unknown.
     """
 
     exact: float
@@ -52,7 +52,7 @@ class Tolerance(Struct, frozen=True):
     per_mm: float
 
     def tolerance(self, step: float = 0.0) -> float:
-        """Return how far an answer may be off that is written to a step of its last digit."""
+        """Return the tolerance of an answer written to a step of its last digit."""
         own = max(math.hypot(self.spread, step / 2), self.least)
         return own if self.zero else min(own, self.most)
 
@@ -65,7 +65,7 @@ class Tolerance(Struct, frozen=True):
 def limit_of(
     sheet: Sheet, question: Question, settings: Settings, fixed: float | None
 ) -> Tolerance:
-    """Return how far an answer may be off.
+    """Return the tolerance of an answer.
 
     Parameters
     ----------

@@ -158,7 +158,7 @@ def _share(share: float) -> str:
 
 
 def numbers(value: float, margin: float) -> str:
-    """Return a number and how far it may be off, a thousandth of which is rounded away at most."""
+    """Return a number and its margin; rounding changes the margin by at most a thousandth."""
     places = max(0, 3 - math.floor(math.log10(margin))) if margin > 0 else 12
     return f"{_decimal(value, places)}:{_decimal(margin, places + 1)}"
 
@@ -176,7 +176,7 @@ def _feedback(rich: str) -> str:
 def escaped(text: str) -> str:
     r"""Return HTML inside a gap: Moodle takes away entities once, then ``\}`` and ``\#``.
 
-    It leaves ``\~`` as it is, so a tilde is the sign of the same look.
+    It leaves ``\~`` as it is, so a tilde is replaced by a similar sign.
     """
     text = html.escape(text, quote=False).replace("\\", "&#92;").replace("~", "\N{TILDE OPERATOR}")
     return text.replace("}", "\\}").replace("#", "\\#").replace("&\\#92;", "&#92;")

@@ -36,7 +36,7 @@ TURNS, WAYS = (Sense.CCW, Sense.CW), (Sense.UP, Sense.DOWN, Sense.LEFT, Sense.RI
 
 
 class Alternative(Struct, frozen=True):
-    """An interval of numbers and what it is worth (вариант числа).
+    """An interval of numbers and its fraction of the points (вариант числа).
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class QuizPart(Struct, frozen=True):
     entry : KeyEntry
     points : float
     alternatives : tuple of Alternative
-        The first whose interval holds an answer counts; empty of a sense.
+        The first whose interval holds an answer counts; empty for a sense.
     choices : tuple of Choice
         Empty of a number.
     """

@@ -96,7 +96,7 @@ def read_columns(told: Iterable[str]) -> dict[str, str]:
 def read_responses(
     path: Path, columns: Mapping[str, str], names: Sequence[str], gaps: Gaps
 ) -> Responses:
-    """Return the works of an export; of several attempts of a student the last row counts.
+    """Return the submissions of an export; a student's last attempt counts.
 
     Parameters
     ----------
@@ -182,7 +182,7 @@ class _Export:
         self._whose: dict[str, str] = {}
 
     def read(self, row: Row) -> None:
-        """Take an attempt; the last row of a student counts."""
+        """Read an attempt; the last row of a student counts."""
         cells = list(zip(self.heads, row, strict=False))
         name = " ".join(cell.text for head, cell in cells if head.field == "student" and cell.text)
         mail = next((c.text for h, c in cells if h.field == "email" and c.text), "")

@@ -1,1 +1,1 @@
-"""Plans that were drawn in a CAD program, measured as works (чертёж измеряется)."""
+"""Plans drawn in a CAD program, measured as submissions (чертёж измеряется)."""

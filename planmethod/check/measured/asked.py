@@ -10,7 +10,7 @@ from planmethod.check.task import Task, TaskItem
 from planmethod.plans.model import RATES
 
 SHORT_MM = 1.0
-"""A vector not longer than this has no direction that anybody draws."""
+"""A vector not longer than this has no visible direction."""
 
 
 def asked_of_drawing(task: Task) -> tuple[TaskItem, ...]:

@@ -15,7 +15,7 @@ LINES_LIMIT = 20_000
 TEXTS_LIMIT = 20_000
 
 HANDS = {".dxf": "cad", ".svg": "board"}
-"""By which profile files of an ending are drawn: on our own sheets a hand reads its ruler."""
+"""Drafting profile by file suffix: planmethod's own sheets are read with a ruler."""
 
 STRAIGHT = 1e-4
 """Maximum bend of a polyline that counts as straight, radians."""
@@ -70,7 +70,7 @@ class DrawnLetters(Struct, frozen=True):
     high: float
 
     def apart(self, place: complex) -> float:
-        """Return how far a place is from the room of the letters, mm."""
+        """Return the distance of a place from the box of the letters, mm."""
         off = place - self.at
         return abs(
             complex(
@@ -94,7 +94,7 @@ class MeasuredDrawing(Struct):
     points: list[tuple[complex, str, int]] = field(default_factory=list)
 
     def line(self, corners: Iterable[complex], layer: str, colour: int) -> None:
-        """Take the straight lines between corners; none of no length.
+        """Add the straight lines between corners; those of zero length are ignored.
 
         Raises
         ------

@@ -94,7 +94,7 @@ def _told(error: Exception) -> str:
 
 
 class _Reader:
-    """Takes the entities of a document apart."""
+    """Explodes the entities of a document."""
 
     def __init__(self, path: Path, document: Any) -> None:
         from ezdxf import enums, units

@@ -1,4 +1,4 @@
-"""A drawing measured: segments and directions of its plans as a work (чертёж как работа)."""
+"""A measured drawing: segments and directions of its plans as a submission (чертёж как работа)."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ PLAN_LINES = 400
 
 STEP_DEG = 0.01
 SAME_DEG = 2.0
-"""A plan is turned as a whole where all its vectors are turned alike, to this."""
+"""Maximum difference of the rotations of vectors for the plan to be rotated as a whole."""
 
 TURNED_DEG = 5.0
 LEAST_MM = 5.0
@@ -52,7 +52,7 @@ DETAIL_MM = 20.0
 """Maximum distance between an enlarged detail and its scale, mm."""
 
 WHOLE = 3
-"""Vectors that must be turned alike, not shorter than that."""
+"""Minimum number of vectors of sufficient length that must be rotated equally."""
 
 LIKE_DEG = 10.0
 """Half a turn is a mistake: the crank turned the other way. So near to it no drawing is put."""
@@ -66,9 +66,9 @@ class FoundPlan(Struct):
     kind: PlanKind
     vertices: Vertices
     at: dict[PointName, list[int]]
-    """Vertices of a point of the plan: its own first, then those that have its letter beside."""
+    """Vertices of a point of the plan: its own first, then those next to its letter."""
     doubtful: frozenset[PointName] = frozenset()
-    """Points whose letters may as well name another vertex."""
+    """Points whose letters may name another vertex."""
 
     def vector(self, tail: PointName, head: PointName) -> complex | None:
         """Return a segment as it is drawn, mm; between the vertices if no line joins them."""
@@ -85,7 +85,7 @@ class FoundPlan(Struct):
 
 
 def read_drawing(path: Path, layers: Mapping[str, str], task: Task) -> Work:
-    """Return the plans of a drawing as a work: lengths in mm, directions in degrees.
+    """Return the plans of a drawing as a submission: lengths in mm, directions in degrees.
 
     Parameters
     ----------

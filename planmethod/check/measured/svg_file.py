@@ -1,4 +1,4 @@
-"""Our own sheets as SVG: the vectors of their plans and the letters beside them (чтение SVG)."""
+"""SVG sheets of planmethod: the vectors of their plans and the letters (чтение SVG)."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ STRAIGHT = 2e-3
 """Maximum bend between lines that continue each other, radians."""
 
 BARB_MM, BARB_SINE = 6.0, 0.6
-"""The strokes of an arrowhead: how long, and how far they open."""
+"""Strokes of an arrowhead: maximum length, and maximum sine of their angle."""
 
 BESIDE = 0.1
 """Weight of the distance to the middle of a letter, relative to that to its box."""
@@ -130,7 +130,7 @@ def vertices_of(lines: Iterable[DrawnLine], marks: Iterable[complex] = ()) -> Ve
 
 
 def _lengthen(found: Vertices) -> None:
-    """Let lines that go on from one another in one way be one line as well."""
+    """Add the joined line for lines that continue each other straight."""
     seen: set[tuple[int, int]] = set()
     for middle in range(len(found.places)):
         whole = [*found.lines, *found.longer]

@@ -41,7 +41,7 @@ class Change(Struct, frozen=True):
     data : mapping of str to float
         Data in place of the given ones, or of new steps.
     prior : float
-        How common it is beside other mistakes; 1 of the usual ones.
+        Frequency relative to other mistakes; 1 for the usual ones.
     of_scale : bool
         Whether the mistake is in a scale: then the student's reading is not value over scale.
     """
@@ -61,7 +61,7 @@ class Change(Struct, frozen=True):
 
 
 class MistakeContext:
-    """A sheet as the mistakes look at it: which steps do what (что где построено)."""
+    """A sheet with the steps that mistakes modify (что где построено)."""
 
     def __init__(self, sheet: Sheet) -> None:
         self.sheet = sheet
@@ -87,7 +87,7 @@ class MistakeContext:
         return scalar(self.sheet.trace.value[name])
 
     def turnings(self, plan: PlanKind) -> Iterator[tuple[str, Turning]]:
-        """Yield the links whose ω (ε) is read off a plan that the sheet has."""
+        """Yield the links whose ω (ε) is read from a plan of the sheet."""
         rates = self.kin.rates(plan)
         for (of, link), turning in self.kin.turnings.items():
             if of is plan and rates.get(link) in self.made:

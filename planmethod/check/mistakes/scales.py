@@ -61,7 +61,7 @@ def scale_of_another_plan(scene: MistakeContext) -> Iterator[Change]:
 
 
 def scale_by(scene: MistakeContext, plan: PlanKind, factor: float) -> Change:
-    """Return the mistake of a plan whose μ is another one by a factor."""
+    """Return the mistake of a plan whose μ is wrong by a factor."""
     changed: dict[Name, tuple[Step, ...]] = {
         step.out: (replace(step, factor=step.factor * factor),) for step in _readings(scene, plan)
     }
@@ -97,7 +97,7 @@ def units_of_length(scene: MistakeContext) -> Iterator[Change]:
 
 
 def true_for_drawn(scene: MistakeContext) -> Iterator[Change]:
-    """Length of a link read on the drawing and taken for its true one."""
+    """Length of a link read from the drawing and used as its true one."""
     scale = NumberName(FACTS[PlanKind.POSITION].scale)
     changed: dict[Name, tuple[Step, ...]] = {}
     for step in scene.steps:

@@ -1,4 +1,4 @@
-"""A student's numbers beside the exact ones, and what could not be read (сравнение ответов)."""
+"""A student's numbers next to the exact ones, and unreadable entries (сравнение ответов)."""
 
 from __future__ import annotations
 

@@ -44,9 +44,9 @@ def run_record(
     hidden: bool = False,
     unread: Mapping[Path, CheckFailure] = MappingProxyType({}),
 ) -> dict[str, Any]:
-    """Return what a run was made of: versions, settings, the digests of its files.
+    """Return the record of a run: versions, settings, the digests of its files.
 
-    Where names are ``hidden`` the files of works, those after the first, are called by number.
+    With names ``hidden`` the submission files, those after the first, are numbered.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def hidden_name(student: str, salt: str) -> str:
 
 
 def anonymous(works: Sequence[CheckedWork], salt: str) -> list[CheckedWork]:
-    """Return the works without the names of students and of their files."""
+    """Return the submissions without the names of students and of their files."""
     return [_anonymous(checked, salt) for checked in works]
 
 
@@ -172,7 +172,7 @@ _RESERVED = r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\.|$)"
 
 
 def file_names(students: Sequence[str]) -> list[str]:
-    """Return a name for the files of each student: safe on every system, no two alike."""
+    """Return a unique name for the files of each student, safe on every system."""
     taken: set[str] = set()
     names = []
     for student in students:
@@ -188,7 +188,7 @@ def file_names(students: Sequence[str]) -> list[str]:
 
 
 def marks_of(works: Sequence[CheckedWork], settings: Settings) -> list[str]:
-    """Return the marks of works; empty of one that is not marked."""
+    """Return the marks of submissions; empty for one that is not marked."""
     return [settings.mark(work.points / work.of) if work.of else "" for work in works]
 
 
@@ -215,7 +215,7 @@ class GroupFiles(Struct, frozen=True):
     pages : dict of str to Path
         HTML page of each student with one.
     failures : tuple of (str, CheckFailure)
-        Students whose page could not be made, and why.
+        Students whose page could not be made, with the reason.
     changed_files : tuple of Path
         Files of an earlier run that were edited since: they are kept.
     """
@@ -255,11 +255,11 @@ def write_all(
     checked : sequence of CheckedWork
         Submissions with the overrides, and with the names hidden if requested.
     keys : mapping
-        By the variant of a work; a work without a key has no page.
+        By the variant of a submission; without a key there is no page.
     inputs : sequence of Path
-        Files that the marks came from: the problem, then the works.
+        Files that the marks came from: the problem, then the submissions.
     hidden : bool
-        The names of the files of works are names of students.
+        The names of submission files are names of students.
     unread : mapping of Path to CheckFailure
         Those of the inputs that cannot be read, and why.
     tables : mapping of str to Table

@@ -20,7 +20,7 @@ from planmethod.render.backends.output import UNFINISHED, write
 
 RECORD, OVERRIDES, PAGES = "run.json", "overrides.csv", "pages"
 RECORD_LIMIT = 16 * 2**20
-"""Bytes of a record that are looked at."""
+"""Maximum size of a record, bytes."""
 
 _OURS = rf"(?:{PAGES}/)?[^/\\]{{1,255}}"
 """Names of files that a run may have written."""

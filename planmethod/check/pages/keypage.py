@@ -1,4 +1,4 @@
-"""The key for a terminal, for a red pencil, and as a workbook (ключ на экране и на бумаге)."""
+"""The key for a terminal, for marking on paper, and as a workbook (ключ на экране и на бумаге)."""
 
 from __future__ import annotations
 

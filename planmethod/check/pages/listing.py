@@ -1,4 +1,4 @@
-"""Judged works as records and as rows of a table for machines (записи и строки результатов)."""
+"""Graded submissions as records and as rows of a data table (записи и строки результатов)."""
 
 from __future__ import annotations
 

@@ -60,11 +60,11 @@ class Overlay(Struct, frozen=True):
         The true plan.
     own : tuple of Own
     bounds : Bounds
-        What is to be seen of the drawing's plane, mm.
+        Visible part of the drawing's plane, mm.
     scale : str
         Inscription of the scale, rich text.
     mistake : str
-        Code of the mistake whose plan is shown; empty where none is.
+        Code of the mistake whose plan is shown; empty if there is none.
     """
 
     kind: PlanKind
@@ -90,7 +90,7 @@ def overlays(solution: Solution, checked: CheckedWork, words: Language) -> list[
 
 
 def _position(checked: CheckedWork, count: int) -> int:
-    """Return the position that is drawn: that of the first root, else of the first wrong answer."""
+    """Return the drawn position: that of the first root, else of the first wrong answer."""
     roots = {id for diagnosis in checked.diagnosis for id in diagnosis.roots}
     told = [judged for judged in checked.answers if judged.key is not None]
     for chosen in (
@@ -106,7 +106,7 @@ def _position(checked: CheckedWork, count: int) -> int:
 
 @remembered
 def true_plan(solution: Solution, kind: PlanKind, index: int) -> tuple[Drawing, complex]:
-    """Return a plan alone as a drawing, and where its pole lies there."""
+    """Return a plan alone as a drawing, and the place of its pole there."""
     picture: Picture = plan_picture(solution, kind, index)
     pole = complex(MARGIN - picture.bounds[0], MARGIN - picture.bounds[1])
     drawing = Drawing(picture.width + 2 * MARGIN, picture.height + 2 * MARGIN)
@@ -230,7 +230,7 @@ def _plan_of_mistake(
     moved: Mapping[PointName, complex],
     pole: complex,
 ) -> Iterator[Own]:
-    """Yield the vectors of a mistake's plan that do not lie on those of the true one."""
+    """Yield the vectors of a mistake's plan that differ from those of the true one."""
     for vector in solution.construction.plan(kind).vectors:
         ends = vector.tail, vector.head
         if all(end in moved for end in ends) and max(abs(moved[e] - at[e]) for e in ends) > 0.3:

@@ -1,6 +1,6 @@
 """``overrides.csv``: points and remarks set by hand, which survive grading again (правки вручную).
 
-A row names a student and an answer, or the whole work where the answer is left empty.
+A row names a student and an answer, or the whole submission if the answer is empty.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Override(Struct, frozen=True):
     ----------
     student : str
     id : str
-        Empty for the whole work.
+        Empty for the whole submission.
     points : float or None
         None where only a remark is made.
     remark : str
@@ -140,7 +140,7 @@ def _lines(rows: Sequence[Sequence[str]], mark: str) -> str:
 
 
 def _open(works: Sequence[CheckedWork]) -> Iterator[tuple[str, Judged]]:
-    """Yield the open answers of works that are marked, each once."""
+    """Yield the open answers of marked submissions, each once."""
     for work in works:
         if work.is_provisional:
             once: dict[str, Judged] = {}
@@ -253,7 +253,7 @@ def _answers(
 
 
 def _by_hand(found: T, override: Override) -> T:
-    """Return a work, or an answer, with the points and the remark that were set by hand."""
+    """Return a submission, or an answer, with the points and the remark that were set by hand."""
     points = found.points if override.points is None else override.points
     by_hand = found.by_hand or override.points is not None
     return replace(found, points=points, by_hand=by_hand, remark=override.remark or found.remark)

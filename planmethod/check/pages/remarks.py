@@ -19,7 +19,7 @@ ON_PAPER = {"slip", "scale", "S1", "S2", "S3", "S4"}
 
 
 class Remarks(Struct, frozen=True):
-    """Remarks on one work, rich text.
+    """Remarks on one submission, rich text.
 
     Attributes
     ----------

@@ -43,7 +43,7 @@ def results_xlsx(
     Parameters
     ----------
     marks : sequence of str
-        Of the works, one each; none where points are all there is.
+        Marks of the submissions, one each; none if there are only points.
     settings : mapping
         What the last sheet shows: settings of the run and its files.
     group : GroupStatistics, optional
@@ -120,7 +120,7 @@ def _summary(
 
 
 def told_mistakes(checked: CheckedWork, say: Words) -> str:
-    """Return the mistakes of a work: codes and names, each with the answers where it begins."""
+    """Return the mistakes of a submission: codes and names, with the answers where they begin."""
     labels = _labels(checked)
     begins: dict[str, list[str]] = {}
     for diagnosis in checked.diagnosis:

@@ -114,7 +114,7 @@ class Speech(Struct, frozen=True):
         return self.words.say.number(sigma_text(tolerance, nothing=0.0))
 
     def own(self, judged: Judged) -> str:
-        """Return what a student found: value with unit and sense, else millimetres."""
+        """Return a student's answer: value with unit and sense, else millimetres."""
         written, key = judged.written, judged.key
         if judged.value is None or key is None:
             bare = "" if written is None or written.mm is None else self.mm(written.mm)

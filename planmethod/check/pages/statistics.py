@@ -29,8 +29,8 @@ class QuestionStatistics(Struct, frozen=True):
     share : float
         Mean share of its points, 0 to 1: the smaller, the harder.
     discrimination : float or None
-        Correlation of its share with that of all other answers of a work, -1 to 1; None where it
-        has none: fewer than three works, or all alike.
+        Correlation of its fraction with that of all other answers of a submission, -1 to 1; None
+        for fewer than three submissions, or equal fractions.
     """
 
     label: str
@@ -46,9 +46,9 @@ class GroupStatistics(Struct, frozen=True):
     Attributes
     ----------
     marks : tuple of (str, int)
-        How many works have each mark, the best first.
+        Number of submissions with each mark, the best first.
     shares : tuple of float
-        Of the points of each work, 0 to 1.
+        Fraction of the points of each submission, 0 to 1.
     questions : tuple of QuestionStatistics
         In the requested order.
     provisional : int
@@ -67,7 +67,7 @@ class GroupStatistics(Struct, frozen=True):
 
     @property
     def median(self) -> float:
-        """Share of the points that half of the works reach."""
+        """Fraction of the points that half of the submissions reach."""
         return statistics.median(self.shares)
 
     @property

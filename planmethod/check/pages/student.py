@@ -167,7 +167,7 @@ def student_page(
     hidden: tuple[str, ...] = (),
     values: bool = True,
 ) -> Page:
-    """Return the page of a work.
+    """Return the page of a submission.
 
     Parameters
     ----------
@@ -220,7 +220,7 @@ def student_page(
 
 
 def lines(answers: Sequence[Judged], speech: Speech) -> list[AnswerLine]:
-    """Return the answers as lines of the table whose heads are ``check.student.columns``."""
+    """Return the answers as rows of the table with the heads ``check.student.columns``."""
     symbols = {judged.id: speech.symbol(judged) for judged in answers}
     return [
         AnswerLine((str(number), *_cells(judged, speech, symbols)), judged.verdict)
@@ -247,7 +247,7 @@ def _cells(judged: Judged, speech: Speech, symbols: Mapping[str, str]) -> tuple[
 
 
 def _lengths(judged: Judged, speech: Speech) -> str:
-    """Return the student's millimetres beside the true ones."""
+    """Return the student's millimetres next to the true ones."""
     key, written = judged.key, judged.written
     own = None if written is None else written.mm
     true = None if key is None else key.mm

@@ -93,7 +93,7 @@ BLANK_SIGNS = f"{DASHES}-_?.…/ \t\u00a0"
 """Signs that mean no answer if alone."""
 
 POINT = frozenset(("точка", "point"))
-"""First word of a row that says what a point of the problem is called in this work."""
+"""First word of a row that renames a point of the problem in this submission."""
 
 
 def read_sense(text: str) -> Sense | None:
@@ -102,7 +102,7 @@ def read_sense(text: str) -> Sense | None:
 
 
 TEXT_LIMIT = 200
-"""Characters of a cell that are looked at."""
+"""Maximum number of characters read from a cell."""
 
 
 class Cell(Struct, frozen=True):
@@ -131,7 +131,7 @@ BLANK = Cell()
 
 
 def cut(text: str, limit: int = TEXT_LIMIT) -> str:
-    """Return as much of a stranger's text as is looked at, in one line."""
+    """Return the part of a foreign text that is read, in one line."""
     return visible(" ".join(text[:limit].split()))
 
 

@@ -27,7 +27,7 @@ _SEPARATORS = (";", "\t", ",")
 
 
 def read_csv(data: bytes, path: Path) -> list[Work]:
-    """Return the works of a CSV file: ``;``, ``,`` or tab; UTF-8, UTF-16 with its mark, cp1251.
+    """Return the submissions of a CSV file: ``;``, ``,`` or tab; UTF-8, UTF-16 with BOM, cp1251.
 
     Raises
     ------

@@ -11,7 +11,7 @@ SIZE_LIMIT = 4 * 1024 * 1024
 
 
 class WorksError(PlanMethodError):
-    """A file of works cannot be read (файл работ)."""
+    """A submission file cannot be read (файл работ)."""
 
     exit_code = ExitCode.USAGE
 

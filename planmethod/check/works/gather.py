@@ -60,7 +60,7 @@ class WorkDraft(Struct):
     twice: list[WrittenAnswer] = field(default_factory=list)
     remarks: list[WrittenAnswer] = field(default_factory=list)
     points: dict[str, str] = field(default_factory=dict)
-    """Points of the problem by the names that they have in this work."""
+    """Points of the problem by their names in this submission."""
 
     def remark(self, why: Unread, text: str, where: str) -> None:
         """Record an unreadable entry."""
@@ -188,7 +188,7 @@ class Gathering:
         return self.drafts[student]
 
     def works(self) -> list[Work]:
-        """Return the works; what belongs to no student goes to the remarks of the first."""
+        """Return the submissions; remarks without a student go to the first one."""
         works = [draft.work() for draft in self.drafts.values()]
         if self.remarks:
             first, *others = works or [Work("", (), where=self.where)]
@@ -197,7 +197,7 @@ class Gathering:
 
 
 def _per_mm(scale: str, unit: str) -> float:
-    """Return what makes a scale in its unit one per millimetre; 0 for a unit of something else.
+    """Return the factor that converts a scale in its unit to per millimetre; 0 for a wrong unit.
 
     Written are (м/с)/мм, м/с alone, and м/с·мм, which means the first.
     """

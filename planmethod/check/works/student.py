@@ -1,4 +1,4 @@
-"""Works as JSON or TOML: the object of docs/works.md, or a list of such (объект работы)."""
+"""Submissions as JSON or TOML: the object of docs/works.md, or a list of them (объект работы)."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ class _Digits(str):
 
 
 def read_json(data: bytes, path: Path) -> list[Work]:
-    """Return the works of a JSON file.
+    """Return the submissions of a JSON file.
 
     Raises
     ------
     WorksError
-        It is no JSON, or not of works.
+        It is not JSON, or not of submissions.
     """
     try:
         text = data.decode("utf-8-sig")
@@ -70,12 +70,12 @@ def read_json(data: bytes, path: Path) -> list[Work]:
 
 
 def read_toml(data: bytes, path: Path) -> list[Work]:
-    """Return the work of a TOML file.
+    """Return the submission of a TOML file.
 
     Raises
     ------
     WorksError
-        It is no TOML, or not of a work.
+        It is not TOML, or not of a submission.
     """
     try:
         whole = parse(data.decode("utf-8-sig"), name=str(path))

@@ -37,7 +37,7 @@ class Head(Struct, frozen=True):
     name : str
         Quantity, of which ``field`` is an aspect; or scale, where ``field`` is ``scale``.
     unit : str
-        Of the numbers below that have none of their own.
+        Unit of the numbers below without their own.
     """
 
     field: str = ""
@@ -100,7 +100,7 @@ def _parted(text: str) -> Iterator[tuple[str, str]]:
 
 
 HEAD_ROWS = 20
-"""Rows from the top among which the head is looked for."""
+"""Number of rows from the top in which the head is searched."""
 
 Row = Sequence[Cell]
 
@@ -109,11 +109,11 @@ _WHO = ("student", "number", "variant")
 
 _ABOVE = ("student", "variant", "problem", "ruler_mm")
 _MERGED = (*_WHO, "problem", "position", "what", "id")
-"""Fields of which one cell counts for all the rows that it is merged over."""
+"""Fields whose merged cell applies to all rows that it covers."""
 
 
 def read_table(rows: Sequence[Row], gathering: Gathering, title: str, *, closed: bool) -> bool:
-    """Read the works of a table.
+    """Read the submissions of a table.
 
     Parameters
     ----------

@@ -54,7 +54,7 @@ _SPAN = r"([A-Z]{1,3})([0-9]{1,7}):([A-Z]{1,3})([0-9]{1,7})\Z"
 
 
 def read_xlsx(data: bytes, path: Path) -> list[Work]:
-    """Return the works of a workbook: of a group, or of a form of `planmethod.check.form`.
+    """Return the submissions of a workbook: of a group, or of a form of `planmethod.check.form`.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def read_xlsx(data: bytes, path: Path) -> list[Work]:
 
 
 def _check_size(data: bytes, path: Path) -> None:
-    """Refuse what would unpack to more than a workbook of answers has, or has other things in it.
+    """Reject a workbook that would unpack to too much, or has too much besides answers.
 
     Raises
     ------
@@ -124,7 +124,7 @@ def _check_size(data: bytes, path: Path) -> None:
 
 
 class _Counts:
-    """Counts the elements of all parts before anything is made of them."""
+    """Count the elements of all parts before they are parsed further."""
 
     def __init__(self, path: Path) -> None:
         self.path, self.depth, self.cells, self.others = path, 0, 0, 0
@@ -225,7 +225,7 @@ class _Whole(Struct):
     elements : int
         Rows and cells that the file has.
     cells : int
-        Cells that are made of them, empty ones between them, too.
+        Cells built from them, with the empty ones in between.
     spans, merged : int
         Merged ranges, and the cells in them.
     """
@@ -293,7 +293,7 @@ class _Structure(Struct):
     formulas : set of str
         Cells whose formula has no value.
     rows, columns : int
-        How far there are values.
+        Extent of the values.
     last : str
         The cell furthest down that has one.
     """
