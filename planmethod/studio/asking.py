@@ -29,11 +29,11 @@ SLOW = ("note", "project")
 """Commands that take minutes of processor time."""
 
 WORKS = (".csv", ".xlsx", ".json", ".toml", ".txt", ".dxf", ".svg")
-"""Endings of works."""
+"""Suffixes of submission files."""
 
 MOST_VARIANTS = 60
 DEEPEST = 32
-"""Levels of objects and lists in a work."""
+"""Maximum depth of objects and lists in a submission."""
 
 LONGEST_NAME = 200
 """Bytes of the name of a file: systems take 255."""
@@ -49,13 +49,13 @@ class StudioRequest(Struct, frozen=True, kw_only=True):
     what, layout : str or None
         Which command, which composition of its sheets.
     work : dict or None
-        A work, as JSON has it.
+        A submission, as in JSON.
     by_hand : list of dict
         Points and remarks of the instructor.
     count, seed : int or None
         Of variants.
     token, file, mark, over
-        Of the instructor; of one's own file, and whether another state of it is written over.
+        Of the instructor; of one's own file, and whether to overwrite a conflicting version.
     """
 
     text: str = ""
@@ -160,7 +160,7 @@ def asked_of(
     do : str
         One of `ACTS`.
     works : Path
-        Folder of the works that were dropped.
+        Folder of the uploaded submissions.
     served : bool
         Strangers come.
     """

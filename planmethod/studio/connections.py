@@ -18,7 +18,7 @@ UNREAD = 60.0
 
 
 class PatientProtocol(H11Protocol):
-    """HTTP with an end to patience (соединение): a request that goes on is never cut off."""
+    """HTTP with timeouts (соединение): a request in progress is never cut off."""
 
     _end: float | None = None
     _looking: asyncio.TimerHandle | None = None

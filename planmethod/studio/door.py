@@ -13,7 +13,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from planmethod.languages import LANGUAGES, say, speaking
 
 OWN_HOSTS = ("127.0.0.1", "localhost", "::1")
-"""Names of one's own machine: no page of elsewhere comes under one of them."""
+"""Names of the local machine: no external page is served under one of them."""
 
 PRINTED = "Open the address that planmethod studio printed when it started: it lets nobody else in."
 INSTRUCTORS = "This is the instructor's: open the link that was printed at the start."
@@ -34,7 +34,7 @@ _SAFE = {
 
 
 def lang_of(request: Request) -> str:
-    """Return the language of a request: what it names, else what its browser speaks."""
+    """Return the language of a request: its parameter, else that of its browser."""
     asked = request.query_params.get("lang", "")
     spoken = (asked, *request.headers.get("accept-language", "").split(","))
     codes = (one.split(";")[0].strip().split("-")[0].lower() for one in spoken)
@@ -114,7 +114,7 @@ class Door:
         return bool(self.token) and hmac.compare_digest(given.encode(), str(self.token).encode())
 
     def _let_in(self, request: Request) -> Response:
-        """Give the cookie, and have the browser go on without the token in its address.
+        """Set the cookie, and have the browser continue without the token in its address.
 
         A redirect would not do: where a file or another site has led here, its next request has no
         strict cookie; one that this page makes has.

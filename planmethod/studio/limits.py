@@ -20,7 +20,7 @@ class StudioLimits(Struct, frozen=True, kw_only=True):
         Processor time for one computation; for a note or a project; for a request of an
         instructor.
     memory : int or None
-        Address space of a process at work, bytes; where the system can bound it.
+        Address space of a worker process, bytes; if the system can bound it.
     text, upload, uploads : int
         Bytes of a problem file with its request, of one submission, of all those of a session.
     written : int
@@ -28,7 +28,7 @@ class StudioLimits(Struct, frozen=True, kw_only=True):
     waiting, own : int
         Computations that wait, of all and of one session.
     works : int
-        How many works a session has.
+        Maximum number of submissions of a session.
     sessions : int
         Concurrent sessions: a new one replaces the oldest that has no computation.
     idle : float

@@ -42,7 +42,7 @@ def _parts(path: str) -> tuple[str, ...]:
 def _keys(text: str) -> Iterator[tuple[Sequence[str], int, int]]:
     """Yield the headers and keys of a text with their lines and columns; arrays by number from 0.
 
-    A text that is half typed is no TOML: lines are looked at one by one.
+    A half-typed text is not valid TOML: lines are parsed one by one.
     """
     table: tuple[str, ...] = ()
     count: dict[tuple[str, ...], int] = {}

@@ -70,9 +70,9 @@ class StudioSettings(Struct, frozen=True, kw_only=True):
     served : bool
         Strangers come.
     token : str
-        Of the instructor's pages where strangers come, else of the whole studio.
+        Token of the instructor's pages on a public server, else of the whole studio.
     desk : Desk or None
-        What is edited on one's own machine.
+        Files edited on one's own machine.
     layouts : tuple of str
         Names of the shipped layouts.
     """
@@ -144,7 +144,7 @@ class _Studio:
 
     @contextlib.asynccontextmanager
     async def living(self, _: Starlette) -> AsyncIterator[None]:
-        """Have processes at work, and clean up."""
+        """Start the processes, and clean up."""
         self.queue = StudioQueue(self.act, self.settings.processes, self.limits)
         cleaning = asyncio.create_task(self._clean())
         try:
@@ -294,7 +294,7 @@ class _Studio:
     # Works ---------------------------------------------------------------------------------------
 
     async def take_work(self, request: Request) -> Response:
-        """Take a work that was dropped on the page; or drop all of them."""
+        """Accept a submission dropped on the page; or delete all of them."""
         session = self._session(request)
         self._trust(session)
         if request.method == "DELETE":
@@ -362,7 +362,7 @@ class _Studio:
         )
 
     def _put_beside(self, text: str, name: str, folder: Path) -> None:
-        """Put the table of variants that one's own file names where it is looked for."""
+        """Copy the table of variants that one's own file names to where it is read."""
         desk = self.settings.desk
         named = re.search(r'(?m)^\s*variants\s*=\s*"([^"/\\]+\.(?:csv|txt))"', text)
         if desk is None or named is None or (path := desk.at(name)) is None:

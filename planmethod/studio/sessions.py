@@ -51,7 +51,7 @@ class StudioSession(Struct):
 
     @property
     def works(self) -> Path:
-        """Folder of the works that were dropped."""
+        """Folder of the uploaded submissions."""
         return self.folder / "works"
 
     def new_folder(self, kept: int) -> tuple[int, Path]:
@@ -91,7 +91,7 @@ class StudioSession(Struct):
         return made.getvalue()
 
     def uploaded(self) -> int:
-        """Return how many bytes of works there are."""
+        """Return the size of all submissions, bytes."""
         return sum(path.stat().st_size for path in self.works.glob("*"))
 
 
@@ -208,7 +208,7 @@ def _held(path: Path, *, new: bool) -> Iterator[bool]:
 
 
 class Desk(Struct, frozen=True):
-    """The file or the folder that one edits on one's own machine (рабочее место)."""
+    """The file or folder edited on one's own machine (рабочее место)."""
 
     path: Path
 

@@ -1,4 +1,4 @@
-"""Processes at work, each with limits of time and memory, and the queue before them (очередь)."""
+"""Worker processes, with limits of time and memory, and their queue (очередь)."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ ENDING = 10.0
 """Seconds in which a process that has closed its pipe has ended."""
 
 READY = 60.0
-"""Seconds in which a process is ready for work."""
+"""Seconds in which a process must be ready."""
 
 PRELOADED = (
     "planmethod.kinds", "planmethod.render.sketch", "planmethod.render.backends.svg",
     "planmethod.render.sheets.kinematics",
 )  # fmt: skip
-"""Modules that every process has from the one it is made of, where the system can."""
+"""Modules preloaded in the parent of every process, if the system can."""
 
 PAUSE = 0.5
-"""Seconds between two looks at the place in the queue."""
+"""Seconds between reports of the place in the queue."""
 
 WAITED = 20.0
 """Maximum ratio of elapsed time to the limit of processor time, on a machine with other work:
@@ -121,7 +121,7 @@ def bound(memory: int | None, written: int) -> None:
 
 
 class StudioWorker:
-    """One process at work (рабочий процесс), and another one in its place where it is spent."""
+    """One worker process (рабочий процесс), replaced when it is spent."""
 
     def __init__(self, act: Act, limits: StudioLimits) -> None:
         self.act, self.limits = act, limits
@@ -208,12 +208,12 @@ class _Ticket:
 class StudioQueue:
     """Computations that wait for a process (очередь расчётов): quick ones first.
 
-    Those that are not quick never take all processes, and a session has one slow one at work.
+    Slower jobs never occupy all processes, and a session has one slow job running.
 
     Attributes
     ----------
     busy, done, refused : int
-        How many are at work, were done, and could not be.
+        Numbers of running, completed and rejected jobs.
     """
 
     def __init__(self, act: Act, count: int, limits: StudioLimits) -> None:
@@ -237,7 +237,7 @@ class StudioQueue:
         return self.waiting >= self.limits.waiting or (self._own.get(session, 0) >= self.limits.own)
 
     def is_asked_by(self, session: str) -> bool:
-        """Return whether something is at work for a session, or waits."""
+        """Return whether a session has a job running or waiting."""
         return session in self._own
 
     def stop(self) -> None:

@@ -49,7 +49,7 @@ POLICY = (
     "style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; connect-src 'self'{hosts}; "
     "frame-src 'self'; worker-src 'self' blob:; base-uri 'none'; form-action 'none'"
 )
-"""As that of the server's page; beside its own host only that of the runtime."""
+"""Like that of the server's page; besides its own host it permits only the runtime's."""
 
 
 class Runtime(Struct, frozen=True):
@@ -139,7 +139,7 @@ def write_studio(
     Raises
     ------
     OutputError
-        Something else is in the folder, or it cannot be written.
+        The folder has other contents, or cannot be written.
     """
     if folder.exists() and not folder.is_dir():
         raise OutputError("{}: this is a file. Name a folder.", folder)
