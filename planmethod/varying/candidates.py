@@ -21,7 +21,7 @@ Overrides = Mapping[str, Any]
 
 
 class VariantCandidates:
-    """A file whose variants are taken out, to read others in their place (файл с кандидатами).
+    """A file whose variants are removed, to read others in their place (файл с кандидатами).
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class VariantCandidates:
     Raises
     ------
     ProblemError, VaryingError
-        The file is faulty, or its variants cannot be taken out of its text.
+        The file is faulty, or its variants cannot be removed from its text.
     """
 
     def __init__(self, path: Path, kind: ProblemKind[Any] | None) -> None:

@@ -64,7 +64,7 @@ class VariantChoice(Struct):
     ----------
     variants : list of ChosenVariant
     wanted, tried : int
-        Variants that were wanted, candidates that were looked at.
+        Number of requested variants, number of candidates tried.
     keys : tuple of VariedKey
     refused : Counter
         Number of rejected candidates by reason and item.
@@ -116,11 +116,11 @@ def choose(
     vary : str
         What is varied, ``links.1.OA,driver.phi=0..90``; the usual numbers when empty.
     spread : float
-        How far numbers go from those of the file, a share of them.
+        Range of the numbers around those of the file, a fraction of them.
     tries : int, optional
         Most candidates.
     settings : Settings
-        Of the department: they say how far answers may be off.
+        Of the department: they determine the tolerances of answers.
     done : callable
         Called with how many more variants there are.
 

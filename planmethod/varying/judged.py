@@ -38,7 +38,7 @@ LEAST_SHARE = 0.3
 """Answers that a mistake makes small are drawn no better than a third of the right one."""
 
 Place = tuple[str, str]
-"""Code of a mistake and where it is made; a condition and whose it is."""
+"""Code of a mistake and its place; a condition and its wheel."""
 
 
 class JudgedVariant(Struct, frozen=True, eq=False):
@@ -47,7 +47,7 @@ class JudgedVariant(Struct, frozen=True, eq=False):
     Attributes
     ----------
     exact, allowed : mapping of str to float
-        Answers and how far each may be off, by id.
+        Answers and their tolerances, by id.
     signed : frozenset of str
         Answers whose sense is also requested.
     points : mapping of str to float
@@ -167,7 +167,7 @@ class Judge:
         return self._told(task, limits, named)
 
     def _limits(self, task: Task, *, strictly: bool = True) -> dict[str, Tolerance] | Refused:
-        """Return how far each answer may be off, or why a candidate is refused."""
+        """Return the tolerance of each answer, or why a candidate is rejected."""
         items = task.whole()
         limits: dict[str, Tolerance] = {}
         for item in items:
@@ -235,7 +235,7 @@ def has_sign(item: TaskItem) -> bool:
 
 
 def freed(problem: Problem) -> Problem:
-    """Return a problem whose scales the program chooses, of the series."""
+    """Return a problem whose scales are chosen by the program, from the series."""
     own = problem.scales
     return replace(problem, scales=replace(own, mu_l=None, mu_v=None, mu_a=None, mu_F=None))
 
@@ -258,7 +258,7 @@ def _scales_of(task: Task) -> dict[str, float]:
 
 
 def _failing(problem: KindProblem) -> Iterator[Place]:
-    """Yield the conditions of teeth that a train does not meet, and whose they are."""
+    """Yield the conditions of teeth that a train does not meet, with the wheel of each."""
     if isinstance(problem, GearProblem):
         for one in conditions(solve_motion(problem)):
             if not one.holds:

@@ -144,7 +144,7 @@ def _alone(problem: Problem, bare: Problem, profile: Profile) -> Solution | Refu
 
 
 def _refused(batch: Batch, wanted: Sequence[Asked]) -> dict[int, Refused]:
-    """Return which variants of a batch are refused at a look at all of them, by their numbers."""
+    """Return the variants of a batch that a joint check rejects, by their numbers."""
     margins = [float(np.min(batch.margin[rows])) for rows in batch.rows]
     found = {k: Refused(Refusal.MARGIN) for k, least in enumerate(margins) if not least >= MARGIN}
     starts = np.array([rows.start for rows in batch.rows])

@@ -1,4 +1,4 @@
-"""Teeth by lot that keep a train coaxial (соосность): wheels that follow from the others."""
+"""Random teeth that keep a train coaxial (соосность): some wheels follow from the others."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Row = dict[str, Fraction]
 """Coefficients of an equation by labels; what they add up to is under the empty one."""
 
 Solved = tuple[str, Row]
-"""The wheel that an equation is solved for, whose factor is 1, and the equation."""
+"""The wheel that an equation is solved for, with coefficient 1, and the equation."""
 
 
 def coaxial_rows(motion: TrainMotion, varied: Sequence[str]) -> list[Solved]:
@@ -70,7 +70,7 @@ def _less(row: Row, other: Row, label: str) -> Row:
 def coaxial(
     found: Mapping[VariedKey, float], rows: Sequence[Solved], sizes: Mapping[str, Fraction]
 ) -> dict[VariedKey, float] | None:
-    """Return values whose wheels are coaxial; None where a wheel then has no size of its own."""
+    """Return values with coaxial wheels; None if a resulting wheel has no permitted size."""
     made = dict(found)
     wheels = {label_of(one): one for one in made if one.name.startswith(WHEEL)}
     per = {label: _exact(one.base) / sizes[label] for label, one in wheels.items()}

@@ -283,7 +283,7 @@ def with_followers(table: Mapping[str, Any], chosen: Sequence[VariedKey]) -> lis
 
 
 class Lots:
-    """Values drawn by lot, oftener those with which candidates did well (жребий).
+    """Random values, more often those with which candidates did well (жребий).
 
     Parameters
     ----------
@@ -299,7 +299,7 @@ class Lots:
         self._counts = {one.shown: [1] * len(one.values) for one in self.free}
 
     def draw(self) -> dict[VariedKey, float]:
-        """Return one value of everything that is drawn by lot."""
+        """Return one value of every randomly drawn number."""
         found: dict[VariedKey, float] = {}
         for one in self.free:
             worth = zip(self._weights[one.shown], self._counts[one.shown], strict=True)
