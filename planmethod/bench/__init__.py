@@ -1,1 +1,1 @@
-"""Speed beside error of one's own problem."""
+"""Speed and errors of one's own problem."""

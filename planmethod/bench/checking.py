@@ -1,4 +1,4 @@
-"""Checking of works, measured on works that a pencil has drawn: whom it faults, what it names."""
+"""Checking of simulated drawn submissions: false alarms, named mistakes."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Honest(Struct):
     unseen : int
         Answers that the drawing cannot show.
     faulted, hurt : int
-        Answers, and works, that lose points.
+        Answers, and submissions, that lose points.
     named : int
         Works in which a mistake is named.
     flat, flat_hurt : dict of float to int
@@ -137,7 +137,7 @@ def first_items(task: Task) -> list[TaskItem]:
 
 
 def honest(task: Task, count: int) -> Honest:
-    """Check works without a mistake."""
+    """Check submissions without a mistake."""
     found = Honest(called(task), task.settings.profile)
     for work in drawn_works(task, count=count, seed=SEED):
         checked = check(task, work)
@@ -224,7 +224,7 @@ def of_other(
 
 
 def shows(entry: KeyEntry, value: float) -> bool:
-    """Return whether an answer with a mistake is beyond what a pencil does, as the key has it."""
+    """Return whether an answer deviates by more than drafting errors, according to the key."""
     off = abs(abs(value) - abs(entry.exact))
     turned = entry.asks_sense and value * entry.exact < 0
     return not entry.zero and (off > max(DEFAULT.k * entry.sigma, entry.tolerance) or turned)
@@ -249,7 +249,7 @@ def detection(task: Task, count: int) -> list[Detected]:
 
 
 def count_work(row: Detected, checked: CheckedWork, right: set[str]) -> None:
-    """Count a work in which one of some mistakes, all alike, is right to name."""
+    """Count a submission in which any of several equivalent mistakes is right to name."""
     sure = sure_codes(checked)
     row.works += 1
     row.over_half += checked.points > checked.of / 2
@@ -271,7 +271,7 @@ def sure_codes(checked: CheckedWork) -> set[str]:
 
 
 def all_detected(problems: Sequence[Problem], count: int) -> list[Detected]:
-    """Plant every mistake in works of every problem."""
+    """Plant every mistake in submissions of every problem."""
     return [row for task in tasks_of(problems) for row in detection(task, count)]
 
 
@@ -291,7 +291,7 @@ class Speed(Struct, frozen=True):
     first : float
         Problem solved, tolerances found, one submission with a mistake graded and explained.
     honest, mistaken : float
-        A further work without a mistake, and with one.
+        A further submission without a mistake, and with one.
     key : float
         The key of a solved problem.
     group : float

@@ -1,4 +1,4 @@
-"""Whom checking is fair to: two mistakes at once, one's own numbers, problems that are computed."""
+"""Fairness of checking: two mistakes at once, a student's own numbers, computed problems."""
 
 from __future__ import annotations
 
@@ -58,12 +58,12 @@ PLACE = 10.0
 
 
 class Inherited(Struct):
-    """Answers that follow from a wrong number of one's own.
+    """Answers that follow from a student's own wrong number.
 
     Attributes
     ----------
     way : str
-        "plans", as the plans go on with it; "routes", by another formula of the textbook.
+        "plans": continued on the plans; "routes": by another formula of the textbook.
     answers, lost : int
         Those that follow, and those of them that lose points.
     """
@@ -242,7 +242,7 @@ def computed_works(
 
 
 def computed_honest(task: Calculation, count: int) -> Honest:
-    """Check computed works without a mistake."""
+    """Check computed submissions without a mistake."""
     found = Honest(called(task), "computed")
     for work in computed_works(task, task.sheet(first_items(task)[0].position).exact, count, SEED):
         checked = check(task, work)
@@ -334,7 +334,7 @@ class Confusion(Struct, frozen=True):
 
 
 def confused(problems: Sequence[Problem], computed: Sequence[Computed], works: int) -> Confusion:
-    """Check works of every kind of every problem.
+    """Check submissions of every kind for every problem.
 
     Parameters
     ----------

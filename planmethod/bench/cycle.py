@@ -25,7 +25,7 @@ SWEPT = (12, 360, 36_000)
 """Positions of a turn that are timed."""
 
 RULERS = (0.1, 0.5, 1.0)
-"""Steps of a ruler that the path is taken off with, mm."""
+"""Ruler steps for reading the path, mm."""
 
 
 class Calculus(Struct, frozen=True):
@@ -64,7 +64,7 @@ def calculus(turn: Turn, count: int) -> Calculus:
 
 
 def takes_over(rows: list[Calculus], which: int) -> int | None:
-    """Return the least count at which a ruler moves v more than the construction errs."""
+    """Return the smallest count at which the ruler affects v more than the construction errs."""
     return next((row.count for row in rows if row.moved[which][0] > row.v.most), None)
 
 
@@ -90,9 +90,9 @@ WAYS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way in
 
 
 class Constructed(Struct, frozen=True):
-    """J_f by construction without a pencil, less the exact one, %.
+    """J_f by construction without drafting errors, minus the exact one, %.
 
-    ``off`` has a number for each of `WAYS`; ``count`` is None of the whole curves.
+    ``off`` has a number for each of `WAYS`; ``count`` is None for the whole curves.
     """
 
     count: int | None

@@ -24,11 +24,11 @@ class Compared(Struct, frozen=True):
     Attributes
     ----------
     compared : int
-        Quantities whose first order is believed and which are longer than three sigmas.
+        Quantities for which first order is valid and which are longer than three sigmas.
     least, most : float
         First-order sigma over the standard deviation of random sheets, over those quantities.
     given_up, short : int
-        Quantities whose sigma is that of the sheets, first order not being believed; quantities
+        Quantities with the sigma of the sheets, first order being invalid; quantities
         shorter than three sigmas.
     """
 

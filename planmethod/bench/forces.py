@@ -1,4 +1,4 @@
-"""Force plans: time beside error, and the lever beside the force plans."""
+"""Force plans: time and error, and the lever compared with the force plans."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def _batch(statics: Statics, trace: Any) -> list[Array]:
 
 
 def readings(problem: Problem, counts: Sequence[int]) -> list[ReadSpeed]:
-    """Time the force plans, the motion alone, and the hand."""
+    """Time the force plans, the motion alone, and the ruler readings."""
     found: list[ReadSpeed] = []
     for count in counts:
         solution = Solution(problem, positions=places(problem, count).tolist())
@@ -122,7 +122,7 @@ def _precise_error(statics: Statics, found: Sequence[Number]) -> float:
 
 
 def _hand_error(statics: Statics) -> float:
-    """Return the largest error of a reaction's size as the hand has it, of the largest one."""
+    """Return the largest error of a reaction's ruler reading, relative to the largest reaction."""
     sizes = [abs(joint.force[0]) for joint in statics.reactions]
     read = [drawn_forces(statics).read(size_label(joint))[0] for joint in statics.reactions]
     gaps = [abs(one - size) for one, size in zip(read, sizes, strict=True)]

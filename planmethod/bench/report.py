@@ -19,7 +19,7 @@ COUNTS = (1, 12, 10_000)
 """Numbers of positions that are timed."""
 
 WORKS = 20
-"""Honest works of a problem that are checked."""
+"""Number of faultless submissions checked for a problem."""
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
@@ -52,7 +52,7 @@ def load() -> str:
 
 
 def timed(found: Sequence[speed.ReadSpeed]) -> Table:
-    """Return the table of time beside error."""
+    """Return the table of times and errors."""
     rows = [
         (
             one.name,
@@ -70,7 +70,7 @@ def timed(found: Sequence[speed.ReadSpeed]) -> Table:
 
 
 def speed_section(readings: Sequence[speed.ReadSpeed]) -> Table:
-    """Return time beside error of the motion."""
+    """Return times and errors of the motion."""
     return [
         "## Time against error",
         "",
@@ -88,7 +88,7 @@ def speed_section(readings: Sequence[speed.ReadSpeed]) -> Table:
 def forces_section(
     readings: Sequence[speed.ReadSpeed], lever: Sequence[forces.Discrepancy], *, more: str = ""
 ) -> Table:
-    """Return time beside error of the force plans, and the lever beside them.
+    """Return times and errors of the force plans, and the comparison with the lever.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ def forces_section(
 
 
 def drafting_section(rows: Sequence[Compared]) -> Table:
-    """Return first-order drafting errors beside random sheets."""
+    """Return first-order drafting errors compared with random sheets."""
     return [
         "## Drafting errors: first order against random sheets",
         "",
@@ -212,7 +212,7 @@ def mistakes_table(found: Sequence[checking.Detected]) -> Table:
 
 
 def power_table(found: Sequence[checking.Detected]) -> Table:
-    """Return how many of the planted mistakes are seen and named, by mistake and problem."""
+    """Return the percentages of planted mistakes noticed and named, by mistake and problem."""
     problems = list(dict.fromkeys(one.problem for one in found))
     rows = []
     for code in _codes(found):

@@ -1,4 +1,4 @@
-"""Time beside error: every way of reading a problem's program, and how wrong each is."""
+"""Times and errors of every way of evaluating a problem's program."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def clock(
 
 
 def clock_all(acts: Sequence[Callable[[], object]], *, rounds: int = 9) -> list[Timing]:
-    """Time several things that take turns, so that what else the machine does falls on all."""
+    """Time several functions in turns, so that other load of the machine affects all equally."""
     found: list[list[Timing]] = [[] for _ in acts]
     for _ in range(rounds):
         for own, act in zip(found, acts, strict=True):
