@@ -160,8 +160,8 @@ def read_answers(
 
 
 _KEPT: tuple[tuple[object, tuple[object, ...], tuple[AskedAnswer, ...]], ...] = ()
-"""The last tables that had no fault: most variants of a file have that of its main part. Never
-changed, but replaced: another thread may be looking through it.
+"""Cache of the last faultless tables: most variants of a file share that of its main part. It is
+replaced, never modified: another thread may be reading it.
 """
 
 

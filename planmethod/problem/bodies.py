@@ -12,10 +12,10 @@ from planmethod.problem.model import Body, PointForm
 from planmethod.problem.names import UNITS, listed, told_length
 
 COLLINEAR = 1e-9
-"""Relative slack within which two distances are taken to put a point on the line."""
+"""Relative tolerance within which two distances place a point on the line."""
 
 AGREE = 1e-6
-"""Relative slack within which a redundant length must agree with the others."""
+"""Relative tolerance within which a redundant length must agree with the others."""
 
 
 class _ContradictionError(Exception):

@@ -25,7 +25,7 @@ _COUNTS, _OF_MACHINE = range(3, 361), range(4, 73)
 
 _MOST_GRAPHS = 24
 MOST_LISTED = 36
-"""Most positions of a turn that a cycle without a count takes from the driver."""
+"""Maximum number of positions of a turn that a cycle without a count uses from the driver."""
 
 
 def cycle_count(given: Mapping[str, Any]) -> int:

@@ -14,10 +14,10 @@ DIAGRAM_HINT = "Millimetres of the diagrams."
 
 
 class Zero(Enum):
-    """Position zero by name: where the quicker, the slower or the working stroke starts.
+    """Position zero by name: the start of the quicker, the slower or the working stroke.
 
     The usual one, without a name in files, is that of the working stroke where loads or the file
-    say which one works, else that of the quicker stroke.
+    determine it, else that of the quicker stroke.
     """
 
     USUAL = ""

@@ -6,7 +6,7 @@ of ``schema.json`` and its rows in the references follow from that (``make schem
 the field holds where the file lacks the key.
 
 A sentence is the Markdown of the reference: it begins with a small letter and has no full stop;
-unit, bounds and default are put behind it.
+unit, bounds and default follow it.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class NumberKey(DeclaredKey, frozen=True):
     unit : str
         Empty of a number without dimension.
     positive : bool
-        Zero and negative numbers are reported as such, before the bounds are looked at.
+        Zero and negative numbers are reported as such, before the bounds are checked.
     hint : str
         Hint for a number out of bounds.
     """

@@ -53,7 +53,7 @@ def read_dynamics(
     drive : Drive or None
         None when it could not be read: then it is not checked.
     machine : Machine or None
-        After whose cycle tables over phi repeat.
+        Its cycle is the period of tables over phi.
 
     Returns
     -------

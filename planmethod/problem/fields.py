@@ -142,9 +142,9 @@ def read_number(
     Parameters
     ----------
     what : str
-        What stands here, with its unit: ``a length in metres``.
+        Expected value, with its unit: ``a length in metres``.
     positive : bool
-        Zero and negative numbers are then reported as such, before the bounds are looked at.
+        Zero and negative numbers are then reported as such, before the bounds are checked.
     offset : bool
         Whether it is a coordinate or an angle: a nearly zero value becomes zero without a note.
     hint : str
@@ -416,7 +416,7 @@ def require_turning(
 
 
 def unmask(faults: Faults, path: str, name: str) -> str:
-    """Note the look-alike letters of a name and return the name that was meant."""
+    """Note the look-alike letters of a name and return the intended name."""
     if lookalikes(name) and fold(name).isascii():
         meant = short(fold(name))
         faults.add(path, describe_lookalikes(name), say("Type '{}' in the Latin layout.", meant))
@@ -476,7 +476,7 @@ def _no_point(owner: Owner, name: str) -> str:
 def read_known_point(
     faults: Faults, path: str, value: object, known: Iterable[str], *, of: Owner
 ) -> str | None:
-    """Read the name of a point that must be one of those known; ``of`` says whose they are."""
+    """Read the name of a point that must be one of those known; ``of`` is their owner."""
     name = read_point_name(faults, path, value)
     if name is None:
         return None

@@ -87,7 +87,7 @@ class FormulaKind(Enum):
 
 
 class Operation(Struct, frozen=True):
-    """One operation, which takes its operands from the results before it (действие).
+    """One operation, whose operands are the results before it (действие).
 
     ``is_exact``: whether float64 represents the number exactly: 0.5, not 0.1.
     """
@@ -99,7 +99,7 @@ class Operation(Struct, frozen=True):
 
 
 class FormulaError(Exception):
-    """A formula cannot be read; ``hint`` says what to do."""
+    """A formula cannot be read; ``hint`` is the remedy."""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
@@ -107,7 +107,7 @@ class FormulaError(Exception):
 
 
 EXPONENT_LIMIT = 400
-"""Greatest power of ten of a number that is read; float64 goes from -324 to 308."""
+"""Maximum power of ten of a number; float64 goes from -324 to 308."""
 
 _DECIMAL = r"[-+]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)(?:[eE][-+]?(?=[0-9])0*+([0-9]*+))?"
 

@@ -106,7 +106,7 @@ class AnswerForm(Enum):
 
     VALUE = "value"
     MM = "mm"  # millimetres of the student's own plan
-    BOTH = "both"  # either is taken
+    BOTH = "both"  # either is accepted
 
 
 class AskedSense(Enum):

@@ -23,7 +23,7 @@ def read_higher(
     """Read ``[[higher_pairs]]`` and add the link that replaces each to the links.
 
     A bar between both centres of curvature moves the two links as their profiles do, velocities
-    and accelerations too; where one profile is straight, a stone that slides along it.
+    and accelerations too; where one profile is straight, a block that slides along it.
     """
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("higher_pairs", "tables [[higher_pairs]]", value)

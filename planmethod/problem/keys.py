@@ -1,6 +1,6 @@
 """Every key the reader knows, table by table: the docs and the schema are tested against it.
 
-Keys of flat tables are those of the records in `FLAT`; those of the other tables stand here.
+Keys of flat tables are those of the records in `FLAT`; those of the other tables are here.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ OF_KINDS = ("gears", "point", "meshing", "cam")
 """Tables by which a file is of another kind than linkages; those kinds read them."""
 
 READING = ("reading", "other_readings")
-"""Keys of a file, of a linkage or a train, whose scheme is one of several that fit the data."""
+"""Keys of a linkage or train file whose scheme is one of several matching the data."""
 
 TOP = (
     "title", "source", *READING, "units", "frame", "links", "driver", "assembly", "scales", "stamp",

@@ -66,9 +66,9 @@ class LinkText(Struct):
     faulty : set of str
         Points whose tables could not be read.
     arc : tuple of two str, or None
-        Host and centre of a circular slot: its stone is read as a link from the centre to the pin.
+        Host and centre of a circular slot: its block is read as a link from the centre to the pin.
     where : str
-        Path of the higher pair that the link replaces; empty of a link of the file.
+        Path of the higher pair that the link replaces; empty for a link of the file.
     """
 
     name: str

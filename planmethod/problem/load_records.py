@@ -1,4 +1,4 @@
-"""Masses and loads of a problem, checked and put into plain records (SI units)."""
+"""Checked masses and loads of a problem as plain records (SI units)."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Over(Enum):
 
 
 class LoadLaw(Enum):
-    """Kind of a table by one word (закон нагрузки), which says what it is over and how read."""
+    """Kind of a table by one word (закон нагрузки): its argument and interpolation."""
 
     TABLE = "table"  # over phi, straight between the rows
     PATH = "path"
@@ -95,7 +95,7 @@ class SizeTable(Struct, frozen=True):
     ----------
     over : Over
     at : tuple of float, degrees or m
-        Increasing; empty when the table is over the positions of the file. Over phi the rows lie
+        Increasing; empty when the table is over the positions of the file. Over phi the rows are
         within one turn and repeat. Over a path or strokes one abscissa twice is a jump.
     values : tuple of float, N or N·m
         As many as ``at``, or as the positions of the file.
@@ -103,11 +103,11 @@ class SizeTable(Struct, frozen=True):
     turn : float, degrees
         Period of a table over phi.
     like : str or None
-        Of an indicator: the load whose diagram it is too, of another piston.
+        Of an indicator: the load of another piston whose diagram it shares.
     shift : float, degrees
-        So much of the cycle later than that load begins its first stroke this one does.
+        Part of the cycle by which its first stroke begins later than that load's.
     indicator : IndicatorDiagram or None
-        Of an indicator: what the file has of it.
+        Of an indicator: its data in the file.
     """
 
     over: Over
@@ -170,7 +170,7 @@ class Phase(Struct, frozen=True):
 
 
 class LoadEntry(Struct, frozen=True):
-    """A table of ``[[loads]]`` as it is written; what it says is a `Load` or a `Couple`."""
+    """A table of ``[[loads]]`` as written; it becomes a `Load` or a `Couple`."""
 
     name: Annotated[
         str,

@@ -1,4 +1,4 @@
-"""Flywheel, motor and counterweights of a problem, put into plain records (SI units)."""
+"""Plain records of flywheel, motor and counterweights of a problem (SI units)."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class FlywheelTask(Struct, frozen=True):
 
     @property
     def greatest_speed(self) -> float:
-        """Speed that the rim may have, m/s: the file's, else what its material stands."""
+        """Maximum speed of the rim, m/s: the file's, else that of its material."""
         if self.speed is not None:
             return self.speed
         return 30.0 if self.density is not None and self.density < CAST_IRON else 50.0

@@ -40,7 +40,7 @@ INSTEAD = {
     **dict.fromkeys(("clockwise", "cw", "ccw", "counterclockwise", "direction", "sense"), _SIGN),
     **dict.fromkeys(("rpm", "rev", "frequency"), "Revolutions per minute are n = 60."),
 }
-"""Keys of ``[driver]`` that people look for, and what says the same."""
+"""Keys of ``[driver]`` that people expect, and their equivalents."""
 
 
 def line_hint(what: str, lines: Sequence[str], number: int, column: int) -> str:

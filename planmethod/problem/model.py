@@ -60,8 +60,8 @@ class Body(Struct, frozen=True):
 class PointForm(Struct, frozen=True):
     """Form in which a third point is given (способ задания точки).
 
-    ``kind`` is ``side``, ``on``, ``from`` or ``vertex``; ``line`` is the directed line it speaks
-    of, ``point`` its point; lengths in metres, ``angle`` in degrees.
+    ``kind`` is ``side``, ``on``, ``from`` or ``vertex``; ``line`` is its directed
+    line, ``point`` its point; lengths in metres, ``angle`` in degrees.
     """
 
     kind: str
@@ -529,19 +529,19 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     dynamics : Dynamics or None
         Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
     cycle : CycleTask or None
-        What ``[cycle]`` asks; None when the file has none.
+        Data of ``[cycle]``; None when the file has none.
     project : ProjectTask or None
-        What ``[project]`` decides; None when the file has none.
+        Data of ``[project]``; None when the file has none.
     calculated : int or None
-        Number of the calculated position of a settled project (`planmethod.project`), whose
-        positions and scales are those of all sheets; None of a problem as it is read.
+        Number of the calculated position of a decided project (`planmethod.project`), whose
+        positions and scales are those of all sheets; None for a problem as read.
     numbered : tuple of float
         Positions of the cycle in the order of their numbers, degrees, over all turns of a cycle
         of several; empty without ``[cycle]`` (`planmethod.solved.turn.numbering`).
     machine : Machine or None
-        What the choice of a flywheel needs; None when the file has no ``[machine]``.
+        Data for the flywheel; None when the file has no ``[machine]``.
     balancing : CounterweightTask or None
-        What ``[balancing]`` asks; None when the file has none.
+        Data of ``[balancing]``; None when the file has none.
     tables : mapping
         Tables that later parts read ([gears], [point]), as parsed.
     unit : str
@@ -549,8 +549,8 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     stated : mapping of str to str
         Arithmetic that the file has for a number (``0.25/3``), by path.
     given : GivenTable
-        What TOML made of the file, the variant being laid over it; empty of a problem that was
-        not read from one.
+        Parsed TOML of the file with the variant's values; empty for a problem that was not
+        read from one.
     vanished : mapping of str to float
         Numbers of the file that are read as zero where that matters, by path.
     """
@@ -607,8 +607,8 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     def guide_name(self, label: str) -> str:
         """Return the name of a guide of the frame in documents: ``x-x``, ``y-y`` (направляющая).
 
-        A name of that form is the reader's already. Another one, ``g5``, is a key of the file: the
-        guide takes the first pair of letters that is free, ``y-y`` first where it is upright.
+        A name of that form is used as it is. Another one, ``g5``, is a key of the file: the guide
+        gets the first free pair of letters, ``y-y`` first where it is vertical.
         """
         if label not in self.guides or _is_pair(label):
             return label

@@ -137,7 +137,7 @@ def is_label(text: str) -> bool:
 def looks_latin(text: str) -> bool:
     """Return whether a name would be Latin throughout but for look-alikes: ``2а``, ``у-у``.
 
-    A word such as ``шатун`` has letters that cannot be taken for Latin ones and is left alone.
+    A word such as ``шатун`` has letters unlike any Latin ones and is left unchanged.
     """
     return bool(lookalikes(text)) and fold(text).isascii()
 
@@ -182,7 +182,7 @@ _INDEX = r"\A(?:([A-Z])(\d*[а-яё]+\d*)|([^\W\d_]+)(\d+))(?='*\Z)"
 
 
 def short(text: str, limit: int = 40) -> str:
-    """Cut a stranger's text to a length that a message can carry."""
+    """Cut an untrusted text to a length that fits a message."""
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 

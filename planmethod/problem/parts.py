@@ -1,4 +1,4 @@
-"""Read the parts of a problem file in turn, from the table that TOML made of it."""
+"""Read the parts of a problem file in turn, from its parsed TOML."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ def read_form(
     points : collection of str
         Of the link.
     of : callable
-        Says whose points they are.
+        Returns the owner of the points.
     """
     table = fields.read_keys(faults, path, value, keys.POINT)
     kinds = [kind for kind in keys.POINT_FORMS if kind in table]

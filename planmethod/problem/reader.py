@@ -86,7 +86,7 @@ def _looked_through(
 
 
 def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], tuple[str, ...], Faults]:
-    """Return the table of a file with a variant laid over it, the names of all, and faults.
+    """Return the table of a file with a variant's values, the names of all variants, and faults.
 
     So reads a problem of any kind.
 
@@ -104,7 +104,7 @@ def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], tuple[st
 def laid_over(
     faults: Faults, table: Mapping[str, Any], source: str, variant: str | None
 ) -> tuple[Mapping[str, Any], tuple[str, ...]]:
-    """Return a table with a variant laid over it, and the names of all variants.
+    """Return a table with a variant's values, and the names of all variants.
 
     Raises
     ------

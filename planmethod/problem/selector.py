@@ -140,7 +140,7 @@ _ABOUT = "about"
 
 
 class SelectorError(ValueError):
-    """A selector cannot be understood; the message says why."""
+    """A selector cannot be parsed; the message has the reason."""
 
 
 def parse_selector(text: str) -> Selector:

@@ -171,7 +171,7 @@ def read_slide(
     turn : float or None, degrees
         Direction of the host's own axis from +x when the host only translates, else None.
     bare : bool
-        Whether this line is itself the host's own axis, unless a mark and an angle say otherwise.
+        Whether this line is itself the host's own axis, unless a mark and an angle are given.
     """
     assert link.slides is not None
     path, given, length = f"{link.path}.slides", link.slides, None

@@ -178,7 +178,7 @@ def _nearby(path: Path) -> str:
         names = sorted(p.name for _, p in found if p.is_file())  # no link that leads nowhere
     except (OSError, ValueError):
         names = []
-    # What is typed may lack the ending, and what all names end in makes none of them alike.
+    # The typed name may lack the extension, and a common extension would make all names similar.
     of_stem = {Path(name).stem: name for name in names}
     guess = of_stem.get(path.name) or of_stem.get(near(path.stem, of_stem) or "")
     if guess:

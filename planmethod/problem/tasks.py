@@ -77,12 +77,12 @@ class ShippedTask(Struct, frozen=True):
 
 
 def _folded(text: str) -> str:
-    """Small letters without accents, as words are looked for."""
+    """Return a text in lower case without accents, for searching."""
     return "".join(c for c in normalize("NFD", text.casefold()) if not combining(c))
 
 
 def home() -> Path:
-    """Return the folder of the problems: in the package that is installed, or beside its source."""
+    """Return the folder of the problems: in the installed package, or beside its source."""
     package = Path(__file__).parents[1]
     inside = package / "problems"
     return inside if inside.is_dir() else package.parent / "problems"

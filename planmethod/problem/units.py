@@ -25,7 +25,7 @@ class MeasurementUnit(Struct, frozen=True):
     Attributes
     ----------
     factor : float
-        What one of it is in SI; in degrees if it is of an angle.
+        Its value in SI; in degrees for an angle.
     dimension : Dimension
         The angle is counted in angles alone: ``рад/с`` is ``1/с``.
     """
@@ -66,7 +66,7 @@ _SYMBOLS: Mapping[str, tuple[float, Dimension]] = {
     **dict.fromkeys(("rev", "об"), (_TURN, _ANGLE)),
     **dict.fromkeys(("rpm", "1/min", "1/мин", "min-1", "мин-1"), (_TURN / 60.0, (0, -1, 0, 1))),
 }
-"""All that units are put together of, and those that are not what they are put together of."""
+"""Base names of which units are composed, and units that are not composed of their parts."""
 
 _LOOKALIKES = str.maketrans("авекмнорстухº", "abekmhopctyx°")
 _SIGNS = str.maketrans({"⋅": "*", "·": "*", "∙": "*", "•": "*", "×": "*", "−": "-", "–": "-"})
@@ -121,7 +121,7 @@ def _tokens(plain: str) -> Iterator[tuple[str, int]]:
 
 
 def _product(tokens: Iterator[tuple[str, int]], *, inside: bool) -> tuple[float, Dimension]:
-    """Return the product up to the closing bracket, or to the end; a quotient is of one name."""
+    """Return the product up to the closing bracket, or to the end; a quotient has one divisor."""
     factor, dimension, sign, wanted = 1.0, (0, 0, 0, 0), 1, True
     for name, power in tokens:
         if wanted:
@@ -229,7 +229,7 @@ class MeasuredNumber(Struct, frozen=True):
 
 
 def _rounded(value: float) -> float:
-    """Return a number that was converted without the trace of it in the last digit."""
+    """Return a converted number without the rounding residue in its last digit."""
     short = float(f"{value:.12g}")
     return short if abs(short - value) <= 1e-15 * abs(value) else value
 

@@ -1,4 +1,4 @@
-"""Data that can be read but are probably not meant: told as warnings (сомнительные данные)."""
+"""Valid but unlikely data, reported as warnings (сомнительные данные)."""
 
 from __future__ import annotations
 

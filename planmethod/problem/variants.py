@@ -1,4 +1,4 @@
-"""Variants of a problem (варианты): dotted keys laid over the main part of the file.
+"""Variants of a problem (варианты): dotted keys that override the main part of the file.
 
 They are tables of the file, or rows of a CSV table beside it.
 """
@@ -112,9 +112,9 @@ def _get(base: Any, path: KeyPath) -> Any:
 
 
 def _key(level: object, part: str) -> str | int:
-    """Key for a part of a path; a load goes by its number from 0, or by its name.
+    """Return the key for a part of a path; a load has its number from 0, or its name.
 
-    So does an answer, or by its id.
+    An answer likewise, or its id.
     """
     if not isinstance(level, list) or not all(isinstance(entry, Mapping) for entry in level):
         return part
@@ -279,7 +279,7 @@ def with_table(faults: Faults, table: Mapping[str, Any], folder: Path | None) ->
     Parameters
     ----------
     folder : Path or None
-        Where the problem file lies; None of a text that lies nowhere.
+        Folder of the problem file; None for a text without a file.
     """
     name = table.get("variants")
     if not isinstance(name, str):
