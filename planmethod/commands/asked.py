@@ -116,7 +116,7 @@ class Settled(Struct, frozen=True):
 
 
 def _reader(key: str) -> Callable[[click.Context, click.Parameter, str | None], str | None]:
-    """Return a callback that takes one of the names of a key; letters may be Cyrillic."""
+    """Return a callback that accepts one of the names of a key; letters may be Cyrillic."""
 
     def read(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
         if value is None:

@@ -1,4 +1,4 @@
-"""Command ``audit``: what the sources print, beside the exact values and the ruler's."""
+"""Command ``audit``: printed values beside the exact and the measured ones."""
 
 from __future__ import annotations
 

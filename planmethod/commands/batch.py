@@ -310,7 +310,7 @@ class Manifest:
         return all(path.is_file() and _digest(path.read_bytes()) == d for path, d in files)
 
     def keep(self) -> None:
-        """Count an order whose files are there."""
+        """Count an order whose files exist."""
         self.kept += 1
 
     def add(self, order: VariantOrder, key: str, files: Mapping[str, bytes]) -> None:
@@ -325,11 +325,11 @@ class Manifest:
         told = _Line(name, key, digests)
         self._lines[name] = told
         with whither(self.path, within=self.out).open("a", encoding="utf-8") as file:
-            file.write("\n" * (not self.made) + _line(told))  # after a line cut short, a new one
+            file.write("\n" * (not self.made) + _line(told))  # ends a broken line
         self.made += 1
 
     def close(self) -> None:
-        """Write the lines in the order of names, and say what was done."""
+        """Write the lines in the order of names, and print the counts."""
         if self.made:
             from planmethod.render.backends.output import write
 
@@ -438,7 +438,7 @@ def _cluster(scheduler: str) -> Iterator[Client]:
 
 
 def _sent(client: Client, orders: list[_Order], manifest: Manifest) -> Iterator[Callable[[], None]]:
-    """Send orders ahead, and yield what takes in each of them, in order."""
+    """Send orders ahead, and yield a callable that receives each of them, in order."""
     from planmethod.commands.processes import shares
 
     threads = max(1, sum(client.nthreads().values()))

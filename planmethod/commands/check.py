@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 POLICIES = ("construction", "department", "wider", "stricter")
 MANY_WORKS = 10
-"""Works whose pages take about a second."""
+"""Submissions whose pages take about a second."""
 
 FORMATS = ("html", "pdf")
 
@@ -196,7 +196,7 @@ def check(
 
 
 def _refuse_names(path: Path, hidden: Mapping[str, str]) -> None:
-    """Reject to hide names beside a file of the instructor's that has them."""
+    """Reject hidden names beside a file of the instructor that has them."""
     from planmethod.check.pages.folder import RunFolder
     from planmethod.check.pages.overrides import students_of
 
@@ -259,15 +259,15 @@ def _settings(file: Path | None, policy: str | None, profile: str | None) -> Set
 
 
 class WorksRead(Struct, frozen=True):
-    """Works of files (прочитанные работы).
+    """Submissions of files (прочитанные работы).
 
     Attributes
     ----------
     works : list of Work
     addresses : dict of str to str or None
-        How the system knows the students; None where there was no export.
+        Addresses of the students in the system; None without an export.
     unread : dict of Path to CheckFailure
-        Files that cannot be read, and why.
+        Unreadable files, and the reasons.
     """
 
     works: list[Work]
@@ -278,7 +278,7 @@ class WorksRead(Struct, frozen=True):
 def _read(
     variants: Variants, paths: list[Path], columns: tuple[str, ...], layers: tuple[str, ...]
 ) -> WorksRead:
-    """Read the works of files; one that cannot be read is reported and the others go on."""
+    """Read the submissions of files; an unreadable one is reported and the others continue."""
     from planmethod.check.checking import failure_of
     from planmethod.check.exchange.responses import read_columns
     from planmethod.check.measured.layers import read_layers
@@ -347,7 +347,7 @@ def _checked(variants: Variants, works: list[Work], jobs: int) -> list[CheckedWo
     if all(one.failure is not None and not one.failure.trace for one in checked):
         for one in checked:
             if not one.work.failure:
-                variants.task(one.variant)  # of none is there a mark: it says why, and ends the run
+                variants.task(one.variant)  # none has a grade: raises the reason, and ends the run
     return compared(checked)
 
 
@@ -388,14 +388,14 @@ def check_part(
     variant: str | None,
     settings: Settings,
 ) -> list[CheckedWork]:
-    """Check some of the works of a group."""
+    """Check some of the submissions of a group."""
     from planmethod.check.group import Variants, check_works
 
     return list(check_works(Variants(problem, settings, variant), part))
 
 
 def _warn_of_others(problem: Path, works: list[Work]) -> None:
-    """Warn of works that name another problem."""
+    """Warn of submissions that name another problem."""
     for work in works:
         named = Path(work.problem).stem if work.problem else problem.stem
         if named != problem.stem:
@@ -430,7 +430,7 @@ def _write_results(
 ) -> bool:
     """Write the files of a group; those of a gradebook where there are addresses, even none.
 
-    Returns whether something of it failed.
+    Returns whether any of it failed.
     """
     from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
     from planmethod.check.group import keys_of

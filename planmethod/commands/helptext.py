@@ -2,7 +2,7 @@
 
 Click looks its sentences up by `gettext`, in the domain that the program names: here in
 ``LC_MESSAGES/click.mo`` of a language, which ``make messages`` makes of ``click.po``. Help of
-commands and options is written in English where they are, and translated when it is shown.
+commands and options is in English in their code, and translated when it is shown.
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ class Spoken(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the arguments, short options by their long names.
 
-        Click looks for a short one among the long ones first, and words and translates a message
-        that there is none.
+        Click searches for a short one among the long ones first, and translates a message that it
+        is missing.
         """
         options = [param.opts for param in self.params if isinstance(param, click.Option)]
         long = {name: max(names, key=len) for names in options for name in names}
@@ -70,7 +70,7 @@ class Spoken(click.Command):
         for name, values in given.items():
             option = single.get(name)
             if option is None or len(values) < 2 or (option.is_flag and len({*values}) < 2):
-                continue  # a flag that is given twice says nothing else
+                continue  # a repeated flag has the same meaning
             if option.is_flag:
                 said = say("give {} or {}, not both", max(option.opts), max(option.secondary_opts))
             else:

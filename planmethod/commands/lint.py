@@ -191,7 +191,7 @@ def _is_project(linkage: Problem) -> bool:
 
 
 def _of_project(todo: Todo, options: LintOptions) -> list[Controlled]:
-    """Return the sheets of all parts of a project, as it draws them, looked over."""
+    """Return the sheets of all parts of a project, as it draws them, inspected."""
     from planmethod.project.settle import settle
     from planmethod.project.sheets import numbered_set, part_drawings
     from planmethod.render.sheets.controlled import looked_over

@@ -153,7 +153,7 @@ def _tell_working(problem: Problem) -> None:
     from planmethod.solved.solution import Solution
     from planmethod.solved.turn.turn import turn_of
 
-    with contextlib.suppress(PlanMethodError):  # said where the positions are solved
+    with contextlib.suppress(PlanMethodError):  # reported where the positions are solved
         turn = turn_of(Solution(problem))
         loads, strokes = turn.contradicting, turn.strokes
         if loads is not None and strokes is not None and problem.cycle is not None:
@@ -517,7 +517,7 @@ def solution_of(
     forces : bool
         The forces must exist, too, where there are loads.
     machine : bool
-        The flywheel is looked at as well.
+        The flywheel is checked as well.
     """
     from planmethod.solved.failures import Cause, PositionError
     from planmethod.solved.selfcheck import changed_branches, verify, warnings

@@ -80,8 +80,8 @@ def captured(work: Callable[[], R]) -> Outcome[R]:
 
 
 def _start() -> None:
-    """Get ready for work; end with the process that gave it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process alone says that it is stopped
+    """Prepare a worker process; it ends with its parent."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # only the parent reports the stop
     signal.signal(signal.SIGTERM, _stop)
     threading.Thread(target=_follow, daemon=True).start()
 

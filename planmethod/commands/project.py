@@ -205,7 +205,7 @@ def _made(
             done(1)
         numbered = numbered_set(chosen, [drawn[name].drawings for name in sheets])
         sets = {name: tuple(some) for name, some in zip(sheets, numbered, strict=True)}
-        # The note takes the longest: with it first, all processes end alike.
+        # The note is the slowest: with it first, all processes end together.
         listed = sheet_list(chosen, numbered)
         tasks: list[WritingTask] = [WritingTask(name, sheets=listed) for name in texts]
         tasks += [WritingTask(name, names[name], sets[name]) for name in shown]
@@ -226,7 +226,7 @@ def _made(
 def draw(
     task: str, *, project: Project, options: NoteOptions, wanted: tuple[str, ...]
 ) -> tuple[str, MadePart]:
-    """Draw the sheets of a part; none of one that is not wanted and cannot be drawn."""
+    """Draw the sheets of a part; none of an unrequested one that cannot be drawn."""
     from planmethod.project.sheets import part_drawings
 
     part: ProjectPart = next(part for part in project.parts if part.name.value == task)

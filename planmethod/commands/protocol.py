@@ -1,4 +1,4 @@
-"""Command ``protocol``: the construction told step by step."""
+"""Command ``protocol``: description of the construction, step by step."""
 
 from __future__ import annotations
 

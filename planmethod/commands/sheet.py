@@ -214,7 +214,7 @@ def sheet(
 
     code = each(problems, variant, all_variants, keep)
     if whole:
-        # The first sheet says how many there are, which is known only now.
+        # The first sheet has the number of sheets, which is known only now.
         total = sum(len(drawings) for *_, drawings in whole)
         first = whole[0][0]
         whole[0] = (first, 0, drawn_for(first, options, total=total))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 LOOPBACK = ("127.0.0.1", "localhost")
 NEEDS = "studio needs starlette and uvicorn: pip install starlette uvicorn"
 PLACES = 128
-"""Connections that wait to be taken."""
+"""Maximum number of connections waiting to be accepted."""
 
 LEADING = '<meta http-equiv="refresh" content="0; url={}">'
 
@@ -164,7 +164,7 @@ def settings_of(
 
 
 def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
-    """Listen until somebody stops it."""
+    """Listen until stopped."""
     import os
     import socket
 

@@ -29,7 +29,7 @@ from planmethod.options import (
 )
 
 LEAST, MOST = 1e-6, 1e4
-"""Lengths that are taken, m."""
+"""Range of accepted lengths, m."""
 
 
 def _number(text: str) -> float:

@@ -18,7 +18,7 @@ from planmethod.commands.output import write_drawings
 F = TypeVar("F", bound=Callable[..., Any])
 
 PAUSE = 0.15
-"""Between two looks at the files, s."""
+"""Pause between two checks of the files, s."""
 
 
 def watch_option(*, draws: bool = False) -> Callable[[F], F]:
