@@ -23,18 +23,18 @@ PAPER = "A1"
 """Default format."""
 
 FEW = 6
-"""Most positions whose plans, diagrams and tables are tried on one sheet."""
+"""Maximum number of positions whose plans, diagrams and tables are tried on one sheet."""
 
 
 def first_sheet(problem: Problem, **more: Any) -> list[Drawing]:
     """Return sheet 1 of a project: plans on one, diagrams and tables on the next.
 
-    Of a few positions all are on one, if it has room; small paper takes more.
+    With a few positions all are on one, if they fit; small paper needs more sheets.
 
     Parameters
     ----------
     problem : Problem
-        Settled: its scales are those of `first_scales`.
+        With its decisions: its scales are those of `first_scales`.
     more
         Taken by `kinematics_sheets`.
 

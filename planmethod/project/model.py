@@ -36,7 +36,7 @@ class ProjectPart(Struct, frozen=True):
     ----------
     name : PartName
     problem : KindProblem
-        What it is drawn and told of: the settled linkage, the train, the meshing, the cam.
+        Its subject: the linkage with its decisions, the train, the meshing, the cam.
     kind : ProblemKind or None
         Kind of the problem; None for the linkage.
     """
@@ -66,7 +66,7 @@ class SheetEntry(Struct, frozen=True):
 
 
 class Project(Struct, frozen=True, dict=True):
-    """Decisions of a project (решения курсового проекта): every output takes them from here.
+    """Decisions of a project (решения курсового проекта): every output uses them.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class Project(Struct, frozen=True, dict=True):
     positions : tuple of float
         Driver positions by their numbers, from 0: degrees, or m of a slider.
     calculated : int
-        Number of the calculated position (расчётное положение): drawn bold, loaded, told in full.
+        Number of the calculated position (расчётное положение): bold, loaded, described in full.
     strokes : Strokes or None
         Phases of the strokes; None where the output has none.
     scales : Scales

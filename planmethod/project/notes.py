@@ -32,7 +32,7 @@ class NoteOptions(Struct, frozen=True):
     fields : mapping
         Texts of the title block that outrank the file's.
     template : Path or None
-        File of Word whose page and styles are taken.
+        Word file whose page and styles are used.
     frame : bool
         Frames and title blocks of forms 2 and 2a on the pages after the title page.
     """

@@ -118,7 +118,7 @@ def settled(problem: Problem) -> Problem:
 
 
 def in_positions(problem: Problem) -> Problem:
-    """Return a problem whose positions, cycle and flywheel are numbered alike."""
+    """Return a problem whose positions, cycle and flywheel have the same numbering."""
     if problem.drive.is_crank and problem.cycle is None:
         cycle = _default_cycle(problem)
         problem = problem if cycle is None else number(replace(problem, cycle=cycle))
@@ -187,12 +187,12 @@ def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) 
 
 
 def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
-    """Yield the parts that the file has, of those that it asks for.
+    """Yield the requested parts that the file has.
 
     Raises
     ------
     ProblemError
-        It asks for one that it has not; without its path those beside it are not known.
+        A requested part is missing; without a path parts in other files are unknown.
     """
     task = problem.project or ProjectTask()
     there = {name: _has(problem, task, name) for name in PartName}

@@ -32,7 +32,7 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
     Raises
     ------
     LayoutError
-        The sheets have no room.
+        The content does not fit.
     """
     problem, words = project.problem, language(project.language)
     # Which form of the title block a sheet has depends on whether it is the first of the set.

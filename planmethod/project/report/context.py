@@ -257,6 +257,6 @@ def items(texts: Iterable[Rich]) -> list[Item | Paragraph]:
 
 
 def sentences(*texts: Rich) -> Paragraph:
-    """Return a paragraph of some sentences, those that there are."""
+    """Return a paragraph of the non-empty sentences."""
     # In a line of text a built-up fraction would push the lines apart.
     return Paragraph(lettered(" ".join(inlined(text) for text in texts if text)))

@@ -241,7 +241,7 @@ class ForceChapter:
             return
         template = said.moments if len(equation.links) == 1 else said.moments_links
         yield sentences(template.format(point=equation.about, links=", ".join(equation.links)))
-        whose = f"Σ_{{{','.join(equation.links)}}}M"  # the sentence before says it
+        whose = f"Σ_{{{','.join(equation.links)}}}M"  # it is in the sentence before
         summed, _, zero = told.equation.replace(whose, "ΣM", 1).partition(": ")
         yield displayed(f"{summed}.")
         if zero:  # the equation without moments

@@ -240,7 +240,7 @@ def _pictures(
         yield from _figures(report, problem, motion, "angular")
     rows = list(results(motion, drawn, seen, report.words))
     yield sentences(said.speeds.format(), said.signs.format())
-    # Of whole numbers the fraction says what the decimal says.
+    # The fraction of whole numbers has the same value as the decimal.
     fractions = any(fraction not in (exact, "—") for _, fraction, exact, *_ in rows)
     heads = said["columns"] if drawn is not None else said["columns"][:3]
     shown = [k for k in range(len(heads)) if fractions or k != FRACTION]

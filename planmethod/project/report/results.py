@@ -43,7 +43,7 @@ def compared(
 def worst(
     found: Sequence[tuple[Quantity, ComparedNumber]],
 ) -> tuple[Quantity, ComparedNumber] | None:
-    """Return the quantity whose difference is the largest share of it."""
+    """Return the quantity with the largest relative difference."""
     return max(found, key=lambda pair: pair[1].share, default=None)
 
 

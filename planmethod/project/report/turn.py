@@ -37,7 +37,7 @@ SIDE = 100.0
 
 
 def has_turn(report: Report) -> bool:
-    """Return whether the file asks for a cycle."""
+    """Return whether the file requests a cycle."""
     problem = report.every.problem
     return problem.cycle is not None and problem.drive.is_crank
 
@@ -210,7 +210,7 @@ def _over_the_turn(report: Report) -> Iterator[Node]:
 
 
 def _graphs(report: Report, said: Words) -> Iterator[Node]:
-    """Yield the graphs that ``[cycle] graphs`` asks for, a figure for each diagram."""
+    """Yield the graphs of ``[cycle] graphs``, a figure for each diagram."""
     diagrams = diagrams_of(report.every)
     groups = graph_groups(diagrams.turn, diagrams.task.graphs)
     if groups:
