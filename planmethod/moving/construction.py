@@ -33,7 +33,7 @@ POLES = {"v": PointName("p"), "a": PointName("π")}
 """Poles of the two plans."""
 
 FREE = frozenset(POLES.values())
-"""Points that may stand anywhere."""
+"""Points of arbitrary position."""
 
 
 class ConstructionVector(Struct, frozen=True):

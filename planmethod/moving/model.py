@@ -40,7 +40,7 @@ class TimeFunction(Struct, frozen=True):
 
     @property
     def in_degrees(self) -> TimeFunction:
-        """The same as it is read off a calculator that takes its arguments for degrees."""
+        """The function on a calculator that is set to degrees."""
         told = (
             replace(one, name=f"{one.name} deg") if one.name in ANGULAR else one
             for one in self.operations
@@ -117,8 +117,8 @@ class Wheel(Struct, frozen=True):
         0: it rolls on the x axis. At phi = 0 the wheel is above the origin, or below it when inside
         a circle.
     arm : float, m
-        Of the carrier that turns about the origin and has the wheel's centre at its end, of a
-        satellite that a train turns in a way of its own (law ``theta``); 0: the wheel rolls.
+        Of the carrier about the origin with the wheel's centre at its end, for a planet that
+        a train rotates by a law of its own (``theta``); 0: the wheel rolls.
     """
 
     radius: float
@@ -143,7 +143,7 @@ class PointProblem(KindProblem, frozen=True, kw_only=True):
         What carries the point; phi is then how far it has turned, counter-clockwise.
     times : tuple of float, s
     blur : tuple of float
-        Relative errors of the times in float64; 0 where that has them as the file says.
+        Relative errors of the times in float64; 0 where it represents them exactly.
     show : (float, float) or None, s
         The interval that is drawn.
     """

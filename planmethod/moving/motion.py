@@ -41,8 +41,8 @@ POLAR = ("r", "phi", "v_r", "v_phi", "a_r", "a_phi")
 """Further columns of a motion in polar coordinates; phi in radians."""
 ROLLED = ("phi", "omega", "epsilon", "xC", "yC", "xP", "yP", "omega_H", "epsilon_H")
 """Further columns of a point on a wheel: phi in radians; its centre C; the instantaneous centre of
-velocities P (мгновенный центр скоростей), where it touches what it rolls on; of a centre that goes
-round the origin, how fast the arm to it does."""
+velocities P (мгновенный центр скоростей), where it touches its track; for a centre that moves
+round the origin, the rates of the arm to it."""
 
 
 class PointQuantity(Struct, frozen=True):
@@ -207,7 +207,7 @@ def _rolled(wheel: Wheel, phi: Jet, theta: Jet | None) -> tuple[Jet, Jet, dict[s
     """Return x and y of a point of a wheel, and the columns `ROLLED`.
 
     The arc that a wheel has rolled off is as long as that of the track: with the track's radius ρ
-    (negative within it) the centre has gone round by φR/(R + ρ).
+    (negative within it) the centre has turned by φR/(R + ρ).
     """
     radius, nothing = _given(wheel.radius), Jet(Bounded(np.zeros_like(phi.value.value)))
     if wheel.track:

@@ -114,7 +114,7 @@ def evaluate(formula: TimeFunction, times: Reals, *, blur: Reals | float = 0.0) 
     ----------
     times : array of float, shape (n,)
     blur : array of float, shape (n,), or float
-        Relative errors of the times; 0 where they are what the file says.
+        Relative errors of the times; 0 where they are exact.
 
     Returns
     -------

@@ -67,11 +67,11 @@ COLUMN_WIDTHS = (SIZES.column, 95.0)
 TABLE_WIDTH = STAMP_WIDTH + 15.0
 
 MOST_STEPS = 3
-"""Most members of the series that a scale goes on by."""
+"""Maximum number of members of the series by which a scale grows."""
 
 
 class _Plan(Viewed, frozen=True):
-    """Hodograph of a kind, with the plan of the told moment."""
+    """Hodograph of a kind, with the plan of the described moment."""
 
     built: MomentConstruction | None
     plan: str
@@ -300,7 +300,7 @@ class _Sheets(Struct, frozen=True):
         scales = {key: replace(self.scales[key], per_mm=mu) for key, mu in per_mm.items()}
         left, _, right, _ = self.paper.room().inner
         laid = None
-        for draft in (True, False):  # placing letters takes long: first without
+        for draft in (True, False):  # placing letters is slow: first a draft
             parts = self.of.parts(scales, self.column, right - left - 2 * EDGE, draft=draft)
             views = 1 + max(k for k, part in enumerate(parts) if isinstance(part.block, Viewed))
             ways = (
