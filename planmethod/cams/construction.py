@@ -2,8 +2,8 @@
 
 The diagram of the analogue of the acceleration is integrated graphically twice by chords; s over
 v_q is drawn with the limiting lines, and the axis of the cam is read; the profile is found by
-inverted motion, with s and v_q taken off the diagrams in the compasses. The sizes with which it is
-drawn are those of the exact solution. The readings are those of every construction.
+inverted motion, with s and v_q transferred from the diagrams with compasses. It is drawn with the
+sizes of the exact solution. The readings are those of every construction.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ APART = 140.0
 """Distance between the axes of neighbouring diagrams, mm."""
 
 FREE = frozenset(map(PointName, ("O_a", "O_v", "O_s", "B", "O")))
-"""Points that may stand anywhere."""
+"""Points of arbitrary position."""
 
 
 class CamConstruction(Struct, frozen=True, dict=True):
@@ -230,7 +230,7 @@ class _Draft(Struct):
     def _swung_end(
         self, node: CamNode, pivot: PointName, ray: LineName, v: NumberName
     ) -> PointName:
-        """Lay l ± 2v_q off along the plate and a_q·l/(l ± v_q) across it.
+        """Lay l ± 2v_q off along the flat face and a_q·l/(l ± v_q) across it.
 
         The profile is convex where the axis is below the line from the pivot through this end.
         """
@@ -313,7 +313,7 @@ class _Draft(Struct):
         return b.meet_lines("O_{1}", lines[0], b.perpendicular(start, lines[0])), drawn
 
     def _tangent(self, bound: Bound, z: complex) -> int:
-        """Return the division through whose D a limiting line leaves all others inside."""
+        """Return the division whose limiting line has the points D of all others inside."""
         own = [n for n in self.nodes if n.phase is bound.phase]
 
         def broken(node: CamNode) -> float:
@@ -362,7 +362,7 @@ class _Draft(Struct):
     def _swung(
         self, node: CamNode, axis: PointName, ray: LineName, size: Mapping[str, NumberName]
     ) -> tuple[PointName, PointName]:
-        """Return the roller of a pivoted follower, or the point of its plate, and the pole."""
+        """Return an oscillating follower's roller, or the point of its flat face, and the pole."""
         b, design, k = self.b, self.design, node.number
         one, side = design.problem, design.side
         pivot = b.lay_off(f"C_{{{k}}}", axis, ray, size["a"])

@@ -1,10 +1,10 @@
-"""The least cam that keeps the allowed pressure angles (синтез кулачка): exact, for every angle.
+"""The smallest cam within the allowed pressure angles (синтез кулачка): exact, for every angle.
 
-A pressure angle is kept where the axis lies between two lines through the end D of the analogue of
-the velocity, laid off from the roller and turned by a right angle the way the cam turns. So the
-permissible places of the axis are what all these half-planes have in common, and the least cam has
-its axis in the place of them that is nearest to the roller at rest. Half-planes of the angles at
-which they bind are found exactly and added until none is violated anywhere.
+A pressure angle is allowed where the axis is between two lines through the end D of the analogue of
+the velocity, laid off from the roller and rotated by a right angle in the sense of the cam. So the
+axis must be in the intersection of all these half-planes, and the smallest cam has its axis at the
+point of it that is nearest to the roller at rest. The half-planes of the binding angles are found
+exactly and added until none is violated.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ ROUNDS = 40
 MOVING = (CamPhase.RISE, CamPhase.RETURN)
 
 OF_R_MIN, OF_RHO = 0.4, 0.8
-"""Shares of r_min and of the least radius of curvature that a chosen roller may have."""
+"""Maximum ratios of a chosen roller's radius to r_min and to the minimum radius of curvature."""
 
 STEP = 0.0005
 """Radius of a chosen roller is a multiple of this, m."""
@@ -47,7 +47,7 @@ class Bound(NamedTuple):
 
 
 class CamExtreme(NamedTuple):
-    """A greatest or least value, and its angle of the cam, rad."""
+    """An extreme value, and its angle of the cam, rad."""
 
     value: float
     phi: float
@@ -342,7 +342,7 @@ class CamDesign(Struct, frozen=True, dict=True):
 
     @cached_property
     def bounds(self) -> tuple[Bound, ...]:
-        """The limiting lines that pass through the axis, at most two; none where all have room."""
+        """The limiting lines that pass through the axis, at most two; none if none binds."""
         z = self.axis
         most = 1e-7 * abs(z)
         found: list[Bound] = []

@@ -102,7 +102,7 @@ def outline(design: CamDesign) -> Complexes:
 
 
 def is_plate(design: CamDesign) -> bool:
-    """Return whether the follower touches the cam with a plate."""
+    """Return whether the follower is flat-faced."""
     return design.problem.contact is Contact.FLAT
 
 

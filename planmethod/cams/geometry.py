@@ -23,9 +23,9 @@ Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 class CamPoints(NamedTuple):
     """Points and angles for angles of the cam; all arrays have their shape.
 
-    ``roller``: its centre (the pointed edge, the point of the plate) in the resting frame;
+    ``roller``: its centre (the pointed edge, the point of the flat face) in the resting frame;
     ``theoretical``, ``actual``, ``outer``: profiles in the frame of the cam, the last is the other
-    side of a groove; ``pressure`` rad; ``curvature`` of the theoretical profile, 1/m; ``normal``
+    side of a groove; ``pressure`` rad; ``curvature`` of the pitch curve, 1/m; ``normal``
     the outward unit normal in the resting frame.
     """
 
@@ -39,12 +39,12 @@ class CamPoints(NamedTuple):
 
 
 class CamGeometry(Struct, frozen=True):
-    """A cam whose sizes are known.
+    """A cam with known sizes.
 
     Attributes
     ----------
     r_min, e, centre, roller : float, m
-        Least radius of the theoretical profile (of a plate: its least distance from the axis),
+        Minimum radius of the pitch curve (for a flat face: its minimum distance from the axis),
         offset, distance of the pivot (0: none), radius of the roller (0: none).
     """
 
@@ -61,7 +61,7 @@ class CamGeometry(Struct, frozen=True):
 
     @property
     def delta0(self) -> float:
-        """Angle between the arm at rest, or the plate, and the line of centres, rad."""
+        """Angle between the arm at rest, or the flat face, and the line of centres, rad."""
         if self.problem.contact is Contact.FLAT:
             return float(np.arcsin(self.r_min / self.centre))
         arm, a = self.problem.arm, self.centre

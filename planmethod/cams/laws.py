@@ -1,6 +1,6 @@
 """Laws of motion of a follower as exact functions (законы движения толкателя).
 
-A law is that of one phase in units of it: it goes from 0 to 1 while the phase does. Its second
+A law describes one phase in relative units: it goes from 0 to 1 as the phase does. Its second
 derivative is a row of pieces, each a polynomial or a sine; value and first derivative are their
 exact integrals.
 """
@@ -68,11 +68,11 @@ class UnitLaw(Struct, frozen=True, dict=True):
     ----------
     name : CamLawName
     bits : tuple of Bit
-        From 0 to 1, without gaps; of any size, the law is brought to 1 at the end.
+        From 0 to 1, without gaps; of any size: the law is scaled to 1 at the end.
     start : float
         First derivative at the start, in the size of the bits.
     balance : float
-        By how much decelerations of a table were multiplied, for the law to end at rest.
+        Factor of the decelerations of a table, for the law to end at rest.
     told : tuple of (str, object)
         Numbers of the file that make it this law: ``("ratio", 2.0)``, ``("values", (0.0, 1.0))``.
     """
@@ -101,7 +101,7 @@ class UnitLaw(Struct, frozen=True, dict=True):
         return (*(bit.start for bit in self.bits), 1.0)
 
     def on(self, k: int, u: Reals) -> Reals:
-        """Return value and derivatives by bit ``k``, shape (3, n), as it is or goes on."""
+        """Return value and derivatives by bit ``k``, shape (3, n), within it or extrapolated."""
         bit, (value, slope) = self.bits[k], self._constants[k]
         s, v, a = bit.derivatives(np.asarray(u - bit.start, float))
         size = self._constants[-1][0]
@@ -157,7 +157,7 @@ def balanced(points: Sequence[tuple[float, float]]) -> tuple[list[tuple[float, f
 
 
 def _ramped(ramp: float, *, sine: bool) -> tuple[Bit, ...]:
-    """Return trapezoids whose sides, straight or quarters of a sine, take ``ramp`` of the phase."""
+    """Return trapezoids with straight or quarter-sine sides of ``ramp`` of the phase."""
     if not sine:
         points = [(0, 0), (ramp, 1), (0.5 - ramp, 1), (0.5 + ramp, -1), (1 - ramp, -1), (1, 0)]
         return _straight([(float(x), float(y)) for x, y in points])

@@ -1,4 +1,4 @@
-"""Greatest values of functions on an interval, and least points of many half-planes."""
+"""Maxima of functions on an interval, and points of many half-planes nearest to the origin."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ def peak(of: RealFunction, start: float, end: float) -> tuple[float, float]:
 
 
 def nearest_to_origin(normals: Reals, bounds: Reals) -> Reals | None:
-    """Return the point nearest to the origin that keeps ``normals @ z <= bounds``, or None.
+    """Return the point nearest to the origin with ``normals @ z <= bounds``, or None.
 
-    The few that bind are found one by one, the most broken first: of a law of a hundred parts there
-    are thousands, and millions of corners.
+    The few binding ones are found one by one, the most violated first: a law of a hundred parts has
+    thousands of them, and millions of corners.
 
     Parameters
     ----------

@@ -67,10 +67,10 @@ TRIES = (
     CamTry(0.5, 70.0, 110.0, Sizes(3.5, 3.5, 2.5, TEXT_WIDTH, 4.0)),
     CamTry(0.45, 45.0, 70.0, Sizes(2.5, 3.5, 2.5, TEXT_WIDTH, 3.8)),
 )
-"""Tried in turn until everything has room."""
+"""Attempts in turn until everything fits."""
 
 GROW = ("profile", "region", "s")
-"""Scales that become finer where there is room, in turn."""
+"""Scales that are enlarged in turn while the sheet fits."""
 
 
 def drawings(
@@ -119,7 +119,7 @@ def _misfit(problem: CamProblem) -> Misfit:
 
 
 class CamProposal(Struct, frozen=True):
-    """The blocks at sizes that are tried, grown into the room that they leave (`Proposal`)."""
+    """The blocks at attempted sizes, enlarged into the free space (`Proposal`)."""
 
     of: _Cam
     paper: Blank
