@@ -1,7 +1,6 @@
 """Synthesis of linkages by construction (синтез механизмов): one module for each kind.
 
-A kind says which options it takes (``TAKES``) and makes a `Synthesis` of their values
-(``synthesize``).
+A kind lists its options (``TAKES``) and makes a `Synthesis` of their values (``synthesize``).
 """
 
 from __future__ import annotations

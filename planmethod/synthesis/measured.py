@@ -1,8 +1,8 @@
 """Problem file of a synthesized mechanism (файл задачи), and its verification.
 
-The file is commented, ready to solve; what the mechanism really does is found with the solver.
+The file is commented, ready to solve; the actual motion is found with the solver.
 Extreme positions are the roots of the output's velocity, found in the compiled position and
-velocity programs to the last digits; the transmission angle is looked at over the whole turn.
+velocity programs to the last digits; the transmission angle is sampled over the whole turn.
 """
 
 from __future__ import annotations
@@ -229,10 +229,10 @@ class _Way:
         return place(made.exact(), made.pivots[0]) if made.moved else 0j
 
     def angles(self) -> dict[str, Any]:
-        """Return the least transmission angle and the largest pressure angle, and where.
+        """Return the minimum transmission and the maximum pressure angle, and their positions.
 
-        Over the whole turn, or on the way through the three positions. The angle is extreme where
-        the coupler does not turn against what it drives.
+        Over the whole turn, or on the path through the three positions. The angle is extreme where
+        the coupler does not rotate relative to the link it drives.
         """
         low, high = self.start, self.start + 360.0
         if not self.full:

@@ -25,8 +25,8 @@ MU = NumberName("mu_l")
 class Board(Builder):
     """Drawing board of a synthesis: the steps with their data (чертёжная доска, построение).
 
-    The verbs are those of `Builder`; what they mean to a reader and what of them is shown is kept
-    beside the steps. Lengths are given in metres and laid off at the scale ``mu_l``.
+    The verbs are those of `Builder`; their sentences and the shown elements are stored with the
+    steps. Lengths are given in metres and laid off at the scale ``mu_l``.
 
     Attributes
     ----------
@@ -120,7 +120,7 @@ class Board(Builder):
         angle : float, degrees
             Between 0 and 180.
         side : Side
-            Of the directed chord, on which the points lie from which it is seen so.
+            Side of the directed chord with the points of the arc.
 
         Returns
         -------
@@ -179,7 +179,7 @@ class Pose(Struct, frozen=True):
     sliders : tuple of PointName
         Sliders of the guide of the frame.
     stones : tuple of (PointName, PointName)
-        Stones, and the points that their slotted links start from.
+        Sliding blocks, and the starting points of their slotted links.
     """
 
     links: tuple[tuple[str, ...], ...]
@@ -283,7 +283,7 @@ def read(board: Board, mu: float = 1.0) -> Trace:
     Raises
     ------
     AssemblyError
-        A step does not exist: told with its margin.
+        A step does not exist: reported with its margin.
     """
     trace = evaluate(board.program(), scaled(board, mu), Float64())
     for step in board.steps:

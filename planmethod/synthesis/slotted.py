@@ -55,7 +55,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     b.circles.append((o1, *pins))
     crank = b.measure("O1 A", o1, pins[0])
     b.found("O1A", crank)
-    # The stone must not leave the slot: its furthest place is on the line of centres.
+    # The block must not leave the slot: its furthest place is on the line of centres.
     b.found("O3D", b.measure("O3 O1", o3, o1), crank)
     lengths: tuple[str, ...] = ("O1O3", "O1A", "O3D")
     poses = [Pose((("O1", pin), ("O3", pin)), (), stones=((pin, "O3"),)) for pin in pins]

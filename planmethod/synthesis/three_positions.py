@@ -205,7 +205,7 @@ def synthesis_of(
 Reals = npt.NDArray[np.float64]
 
 _PLACES = 721
-"""Places of the driver on the way that are looked at."""
+"""Number of sampled positions of the driver on the path."""
 
 
 class Passage(Struct, frozen=True):
@@ -221,11 +221,11 @@ class Passage(Struct, frozen=True):
         +1: the joint of coupler and output is to the left of the line from the driver's end to the
         output's pivot, in the first position.
     branch : bool
-        It goes through all three without being taken apart.
+        It passes through all three without being reassembled.
     order : bool
-        It goes through them one after another: 1, 2, 3.
+        It passes through them in order: 1, 2, 3.
     transmission : float, degrees
-        Least angle between coupler and output on the way; NaN where the way is interrupted.
+        Minimum angle between coupler and output on the path; NaN where the path is interrupted.
     """
 
     swapped: bool
