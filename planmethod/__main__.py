@@ -11,7 +11,7 @@ INTERRUPTED = 130
 
 
 def _end(number: int, _frame: object) -> None:
-    """End as if the command had ended: what waits in a folder of its own goes, and helpers do."""
+    """End as if the command had ended: temporary folders are removed, and helper processes end."""
     import signal
 
     signal.signal(number, signal.SIG_IGN)

@@ -77,7 +77,7 @@ def command_of(name: str) -> click.Command:
 
 
 class Commanded(Spoken, click.Group):
-    """Group of commands that answers in the language it is spoken to in; it imports them late."""
+    """Group of commands in the language of the command line; it imports them late."""
 
     def list_commands(self, _ctx: click.Context) -> list[str]:
         """Return the names of the commands."""

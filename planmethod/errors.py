@@ -1,7 +1,7 @@
 """Errors of the package: one root, one class per kind of trouble.
 
-Every message says what, where, with numbers, and the next action; the command line prints it
-as it stands and turns `exit_code` into the exit code of the process.
+Every message names the problem, its place, with numbers, and the next action; the command line
+prints it unchanged and turns `exit_code` into the exit code of the process.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ class ProblemError(PlanMethodError):
 
 
 class CompositionError(ProblemError):
-    """A file that says how sheets are composed is faulty (файл компоновки)."""
+    """A layout file of sheets is faulty (файл компоновки)."""
 
     exit_code = ExitCode.USAGE
     head = "{0}: {1} fault{1:||s} in the layout file"

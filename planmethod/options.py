@@ -34,7 +34,7 @@ class BadParameter(click.BadParameter):
 
 
 class PathType(click.Path):
-    """A path (путь к файлу или папке), called so in the language that is spoken when it is shown.
+    """A path (путь к файлу или папке), named in the current language when it is shown.
 
     Click names it once, when a command is imported.
     """
@@ -223,7 +223,7 @@ def positions_option(most: int) -> Callable[[F], F]:
 
 
 def reading_options(command: F) -> F:
-    """Add the options that say where and how the plans are read."""
+    """Add the options of the positions and of the reading of the plans."""
     return positions_option(MOST_POSITIONS)(hand_options(command))
 
 

@@ -1,7 +1,7 @@
-"""Paper (форматы листов: GOST 2.301): basic and elongated formats, standing and lying.
+"""Paper (форматы листов: GOST 2.301): basic and elongated formats, portrait and landscape.
 
-A format is called ``A3``, an elongated one ``A4x3``. A4 stands, the others lie with their long side
-across; ``A3:portrait`` (``А3:книжная``) is the standing sheet.
+A format is called ``A3``, an elongated one ``A4x3``. A4 is portrait, the others are landscape;
+``A3:portrait`` (``А3:книжная``) is the portrait sheet.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Format(Struct, frozen=True):
     size : str
         The same without the orientation: the text after "Формат" under the frame.
     like : str
-        Basic format as high as an elongated one that lies (as wide as one that stands), and so of
+        Basic format as high as an elongated landscape one (as wide as a portrait one), and so with
         the same letter heights and sizes of views; the largest, A0, is like itself.
     """
 
@@ -73,7 +73,7 @@ class Format(Struct, frozen=True):
 _BASIC: Mapping[str, tuple[int, int]] = MappingProxyType(
     {"A4": (210, 297), "A3": (297, 420), "A2": (420, 594), "A1": (594, 841), "A0": (841, 1189)}
 )
-# GOST 2.301, table 2: how many times the short side is taken, and what that gives. The multiples
+# GOST 2.301, table 2: multiple of the short side, and the resulting length. The multiples
 # are those of the exact sides (A0 is a square metre), so that they differ from the whole ones of
 # table 1 by a millimetre or two.
 _ELONGATED: Mapping[str, Mapping[int, int]] = MappingProxyType(
@@ -88,7 +88,7 @@ _ELONGATED: Mapping[str, Mapping[int, int]] = MappingProxyType(
 
 
 def _formats() -> Iterator[Format]:
-    """Yield every format: the basic ones, the elongated ones, then those that stand."""
+    """Yield every format: the basic ones, the elongated ones, then the portrait ones."""
     names = tuple(_BASIC)
     lying = [Format(name, long, short, name, name) for name, (short, long) in _BASIC.items()]
     for number, (name, (_, side)) in enumerate(_BASIC.items()):
@@ -100,7 +100,7 @@ def _formats() -> Iterator[Format]:
     standing = [
         Format(f"{fmt.name}:portrait", fmt.height, fmt.width, fmt.size, fmt.like) for fmt in lying
     ]
-    a4 = standing.pop(0)  # GOST 2.301: A4 stands
+    a4 = standing.pop(0)  # GOST 2.301: A4 is portrait
     yield Format("A4", a4.width, a4.height, a4.size, a4.like)
     yield from (*lying[1:], *standing)
 
@@ -136,12 +136,12 @@ def paper_format(name: str) -> Format:
     ----------
     name : str
         ``A3``, ``A4x3``, also with Cyrillic ``А`` or ``х`` and in any case; with ``:portrait`` or
-        ``:landscape`` (``:книжная``, ``:альбомная``) after it where the sheet is to be turned.
+        ``:landscape`` (``:книжная``, ``:альбомная``) after it for the other orientation.
 
     Raises
     ------
     LayoutError
-        If there is no such format, or A4 is to lie.
+        Unknown format, or landscape A4.
     """
     size, colon, turn = (part.strip() for part in name.partition(":"))
     match = re.fullmatch(_NAME, size.translate(_LATIN))
