@@ -40,7 +40,7 @@ class KinematicPair(Struct, frozen=True):
 
 
 def stated_pairs(mechanism: Mechanism) -> list[KinematicPair]:
-    """Kinematic pairs as the problem states them: higher ones and rollers, not what replaces them.
+    """Kinematic pairs as the problem states them: higher pairs and rollers, not their replacements.
 
     Returns
     -------
@@ -84,7 +84,7 @@ class Role(Enum):
     STONE = "stone"
     """Камень: slides on a moving link."""
     SLOTTED_LINK = "slotted link"
-    """Кулиса: turns about a fixed point and slides along its stone."""
+    """Кулиса: turns about a fixed point and slides along its sliding block."""
 
 
 class LinkKind(Struct, frozen=True):
@@ -179,7 +179,7 @@ def _translating(mechanism: Mechanism) -> set[str]:
 
 
 def _stones(mechanism: Mechanism) -> tuple[set[str], set[str]]:
-    """Stones of the prismatic pairs between moving links, and the links that they slide on."""
+    """Sliding blocks of the pairs between moving links, and the links that they slide on."""
     count = dict.fromkeys((FRAME, *mechanism.links), 0)
     for joint in mechanism.revolutes:
         for link in joint.links:

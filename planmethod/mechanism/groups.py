@@ -76,7 +76,7 @@ class Legs(Struct, frozen=True):
 
 
 def triad_of(group: AssurGroup) -> Legs | None:
-    """Return base link and legs of a triad; None of other groups, and of a leg with two guides.
+    """Return base link and legs of a triad; None for other groups and for a leg with two guides.
 
     A leg that slides at both ends does not let the base link turn on its own.
     """

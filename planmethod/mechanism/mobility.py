@@ -14,7 +14,7 @@ from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 
 
 def refuse_immovable(mechanism: Mechanism) -> None:
-    """Refuse a mechanism whose driver, connections or mobility are wrong.
+    """Reject a mechanism whose driver, connections or mobility are wrong.
 
     Raises
     ------
@@ -57,7 +57,7 @@ def refuse_immovable(mechanism: Mechanism) -> None:
 
 
 def refuse_unbalanced(mechanism: Mechanism) -> None:
-    """Refuse a mechanism of W = 1 with an overconstrained part and a loose one.
+    """Reject a mechanism of W = 1 with an overconstrained part and a loose one.
 
     Raises
     ------

@@ -41,10 +41,11 @@ class HigherPair(Struct, frozen=True):
     links : tuple of two str
         The frame first, then in file order.
     by : str
-        Link that replaces it (звено заменяющего механизма); it stands among the links.
+        Link that replaces it (звено заменяющего механизма); it is one of the links.
     roller : str
         Number of the roller that the second link touches with, which is not among the links: it
-        turns about itself and nothing else feels it (местная подвижность). Empty without one.
+        turns about itself without effect on other links (местная подвижность). Empty if there is
+        none.
     at : str
         Point of the roller's pin.
     """
@@ -69,7 +70,7 @@ class Mechanism(Struct, frozen=True):
     driver : str
         Name of the driving link (начальное звено), joined with the frame.
     frame : str
-        Number of the frame as it is printed (номер стойки); among the links it is `FRAME`.
+        Printed number of the frame (номер стойки); among the links it is `FRAME`.
     higher : tuple of HigherPair
         Higher pairs that some of the links replace: then this is the replacing mechanism.
     """
