@@ -233,7 +233,7 @@ constant."""
 
 
 class _Step:
-    """One call: what, from where, to where; or a guard to look at."""
+    """One call: operation, sources and destination; or a guard to check."""
 
     __slots__ = ("into", "kind", "sources")
 
@@ -251,7 +251,7 @@ def _schedule(
 ) -> tuple[list[_Step], int, int]:
     """Give every node a place: a row of the output if it is a result, else a buffer.
 
-    A buffer is reused as soon as what it held has been used for the last time.
+    A buffer is reused as soon as its value has been used for the last time.
 
     Returns
     -------

@@ -15,7 +15,7 @@ from planmethod.compiled.symbolic import Guard
 from planmethod.compiled.tape import Ref, Tape
 
 BLOCK = 512
-"""Positions between two looks at the margins."""
+"""Positions between two checks of the margins."""
 
 APART = 24
 """Doubles between buffers: places a page apart push each other out of the cache."""
@@ -175,10 +175,10 @@ class _Lines:
         self.inputs: list[int] = []
         self.turned: set[int] = set()  # inputs of which a cosine or a sine is taken
         self.buffers = 0
-        self.watched: set[int] = set()  # words of the margins that loops before have looked at
+        self.watched: set[int] = set()  # words of the margins that earlier loops have checked
         self._home: dict[int, str] = {}  # where the next loops find a node
         needed = used_by(tape, [*results, *(guard.margin for guard in guards)])
-        if len(needed) <= STAGE:  # none of it leaves the nearest cache: quickest as it is written
+        if len(needed) <= STAGE:  # all of it fits in the nearest cache: quickest as written
             needed.sort()
         stages = _stages(tape, needed, results)
         last = {ref: k for k, stage in enumerate(stages) for n in stage for ref in _used(tape, n)}
@@ -216,7 +216,7 @@ class _Lines:
         self._turned: dict[str, int] = {}
         self._inverse: dict[str, str] = {}
         self._text: list[str] = []
-        self._here: list[int] = []  # words of the margins that this loop looks at
+        self._here: list[int] = []  # words of the margins that this loop checks
         self.loops.append(self._text)
 
     def _end(self) -> None:
@@ -226,7 +226,7 @@ class _Lines:
         self.watched.update(self._here)
 
     def _name(self, ref: Ref) -> str:
-        """Return what an operand is called; a constant is a parameter from now on."""
+        """Return the name of an operand; a constant becomes a parameter."""
         if type(ref) is not int:
             return self.constants.setdefault(float(ref), f"k{len(self.constants)}")
         if ref not in self._said:

@@ -47,7 +47,7 @@ PATIENCE = 120
 """Seconds that a compiler is given."""
 
 KEPT = 32 * 2**20
-"""Bytes of the libraries that are kept; those not used for longest make room."""
+"""Maximum size of the cached libraries, bytes; the least recently used ones are removed."""
 
 
 class NotCompiledError(Exception):
@@ -61,7 +61,7 @@ class Native:
     ----------
     source : Source
     make : bool
-        Compile it where it is not kept yet.
+        Compile it if it is not in the cache yet.
 
     Raises
     ------
@@ -85,7 +85,7 @@ class Native:
         Parameters
         ----------
         inputs : sequence of ndarray of float64
-            What goes together with positions of shape (n,) or (v, n).
+            Arrays that broadcast with positions of shape (n,) or (v, n).
         """
         self.bound(inputs, out, failed)()
 
@@ -103,7 +103,7 @@ class Native:
             if column.ndim and column.shape[-1] > 1 and column.strides[-1] not in (0, 8):
                 column = np.ascontiguousarray(column)
             kept.append(column)
-            steps = [0, 0]  # of an axis that there is not, or that is not moved along
+            steps = [0, 0]  # of a missing axis, or of one along which nothing moves
             for axis in range(1, column.ndim + 1):
                 steps[-axis] = column.strides[-axis] // 8 if column.shape[-axis] > 1 else 0
             frame += [column.ctypes.data, *steps]
@@ -129,7 +129,7 @@ def _in_line(array: Array, dtype: npt.DTypeLike) -> bool:
 
 
 def _machine() -> str:
-    """Return what a library made with `OWN` depends on: the instructions that the machine has."""
+    """Return what a library with machine-specific code depends on: the machine's instructions."""
     try:
         with Path("/proc/cpuinfo").open(encoding="utf-8") as info:
             said = [line for line in info.read(16384).splitlines() if line[:4] in ("flag", "Feat")]
@@ -168,7 +168,7 @@ def _mine(found: os.stat_result, kind: Callable[[int], bool]) -> bool:
 
 
 def _library(text: str, *, make: bool) -> ctypes.CDLL:
-    """Return a library: one that is kept, or one that is made."""
+    """Return a library from the cache, or a newly compiled one."""
     if os.environ.get(SWITCH) == "0":
         raise NotCompiledError(f"{SWITCH}=0 leaves the compiler alone")
     folder = _folder()
@@ -222,7 +222,7 @@ _SLASHES = {ord("0"): "/", ord("1"): "./"}
 
 
 def _compile(text: str, folder: Path, name: str) -> Path:
-    """Compile a source to a file that is there whole or not at all, and return it."""
+    """Compile a source to a file, atomically, and return it."""
     compiler = next(filter(None, map(shutil.which, COMPILERS)), None)
     if compiler is None:
         raise NotCompiledError(f"there is no C compiler ({', '.join(COMPILERS)})")
@@ -252,7 +252,7 @@ def _compile(text: str, folder: Path, name: str) -> Path:
 
 
 def _make_room(newest: Path) -> None:
-    """Remove the libraries that were not used for longest, down to `KEPT` bytes."""
+    """Remove the least recently used libraries, down to `KEPT` bytes."""
     found = []
     for path in newest.parent.glob("*.so"):
         try:

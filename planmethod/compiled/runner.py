@@ -24,7 +24,7 @@ FEW = 40
 """Positions up to which a line of Python is quicker than NumPy's calls."""
 
 MANY = 4096
-"""Positions from which it is looked whether a tape was compiled before."""
+"""Number of positions from which an earlier compiled library is looked for."""
 
 PAYS = 30_000_000
 """Positions that take NumPy about as long as the compiler takes: from there on it is called."""

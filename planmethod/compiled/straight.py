@@ -32,15 +32,15 @@ position."""
 def used_by(tape: Tape, wanted: Sequence[Ref]) -> list[int]:
     """Return the nodes that some results need, in the order in which they are run.
 
-    The parts of the tape follow each other, so that what a part has made and no later one reads is
-    given up with it.
+    The parts of the tape follow each other, so that values that no later part reads are released
+    with their part.
     """
     part = {ref: tape.parts[ref] for ref in wanted if type(ref) is int}
     for number in range(len(tape.nodes) - 1, -1, -1):
         node = tape.nodes[number]
         if number in part and node.kind != "input":
             for ref in node.operands:
-                if type(ref) is int:  # one that an earlier part reads is made there
+                if type(ref) is int:  # a value that an earlier part reads is computed there
                     part[ref] = min(part.get(ref, tape.parts[ref]), part[number])
     return sorted(part, key=lambda number: (part[number], number))
 
@@ -125,7 +125,7 @@ class _Lines:
     def _write(self, number: int) -> None:
         node = self.tape.nodes[number]
         told = self._expression(number)
-        # Used once and short: it stands where it is used.
+        # Used once and short: the expression is inserted where it is used.
         once = self.count[number] <= 1 and number not in self.watch and node.kind in BINARY
         if once and len(told) < 120:
             self.text[number] = f"({told})"

@@ -17,7 +17,7 @@ from planmethod.construct.steps import Name, Step, operands
 
 
 def lifted(tape: Tape, value: Number) -> Symbol:
-    """Return a number of a tape as it is, or given data as one."""
+    """Return a number of a tape unchanged, or given data as one."""
     if isinstance(value, Symbol):
         return value
     if isinstance(value, complex):
@@ -33,7 +33,7 @@ class Symbol:
     re, im : Ref
         ``im`` is None for a real number.
     size : Ref or None
-        Absolute value where it is known beforehand: the radius of the arc a point was found on.
+        Absolute value, if known beforehand: the radius of the arc on which a point was found.
     """
 
     __slots__ = ("im", "re", "size", "tape")
@@ -182,7 +182,7 @@ class Symbolic(Exact, Struct):
         return value
 
     def solid(self, length: Number) -> Number:
-        """Return the length, which is positive where it is not zero."""
+        """Return the length, which is positive if it is not zero."""
         return length
 
     def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
@@ -199,7 +199,7 @@ class Symbolic(Exact, Struct):
         return Symbol(self.tape, re, self.tape.make("at_zero", size.re, d, b))
 
     def share(self, length: Number, vector: Number) -> Number:
-        """Return 1 where the length is that of the vector: measured on it, or laid off to it."""
+        """Return 1 if the length is known to be that of the vector, else the computed ratio."""
         drawn, told = abs(vector), abs(length)
         noted = self.sizes.get(self._key(vector))
         if same(drawn.re, told.re) or (noted is not None and same(noted, told.re)):

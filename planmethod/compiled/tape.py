@@ -148,7 +148,7 @@ class Tape(Struct):
         return self.make("neg", a)
 
     def mul(self, a: Ref, b: Ref) -> Ref:
-        """Return a·b; the sign goes outside, so that turned vectors are found again."""
+        """Return a·b with the sign outside, so that rotated vectors are recognised."""
         if type(b) is float:
             a, b = b, a
         if type(a) is float:
@@ -207,7 +207,7 @@ class Tape(Struct):
         return self.make("div", a, b)
 
     def _factor(self, a: Ref) -> tuple[float, Ref] | None:
-        """Return the constant factor of a product and what it multiplies."""
+        """Return the constant factor of a product and the other factor."""
         if self._is(a, "mul") and type(self.nodes[int(a)].operands[0]) is float:
             one, two = self.nodes[int(a)].operands
             return float(one), two
