@@ -53,7 +53,7 @@ class Arithmetic(Protocol):
         ...
 
     def given(self, out: str, point: Number) -> Number:
-        """Return a given point as it is put on the paper."""
+        """Return a given point as plotted."""
         ...
 
     def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
@@ -69,15 +69,15 @@ class Arithmetic(Protocol):
         ...
 
     def pricked(self, out: str, point: Number) -> Number:
-        """Return a point where two lines meet as it is marked."""
+        """Return an intersection of two lines as marked."""
         ...
 
     def laid(self, out: str, length: Number) -> Number:
-        """Return a length as it is laid off; its imaginary part goes beside the line."""
+        """Return a length as laid off; its imaginary part is the deviation beside the line."""
         ...
 
     def read(self, out: str, length: Number) -> Number:
-        """Return a length as it is read on the drawing, mm."""
+        """Return a length as read on the drawing, mm."""
         ...
 
     def share(self, length: Number, vector: Number) -> Number:
@@ -86,7 +86,7 @@ class Arithmetic(Protocol):
 
 
 class Exact:
-    """The half of an arithmetic that has no pencil: every stroke goes where it is meant to go."""
+    """The half of an arithmetic without a pencil: every stroke is exact."""
 
     __slots__ = ()
 
@@ -182,9 +182,9 @@ class Float64(Exact):
 
 
 class Single(Exact):
-    """One position in Python's own numbers: three times as quick as an array of one.
+    """One position in Python's own numbers: three times as fast as an array of one.
 
-    What arrays would make infinite or NaN raises here where Python does: ZeroDivisionError,
+    Operations that give infinity or NaN in arrays raise here where Python does: ZeroDivisionError,
     OverflowError.
     """
 

@@ -3,7 +3,7 @@
 The reach of a result y on data d is ``|y| + sum |∂y/∂d_i · d_i|``: u times it is what one rounding
 of every datum and of the result costs, whatever formulas are used. The reach over ``|y|`` is the
 condition number κ; a result good to a few u·κ·|y| is as good as its data let it be. Zeros and
-scales are exact and count for nothing; of a complex datum both coordinates count.
+scales are exact and do not count; of a complex datum both coordinates count.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Reals = npt.NDArray[np.float64]
 
 
 def plain(value: Number) -> Number:
-    """Return a point or a number as it is, and of a line its direction as a unit vector."""
+    """Return a point or a number unchanged, and for a line its direction as a unit vector."""
     if not isinstance(value, tuple):
         return value
     along = value[1]
@@ -104,9 +104,9 @@ def _reach(value: Dual) -> Reals:
 def measured_reach(
     program: Program, data: Mapping[str, Any], referee: Precise, exact: Collection[str] = ()
 ) -> dict[Name, tuple[Number, Number]]:
-    """Return value and reach of every result of one position, both by the referee.
+    """Return value and reach of every result of one position, both in multiprecision.
 
-    Each datum is moved by a relative step of ten to the minus third of the referee's digits, which
+    Each datum is moved by a relative step of ten to the minus third of the number of digits, which
     leaves two thirds of them true in the quotient.
 
     Parameters

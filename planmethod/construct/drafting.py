@@ -100,7 +100,7 @@ class Pencil:
         raise NotImplementedError
 
     def rounded(self, out: str, length: Number) -> Number:
-        """Return a length as it is rounded to the ruler's step."""
+        """Return a length rounded to the ruler's step."""
         raise NotImplementedError
 
     def _off(self, out: str, sigma: float) -> Number:
@@ -114,16 +114,16 @@ class Pencil:
         return self._off(out, sigma) + self._off(out, sigma) * 1j
 
     def _across(self, along: Number) -> Number:
-        """Return the normal of a line, of length 1; 0 where it has no direction, and needs none."""
+        """Return the unit normal of a line; 0 if it has no direction, and needs none."""
         size = abs(along)
         return self.unless_zero(size, along * 1j / self.nonzero(size), along * 0.0)
 
     def given(self, out: str, point: Number) -> Number:
-        """Return a given point as it is pricked."""
+        """Return a given point as pricked."""
         return point if out in self.free else point + self._spot(out)
 
     def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
-        """Return a line as the ruler lies at its two points."""
+        """Return a line as drawn with the ruler through its two points."""
         across = self._across(along)
         one, two = self._off(out, self.profile.point), self._off(out, self.profile.point)
         return tail + across * one, along + across * (two - one)
@@ -139,7 +139,7 @@ class Pencil:
         return centre + self._spot(out), radius + self._off(out, self.profile.lay_off)
 
     def pricked(self, out: str, point: Number) -> Number:
-        """Return a point as it is pricked."""
+        """Return a point as pricked."""
         return point + self._spot(out)
 
     def laid(self, out: str, length: Number) -> Number:
@@ -154,7 +154,7 @@ class Pencil:
         return self.unless_zero(self.drawn_at_all(length), seen, length)
 
     def drawn_at_all(self, length: Number) -> Number:
-        """Return 0 where a length is surely nothing, whatever the errors before it, else 1."""
+        """Return 0 if a length is certainly zero, whatever the errors before it, else 1."""
         raise NotImplementedError
 
     def nonzero(self, value: Number) -> Number:
@@ -167,7 +167,7 @@ class Pencil:
 
 
 class Propagated(Pencil, Duals):
-    """Errors carried to first order: each stroke is a cause of its own.
+    """Errors carried to first order: each stroke is a separate cause.
 
     Parameters
     ----------
@@ -214,7 +214,7 @@ class Propagated(Pencil, Duals):
 
 
 class Counted(Pencil, Float64):
-    """Nothing off, the errors only counted."""
+    """Exact strokes; the errors are only counted."""
 
     def __init__(self, profile: Profile, free: frozenset[str] = frozenset()) -> None:
         super().__init__(profile, free)
@@ -358,7 +358,7 @@ def sigmas(
 ) -> dict[str, npt.NDArray[np.float64]]:
     """Return how far the numbers of a drawing may be off, by first order, shapes (n,).
 
-    ``free``: points that may stand anywhere; ``enlarged``: how many times larger a step is drawn.
+    ``free``: points that may be placed anywhere; ``enlarged``: enlargement of each step.
     """
     causes = causes_of(program, lambda: data, free)
     trace = evaluate(program, data, Propagated(profile, free, causes, enlarged))

@@ -41,7 +41,7 @@ class CauseRows:
         known[mask] = self
 
     def joined(self, other: CauseRows) -> tuple[CauseRows, Any, Any]:
-        """Return the causes of either, and where those of one and of the other are among them."""
+        """Return the union of the causes, and the indices of each operand's causes in it."""
         if other._mask not in self._joined:
             mask = self._mask | other._mask
             both = self._known.get(mask) or CauseRows(mask, self.count, self._known)
@@ -152,7 +152,7 @@ def as_dual(value: Number) -> Dual:
 def angle(value: Number, least: float) -> Number:
     """Return the angle of a complex number, radians, with its slope if it is a dual one.
 
-    What is not longer than ``least`` has no direction: its angle is NaN.
+    A number not longer than ``least`` has no direction: its angle is NaN.
     """
     dual = as_dual(value)
     solid = np.where(np.abs(dual.value) > least, dual.value, np.nan)
@@ -188,7 +188,7 @@ def _sum(one: Dual, by: Number, two: Dual, times: Number) -> tuple[Slope, CauseR
 
 
 def _among(rows: CauseRows, at: Any, slope: Any, other: Any) -> Any:
-    """Return slopes among more rows, of the shape and type that those of another need."""
+    """Return slopes expanded to more rows, with the shape and type needed beside another's."""
     shape = (len(rows.index), max(slope.shape[1], other.shape[1]))
     whole = np.zeros(shape, dtype=np.result_type(slope, other))
     whole[at] = slope
@@ -196,7 +196,7 @@ def _among(rows: CauseRows, at: Any, slope: Any, other: Any) -> Any:
 
 
 def alike(*numbers: Dual) -> tuple[list[Any], CauseRows | None]:
-    """Return the slopes of numbers by the same causes, 0 of one that has none, and these causes."""
+    """Return the slopes of numbers by common causes, 0 if a number has none, and these causes."""
     own = [number.rows for number in numbers if number.part is not None and number.rows is not None]
     rows = reduce(lambda one, two: one.joined(two)[0], own) if own else None
     slopes: list[Any] = []

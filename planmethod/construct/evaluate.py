@@ -37,14 +37,14 @@ from planmethod.construct.steps import (
 )
 
 PARALLEL = 1e-12
-"""Sine of the angle between two lines below which their meeting is not defined."""
+"""Sine of the angle between two lines below which their intersection is not defined."""
 
 TANGENT = -1e-12
 """Margin of two arcs down to which they touch: rounding of the data, not a gap."""
 
 
 class Trace(Struct, frozen=True):
-    """Values of every step and how far each stood from being impossible.
+    """Values of every step and the margins by which the steps are possible.
 
     Attributes
     ----------
@@ -105,7 +105,7 @@ def apply(
             u = u / ar.nonzero(abs(u))
             to_centre = centre - p
             room = _half_chord(abs(_cross(u, to_centre)), radius)
-            # Counted along the line from its own point: what lies on a guide stays on it exactly.
+            # Measured along the line from its own point: a point on a guide stays on it exactly.
             half = ar.root(room) if branch is None else ar.root(room) * env[branch]
             reach = (u.conjugate() * to_centre).real + way.value * half
             return ar.pricked(out, p + u * reach), room / (radius * radius)

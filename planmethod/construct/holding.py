@@ -12,10 +12,10 @@ from planmethod.construct.arithmetic import Arithmetic, Number
 from planmethod.construct.steps import Hold, Leg, Name, Place
 
 ROUNDS = 5
-"""Steps of Newton's method from a start that is good to some six digits: to the referee's fifty."""
+"""Newton iterations from a start with some six correct digits to the fifty of multiprecision."""
 
 SETTLED = 1e-5
-"""Last of these steps, in parts of the link and in radians, from which on it did not settle."""
+"""Limit of the last step, relative to the link and in radians, for convergence."""
 
 
 def cross(a: Number, b: Number) -> Number:

@@ -110,7 +110,7 @@ class Builder(Struct):
     _seen: int = 0  # steps whose names are in _made
 
     def copy(self) -> Builder:
-        """Return a collector that goes on from here, and leaves this one as it is."""
+        """Return a copy of the collector that continues from here."""
         return Builder(
             list(self.steps), dict(self._drawn), self._count, set(self._made), self._seen
         )

@@ -1,4 +1,4 @@
-"""The referee: a program read in mpmath, to as many digits as asked (арбитр)."""
+"""Multiprecision reading: a program read in mpmath, to any number of digits (арбитр)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ DIGITS = 50
 class Precise(Exact):
     """Numbers of mpmath, one position at a time.
 
-    It has a context of its own, so that no precision set elsewhere changes what it says.
+    It has its own context, so that a precision set elsewhere does not change its results.
 
     Parameters
     ----------

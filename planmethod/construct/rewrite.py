@@ -49,7 +49,7 @@ def substituted(program: Program, names: Iterable[Name]) -> Program:
 
 
 def rewritten(program: Program, change: Callable[[Step], Step | tuple[Step, ...]]) -> Program:
-    """Return a program with every step changed, or left as it is.
+    """Return a program with every step changed or kept.
 
     Parameters
     ----------

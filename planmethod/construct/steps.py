@@ -21,14 +21,14 @@ Place: TypeAlias = tuple[NumberName | None, NumberName | None]
 
 
 class Side(Enum):
-    """Side of a directed line (сторона направленной прямой): which of two arc meetings is meant."""
+    """Side of a directed line (сторона направленной прямой): one of two arc intersections."""
 
     LEFT = 1
     RIGHT = -1
 
 
 class Way(Enum):
-    """Sense along a directed line: which of two meetings of a line and an arc is meant."""
+    """Sense along a directed line, selecting one of two intersections of a line and an arc."""
 
     FORWARD = 1
     BACKWARD = -1
@@ -128,7 +128,7 @@ class MeetCircles(Struct, frozen=True):
 class Touch(Struct, frozen=True):
     """Point where a line from a point touches a circle (точка касания).
 
-    ``side`` is the side of the directed line centre → source on which the touching point lies.
+    ``side`` is the side of the directed line centre → source on which the point of tangency lies.
     """
 
     out: PointName
