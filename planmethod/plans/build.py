@@ -1,4 +1,4 @@
-"""The whole construction of a problem: position, velocity and acceleration plans as one program."""
+"""Construction of a problem: position, velocity and acceleration plans as one program."""
 
 from __future__ import annotations
 

@@ -86,8 +86,8 @@ class Closing(Struct, frozen=True):
     third : int
         Of a triad, the leg whose line does not go through the special point that is used.
     only_at : tuple of float
-        Driver positions in which alone the closing is known, both ways being one there; empty where
-        it is known in all.
+        The only driver positions in which the mode is known, because both modes coincide there;
+        empty if it is known in all.
     """
 
     side: int = 1
@@ -137,4 +137,4 @@ def comes_again(choice: Choice, turn: float) -> float:
     return turn * found
 
 
-"""Closing of each group that has two, by its links."""
+"""Assembly mode of each group that has two, by its links."""

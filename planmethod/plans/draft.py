@@ -30,7 +30,7 @@ FAR = 10.0
 
 
 def degrees(angle: complex) -> float:
-    """Return the argument of a direction in degrees, exact where it lies on an axis."""
+    """Return the argument of a direction in degrees, exact on the axes."""
     if angle.imag == 0:
         return 0.0 if angle.real > 0 else 180.0
     if angle.real == 0:
@@ -139,7 +139,7 @@ class Draft:
         self.letters: dict[PointName, str] = {}
 
     def copy(self) -> Draft:
-        """Return a draft that goes on from here, and leaves this one as it is."""
+        """Return an independent copy of the draft that continues from here."""
         other = copy.copy(self)
         other.b = self.b.copy()
         other.numbers, other.places = dict(self.numbers), dict(self.places)
@@ -237,7 +237,7 @@ class Draft:
         return link in self.special and self.special[link].point == place
 
     def size(self, link: str) -> float:
-        """Return the extent of a link, m: what an offset is small against."""
+        """Return the extent of a link, m, with which offsets are compared."""
         points = list(self.problem.bodies[link].points.values())
         return max((abs(p - points[0]) for p in points), default=0.0)
 
@@ -330,7 +330,7 @@ class Draft:
     def place_rest(self, link: str) -> None:
         """Place every point of a link that the plan does not have yet.
 
-        What an arm is laid off from comes before its end, in whichever order the file has them.
+        The points from which an arm is laid off come before its end, in any order of the file.
         """
         body = self.problem.bodies[link]
         ends = {arm.end for arm in _arms(body)}
@@ -345,7 +345,7 @@ class Draft:
         return set(points) <= set(self.placed.get(link, ()))
 
     def _arm(self, link: str, point: str) -> GivenArm | None:
-        """Return the arm that a point is the end of, where it can be laid off by now."""
+        """Return the arm that ends in a point, if it can be laid off by now."""
         arms = (arm for arm in _arms(self.problem.bodies[link]) if arm.end == point)
         return next((arm for arm in arms if self._has(link, arm.vertex, *arm.of)), None)
 
@@ -491,7 +491,7 @@ class Draft:
             self.axes[slide.host] = self.turned(self.axis(known), at, -slide.angle, slide.host)
 
     def across(self, slide: Slide, host_point: str, slider_point: str) -> float:
-        """Return how far left of the host's point the slider's point lies across the line, m."""
+        """Return the signed distance of the slider's point to the left of the host's point, m."""
         z_host = self.problem.bodies[slide.host].points[host_point]
         z_slider = self.problem.bodies[slide.slider].points[slider_point]
         value = slide.offset + z_slider.imag - ((z_host - slide.base) * cis(-slide.angle)).imag
@@ -530,7 +530,7 @@ def _links_of_points(problem: Problem) -> dict[str, list[str]]:
 
 
 def _origin(problem: Problem) -> complex:
-    """Return what places are counted from: zero, or a fixed place of a mechanism far from it."""
+    """Return the origin of coordinates: zero, or a fixed place of a mechanism far from it."""
     fixed = list(problem.bodies[FRAME].points.values())
     fixed += [slide.base for slide in problem.slides.values() if slide.host == FRAME]
     sizes = [abs(place - fixed[0]) for place in fixed] + [abs(m) for _, _, m in problem.lengths]

@@ -18,7 +18,7 @@ from planmethod.plans.motion.board import MotionBoard, plain_letter
 from planmethod.plans.motion.leads import Kinematics
 
 ZERO = "0"
-"""Name of the number zero, which nothing in a problem can be called."""
+"""Name of the number zero, which no object of a problem can have."""
 
 
 class KindFacts(Struct, frozen=True):
@@ -115,7 +115,7 @@ them."""
 
 
 def kinds_on(plan: PlanKind) -> tuple[QuantityKind, ...]:
-    """Return those of them that a plan gives."""
+    """Return the quantities among them that a plan gives."""
     return tuple(kind for kind in MOTION_KINDS if kind.plan is plan)
 
 

@@ -143,7 +143,7 @@ class Vector(Struct, frozen=True):
     tail, head : PointName
         Plan points of the segment (equal letters where the vector is zero by nature).
     direction : Direction or None
-        What is known of it before the plan is drawn, written under the term.
+        Parts of it known before the plan is drawn, written under the term.
     """
 
     symbol: str

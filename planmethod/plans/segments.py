@@ -31,8 +31,8 @@ class Segments(Struct):
         Length of a segment, mm.
     values : dict of (PointName, PointName) to NumberName
         Value of a segment, in the unit of the plan: computed before it was laid off, or from its
-        length. Lengths and values are signed where a segment lies on a line along which the sign is
-        wanted.
+        length. Lengths and values are signed if a segment lies on a line along which the sign is
+        needed.
     """
 
     b: Builder
@@ -43,7 +43,7 @@ class Segments(Struct):
     _measured: set[NumberName] = field(default_factory=set)
 
     def on(self, b: Builder) -> Segments:
-        """Return the same segments for a construction that goes on from here."""
+        """Return the same segments for a construction that continues from here."""
         return replace(
             self,
             b=b,

@@ -39,7 +39,7 @@ class TransferSteps:
     Attributes
     ----------
     pin : str
-        Point of the crank whose segments all others are compared with; empty where it has none.
+        Point of the crank with whose segments all others are compared; empty if there is none.
     """
 
     def __init__(self, kin: Kinematics, draft: Draft, *, by_values: bool = False) -> None:
@@ -61,7 +61,7 @@ class TransferSteps:
         return PointName(f"{FACTS[motion.kind].prefix}n_{self.pin}{self.drive.pivot}")
 
     def per_mm(self, kind: PlanKind) -> Powers:
-        """Return what a millimetre of a plan is worth, as factors: l_OA/(pa), l_OA/(πn_A)."""
+        """Return the value of a millimetre of a plan, as factors: l_OA/(pa), l_OA/(πn_A)."""
         motion, power = self._motion(kind), self.order(kind)
         if not self.pin:
             return ((motion.segments.scale, 1), (self.omega, -power))
@@ -161,7 +161,7 @@ class TransferSteps:
 
 
 def transfer_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
-    """Yield the transfer functions of all moving points and links; none of a driving slider.
+    """Yield the transfer functions of all moving points and links; none for a driving slider.
 
     Parameters
     ----------

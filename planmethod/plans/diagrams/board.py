@@ -49,7 +49,7 @@ class DiagramBoard(Struct):
         return DiagramAxes(name, start, across, self.b.perpendicular(start, across))
 
     def abscissa(self, axes: DiagramAxes, x: float) -> PointName:
-        """Lay an abscissa off, mm; the origin for nothing."""
+        """Lay an abscissa off, mm; return the origin for zero."""
         if x == 0:
             return axes.origin
         if (axes.name, x) not in self._feet:

@@ -1,9 +1,9 @@
 """Graphical differentiation and integration with a pole (графическое дифференцирование).
 
-Differentiation: a ray from the pole parallel to the chord (or the tangent) of a diagram cuts off on
-the axis of ordinates what the slope is, K times; a line from there along the axis of abscissae
-meets the upright of the place. Integration goes the same way back: the ray from the pole to the
-mean ordinate of an interval gives the slope of the chord below.
+Differentiation: a ray from the pole parallel to the chord (or the tangent) of a diagram cuts off K
+times the slope on the axis of ordinates; a line from there along the axis of abscissae meets the
+upright of the place. Integration goes the same way back: the ray from the pole to the mean ordinate
+of an interval gives the slope of the chord below.
 
 With scales mu_y of the ordinates and mu_x of the abscissae, units per mm, and the pole distance K,
 mm: the differentiated diagram has mu_y/(mu_x·K), the integrated one mu_y·mu_x·K.

@@ -49,7 +49,7 @@ class EnergyMassData(Struct, frozen=True):
     speed, delta : float, 1/s
         Mean speed and irregularity.
     second : sequence of float, J
-        By Mertsalov, T_II in the same positions, above what its axis begins with; else none.
+        By Mertsalov, T_II in the same positions, above the origin of its axis; else empty.
     """
 
     moments: Sequence[float]

@@ -40,7 +40,7 @@ def build(vectors: Sequence[complex], per_mm: float, radius: float) -> MassMomen
         From the line of the link, which is horizontal on the paper.
     per_mm : float, kg·m/mm
     radius : float, m
-        Where the counterweight stands.
+        Position of the counterweight.
     """
     board = DiagramBoard()
     b, mu = board.b, board.known("mu", per_mm)

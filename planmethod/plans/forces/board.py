@@ -34,7 +34,7 @@ def plain_name(symbol: str) -> str:
 
 
 class Force(Struct, frozen=True):
-    """Force on a link (сила): where it acts, its segment on a force plan, and its letter."""
+    """Force on a link (сила): its point of action, its segment on a force plan and its letter."""
 
     at: PointName
     tail: PointName
@@ -114,7 +114,7 @@ class ForceBoard:
         self.pole = self.start()
 
     def trial(self) -> ForceBoard:
-        """Return a board on which the same loads are tried: what it finds is none of this one's."""
+        """Return a separate board for trial loads."""
         tried = copy(self)
         tried.forces = {link: [*forces] for link, forces in self.forces.items()}
         tried.couples = {link: [*couples] for link, couples in self.couples.items()}
@@ -192,7 +192,7 @@ class ForceBoard:
         return self._masses[link]
 
     def _inertia(self, one: Applied, at: tuple[str, str]) -> Ends:
-        """Carry the acceleration of the centre of mass over, turned back: Φ = -m·a."""
+        """Transfer the acceleration of the centre of mass, reversed: Φ = -m·a."""
         motion, b, mass = self.kin.acceleration, self.draft.b, self._mass(one.link)
         ends = (motion.pole, motion.point[at])
         powers = ((mass, 1), (self.accelerations.scale, 1), (self.scale, -1))
@@ -262,9 +262,9 @@ class ForceBoard:
         return end
 
     def _carried(self, origin: PointName, tail: PointName, head: PointName) -> PointName:
-        """Return where a force ends that is carried to another point.
+        """Return the end of a force that is transferred to another point.
 
-        What one plan has given to another is read there and laid off here.
+        A force from another plan is read there and laid off here.
         """
         length = self.segments.read((tail, head))
         return self.draft.b.carry(self.name("c"), origin, tail, head, length)
@@ -288,7 +288,7 @@ class ForceBoard:
         return b.total(self.name("M"), *(term for term in terms if term is not None))
 
     def moment_of(self, force: Force, about: PointName) -> NumberName | None:
-        """Return the moment of a force about a point, N·m; None of one that acts in the point."""
+        """Return the moment of a force about a point, N·m; None if the force acts in the point."""
         if force.at == about:
             return None
         b, key = self.draft.b, (about, force.at, force.ends)
@@ -341,7 +341,7 @@ class ForceBoard:
         *,
         inner: bool = False,
     ) -> None:
-        """Note a reaction, and what it does to the link that exerts it.
+        """Note a reaction and its opposite on the link that exerts it.
 
         ``couple`` is about the place of ``force``. ``inner`` reactions act between links that are
         both done with.

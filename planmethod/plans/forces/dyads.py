@@ -91,7 +91,7 @@ def group_forces(board: ForceBoard, group: AssurGroup) -> None:
 
 
 def _middle_revolute(board: ForceBoard, group: AssurGroup) -> None:
-    """RRR, RRP, PRP: what moments leave unknown of both outer reactions closes the plan."""
+    """RRR, RRP, PRP: the parts of both outer reactions not found by moments close the plan."""
     middle = PointName(inner_point(group))
     one, two = split(group)
     start = board.start()
@@ -268,7 +268,7 @@ def _sliding(board: ForceBoard, group: AssurGroup) -> None:
 
 
 def unbalanced(board: ForceBoard) -> NumberName:
-    """Return what the forces on the driving link leave: a moment, N·m, or along its guide, N."""
+    """Return the residual of the driving link's forces: a moment, N·m, or along its guide, N."""
     drive = board.draft.problem.drive
     if drive.pivot is not None:
         return board.moment((drive.link,), PointName(drive.pivot))
@@ -313,7 +313,7 @@ def stand_forces(board: ForceBoard) -> NumberName:
 
 
 def drive_forces(board: ForceBoard) -> Driving:
-    """Find what balances the driving link, and the reaction of the frame."""
+    """Find the balance of the driving link, and the reaction of the frame."""
     b, drive = board.draft.b, board.draft.problem.drive
     links = (drive.link,)
     start = board.start()

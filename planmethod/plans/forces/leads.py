@@ -32,7 +32,7 @@ from planmethod.problem.model import Slide
 def tangent(
     board: ForceBoard, lead: Lead, origin: PointName, middle: PointName
 ) -> tuple[PointName, Components | None]:
-    """Lay off the tangential reaction of a revolute lead: its moment about the middle joint.
+    """Lay off the tangential reaction of a revolute leg: its moment about the middle joint.
 
     A guide has none: its reaction is across it.
     """

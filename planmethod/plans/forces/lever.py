@@ -28,9 +28,9 @@ class Lever(Struct, frozen=True):
         Balancing moment on the crank, N·m, or force along the guide of a driving slider, or at a
         point of the crank, N.
     difference : NumberName
-        What the lever gives less what the force plans give.
+        Result of the lever minus that of the force plans.
     loads : tuple of LeverLoad
-        The loads that do work.
+        Loads that do work.
     moment : NumberName or None
         Balancing moment on a crank, N·m, whatever balances it.
     arm : NumberName or None
@@ -46,7 +46,7 @@ class Lever(Struct, frozen=True):
 
 
 class LeverLoad(Struct, frozen=True):
-    """Load on the lever; of a force the point where it hangs, and its arm about the pole, mm."""
+    """Load on the lever; for a force its point of application, and its arm about the pole, mm."""
 
     given: GivenLoad
     at: PointName | None = None
@@ -65,7 +65,7 @@ class Hung(Struct, frozen=True):
 
 
 def hang_loads(board: ForceBoard) -> Hung | None:
-    """Hang the given loads on the turned velocity plan; None where the driver stands."""
+    """Apply the given loads to the turned velocity plan; None if the driver is at rest."""
     b, motion, drive = board.draft.b, board.kin.velocity, board.draft.problem.drive
     if drive.rate == 0:
         return None
@@ -97,7 +97,7 @@ def hang_loads(board: ForceBoard) -> Hung | None:
 
 
 def plan_lever(board: ForceBoard, driving: Driving) -> Lever | None:
-    """Find on the lever what balances the driving link; None where the driver stands."""
+    """Find the balance of the driving link on the lever; None if the driver is at rest."""
     hung, b, drive = hang_loads(board), board.draft.b, board.draft.problem.drive
     if hung is None:
         return None

@@ -47,7 +47,7 @@ class Applied(Struct, frozen=True):
     steady : complex or None
         The force or couple where it is the same in every position.
     numbers : tuple of ndarray of shape (n,), optional
-        What it is known by in every position, of loads of many variants.
+        Its known numbers in every position, for loads of many variants.
     """
 
     name: str
@@ -61,7 +61,7 @@ class Applied(Struct, frozen=True):
 
 
 def numbers_of(one: Applied) -> tuple[Number, ...]:
-    """Return what a load is known by: its couple, N·m, or its direction, degrees, and size, N.
+    """Return the known numbers of a load: its couple, N·m, or its direction, degrees, and size, N.
 
     Numbers of a load that is the same in every position, else arrays of shape (n,).
     """

@@ -32,7 +32,7 @@ class Edge(Struct, frozen=True):
     ----------
     symbol : str
         Letter in rich text: ``G_{2}``, ``F^{n}_{21}``; of a reaction the first index is the link
-        that it acts on, the second the link that exerts it. what balances the driver has none.
+        that it acts on, the second the link that exerts it. The balancing force has none.
     on : str
         The link that the force acts on.
     at : PointName
@@ -78,7 +78,7 @@ class CoupleOn(Struct, frozen=True):
 
 
 class Balance(Struct, frozen=True):
-    """Equation of forces: the forces add up to nothing (уравнение сил)."""
+    """Equation of forces: their sum is zero (уравнение сил)."""
 
     links: tuple[str, ...]
     edges: tuple[Edge, ...]
@@ -158,10 +158,10 @@ def reaction_symbol(on: str, by: str, share: Share = Share.WHOLE, letter: str = 
 
 
 class Components(Struct, frozen=True):
-    """Reaction of a revolute lead in two shares (нормальная и касательная составляющие).
+    """Reaction of a revolute leg in two components (нормальная и касательная составляющие).
 
-    ``by`` is what exerts it as it is printed, ``line`` are the points of the link from the joint
-    to the middle one, ``arm`` the factors of its length, m.
+    ``by`` is the printed name of the link that exerts it, ``line`` are the points of the link from
+    the joint to the middle one, ``arm`` the factors of its length, m.
     """
 
     lead: Lead
@@ -198,7 +198,7 @@ def reaction_edge(
 ) -> Edge:
     """Return a reaction that a plan finds: of a known ``direction`` if there is one.
 
-    ``by`` is a link as it is printed.
+    ``by`` is the printed name of a link.
     """
     known = Known.NOTHING if direction is None else Known.ONE
     return Edge(reaction_symbol(on, by), on, at, tail, head, known, direction)
@@ -210,5 +210,5 @@ def as_known(edge: Edge) -> Edge:
 
 
 def back(edge: Edge, on: str) -> Edge:
-    """Return what acts back, on the other link, when it has been found."""
+    """Return the opposite reaction, on the other link, when it has been found."""
     return Edge(reaction_symbol(on, edge.on), on, edge.at, edge.head, edge.tail)

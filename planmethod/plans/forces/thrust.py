@@ -135,7 +135,7 @@ def close_thrust(board: ForceBoard, thrust: Thrust) -> tuple[Driving, Lever | No
 
 
 def _left(board: ForceBoard, groups: tuple[AssurGroup, ...]) -> NumberName:
-    """Return what the forces leave unbalanced on the driving link, N·m or N."""
+    """Return the unbalanced load on the driving link, N·m or N."""
     for group in reversed(groups):
         group_forces(board, group)
     return unbalanced(board)
@@ -144,7 +144,7 @@ def _left(board: ForceBoard, groups: tuple[AssurGroup, ...]) -> NumberName:
 def _push(
     board: ForceBoard, ends: tuple[str, str], links: tuple[str, str], value: NumberName
 ) -> tuple[tuple[tuple[str, Force], ...], Force]:
-    """Push two bodies apart in the ends of an actuator; return what moves, and the second force."""
+    """Push two bodies apart by an actuator; return the forces on moving ones and the second one."""
     b, (one, two) = board.draft.b, map(PointName, ends)
     line = b.parallel(board.pole, b.join(one, two))
     head = board.segments.lay_off(board.name("F"), board.pole, line, value)

@@ -52,7 +52,7 @@ class _Leg(Struct):
     parts, value : Components, NumberName
         Of a leg with two hinges, its outer reaction and the tangential share of that, N.
     passed : NumberName
-        Moment that a stone passes on to the base link, N·m.
+        Moment that a sliding block passes on to the base link, N·m.
     share, outer, inner : (PointName, PointName)
         Ends of that share, of the outer reaction and of the base link's reaction, on the leg.
     """
@@ -131,7 +131,7 @@ class _Leg(Struct):
         if self.is_stone:  # it passes on its own moment, and a force through the special point
             self.passed = board.moment((self.link,), self.place)
             return [self.passed]
-        if self.slides:  # the guide takes what its loads turn, which act in the hinge so
+        if self.slides:  # the guide takes the moment of its loads, which therefore act in the hinge
             return [board.moment_of(replace(force, at=self.place), about) for force in forces]
         assert self.value is not None and self.parts is not None
         terms = [board.moment_of(force, about) for force in forces]
@@ -141,7 +141,7 @@ class _Leg(Struct):
         return [*terms, b.compute(board.name("M"), *powers)]
 
     def weighed(self, about: PointName) -> list[Edge]:
-        """Return what these moments are of, its arms being measured."""
+        """Return the links and point of these moments, with their arms measured."""
         if self.is_stone:
             return []
         if self.slides:
@@ -231,7 +231,7 @@ def triad_forces(board: ForceBoard, group: AssurGroup, triad: Legs) -> None:
     two.outer, two.inner = (last, meeting), (meeting, end)
     three.outer, three.inner = (loaded, end), (end, based)
     third = three.sides((begin, end))
-    if not three.is_stone:  # else the plan of the stone finds it
+    if not three.is_stone:  # otherwise the plan of the sliding block finds it
         third = tuple(replace(edge, known=Known.BOTH) for edge in third)
     sides = [one.sides((meeting, start))[::-1], two.sides((opened, meeting)), third]
     polygon = (

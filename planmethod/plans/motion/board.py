@@ -55,7 +55,7 @@ class MotionBoard(Struct):
     point : dict of (link, place) to PointName
         Plan point of a link's point; ``place`` names a point of the position plan.
     named : dict of str to (str, str)
-        What is published: point name to (link, place).
+        Published points: point name to (link, place).
     alias : set of (link, place)
         Points of a link that does not turn: they share the plan point of its first point.
     segments : Segments
@@ -116,7 +116,7 @@ class MotionBoard(Struct):
         return at
 
     def label(self, link: str, place: str) -> str:
-        """Return the name of a link's point at a place: ``B3`` where it is under another's pin."""
+        """Return the name of a link's point at a place: ``B3`` if it is under another's pin."""
         bodies = self.draft.problem.bodies
         if place in bodies[link].points or self.draft.is_special(link, place):
             return place
@@ -126,7 +126,7 @@ class MotionBoard(Struct):
     # Segments --------------------------------------------------------------------------------
 
     def size(self, of: tuple[str, str]) -> NumberName | None:
-        """Return the number of the speed (acceleration) of a link's point; None of a fixed one."""
+        """Return the number of the speed (acceleration) of a link's point; None for a fixed one."""
         at = self.point[of]
         return None if at == self.pole else self.segments.values[self.pole, at]
 
@@ -174,7 +174,7 @@ def plain_letter(motion: MotionBoard, point: PointName) -> str:
 
 
 class Ray(Struct, frozen=True):
-    """Half of a vector equation: where a lead's line starts on the plan and how it runs (луч).
+    """Half of a vector equation: the start and direction of a leg's line on the plan (луч).
 
     Attributes
     ----------
@@ -185,9 +185,9 @@ class Ray(Struct, frozen=True):
     terms : tuple of Vector
         Terms of the equation laid off before the line.
     unknown : (symbol, VectorKind, Direction)
-        What is found along the line.
+        Component found along the line.
     name : str
-        What the number is called that is read off the line, signed along it.
+        Name of the number read along the line, signed along it.
     """
 
     start: PointName

@@ -1,4 +1,4 @@
-"""Velocity and acceleration plans of the driver and of each dyad, from their two leads."""
+"""Velocity and acceleration plans of the driver and of each dyad, from their two legs."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def drive_motion(kin: Kinematics, motion: MotionBoard) -> None:
 
 
 def group_motion(kin: Kinematics, motion: MotionBoard, group: AssurGroup) -> None:
-    """Close a dyad's plan: the rays of its two leads meet in the middle joint; or a triad's."""
+    """Close a dyad's plan: the rays of its two legs meet in the middle joint; or a triad's."""
     triad = triad_of(group)
     if triad is not None:
         triad_motion(kin, motion, triad)

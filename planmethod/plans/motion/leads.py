@@ -1,9 +1,9 @@
 """The two legs of every dyad (поводки), on the velocity and acceleration plans.
 
 A revolute leg gives a ray across the link: it starts at the plan point of the link's outer joint
-(on the acceleration plan, after the normal component). A prismatic lead gives a ray along the
-guide: it starts at the plan point of the coincident point of the other link (on the acceleration
-plan, after the Coriolis component). The middle joint is where two rays meet.
+(on the acceleration plan, after the normal component). A prismatic leg gives a ray along the guide:
+it starts at the plan point of the coincident point of the other link (on the acceleration plan,
+after the Coriolis component). The middle joint is where two rays meet.
 
 Sources: the equations of plane motion and of compound motion, as in "Кинематический анализ плоских
 рычажных механизмов" (section 2.1) and in the homework guide's section 1.
@@ -93,7 +93,7 @@ class Kinematics(Struct):
         return self.omega if kind is PlanKind.VELOCITY else self.epsilon
 
     def share_turning(self, link: str, with_link: str) -> None:
-        """Note that a prismatic pair makes two links turn alike."""
+        """Note that a prismatic pair gives two links the same rotation."""
         for table in (self.omega, self.epsilon):
             if with_link in table:
                 table[link] = table[with_link]
@@ -170,7 +170,7 @@ def _normal(
 
 
 def slot_name(slide: Slide) -> str:
-    """Return what a guide is called that joins no two letters, by its slider: ``n_{2}–n_{2}``."""
+    """Return the name of a guide that joins no two letters, by its slider: ``n_{2}–n_{2}``."""
     return f"n_{{{slide.slider}}}–n_{{{slide.slider}}}"
 
 
@@ -183,9 +183,9 @@ def has_slot_name(slide: Slide, problem: Problem) -> bool:
 def track_direction(slide: Slide, problem: Problem, *, turned: bool = False) -> Direction:
     """Return the direction of a slide line: ``∥ x-x``, ``∥ CB``, or ``⊥ BC``.
 
-    ``turned`` asks for the direction across the line. A line on a moving link is named by its
-    point and the pin when the pin is on it, else by the link's own axis where it runs along or
-    across that, else by its angle to the axis; on a link without an axis it has a name of its own.
+    ``turned`` asks for the direction across the line. A line on a moving link is named by its point
+    and the pin when the pin is on it, else by the link's own axis where it runs along or across
+    that, else by its angle to the axis; on a link without an axis it has its own name.
     """
     along, beside = Relation.ALONG, Relation.ACROSS
     if turned:
@@ -255,7 +255,7 @@ def prismatic_ray(
 def close(
     kin: Kinematics, motion: MotionBoard, links: tuple[str, str], place: str, rays: tuple[Ray, Ray]
 ) -> PointName:
-    """Intersect the rays of two leads: the plan point of the middle joint, and its equations."""
+    """Intersect the rays of two legs: the plan point of the middle joint, and its equations."""
     owner = links[0]
     name = motion.label(owner, place)
     # The meeting is counted along the first line: from the pole, what moves along a guide of the

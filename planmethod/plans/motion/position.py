@@ -104,7 +104,7 @@ def lead_point(lead: Lead) -> str:
 
 
 def split(group: AssurGroup) -> tuple[Lead, Lead]:
-    """Return the leads with the revolute one first (a mixed dyad), else in the group's order."""
+    """Return the legs with the revolute one first (a mixed dyad), else in the group's order."""
     first, second = group.leads
     if isinstance(first.joint, Prismatic) and isinstance(second.joint, Revolute):
         return second, first
@@ -183,7 +183,7 @@ def _place_triad(draft: Draft, triad: Legs, closing: Closing) -> None:
 
 
 def axis_of_link(link: str) -> str:
-    """Return what the step is called that holds a base link."""
+    """Return the name of the step that finds a base link's axis."""
     return f"axis {link}"
 
 
@@ -228,7 +228,7 @@ def leg_line(draft: Draft, lead: Lead, joint: Prismatic | Revolute) -> LineName:
 
 
 def leg_points(lead: Lead, joint: Prismatic | Revolute) -> tuple[str, ...]:
-    """Return the hinges of a leg, through which its line goes."""
+    """Return the hinges of a leg, through which its line passes."""
     return tuple(one.point for one in (lead.joint, joint) if isinstance(one, Revolute))
 
 
@@ -377,7 +377,7 @@ def _place_rpr(draft: Draft, group: AssurGroup, sign: int) -> None:
 
 
 def rpr_parts(draft: Draft, group: AssurGroup) -> tuple[Slide, Lead, Lead]:
-    """Return the inner slide line of an RPR dyad, the lead that carries it, and the slider's."""
+    """Return the inner slide line of an RPR dyad, the leg that carries it, and the slider's."""
     slide = slide_of(draft, group.inner[0])
     host, slider = group.leads if group.leads[0].link == slide.host else group.leads[::-1]
     return slide, host, slider

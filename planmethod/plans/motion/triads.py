@@ -65,7 +65,7 @@ def triad_motion(kin: Kinematics, motion: MotionBoard, triad: Legs) -> None:
 
 
 def leg_place(lead: Lead, joint: Joint) -> str:
-    """Return where a leg holds the base link: in a hinge of it, or beside the pin of its stone."""
+    """Return the place where a leg holds the base link: its hinge, or beside its block's pin."""
     return joint.point if isinstance(joint, Revolute) else lead_point(lead)
 
 
@@ -104,7 +104,7 @@ def _through(
     leg: tuple[Lead, Joint],
     ray: Ray,
 ) -> Ray:
-    """Return the ray of the special point: that of the leg, after the normal component about it."""
+    """Return the ray of the special point: that of the leg, after its normal component."""
     b, (lead, joint) = kin.draft.b, leg
     place = leg_place(lead, joint)
     start, terms = ray.start, list(ray.terms)
