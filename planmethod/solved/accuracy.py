@@ -31,7 +31,7 @@ ZERO_SHARE = 1e-14
 units of its own reach."""
 
 VANISHED, NOISE = 1e-25, 1e-9
-"""Shares of the largest of its kind: size below which the referee sees a zero, and reach below
+"""Fractions of the largest of its kind: size below which a result is a zero, and reach below
 which slopes in float64 are rounding."""
 
 
@@ -74,13 +74,13 @@ class AccuracyVerdict(Struct, frozen=True):
 
 
 class Refereed(Struct, frozen=True):
-    """One position before the referee.
+    """One position checked in multiprecision.
 
     Attributes
     ----------
     reason : str
-        Why the position is impossible or refused; empty where it is solved. Results of steps that
-        do exist are judged all the same.
+        Reason why the position is impossible or rejected; empty if it is solved. Results of
+        existing steps are checked in any case.
     warned : float
         Bound of the relative error as reported to the user:
         `planmethod.solved.trust.conditioning.error_bound`.
@@ -88,7 +88,7 @@ class Refereed(Struct, frozen=True):
         The same of the forces: `planmethod.solved.forces.statics.Statics.bound`. None of a problem
         without loads.
     agreed : bool
-        The referee, too, finds the same results to exist.
+        In multiprecision the same results exist.
     unexplained : int
         Results that are NaN although no step is impossible: there must be none.
     """

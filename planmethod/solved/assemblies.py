@@ -44,7 +44,7 @@ Read: TypeAlias = Callable[[Reals], Trace]
 
 
 class Assembly(Struct, frozen=True):
-    """One assembly (сборка): where the base link is.
+    """One assembly (сборка): the pose of the base link.
 
     Its origin, m, the direction of its axis, degrees, and the margin.
     """
@@ -55,7 +55,7 @@ class Assembly(Struct, frozen=True):
 
 
 def env_of(step: Hold, trace: Trace, index: int) -> Env:
-    """Return what a step needs of a reading in one position, in Python's own numbers."""
+    """Return the operands of a step in one position of a reading, in Python's own numbers."""
     one = Single()
     found: Env = {}
     names = [name for leg in step.legs for name in (leg.centre, leg.line, leg.radius, leg.angle)]
@@ -71,7 +71,7 @@ def env_of(step: Hold, trace: Trace, index: int) -> Env:
 
 
 def assemblies(step: Hold, env: Env) -> list[Assembly]:
-    """Return every pose in which three legs hold a base link in one position, none of them dead.
+    """Return every pose in which three legs hold a base link in one position, except dead ones.
 
     Parameters
     ----------
@@ -103,10 +103,10 @@ def _settled(step: Hold, env: Env, b: Complexes, turn: Reals) -> tuple[Any, Any,
 
 
 def _ask(leg: Leg, env: Env) -> Callable[[Reals], tuple[Any, Any, Any, Any]]:
-    """Return what a leg asks of the origin when the link is turned so.
+    """Return the constraint of a leg on the origin at a given angle of the link.
 
-    Either to be as far as a radius from a centre (centre, radius), or to have a coordinate along a
-    normal (normal, coordinate); the other two are None.
+    Either a distance from a centre (centre, radius), or a coordinate along a normal (normal,
+    coordinate); the other two are None.
     """
     z = place(leg.at, env)
 
@@ -180,7 +180,7 @@ def _starts(asks: list[Any]) -> tuple[Complexes, Reals]:
         middle = (low + high) / 2
         before = np.sign(_turned(asks, middle).off) == sign
         low, high = np.where(before, middle, low), np.where(before, high, middle)
-    # A double zero is a least value that touches zero, or crosses it twice between two looks.
+    # A double zero is a minimum that touches zero, or crosses it twice between two samples.
     around = np.concatenate([size[-2:-1], size, size[1:2]])
     least = np.flatnonzero((size <= around[:-2]) & (size <= around[2:]))
     step = looks[1] - looks[0]
@@ -195,7 +195,7 @@ def _starts(asks: list[Any]) -> tuple[Complexes, Reals]:
 
 
 class Assembled(Struct, frozen=True):
-    """A triad drawn up to its group, with nothing chosen yet (группа, ещё не собранная).
+    """A triad drawn up to its group, before an assembly is chosen (группа, ещё не собранная).
 
     Attributes
     ----------
@@ -323,10 +323,10 @@ def best_third(made: Assembled, positions: Reals) -> int:
 # Over the positions -------------------------------------------------------------------------------
 
 _LONGEST = 1.0
-"""Degrees of a crank from one look to the next, at the most."""
+"""Maximum step of a crank, degrees."""
 
 _SHORTEST = 1e-7
-"""Part of that at which a motion that does not go on has come to its end."""
+"""Fraction of that step at which the motion is considered to have ended."""
 
 _AHEAD = 0.02
 """Greatest deviation of Newton's method from the extrapolated motion, radians and sizes."""
@@ -339,7 +339,7 @@ _TURNS = 6
 
 
 class _Path(Struct):
-    """Poses that a motion has come through, and how it goes on (путь сборки)."""
+    """Poses of a motion so far, and its continuation (путь сборки)."""
 
     step: Hold
     read: Read
@@ -350,12 +350,12 @@ class _Path(Struct):
     det: float = 0.0
 
     def envs(self, positions: Reals) -> list[Env]:
-        """Return what the legs ask for in some positions."""
+        """Return the operands of the legs in some positions."""
         trace = self.read(positions)
         return [env_of(self.step, trace, k) for k in range(len(positions))]
 
     def goes_on(self, goal: float, env: Env) -> bool:
-        """Come to a position where the same assembly is near to where the motion leads."""
+        """Step to a position where the same assembly is near the extrapolated motion."""
         b, angle, patience = self.origins[-1], self.turns[-1], 5.0
         if len(self.places) > 1:
             share = (goal - self.places[-1]) / (self.places[-1] - self.places[-2])

@@ -1,8 +1,8 @@
-"""Change points: where a group may go on in either of its closings (точка ветвления).
+"""Change points: where a group may continue in either assembly mode (точка ветвления).
 
-A closing is on one side of a line, and the side is data of its step. Where both closings meet in
-one place and part again, a motion that goes on smoothly changes sides; plans that keep the side go
-on in the other branch of the motion.
+A mode is on one side of a line, and the side is data of its step. Where both modes meet in one
+place and part again, a motion that continues smoothly changes sides; plans that keep the side go on
+in the other branch of the motion.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Reals = npt.NDArray[np.float64]
 Data = Callable[[Reals], dict[str, complex | float | Reals]]
 
 TOUCHING = 1e-9
-"""Squared distance of two closings, in parts of the group's size, at which they are one."""
+"""Squared distance of two modes, relative to the group's size, at which they coincide."""
 
 LOOKS = 721
 """Number of samples of the driver's range: every half degree of a turn."""
@@ -42,9 +42,9 @@ def changes(
     *,
     around: bool = True,
 ) -> tuple[float, ...]:
-    """Return the driver positions from ``low`` to ``high`` in which a group's closings are one.
+    """Return the driver positions from ``low`` to ``high`` in which a group's modes coincide.
 
-    Only what the driver can pass through is found: on both sides of it the group closes.
+    Only positions that the driver can pass through are found: the group closes on both sides.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def changes(
     data : callable
         Returns the plan's data at unit scales for some positions, ndarray of shape (n,).
     around : bool
-        The driver goes round: every turn is looked at alike.
+        The driver goes round: every turn is sampled equally.
     """
 
     def apart(positions: Reals) -> Reals:
@@ -84,7 +84,7 @@ def _apart(
     group: AssurGroup,
     positions: Reals,
 ) -> Reals:
-    """Return how far apart both closings are, squared, in parts of the group's size."""
+    """Return the squared distance of both modes, relative to the group's size."""
     trace = evaluate(program, data, Float64())
 
     def gap(p: str, q: str) -> Reals:

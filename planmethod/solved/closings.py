@@ -86,10 +86,10 @@ def _together(problem: Problem, point: str, at: float) -> Failure:
 
 
 def construct(problem: Problem) -> Construction:
-    """Return the construction of a problem: its groups, their closings, its plans as one program.
+    """Return the construction of a problem: its groups, assembly modes and plans as one program.
 
-    It is made once for a problem: positions, scales and hands are readings of it. That of the last
-    few problems is kept: a command looks at one more than once.
+    It is made once for a problem: positions, scales and drafting accuracies are readings of it. The
+    latest ones are cached, because a command uses a problem several times.
 
     Raises
     ------
@@ -138,7 +138,7 @@ Choosing = Generator[WantedReading, Reading, dict[tuple[str, ...], Closing]]
 
 
 def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, ...], Closing]:
-    """Return the closing of every group that has two: see `choosing`."""
+    """Return the assembly mode of every group that has two: see `choosing`."""
     choice, settled = choosing(problem, structure), _Settled()
     try:
         wanted = next(choice)
@@ -150,17 +150,18 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
 
 
 def choosing(problem: Problem, structure: Structure) -> Choosing:
-    """Yield the readings that the choice of the closings wants, and return the closings.
+    """Yield the readings that the choice of assembly modes needs, and return the modes.
 
-    So one problem asks for its readings in turn, and many that are drawn alike are read together.
+    So a single problem requests its readings in turn, and many with the same steps are read
+    together.
 
     Raises
     ------
     ProblemError
         When a group that needs a rule has none, a rule is about a point it cannot move, or one
-        cannot be kept; all such faults at once. When both closings satisfy a rule.
+        cannot be kept; all such faults at once. When both modes satisfy a rule.
     AssemblyError
-        When a group closes at no asked position, or neither closing satisfies its rule.
+        When a group closes in no requested position, or neither mode satisfies its rule.
     """
     positions = np.asarray(problem.drive.judged or problem.drive.positions, dtype=float)
     rules = {rule.point: rule for rule in problem.assembly}
@@ -269,7 +270,7 @@ def _assembled(
 
 
 def _going_on(problem: Problem, tried: Tried, group: AssurGroup, closing: Closing) -> Closing:
-    """Return a closing that changes sides where the motion goes through a change point."""
+    """Return a mode that changes sides where the motion passes a change point."""
     draft, program = tried[0], tried[0].b.program()
     turn, low = problem.drive.coordinate.turn, closing.start
     if problem.drive.goes_round:
@@ -344,7 +345,7 @@ class _Extent:
 
 
 def _explained(both: list[Tried], positions: Reals) -> Failure:
-    """Return why a group closes in none of the positions."""
+    """Return the reason why a group closes in none of the positions."""
     draft, reading = both[0]
     program = draft.b.program()
 
@@ -406,7 +407,7 @@ def _judge(
 
 
 def _missing(group: AssurGroup, both: list[Tried], positions: Reals, untold: Rule | None) -> Fault:
-    """Return the fault of a group whose closing is not given, with both ways to say it.
+    """Return the fault of a group whose mode is not given, with a rule for each mode.
 
     Raises
     ------

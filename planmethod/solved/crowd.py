@@ -12,7 +12,7 @@ from planmethod.plans.build import Construction
 from planmethod.solved.reading import Complexes, Reading
 
 SIDE = 50.0
-"""Side of the square in which inscriptions are counted, mm: what one looks at at once."""
+"""Side of the square in which labels are counted, mm: the area seen at a glance."""
 
 CROWD = 14
 """Most inscriptions of a scheme in such a square: each has a finger's breadth, 13 mm, of it."""
@@ -27,8 +27,8 @@ DOZEN = 12
 def densest(places: Sequence[complex] | Complexes) -> tuple[int, complex]:
     """Return the most places in one square of `SIDE`, and the middle of that square, mm.
 
-    The square is looked for with a place in its middle, so that the count is one of a place and
-    those about it.
+    Only squares with a place in their middle are considered, so that the count includes that place
+    and those around it.
     """
     if not len(places):
         return 0, 0j

@@ -1,7 +1,7 @@
 """Forces over the course of the driver, as a smooth line needs them (силы за цикл).
 
-The asked positions are too few for a curve, so the force plans are read exactly at others between
-them. A load that jumps (a phase, a step of a table) leaves a gap in the curve just there.
+The requested positions are too few for a curve, so the force plans are read exactly at others
+between them. A load that jumps (a phase, a step of a table) leaves a gap in the curve just there.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.travel import Travel, without_corners
 
 STEP, LEAST = 1.0, 120
-"""Step of the crank, degrees, and number of steps at the least: no corner shows on the paper."""
+"""Step of the crank, degrees, and minimum number of steps: corners are invisible on the paper."""
 
 STEEP = 0.02
-"""Part of the largest value that a quantity changes by between two positions, to be looked at."""
+"""Relative change of a quantity between two positions above which it is examined."""
 
 TIMES = 4.0
 """Factor by which such a change must exceed those around it."""
@@ -213,7 +213,7 @@ def _around(steps: Reals) -> Reals:
 
 @remembered
 def cycle(solution: Solution) -> Cycle:
-    """Return the forces over the course of a solution; kept, since several views show them.
+    """Return the forces over the cycle of a solution; cached, since several views show them.
 
     Raises
     ------

@@ -38,7 +38,7 @@ SMALL, SHOWN = 15.0, 28.0
 itself, so that it is the second at least, mm."""
 
 AROUND, NAMED = 26.0, 20.0
-"""Room that such a view takes beside what it shows, and above it, mm."""
+"""Space that such a view takes beside its plan, and above it, mm."""
 
 
 class Knot(Struct, frozen=True):
@@ -82,9 +82,9 @@ def ratio_for(length: float) -> float:
 
 
 def times_beside(size: Reals) -> Reals:
-    """Return how many times larger plans of several positions are shown beside themselves.
+    """Return the enlargement of plans of several positions that are shown again beside themselves.
 
-    One where a plan is large enough, or nothing. Sizes are larger sides, mm, shape (n,).
+    It is 1 if a plan is large enough or negligible. Sizes are larger sides, mm, shape (n,).
 
     Examples
     --------
@@ -120,7 +120,7 @@ def small_plans(construction: Construction, paper: Reading) -> dict[PlanKind, di
 def find_knots(
     construction: Construction, paper: Reading, kind: PlanKind, least: float, first: int
 ) -> tuple[Knot, ...]:
-    """Return the knots of a plan in the first position; ``first`` is the number of the first.
+    """Return the detail views of a plan in the first position; ``first`` is the first number.
 
     Segments shorter than ``least``, mm, are in none.
     """
@@ -167,7 +167,7 @@ def short_readings(construction: Construction, paper: Reading) -> Reals:
 
 
 def measured(construction: Construction, kind: PlanKind, knot: Knot) -> Iterator[NumberName]:
-    """Yield the lengths that the ruler reads on the view of a knot."""
+    """Yield the lengths that the ruler reads on a detail view."""
     kinematics = construction.kinematics
     motion = kinematics.velocity if kind is PlanKind.VELOCITY else kinematics.acceleration
     lengths = motion.segments.lengths

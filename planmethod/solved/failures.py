@@ -363,7 +363,7 @@ class Doubt(Struct, frozen=True):
 
 
 class MoreDoubts(Struct, frozen=True):
-    """Doubtful positions that are counted only, of how many."""
+    """Number of further doubtful positions, among all."""
 
     more: int
     count: int

@@ -10,7 +10,7 @@ from planmethod.solved.quantities import Quantities, UnknownQuantityError, quant
 from planmethod.solved.solution import Solution
 
 TRANSFER = re.compile("|".join(f"{kind.letter}_" for kind in TRANSFERS)).match
-"""Tells whether a label may be of a transfer function: they are planned only where one is."""
+"""Pattern of labels of transfer functions, which are planned only if one is requested."""
 
 
 def quantities_for(

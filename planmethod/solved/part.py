@@ -31,7 +31,7 @@ GUESSED = 60.0
 """Position in which a crank without one is shown, degrees."""
 
 LINKS, FIXED, TRIES = 30, 40, 150
-"""Links and fixed points that are looked at, and mechanisms of them that are tried."""
+"""Limits of the links and fixed points examined, and of the mechanisms tried."""
 
 SMALL = 12
 """Links of a part whose assemblies are shown."""
@@ -40,11 +40,11 @@ _SIZES = (2, 4)  # of structural groups that are tried, links
 _GEOMETRY = ("title", "source", "units", "sheet", "scales", "gears")
 _ASIDE = 1e-4  # of a dead position, degrees
 _FARTHEST = 1.0e6
-_FAR = [1.0e3, 1.7e3]  # nearest to it one of two closings is: which one does not matter
+_FAR = [1.0e3, 1.7e3]  # nearest one of the modes: which one does not matter
 
 
 class PartAssembly(Struct, frozen=True):
-    """One way in which a part closes (сборка), and the rules of ``[assembly]`` that choose it."""
+    """One assembly of a part (сборка), and the rules of ``[assembly]`` that choose it."""
 
     rules: Mapping[str, str]
     solution: Solution
@@ -219,7 +219,7 @@ class _Growth:
         return found
 
     def _groups(self, kept: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-        """Yield sets of links that hang together, the small ones first."""
+        """Yield connected sets of links, the small ones first."""
         rest = [link for link in self.links if link not in kept]
         for size in _SIZES:
             for some in combinations(rest if self.tries < TRIES else (), size):
@@ -266,7 +266,7 @@ class _Growth:
                 if fault is not None and point not in rules:
                     todo[:0] = [{**rules, point: choice} for choice in fault.choices]
                 continue
-            except PlanMethodError:  # it closes in another way only
+            except PlanMethodError:  # it has another assembly only
                 continue
             if there.size and rules:
                 count += 1
@@ -280,7 +280,7 @@ class _Growth:
         points = {point for link in links for point in self.points(link)}
         table = self._table(links)
         unsure: list[str] = []
-        for _ in range(len(links)):  # every group may want one rule more
+        for _ in range(len(links)):  # every group may need one more rule
             try:
                 problem = read_parsed(table, source=self.source, name=self.name, train=self.train)
                 solution = Solution(problem, views=self.views)

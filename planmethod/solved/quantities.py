@@ -80,7 +80,7 @@ class Quantities(Struct, frozen=True):
         if not found:
             known = [result.label for result in self.all]
             known += [word for word in WHOLE if self.find(word)]
-            # Of a reaction the one that acts back is meant, before any other that is spelt alike.
+            # For a reaction, the opposite one is meant before any other with the same spelling.
             near = [result.label for result in self.all if result.opposite == label]
             from difflib import get_close_matches
 
@@ -91,7 +91,7 @@ class Quantities(Struct, frozen=True):
 
 
 def natural_size(kind: QuantityKind, largest: Mapping[QuantityKind, Any]) -> Any:
-    """Return what a result of a kind is small against, the largest of each kind being given.
+    """Return the size with which a result of a kind is compared, given the largest of each kind.
 
     Accelerations may all be zero while links turn: omega squared, and omega times the largest
     velocity, are what they are made of. Coriolis' and the relative one are terms of accelerations,
@@ -118,7 +118,7 @@ WHOLE = {
 
 
 def quantities_of(construction: Construction, *, transfers: bool = False) -> Quantities:
-    """Return every quantity of a construction; transfer functions where they are wanted."""
+    """Return every quantity of a construction, with transfer functions if requested."""
     draft, found = construction.draft.copy(), construction.legend
     if transfers:
         found = (*found, *transfer_quantities(construction.kinematics, draft))

@@ -39,7 +39,7 @@ class Reading(Struct, frozen=True):
     Attributes
     ----------
     trace : Trace
-        Values of every step, one for all positions where it is the same.
+        Values of every step, a single one if it is the same in all positions.
     count : int
         Positions.
     """

@@ -36,7 +36,7 @@ CORNER = 14.0
 LETTERS = {"A4": (2.5, 2.5), "A3": (3.5, 2.5), "A2": (3.5, 3.0), "A1": (4.2, 3.5), "A0": (5.0, 3.5)}
 """Heights of the texts and of the calculation that a format must have space for, mm."""
 
-_OPTIONS = 8  # shapes of a run of blocks that are kept
+_OPTIONS = 8  # maximum number of shapes per run of blocks
 
 
 class Texts(Struct, frozen=True):
@@ -74,7 +74,7 @@ def _blocks(texts: Texts, paper: Format, positions: int) -> Sequence[Blocks]:
     height = 55.0 if positions == 1 else 26.0 + 7.5 * min(positions, 12)
     column = 12.2 if positions <= FEW else 14.0
     table = (min(40.0 + column * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
-    if positions == 1:  # enlarged views take what other ways would leave
+    if positions == 1:  # enlarged views take the space that other shapes would leave
         return [statement, *equations, *calculations, table]
     narrower = (0.7 * statement[0], statement[1] / 0.7)
     ways = [frozenset({(w, h), (2 * w + 2 * small, h / 2 + small)}) for w, h in calculations]
@@ -125,7 +125,7 @@ def _stand(groups: list[tuple[Box, ...]], last: tuple[Box, ...], room: Box) -> b
 
 
 def shapes(blocks: Blocks, room: Box) -> tuple[Box, ...]:
-    """Return the sizes that blocks can be put together to within a room, none beaten in both."""
+    """Return the possible sizes of packed blocks within an area, none worse in both directions."""
     if isinstance(blocks, tuple):
         blocks = frozenset({blocks})
     if isinstance(blocks, frozenset):

@@ -25,10 +25,10 @@ from planmethod.problem.names import told_length, told_place
 from planmethod.solved.reading import Complexes, Reading, Reals
 
 Tried: TypeAlias = tuple[Draft, Reading]
-"""A closing of a group, and how it turned out."""
+"""An assembly mode of a group, and its reading."""
 
 TIE = 1e-9
-"""Share of the mechanism's size below which two closings are the same."""
+"""Fraction of the mechanism's size below which two modes are the same."""
 
 
 def late_fault(rule: Rule, draft: Draft) -> Fault | None:
@@ -48,7 +48,7 @@ def late_fault(rule: Rule, draft: Draft) -> Fault | None:
 
 
 def unkept_fault(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | None:
-    """Return the fault of a rule that asks to keep what its group cannot keep."""
+    """Return the fault of a rule with a ``keep`` that its group cannot keep."""
     path, links = f"assembly.{rule.point}.keep", ", ".join(group.links)
     if rule.continuous and group.signature == "RPR":
         return Fault(
@@ -85,7 +85,7 @@ def unkept_fault(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | Non
 
 
 def score_of(rule: Rule, draft: Draft, reading: Reading) -> Reals:
-    """Return how well a closing satisfies a rule, m or m²: the larger the better, > 0 satisfied."""
+    """Return the score of a mode under a rule, m or m²: satisfied if > 0, the larger the better."""
 
     def at(name: str) -> Complexes:
         return reading.point(PointName(name))

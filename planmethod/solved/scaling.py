@@ -48,7 +48,7 @@ class Views(Struct, frozen=True):
     kept: frozenset[PlanKind] = frozenset()
 
     def box(self, kind: PlanKind) -> Box:
-        """Return the room of a kind, mm."""
+        """Return the space of a kind, mm."""
         box: Box = getattr(self, kind.value)
         return box
 
@@ -66,12 +66,12 @@ class Views(Struct, frozen=True):
 
     @classmethod
     def alone(cls, box: Box) -> Views:
-        """Return the room of a scheme that is drawn without a sheet around it."""
+        """Return the space of a scheme that is drawn without a sheet around it."""
         return cls("", box, box, box, kept=frozenset(MOTION))
 
     @classmethod
     def for_paper(cls, paper: str, positions: int) -> Views:
-        """Return the room on a format for one position, for a few or for many.
+        """Return the space on a format for one position, for a few or for many.
 
         An elongated format has that of the basic one that is as high as it lies.
         """
@@ -106,28 +106,28 @@ MANY_POSITIONS: dict[str, tuple[Box, Box, Box]] = {
 }
 
 STRETCH = 1.35
-"""So many times wider or higher than its box a single view may be, if it takes no more paper."""
+"""Factor by which a single view may be wider or higher than its box, if it takes no more paper."""
 
 COARSER = 2.5
-"""So many times smaller than its own room a view may be, so that all views have room together."""
+"""Factor by which a view may be smaller than its own space, so that all views fit together."""
 
 ROWS = 2
 """Rows of plans of one kind on a sheet."""
 
 BESIDE, UNDER = 24.0, 22.0
-"""Room that the letters of a plan take beside it, and with its caption under it, mm."""
+"""Space of a plan's letters beside it, and with its caption under it, mm."""
 
 SAID = 5.5
-"""Room that a scale of its own takes under a plan, mm."""
+"""Space of a plan's own scale under it, mm."""
 
 ALL = 10.0
-"""Room that several positions of a scheme take around one."""
+"""Space that several positions of a scheme take around one."""
 
 STROKE = 18.0
-"""Room that the stroke and its lines take over the scheme of many positions, mm."""
+"""Space of the stroke and its lines over the scheme of many positions, mm."""
 
 NAME = {"A4": 28.0, "A3": 32.0, "A2": 35.0, "A1": 40.0, "A0": 40.0}
-"""Room that a view's letters take above and below it, with its name and its scale, mm."""
+"""Space of a view's letters above and below it, with its name and its scale, mm."""
 
 SCHEME = {"A4": 70.0, "A3": 110.0, "A2": 150.0, "A1": 200.0, "A0": 250.0}
 """Intended width of the scheme on a format, mm."""
@@ -320,7 +320,7 @@ class Extents:
         return Texts.of(self.construction)
 
     def chosen(self, views: Views, asked: Scales) -> _Chosen:
-        """Return the scales that fill a room."""
+        """Return the scales that fill the views."""
         key = views, asked
         if key not in self._chosen:
             self._chosen[key] = _Chosen.of(self, views, asked)
@@ -328,11 +328,11 @@ class Extents:
 
 
 def choose_views(extents: Extents, problem: Problem) -> Views:
-    """Return the room on the file's format, else on the smallest that is large enough.
+    """Return the space on the file's format, else on the smallest that is large enough.
 
     That is one where the scheme has `SCHEME` or three quarters of it in height, and each plan
-    `PLAN`, at scales at which everything has room. A sheet is tried on it first, and `solve`
-    speaks of its scales.
+    `PLAN`, at scales at which everything fits. A sheet is tried on it first, and `solve` speaks of
+    its scales.
 
     Parameters
     ----------
@@ -367,10 +367,10 @@ def decide(extents: Extents, problem: Problem, *, moved: bool) -> tuple[Views, S
 
 
 def choose_scales(extents: Extents, views: Views, asked: Scales) -> dict[PlanKind, Scale]:
-    """Return the scale of each plan: as ``asked`` gives it, else to fill the room of the views.
+    """Return the scale of each plan: the given one, else one that fills the views.
 
-    First each view fills its own room; then the scales become finer as long as all views have room
-    on the paper. What one does not need another takes.
+    First each view fills its own space; then the scales become finer as long as all views fit on
+    the paper. Space that one does not need another takes.
     """
     chosen = extents.chosen(views, asked).per_mm
     return {kind: Scale(FACTS[kind].scale, chosen[kind], FACTS[kind].unit) for kind in MOTION}
@@ -399,7 +399,7 @@ class _Chosen(Struct, frozen=True):
         return own._filled(asked) if views.paper else own
 
     def _filled(self, asked: Scales) -> _Chosen:
-        """Return scales coarser until there is room, then finer as long as there is."""
+        """Return coarser scales until all views fit, then finer ones as long as they fit."""
         found, free = replace(self, per_mm=dict(self.per_mm)), list(self.free)
         now, least = found.per_mm, {kind: COARSER * self.per_mm[kind] for kind in free}
 
@@ -411,7 +411,7 @@ class _Chosen(Struct, frozen=True):
         while free and not found.has_room(close):
             bears = [k for k in free if _next(now[k], asked, finer=False) <= least[k]]
             if not bears:
-                return self  # the sheet goes on with texts, or takes a larger paper
+                return self  # the sheet continues with texts, or takes a larger paper
             coarser = {kind: _next(now[kind], asked, finer=False) for kind in bears}
             large = max(bears, key=lambda kind: self._large(kind, coarser[kind]))
             now[large] = coarser[large]
@@ -426,7 +426,7 @@ class _Chosen(Struct, frozen=True):
     def _with_legible_scheme(self, asked: Scales) -> _Chosen:
         """Return a scheme of many positions finer while its letters are too many for its area.
 
-        It takes what was to spare; the texts get smaller letters for it.
+        It takes the spare space; the texts get smaller letters for it.
         """
         kind, found = PlanKind.POSITION, self
         one = self.drawn[kind]
@@ -506,7 +506,7 @@ class _Drawn(Struct, frozen=True, dict=True):
 
     @property
     def box(self) -> Box:
-        """Room of the kind, mm."""
+        """Space of the kind, mm."""
         return self.views.box(self.kind)
 
     @property
@@ -516,7 +516,7 @@ class _Drawn(Struct, frozen=True, dict=True):
 
     @cached_property
     def alone(self) -> float:
-        """The finest scale of the series at which it has the room of its own."""
+        """The finest scale of the series at which it fits its own space."""
         wide, high = self.box
         stretched = self.box if self.rows else (COARSER * wide, COARSER * high)
         usual = _fitting(self.asked, self.box, self.size)
@@ -525,7 +525,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         middle = typical(np.maximum(*self.sizes))
         while self.rows and (per_mm == found or LEAST * per_mm <= middle):
             crowded = max(self.share(per_mm), self.on_paper(per_mm)[0] / self.box[0])
-            if crowded < worst:  # smaller plans take more room, shown enlarged
+            if crowded < worst:  # smaller plans take more space, because they are shown enlarged
                 found, worst = per_mm, crowded
             if crowded <= 1.0 or self.own_only:
                 break

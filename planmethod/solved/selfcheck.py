@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from planmethod.solved.forces.statics import Statics
 
 MOST_NAMED = 5
-"""Doubtful positions that are named, the worst of them."""
+"""Maximum number of doubtful positions that are named, the worst of them."""
 
 NEAR = 1e-3
 """Margin below which a position is called next to a dead one."""
@@ -59,7 +59,7 @@ COUNTS = (8, 10, 16, 9, 15, 18)
 """Positions of a turn that are tried then."""
 
 LIMIT = 1e-7
-"""Largest closing error, as a share of the largest value of its kind in the position."""
+"""Largest closing error, relative to the largest value of its kind in the position."""
 
 
 class SelfCheckError(PlanMethodError):
@@ -91,7 +91,7 @@ def doubts(solution: Solution) -> list[Doubt]:
 
 
 def force_doubts(solution: Solution) -> list[Doubt]:
-    """Return all positions whose forces are doubtful; none of a problem without loads."""
+    """Return all positions whose forces are doubtful; none for a problem without loads."""
     if solution.problem.dynamics is None:
         return []
     from planmethod.solved.forces.statics import statics_of  # few files have any
@@ -182,15 +182,15 @@ def verify(solution: Solution, *, forces: bool = False) -> None:
     Parameters
     ----------
     forces : bool
-        Those of a problem with loads must exist, too, and mean something.
+        The forces of a problem with loads must exist, too, and be accurate enough.
 
     Raises
     ------
     SelfCheckError
         With the link, the position and the size of the contradiction.
     PositionError
-        When a position does not exist, or is so badly conditioned that its results mean nothing.
-        Of positions that go round evenly it names others that do, without a dead one.
+        A position does not exist, or is so badly conditioned that its results are meaningless. Of
+        positions that go round evenly it names others that do, without a dead one.
     """
     try:
         _verify(solution, forces=forces)
@@ -306,7 +306,7 @@ def refused(solution: Solution) -> Flags:
 
 
 def _contradictions(solution: Solution) -> Iterator[tuple[tuple[str, str, str, str], Reals, Reals]]:
-    """Yield what of a rigid link is compared, how far it is off and what it is measured by."""
+    """Yield the compared values of a rigid link, their difference and the reference size."""
     kin = solution.construction.kinematics
     for link, body in solution.problem.bodies.items():
         names = list(body.points)

@@ -59,7 +59,7 @@ UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "
 EVERY = slice(None)
 
 FEW_ROWS = 64
-"""Positions up to which a mechanism is read as it is read among its variants."""
+"""Number of positions up to which data are expanded to columns, as for variants read together."""
 
 
 def at_positions(
@@ -200,10 +200,10 @@ class Solution(Remembering):
         self.origin = self
 
     def _repr_html_(self) -> str:
-        """Return what a notebook shows: the tables of `solve`."""
+        """Return the notebook's view: the tables of `solve`."""
         from pkgutil import resolve_name
 
-        # Numbers know no document: the page asks for one by name (ADR 0044).
+        # Numbers do not know documents: the page is resolved by name (ADR 0044).
         shown: str = resolve_name("planmethod.note.tables.results:results_part")(self)
         return shown
 
@@ -343,7 +343,8 @@ class Solution(Remembering):
     def scales(self) -> dict[PlanKind, Scale]:
         """Scales of the plans: given, the file's, or those of the series that fill the views.
 
-        One for all plans of a kind. Where the file wants their own (`own_scale`), one of these.
+        One for all plans of a kind. If the file requests individual ones (`own_scale`), one of
+        these.
         """
         if self._scales is not None:
             return dict(self._scales)
@@ -404,7 +405,7 @@ class Solution(Remembering):
     def closes_after(self) -> float:
         """Turns of the driver after which the links are where they were; infinite if they are not.
 
-        A group that passes a change point goes on in its other closing: two turns then.
+        A group that passes a change point continues in its other mode: then two turns.
         """
         turn = self.problem.drive.coordinate.turn
         again = comes_again(self.construction.draft.choice, turn) if isfinite(turn) else turn
@@ -494,7 +495,7 @@ class Solution(Remembering):
                 times[index] = knot.times
         calculated = self.problem.calculated
         if calculated is not None and self.positions.tolist() == list(self.problem.drive.positions):
-            # Of the calculated position there is a plan alone: it is read as there.
+            # The calculated position has a plan of its own: it is read there.
             one = self.moved([float(self.positions[calculated])])
             others: set[str] = {*enlarged, *one.hand.enlarged}
             for other in sorted(others):
@@ -590,7 +591,7 @@ class Solution(Remembering):
     def exact(self, quantity: Quantity | str) -> Reals:
         """Return a quantity of the motion, or that of a label, SI and degrees, shape (n,).
 
-        A size where the hand finds nothing else. For places see `place`.
+        A size if the drawing gives nothing else. For places see `place`.
         """
         if not isinstance(quantity, Quantity):
             quantity = self.legend[quantity]
@@ -602,10 +603,10 @@ class Solution(Remembering):
         return fixed(np.abs(self.si.point(quantity.name)))
 
     def read_off(self, label: str) -> Reals:
-        """Return a quantity as the hand finds it, SI, ndarray of shape (n,).
+        """Return a quantity as found by hand, SI, ndarray of shape (n,).
 
-        Sizes of vectors; angular velocities and accelerations with their sign. What does not move
-        is zero; NaN where the plan gives nothing to find it by.
+        Sizes of vectors; angular velocities and accelerations with their sign. Zero for an object
+        at rest; NaN if the plan does not determine it.
 
         Raises
         ------
@@ -619,7 +620,7 @@ class Solution(Remembering):
         return fixed(np.abs(value)) if quantity.kind.is_size else value
 
     def segments(self, kind: PlanKind) -> list[SegmentReading]:
-        """Return the segments of a plan in mm: exact, and read along the hand's own chain."""
+        """Return the segments of a plan in mm: exact, and read along the draughtsman's chain."""
         of_type("kind", kind, PlanKind)
         return [
             SegmentReading(

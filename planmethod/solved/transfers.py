@@ -19,7 +19,7 @@ from planmethod.solved.solution import Solution
 class Transfers:
     """Transfer functions through segments of the plans (передаточные функции по планам).
 
-    Their drafting errors are among those of the plans, by label.
+    Their drafting errors are listed with those of the plans, by label.
 
     Parameters
     ----------
@@ -77,16 +77,16 @@ class Transfers:
         return self.si.number(quantity.name)
 
     def read_off(self, quantity: Quantity) -> Reals:
-        """Return it as the hand finds it, shape (n,)."""
+        """Return a transfer function as found by hand, shape (n,)."""
         return self.by_hand.number(quantity.name)
 
     def some(self, *kinds: QuantityKind) -> list[Quantity]:
-        """Return those of some kinds."""
+        """Return the transfer functions of some kinds."""
         return [q for q in self.quantities if q.kind in (kinds or TRANSFERS)]
 
 
 def _planned(construction: Construction) -> tuple[Draft, list[Quantity]]:
-    """Return a construction that goes on with the steps of the transfer functions, and these."""
+    """Return a construction that continues with the steps of the transfer functions, and these."""
     draft = construction.draft.copy()
     return draft, list(transfer_quantities(construction.kinematics, draft))
 

@@ -69,7 +69,7 @@ class Travel(Struct, frozen=True, dict=True):
 
     @cached_property
     def drawn(self) -> Reals:
-        """The asked positions in order; of a closed course that of number 0 at both ends."""
+        """Distinct requested positions in order; in a closed path number 0 is at both ends."""
         drawn = self.asked
         if not self.closed:
             return drawn
@@ -122,7 +122,7 @@ def without_corners(
     read : callable
         Returns the rows of other positions; of one curve its values.
     jumps : ndarray of shape (m - 1,)
-        Between which positions something jumps: nothing smooth lies there.
+        Intervals of positions in which some value jumps: they are not smoothed.
     """
     jumps = np.zeros(len(positions) - 1, dtype=bool) if jumps is None else jumps
     largest = np.nanmax(np.abs(rows), axis=1, initial=0.0)

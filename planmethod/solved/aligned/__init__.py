@@ -1,1 +1,1 @@
-"""Mechanisms without redundant constraints: poses of the plane, schemes judged by rank."""
+"""Mechanisms without redundant constraints: poses of the plane, schemes evaluated by rank."""

@@ -60,10 +60,10 @@ Links = dict[str, tuple[complex, complex]]
 
 
 def poses(problem: Problem, structure: Structure) -> list[PlanePose]:
-    """Return poses of a sweep of the driver, that of the file's first position first.
+    """Return poses of a sweep of the driver, starting with that of the file's first position.
 
-    Where the mechanism does not close there, another position is first; where it closes nowhere,
-    the poses are random.
+    If the mechanism does not close there, another position is first; if it closes nowhere, the
+    poses are random.
     """
     made = _Sizes(problem, structure).swept() if problem.bodies else []
     return made or [_random_pose(problem.mechanism, Random(seed)) for seed in (1, 2, 3)]

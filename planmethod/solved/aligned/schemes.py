@@ -1,4 +1,4 @@
-"""Schemes without redundant constraints, found by search and judged by rank (самоустановка).
+"""Schemes without redundant constraints, found by search and evaluated by rank (самоустановка).
 
 A plane pair keeps three constraints out of the plane: a slide along z and the turns about x and y.
 What it may be made free of are columns of these three, (turn x, turn y, slide z at the origin).
@@ -35,7 +35,7 @@ MOST = 60
 """Most schemes of a group, and of a mechanism, that are given."""
 
 TRIED = 20_000
-"""Most schemes of one group that are judged; only large groups of high classes have more."""
+"""Maximum number of schemes evaluated per group; only large groups of high classes have more."""
 
 REGULAR = 1e-7
 """Least pivot of a regular matrix; lengths are in parts of the group's size."""
@@ -78,7 +78,7 @@ class AlignedScheme(Struct, frozen=True):
     loose : int
         How many constraints are redundant yet, and as many motions loose; 0 of a true scheme.
     steady : bool
-        Whether it is regular in all positions that were looked at; else links are loose in some.
+        True if it is regular in all examined positions; else links are loose in some.
     local : int
         Local mobilities (местные подвижности): motions out of the plane that it leaves, q = 0.
     """
@@ -125,9 +125,9 @@ class SelfAligning(Struct, frozen=True):
     rank : int
         Of the spatial constraint matrix of the first scheme, all links and pairs at once.
     local : tuple of int
-        How many local mobilities each scheme leaves, beside those of rollers.
+        Number of local mobilities that each scheme leaves, besides those of rollers.
     random : bool
-        Whether ranks are those of random sizes, as the file's close in no position.
+        True if ranks are those of random sizes, because the file's close in no position.
     """
 
     driver: MovablePair
@@ -201,7 +201,7 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
 
 
 class _Whole(Struct, frozen=True):
-    """Scheme of some groups: what it is compared by, and its classes."""
+    """Scheme of some groups: its rank for comparison, and its classes."""
 
     rank: tuple[int, ...] = (0, 0, 0, 0)
     classes: tuple[tuple[str, str], ...] = ()
@@ -213,7 +213,7 @@ class _Whole(Struct, frozen=True):
 
 
 def _rank(scheme: AlignedScheme) -> tuple[int, ...]:
-    """Return what schemes are compared by: changes, mobility, steadiness, pairs seldom used."""
+    """Return the key by which schemes are compared: changes, mobility, steadiness, rare pairs."""
     unusual = sum(name == "3pl" for name in scheme.classes)
     return scheme.changes, scheme.local, int(not scheme.steady), unusual
 
@@ -270,7 +270,7 @@ def constraint_rank(
 
 
 def _constraints(name: str, at: complex, along: complex) -> list[list[float]]:
-    """Return what a pair keeps of the relative twist: turns about, slides along x, y, z at 0."""
+    """Return a pair's constraints on the relative twist: turns about, slides along x, y, z at 0."""
     x, y = at.real, at.imag
     z: complex = 0j
 
@@ -342,7 +342,7 @@ class _Search(Struct):
         return {i for i, pair in enumerate(self.pairs) if isinstance(pair.joint, HigherPair)}
 
     def _good(self, every: Sequence[int]) -> list[AlignedScheme]:
-        """Return the true schemes, those of fewest changes first, until there are enough."""
+        """Return the correct schemes, those with fewest changes first, until there are enough."""
         good: list[AlignedScheme] = []
         tried = 0
         for changes in every:

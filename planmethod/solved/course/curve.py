@@ -14,7 +14,7 @@ NODES = 16
 """Nodes of a piece, the roots of a Chebyshev polynomial: none lies on an edge of the piece."""
 
 TOLERANCE = 1e-12
-"""Last coefficients of a piece that is taken as it is, as a share of the function's size."""
+"""Last coefficients of an accepted piece, relative to the function's size."""
 
 _LEVELS = 8  # times that a piece is halved at the most
 _SAMPLES = 24  # parts of a piece among whose ends a root is looked for
@@ -87,7 +87,7 @@ class Piecewise(Struct, frozen=True):
         return np.append(inside.ravel(), self.edges[-1])
 
     def roots(self, level: float = 0.0) -> Reals:
-        """Return where the first function goes through a level, in order."""
+        """Return the places where the first function passes a level, in order."""
         x = self.samples
         above = self.value(x) > level
         turns = np.flatnonzero(above[1:] != above[:-1])

@@ -28,15 +28,14 @@ STRAIGHT = 1e-7
 """Share of its stroke that a point on a straight path may be off it."""
 
 LEANING = np.radians(30.0)
-"""By how much a bottom dead centre must be nearer to position 0 than a top one, rad, for the
+"""Distance by which a bottom dead centre must be nearer to position 0 than a top one, rad, for the
 strokes of an indicator to be counted from it."""
 
 ASTRAY = np.radians(45.0)
-"""Greatest distance from its dead position of a piston that works like another after a shift, rad.
-"""
+"""Greatest distance from its dead position of a piston that repeats another, rad."""
 
 _SAME = 1e-9  # share of the largest size by which the ends of a cycle may differ
-_ASIDE = 1.6e-3  # rad off round angles, where singular places like to be
+_ASIDE = 1.6e-3  # rad off round angles, at which singular places are common
 _NEAR = 1e-6  # rad within which a dead position at the very start is found at either end, or not
 
 _COLUMNS = 6  # of a point: x and y of its place, velocity and acceleration
@@ -139,7 +138,7 @@ class TurnMotion:
     Raises
     ------
     ProblemError
-        The driver slides or stands, or the cycle does not end where it begins.
+        The driver slides or is at rest, or the cycle does not end where it begins.
     AssemblyError
         When the mechanism cannot be assembled all round.
     """
@@ -372,12 +371,12 @@ class TurnMotion:
         return next(k for k, load in enumerate(dynamics.loads) if load.name == name)
 
     def _apart(self, dead: Reals, angle: float) -> Reals:
-        """Return how far dead positions are from an angle turned, rad, either way."""
+        """Return the distance of dead positions from an angle turned, rad, in either direction."""
         ahead = np.mod(dead - angle, self.cycle)
         return np.minimum(ahead, self.cycle - ahead)
 
     def _check_shift(self, index: int, after: Reals, off: Reals) -> None:
-        """Refuse a shift after which a piston does not come to its dead position, nearly."""
+        """Reject a shift after which a piston is not near its dead position."""
         if off.min() <= ASTRAY:
             return
         load = self._load(index)
@@ -419,7 +418,7 @@ class TurnMotion:
         Raises
         ------
         ProblemError
-            The point stands, or its path is neither.
+            The point is at rest, or its path is neither.
         """
         if point not in self._strokes:
             self._strokes[point] = self._stroke(point)

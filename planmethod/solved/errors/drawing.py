@@ -98,7 +98,7 @@ class Drafted(Struct, frozen=True):
 
 
 def number(name: Name, *, size: bool = False) -> Callable[[Trace], Number]:
-    """Return what takes a number, or its size."""
+    """Return a function that reads a number, or its size."""
     if size:
         return lambda trace: abs(trace.value[name])
     return lambda trace: trace.value[name]

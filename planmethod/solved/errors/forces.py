@@ -1,6 +1,6 @@
-"""Force plans as a hand draws them: what the ruler gives, and how far it may be off.
+"""Force plans as drawn by hand: the ruler's readings and their errors.
 
-The errors of position and acceleration plans go on into the force plans: it is one program.
+The errors of position and acceleration plans propagate to the force plans: it is one program.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ from planmethod.solved.reading import Flags, Reals
 from planmethod.solved.transfers import transfers_of
 
 BALANCE, LEVER, DIFFERENCE = "balance", "lever", "difference"
-"""Labels: what balances the driver by the force plans and by the lever, lever minus plans."""
+"""Labels: balance of the driver by the force plans and by the lever, lever minus plans."""
 
 NOTHING_MM = 1e-9
-"""A force so long on its plan is rounding of none, and has no direction."""
+"""Length of a force on its plan below which it is rounding and has no direction."""
 
 
 def size_label(joint: JointForce | Reaction) -> str:
@@ -74,7 +74,7 @@ class DrawnForces(Errors):
 
     def __init__(self, statics: Statics) -> None:
         self.statics, self.solution = statics, statics.solution
-        # The poles and the first points of the plans may stand anywhere.
+        # The poles and the first points of the plans may be placed anywhere.
         board, plans = statics.board, self.solution.construction.plans
         free = {plan.pole for plan in plans} | {*board.starts, *board.loose}
         super().__init__(
@@ -95,7 +95,7 @@ class DrawnForces(Errors):
         return DrawnForces, (self.statics,)
 
     def _of_sheets(self, index: int) -> dict[str, float]:
-        """Return the sigmas that random sheets of one position give: those of its own mechanism."""
+        """Return the sigmas from random sheets of one position: those of its own mechanism."""
         solution, own = self.solution.alone_at(index)
         if solution is self.solution:
             return super()._of_sheets(index)
@@ -121,7 +121,7 @@ class DrawnForces(Errors):
 
     @property
     def balances(self) -> Balances | None:
-        """The same by the force plans and by the lever; None where the driver stands."""
+        """Balance by the force plans and by the lever; None if the driver is at rest."""
         if LEVER not in self.items:
             return None
         return Balances(self.balance, self.read(LEVER))
@@ -175,7 +175,7 @@ def _ends(statics: Statics) -> dict[PointName, Reals]:
 
 
 def _enlarged(statics: Statics) -> dict[str, Number]:
-    """Return how many times larger than by its scale each step is drawn: whole plans, and knots."""
+    """Return the enlargement of each step relative to its scale: whole plans, and detail views."""
     found: dict[str, Number] = {str(end): share for end, share in _ends(statics).items()}
     for plan, share in zip(statics.board.plans, statics.shares, strict=True):
         for given in statics.board.given:

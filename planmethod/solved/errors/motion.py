@@ -95,7 +95,7 @@ class Drafting(Errors):
         return replace(item, absent=lambda: self._absent[kind])
 
     def _of_sheets(self, index: int) -> dict[str, float]:
-        """Return the sigmas that random sheets of one position give: those of its own mechanism."""
+        """Return the sigmas from random sheets of one position: those of its own mechanism."""
         solution, own = self.solution.alone_at(index)
         if solution is self.solution:
             return super()._of_sheets(index)

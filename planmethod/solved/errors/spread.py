@@ -53,13 +53,13 @@ MOST_DRAWS = 10_000_000
 """Maximum number of random sheets that can be requested."""
 
 STRAINED = 0.1
-"""Sigma of a step's margin, in parts of it, from which first order is not believed."""
+"""Sigma of a step's margin, relative to it, above which first order is not trusted."""
 
 BENT = 0.03
 """The same limit for quantities that are close to zero."""
 
 SHORT = 3.0
-"""Sigmas that a length must have for first order to be believed."""
+"""Ratio of a length to its sigma that is required for first order to be trusted."""
 
 BLOCK = 512
 """Positions propagated in one go: slopes by the strokes before them are kept for all steps."""
@@ -188,7 +188,7 @@ class Errors:
             {label: self._read_again(label, part, where) for label, where in short.items()},
         )
 
-    # What is nearly nothing --------------------------------------------------------------------
+    # Quantities close to zero ------------------------------------------------------------------
 
     @cached_property
     def _readings(self) -> dict[str, tuple[tuple[Step, ...], tuple[Name, ...]]]:
@@ -234,7 +234,7 @@ class Errors:
     def _read_evenly(self, label: str, part: _Slopes, chosen: npt.NDArray[np.intp]) -> Reals:
         """Return the sigma of a quantity in some positions.
 
-        What it is read from is as far off as first order has it, spread evenly, and is read.
+        The points that it is read from have first-order errors, spread evenly, and are read.
         """
         (steps, leaves), item = self._readings[label], self.items[label]
         read = {name: part.leaves[name].at(chosen) for name in leaves}
@@ -291,7 +291,7 @@ class Errors:
         return found
 
     def _doubtful(self, limit: float) -> dict[Name, Flags]:
-        """Return where steps are strained beyond a limit, those that are nowhere left out."""
+        """Return where steps are strained beyond a limit, without those that never are."""
         if limit not in self._beyond:
             beyond = {step: ~(strain <= limit) for step, strain in self._first.strain.items()}
             self._beyond[limit] = {step: where for step, where in beyond.items() if where.any()}
@@ -457,7 +457,7 @@ class _First(Struct, frozen=True):
 
 
 def _size(item: DrawnQuantity, values: Reals) -> Reals | float:
-    """Return what a sigma is to be compared with: the length, or that which is turned."""
+    """Return the size with which a sigma is compared: a length, or that of a rotated segment."""
     return values if item.kind is DrawnKind.LENGTH else RADIAN
 
 

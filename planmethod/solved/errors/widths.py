@@ -53,7 +53,7 @@ def root_of(spread: Reals) -> Reals:
 
 
 def half_widths(item: DrawnQuantity, rows: Reals) -> Reals:
-    """Return `half_width` of every row; those that could all be are looked at together."""
+    """Return `half_width` of every row; rows whose values all exist are processed together."""
     if not np.isfinite(rows).all():
         return np.array([half_width(item, row) for row in rows])
     if item.kind is DrawnKind.DIRECTION:

@@ -34,7 +34,7 @@ Places = npt.NDArray[np.intp]
 
 
 class JudgedForces(Struct, frozen=True):
-    """Force plans of a solution as they are judged (силы, о точности которых судят).
+    """Force plans of a solution as input to the conditioning (силы, о точности которых судят).
 
     Attributes
     ----------
@@ -97,9 +97,9 @@ class JudgedForces(Struct, frozen=True):
         return list(dict.fromkeys([self.driving.balance, *moment, *hung]))
 
     def _suspects(self) -> Places:
-        """Return the positions that a cheap look does not clear.
+        """Return the positions that a quick check does not clear.
 
-        Beside short lines, those where a force follows from a moment over a short arm.
+        Besides short lines, those in which a force follows from a moment over a short arm.
         """
         count = len(self.closes)
         if self.solution.together <= FEW_ROWS:

@@ -185,7 +185,7 @@ def contacts(
 
 
 def slide_between(problem: Problem, joint: JointForce) -> Slide | None:
-    """Return the line on which one link of a joint slides on the other; None of a hinge."""
+    """Return the line on which one link of a joint slides on the other; None for a hinge."""
     for slider, host in ((joint.on, joint.by), (joint.by, joint.on)):
         slide = problem.slides.get(slider)
         if slide is not None and slide.host == host and slide.pin == joint.joint:

@@ -42,7 +42,7 @@ from planmethod.solved.reading import (
 from planmethod.solved.solution import UNIT_SCALES, Solution
 
 NOTHING = 1e-9
-"""Share of the largest power that goes through the joints below which a power is none."""
+"""Fraction of the largest power in the joints below which a power is zero."""
 
 _STEPS, _ROUNDS, _CLOSE = 16, 40, 1e-13
 
@@ -117,7 +117,7 @@ class Rubbing(Struct, frozen=True):
         return reaction_symbol(on, by, letter=f"friction {what} of ").replace("_{", "").rstrip("}")
 
     def loads(self, size: Reals) -> list[Applied]:
-        """Return what friction of a size, N or N·m, does to both links, on ``on`` first."""
+        """Return the loads of friction of a size, N or N·m, on both links, ``on`` first."""
         found, none = [], np.zeros(size.shape)
         nowhere = np.zeros(size.shape, dtype=complex)
         for link, other, way in ((self.on, self.by, -1.0), (self.by, self.on, 1.0)):
@@ -148,9 +148,9 @@ class RubbedForces(Struct, frozen=True):
     moments : list of Reals
         Their moments about the places where the plans have them, N·m; zero in turning pairs.
     balance : Reals
-        What balances the driver, N·m or N.
+        Balance of the driver, N·m or N.
     power : Reals, W
-        What the driver gives.
+        Power of the driver.
     """
 
     friction: Reals
@@ -171,7 +171,8 @@ class Friction(Remembering):
     Attributes
     ----------
     every : list of Rubbing
-        All pairs in the order of the force analysis: friction in one changes what the others bear.
+        All pairs in the order of the force analysis: friction in one changes the reactions of the
+        others.
     pairs : list of Rubbing
         Those of them that have friction.
     """
@@ -245,7 +246,7 @@ class Friction(Remembering):
         return base + sum((one * size for one, size in zip(added, sizes, strict=True)), 0 * base)
 
     def _pressing(self, sizes: Reals) -> tuple[Reals, Matrices]:
-        """Return what presses each pair, N, shape (k, n), and its derivatives, shape (n, k, k)."""
+        """Return the pressing force of each pair, N, (k, n), and its derivatives, (n, k, k)."""
         values, added = self._at(sizes), self._linear[0][1:]
         pressed = np.zeros(sizes.shape)
         slopes = np.zeros((sizes.shape[1], len(self.pairs), len(self.pairs)))
@@ -347,7 +348,7 @@ class Friction(Remembering):
         return self._with(self._first)
 
     def rub(self, pair: Rubbing, forces: RubbedForces) -> Reals:
-        """Return the size of the friction of a pair, N or N·m: nothing where it has none."""
+        """Return the size of the friction of a pair, N or N·m: zero if it has none."""
         if not pair.share:
             return np.zeros(len(self.solution.positions))
         return np.asarray(forces.friction[self.pairs.index(pair)])
@@ -357,7 +358,7 @@ class Friction(Remembering):
         along = pair.sense * pair.along * self.rub(pair, forces)
         return np.asarray(forces.reactions[pair.number] - along, dtype=complex)
 
-    # What of it remains ----------------------------------------------------------------------
+    # Remaining effects -----------------------------------------------------------------------
 
     @cached_property
     def change(self) -> Reals:
@@ -390,9 +391,9 @@ class Friction(Remembering):
     def efficiency(self) -> Reals:
         """Efficiency of the position (мгновенный КПД), shape (n,).
 
-        Where the driver drives, its power without friction over that with it; 0 where it is jammed.
-        Where the loads drive it, the other way round: then it is negative where they cannot. NaN
-        where no power goes through.
+        If the driver drives, its power without friction over that with it; 0 if it is jammed. If
+        the loads drive it, the inverse ratio: then it is negative if they cannot. NaN if there is
+        no power.
         """
         ideal, real = self.without.power, np.where(self.jammed, np.inf, self.converged.power)
         there = np.abs(ideal) > NOTHING * self.scale
@@ -423,7 +424,7 @@ class RubbedReading(ForceReading):
 
 @remembered
 def rubbed_reading(solution: Solution, index: int) -> RubbedReading:
-    """Return the forces of a position with friction; kept, since several views show them."""
+    """Return the forces of a position with friction; cached, since several views show them."""
     return RubbedReading(solution, index)
 
 
@@ -445,7 +446,7 @@ class PairData(NamedTuple):
 
 
 def pair_data(problem: Problem, task: FrictionTask, joint: JointForce) -> PairData:
-    """Return what a file gives of the friction of a pair; a sliding one has no radius."""
+    """Return a file's friction data of a pair; a sliding one has no radius."""
     slides, name = slide_between(problem, joint) is not None, _name(joint)
     own = task.pairs.get(name, PairFriction())
     f = own.f if own.f is not None else task.f if slides else task.f_pin
@@ -496,7 +497,7 @@ def _velocity(solution: Solution, link: str, at: Complexes) -> Complexes:
 
 
 def _refuse_unknown(problem: Problem, task: FrictionTask, joints: Sequence[JointForce]) -> None:
-    """Refuse friction of a pair that there is not.
+    """Reject friction of a pair that does not exist.
 
     Raises
     ------

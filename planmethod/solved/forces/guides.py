@@ -1,4 +1,4 @@
-"""Reactions of the guides in one position, as a hand reads them (реакции направляющих)."""
+"""Reactions of the guides in one position, as read by hand (реакции направляющих)."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ class Guided(Struct, frozen=True, dict=True):
 
     @property
     def sense(self) -> int:
-        """-1 where the force plans have what acts back."""
+        """-1 if the force plans have the opposite reaction."""
         return 1 if self.on == self.reaction.on else -1
 
     @property
     def own(self) -> Guided:
-        """The same as the force plans have it: distances and lengths have its letters."""
+        """The same reaction as the force plans name it: distances and lengths have its letters."""
         return Guided(self.reading, self.number, self.reaction.on, self.reaction.by)
 
     def symbol(self, letter: str, primes: str = "") -> str:
@@ -82,7 +82,7 @@ class Guided(Struct, frozen=True, dict=True):
         edges = self.contact.edges(self.reading.index)
         return tuple(EdgeForce(edge.at, self.sense * edge.force) for edge in edges)
 
-    # As the hand has them --------------------------------------------------------------------
+    # As read by hand -------------------------------------------------------------------------
 
     @property
     def read_force(self) -> float:

@@ -32,9 +32,9 @@ _Own: TypeAlias = tuple[
 class LeverForce(Struct, frozen=True):
     """Force on the lever: letter, where it hangs (mm from the pole), N, and its arm, mm.
 
-    The arm is as the hand measures it, positive where the force turns counter-clockwise; ``size``
-    is the force as the hand has it, N. ``point`` is the point of the mechanism where it acts. The
-    arm is measured from the place ``about``, of a pair of forces where the other hangs.
+    The arm is the measured one, positive where the force turns counter-clockwise; ``size`` is the
+    force as read by hand, N. ``point`` is the point of the mechanism where it acts. The arm is
+    measured from the place ``about``, which for a pair of forces is the place of the other.
     """
 
     symbol: str
@@ -66,7 +66,7 @@ class OnLink(Struct, frozen=True):
 class LeverCouple(OnLink, frozen=True):
     """Couple on the lever: its letter, its link, and its moment about the pole, N·mm.
 
-    ``moment`` is that on the link as the hand has it, N·m.
+    ``moment`` is that on the link as read by hand, N·m.
     """
 
     moment: float
@@ -77,7 +77,7 @@ class LeverShift(OnLink, frozen=True):
     """Shift h of a force of inertia on the lever: from the centre of mass s to the point t, mm.
 
     ``letters`` are those of s and t, in rich text; ``line`` is where they are. ``shift`` is h as
-    the hand has it, m.
+    read by hand, m.
     """
 
     letters: tuple[str, str]
@@ -101,9 +101,9 @@ class LeverReading:
     scale : Scale
         That of its segments.
     forces : list of LeverForce
-        Those that do work; last the balancing one of a driving slider.
+        Forces that do work; last the balancing one of a driving slider.
     couples : list of LeverCouple
-        Those that do work; last the balancing one of a crank, as the hand finds it on the lever.
+        Couples that do work; last the balancing one of a crank, as found by hand on the lever.
     shifts : list of LeverShift
         Of the forces of inertia that are moved off the centre of mass.
     """
@@ -162,7 +162,7 @@ class LeverReading:
             self.forces.append(LeverForce(reading.balancing_symbol, place, force, arm, size, pin))
 
     def _push(self, driving: Driving) -> None:
-        """Hang the force of an actuator in both its ends: the second has the arm of the pair."""
+        """Apply the force of an actuator at both its ends: the second has the arm of the pair."""
         reading, hung = self.reading, self.reading.statics.lever_plan
         assert driving.between is not None and driving.force is not None
         assert hung is not None and hung.arm is not None
@@ -182,13 +182,13 @@ class LeverReading:
         return self.reading.solution.construction.kinematics.velocity
 
     def place(self, point: PointName) -> complex:
-        """Return a point of the velocity plan on the lever as the hand has it, mm from the pole."""
+        """Return a point of the velocity plan on the lever as drawn by hand, mm from the pole."""
         solution, index = self.reading.solution, self.reading.index
         drawn, exact = (r.point(point)[index] for r in (solution.by_hand, solution.paper))
         return 1j * self.times * complex(drawn if isfinite(abs(drawn)) else exact)
 
     def _hung(self, at: PointName, pole: PointName) -> complex:
-        """Return where a force hangs as the hand has it, mm from the pole; else the exact place."""
+        """Return the place of a force as drawn by hand, mm from the pole; else the exact place."""
         drawn = self.reading.by_hand(pole, at)
         return self.times * (drawn if isfinite(abs(drawn)) else self.reading.end(at))
 
@@ -197,7 +197,7 @@ class LeverReading:
         return LeverCouple(symbol, link, *self._on(link), moment, turned)
 
     def _shift(self, given: GivenLoad, place: complex) -> None:
-        """Note the shift of a force that hangs beside its centre of mass."""
+        """Note the shift of a force that acts beside its centre of mass."""
         link = given.applied.link
         shift = self.reading.statics.board.shifts.get(link)
         if shift is None or given.force is None or given.force.at != shift.at:
@@ -213,7 +213,7 @@ class LeverReading:
         )
 
     def _omega(self, link: str) -> float:
-        """Return the angular velocity of a link as the hand has it, 1/s."""
+        """Return the angular velocity of a link as read by hand, 1/s."""
         solution = self.reading.solution
         name = solution.construction.kinematics.omega[link]
         return float(solution.by_hand.number(name)[self.reading.index])

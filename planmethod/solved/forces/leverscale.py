@@ -21,7 +21,7 @@ TIMES = (2.0, 2.5, 4.0, 5.0, 10.0)
 """Enlargements of a lever: those of GOST 2.302 as far as they are needed."""
 
 FULL = 10.0
-"""Loads per square decimetre of the lever and the room around it: more have no letters nearby."""
+"""Maximum number of loads per square decimetre of the lever and its surroundings, for letters."""
 
 FEW = 15
 """Number of loads that never overfill a lever: their arrows find other lines."""

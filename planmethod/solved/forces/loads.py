@@ -36,7 +36,7 @@ from planmethod.solved.reading import Complexes, Reals, Remembering
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
 
 STILL = 1e-10
-"""Share of the largest speed of a position below which a point or a link stands."""
+"""Fraction of a position's largest speed below which a point or a link is at rest."""
 
 SLACK = 1e-9
 """Rounding of an abscissa, degrees, or as a share of a table's span."""
@@ -225,7 +225,7 @@ def _is_nothing(solution: MotionValues, load: Load | Couple) -> bool:
 
 
 def _direction(solution: MotionValues, load: Load) -> Complexes | complex:
-    """Return the unit vector of a force; zero where it resists a point that stands."""
+    """Return the unit vector of a force; zero if it resists a point at rest."""
     if isinstance(load.sense, Fixed):
         return rotation(load.sense.angle)
     velocity = solution.points[load.at].velocity
@@ -256,7 +256,7 @@ def acting(solution: Solution, load: Load | Couple, start: float, turn: float) -
     Parameters
     ----------
     start, turn : float, degrees
-        Where it is looked from, and how far.
+        Start and length of the examined range.
     """
     phase = load.phase
     if phase is None:
@@ -372,7 +372,7 @@ def abscissae(solution: MotionValues, load: Load | Couple, index: int) -> Reals:
 
 
 def _turn(solution: MotionValues) -> TurnMotion:
-    """Return the motion of the whole cycle: what a path or a stroke is, is known of it only."""
+    """Return the motion of the whole cycle, which is needed to define a path or a stroke."""
     if isinstance(solution, Moved):
         return solution.turn
     if isinstance(solution, Remembering):

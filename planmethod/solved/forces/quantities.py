@@ -19,19 +19,19 @@ from planmethod.solved.solution import Solution
 
 
 def force_row(reaction: Reaction) -> str:
-    """Return what the columns of a reaction are called: ``F.B.2-1``, on link 2 from link 1."""
+    """Return the column name of a reaction: ``F.B.2-1``, on link 2 from link 1."""
     return f"F.{reaction.joint}.{reaction.on}-{reaction.by}"
 
 
 def moment_row(reaction: Reaction) -> str:
-    """Return what the column of the moment of a reaction is called: ``M.B.2-1``."""
+    """Return the column name of a reaction's moment: ``M.B.2-1``."""
     return f"M.{reaction.joint}.{reaction.on}-{reaction.by}"
 
 
 def with_forces(solution: Solution, results: Quantities) -> Quantities:
     """Return the results of a solution and those of its force plans, in N and N·m.
 
-    The positions of the solution do not matter: what differs from one to another is left open.
+    The positions of the solution do not matter: values that vary with them are left open.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def _reactions(board: ForceBoard) -> Iterator[Quantity]:
 
 
 def _balances(planned: Planned) -> Iterator[Quantity]:
-    """Yield what balances the driver, by the force plans and by the lever."""
+    """Yield the balance of the driver, by the force plans and by the lever."""
     balancing = planned.board.draft.problem.drive.balancing
     kind = QuantityKind.MOMENT if balancing.turns else QuantityKind.THRUST
     row = balancing.quantity

@@ -29,7 +29,7 @@ FAINT_SHARE = 1e-7
 
 
 class ForceReading(Remembering):
-    """The forces of a solution in one position, as they are drawn and as a hand reads them.
+    """The forces of a solution in one position, as drawn and as read by hand.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ class ForceReading(Remembering):
         return self.statics.scale
 
     def share(self, number: int) -> float:
-        """Return how many times larger than by `scale` one of the plans is drawn."""
+        """Return the enlargement of one of the plans relative to `scale`."""
         return float(self.statics.shares[number][self.index])
 
     def own_scale(self, number: int) -> Scale:
@@ -64,7 +64,7 @@ class ForceReading(Remembering):
         return self.statics.own_scale(number, self.index)
 
     def corner(self, number: int, point: PointName) -> complex:
-        """Return a point of one of the plans as the hand has drawn it, mm; else the exact one."""
+        """Return a point of one of the plans as drawn by hand, mm; else the exact one."""
         drawn = self._column(self.statics.by_hand, point)
         return (drawn if math.isfinite(abs(drawn)) else self.end(point)) * self.share(number)
 
@@ -94,7 +94,7 @@ class ForceReading(Remembering):
         return self.of_force(Force(edge.at, edge.tail, edge.head))
 
     def way(self, force: Edge | Force) -> complex:
-        """Return a force along the line that the hand has for it, mm; else along the exact one.
+        """Return a force along its line as drawn by hand, mm; else along the exact one.
 
         A shifted force of inertia is drawn across its exact shift.
         """
@@ -110,7 +110,7 @@ class ForceReading(Remembering):
         return self._column(si, force.head) - self._column(si, force.tail)
 
     def by_hand(self, tail: PointName, head: PointName) -> complex:
-        """Return a segment of a force plan, or of the lever, as the hand has drawn it, mm."""
+        """Return a segment of a force plan, or of the lever, as drawn by hand, mm."""
         hand = self.statics.by_hand
         return self._column(hand, head) - self._column(hand, tail)
 
@@ -120,11 +120,11 @@ class ForceReading(Remembering):
         return length * self.share(number)
 
     def read(self, edge: Edge) -> float:
-        """Return the size of a force as the hand has it, N."""
+        """Return the size of a force as read by hand, N."""
         return self.read_size(edge.ends)
 
     def read_size(self, ends: Ends) -> float:
-        """Return the size of the force that a segment shows, as the hand has it, N."""
+        """Return the size of the force that a segment shows, as read by hand, N."""
         return abs(self.read_number(self.statics.board.segments.known(ends)))
 
     def number(self, name: NumberName) -> float:
@@ -132,22 +132,22 @@ class ForceReading(Remembering):
         return float(self.statics.si.number(name)[self.index])
 
     def read_number(self, name: NumberName) -> float:
-        """Return a moment as the hand has it, N·m."""
+        """Return a moment as computed by hand, N·m."""
         return float(self.statics.by_hand.number(name)[self.index])
 
     def read_product(self, powers: Iterable[tuple[NumberName, int]]) -> float:
-        """Return a product of powers as the hand has it."""
+        """Return a product of powers as computed by hand."""
         return math.prod(self.read_number(name) ** power for name, power in powers)
 
     def read_load(self, given: GivenLoad) -> float:
-        """Return a given force as the hand has it, N, or a couple as it computes it, N·m."""
+        """Return a given force as read by hand, N, or a couple as computed by hand, N·m."""
         if given.force is not None:
             return self.read_size(given.force.ends)
         assert given.couple is not None
         return self.read_number(given.couple)
 
     def arm(self, edge: Edge, about: PointName) -> float:
-        """Return the arm of a force about a point as the hand measures it, mm.
+        """Return the arm of a force about a point as measured by hand, mm.
 
         Positive where the force turns counter-clockwise; 0 of a force through the point.
         """
@@ -170,7 +170,7 @@ class ForceReading(Remembering):
         """Letter of the driving link's balancing force or moment."""
         return self.balancing.symbol
 
-    # What there is to show -------------------------------------------------------------------
+    # Visible parts ---------------------------------------------------------------------------
 
     @cached_property
     def peak(self) -> float:
@@ -220,7 +220,7 @@ class ForceReading(Remembering):
 
 
 def require_dynamics(problem: Problem) -> None:
-    """Refuse a problem without masses and loads.
+    """Reject a problem without masses and loads.
 
     Raises
     ------
@@ -234,5 +234,5 @@ def require_dynamics(problem: Problem) -> None:
 
 @remembered
 def force_reading(solution: Solution, index: int) -> ForceReading:
-    """Return the forces of a position; kept, since several views of a sheet show them."""
+    """Return the forces of a position; cached, since several views of a sheet show them."""
     return ForceReading(solution, index)

@@ -68,9 +68,9 @@ FAINT = 1e-6
 
 
 class Planned(Struct, frozen=True):
-    """Force plans of a problem as steps that go on from its kinematics (планы сил).
+    """Force plans of a problem as steps that continue its kinematics (планы сил).
 
-    ``lever`` is None where the driver stands; ``thrust`` is the force of an actuator.
+    ``lever`` is None if the driver is at rest; ``thrust`` is the force of an actuator.
     """
 
     board: ForceBoard
@@ -135,7 +135,7 @@ class Loads(Struct, frozen=True):
 
 
 def loads_on(solution: Solution, rubbing: Sequence[Applied] = ()) -> Loads:
-    """Return the loads of a problem, those of friction the last.
+    """Return the loads of a problem, those of friction last.
 
     Raises
     ------
@@ -150,7 +150,7 @@ def loads_on(solution: Solution, rubbing: Sequence[Applied] = ()) -> Loads:
 
 
 def _together(solution: Solution) -> Loads:
-    """Return the loads of variants that are planned alike, each in every position of all."""
+    """Return the loads of variants that are planned in the same way, for all their positions."""
     each = [one.once(loads_on) for one, _ in solution.parts]
     counts = [len(one.positions) for one, _ in solution.parts]
     alike = zip(*(one.applied for one in each), strict=True)
@@ -322,7 +322,7 @@ class Statics(Remembering):
 
     @cached_property
     def reactions(self) -> list[JointForce]:
-        """Reactions in all joints, each once: what ``by`` does to ``on``."""
+        """Reactions in all joints, each once: the action of ``by`` on ``on``."""
         return [self._joint(reaction) for reaction in self.board.reactions]
 
     def _joint(self, reaction: Reaction) -> JointForce:
@@ -347,7 +347,7 @@ class Statics(Remembering):
 
     @cached_property
     def moment(self) -> Reals | None:
-        """Balancing moment on the crank, N·m, whatever balances it; None of a driving slider."""
+        """Balancing moment on the crank, N·m, also with a balancing force; None for a slider."""
         return None if self.driving.moment is None else self._number(self.driving.moment)
 
     @cached_property
@@ -363,11 +363,11 @@ class Statics(Remembering):
 
     @cached_property
     def lever(self) -> Reals | None:
-        """The same by the Zhukovsky lever; None where the driver stands."""
+        """Balance by the Zhukovsky lever; None if the driver is at rest."""
         return None if self.lever_plan is None else self._number(self.lever_plan.balance)
 
     def lever_at(self, index: int) -> Lever | None:
-        """Return the lever of a position; None where the driver stands, be it there alone."""
+        """Return the lever of a position; None if the driver is at rest in it."""
         number_of("position", index, len(self.solution.positions))
         rates = np.broadcast_to(self.solution.driven[1], self.solution.positions.shape)
         return self.lever_plan if rates[index] else None
@@ -417,7 +417,7 @@ class Statics(Remembering):
         return Scale(SCALE, choose_scale(box, COMMON_BOX, mm_per_unit=inverse), UNIT)
 
     def extent(self, plan: ForcePlan) -> Box:
-        """Return width and height of a plan in the position where it is the widest, N."""
+        """Return width and height of a plan in the position in which it is widest, N."""
         width, height = self._extents(plan)
         return float(width.max()), float(height.max())
 
@@ -435,7 +435,7 @@ class Statics(Remembering):
     def own_scales(self) -> list[Reals]:
         """Scale of each plan, by positions, N per mm, shape (n,): one that the file gives is all's.
 
-        Plans that are nothing have the common one.
+        Negligible plans have the common one.
         """
         found = [np.full(len(self.solution.positions), self.mu) for _ in self.board.plans]
         for one, rows in self.solution.parts:
@@ -460,7 +460,7 @@ class Statics(Remembering):
 
     @cached_property
     def hand(self) -> Hand:
-        """Hand that reads each force on the plan that finds it first, at the scale of that."""
+        """Arithmetic that reads each force on the first plan that has it, at that plan's scale."""
         segments, own = self.board.segments, self.solution.hand
         enlarged: dict[str, Number] = {}
         for plan, share in zip(self.board.plans, self.shares, strict=True):
@@ -504,7 +504,7 @@ class Statics(Remembering):
 
 
 def _enlarge(own: Reals, sizes: tuple[Reals, Reals], room: Box, *, inverse: bool) -> None:
-    """Give a plan scales of its own in the positions of a mechanism in which it is something."""
+    """Give a plan its own scales in the positions of a mechanism in which it is not negligible."""
     size = np.maximum(*sizes)
     for index in np.flatnonzero(size > FAINT * np.max(size, initial=0.0)):
         box = float(sizes[0][index]), float(sizes[1][index])

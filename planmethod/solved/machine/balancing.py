@@ -285,7 +285,7 @@ class Balancing(Remembering):
 
     @remembered
     def polygon(self, number: int, profile: Profile) -> tuple[MassMoments, float, Reading, Reading]:
-        """Return the polygon of m·r of a counterweight: its scale, exactly and by a hand."""
+        """Return the polygon of m·r of a counterweight: its scale, exactly and as drawn."""
         one = self.counterweights[number]
         vectors = [value for _, value in one.terms]
         size = max([abs(value) for value in vectors], default=1.0)

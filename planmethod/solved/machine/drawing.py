@@ -33,7 +33,7 @@ MOST_HIGH = 460.0
 """Height of all diagrams above one another up to which the program enlarges their scales, mm."""
 
 POLE = 30.0
-"""Pole distance that is usual, mm: that of a round scale of the work is near to it."""
+"""Usual pole distance, mm: that of a round scale of the work is near to it."""
 
 NEAREST_POLE = 14.0
 """Least pole distance by which a flat energy-mass curve becomes higher, mm."""
@@ -106,11 +106,11 @@ class FlywheelDrawing:
 
     @property
     def second(self) -> Reals:
-        """T_II in the positions above what its axis begins with, J, ndarray of shape (n + 1,)."""
+        """T_II in the positions above the origin of its axis, J, ndarray of shape (n + 1,)."""
         return self.flywheel.links_energy(self.points.inertia) - self.second_start
 
     def _widen(self) -> None:
-        """Enlarge the inertia where its curve is narrow, as far as there is room."""
+        """Enlarge the inertia if its curve is narrow, as far as there is space."""
         first, inertia = self.scales, self.points.inertia
         for most in TALLEST_J:
             if float(np.ptp(inertia)) / first.inertia >= LOOP:
@@ -121,7 +121,7 @@ class FlywheelDrawing:
         self.scales = first
 
     def _heighten(self) -> None:
-        """Enlarge the work where the curve of the method is flat, as far as there is room."""
+        """Enlarge the work if the curve of the method is flat, as far as there is space."""
         first, energy = self.scales, self.points.gain
         if self.by_mertsalov:
             energy = energy - self.second
@@ -133,7 +133,7 @@ class FlywheelDrawing:
             self.scales = first
 
     def _scales(self, phi: float, moment: float, inertia: float) -> MachineScales:
-        """Return the scales: that of the work round, its pole distance as usual as can be."""
+        """Return the scales: a round one for the work, the pole distance as usual as possible."""
         given = self.flywheel.machine.pole_mm
         work = moment * phi * (given or POLE)
         if given is None:
@@ -239,12 +239,12 @@ class FlywheelDrawing:
 
     @property
     def read_inertia(self) -> float:
-        """J_f as the hand finds it, kg·m²."""
+        """J_f as found by hand, kg·m²."""
         return float(self.by_hand.number(self.made.J_f)[0])
 
     @property
     def adopted(self) -> float:
-        """J_f that the flywheel is made with, kg·m²: as the hand finds it; none if none is needed.
+        """J_f of the flywheel to be made, kg·m²: as found by hand; None if none is needed.
 
         The exact one where the construction, too coarse, finds none.
         """

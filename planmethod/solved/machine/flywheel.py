@@ -39,7 +39,7 @@ from planmethod.solved.reading import Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 
 BALANCE = 1e-9
-"""Work of the cycle, as a share of the largest moment times the cycle, that counts as none."""
+"""Work of the cycle, relative to the largest moment times the cycle, that counts as zero."""
 
 _STEPS = 2400  # of the equation of motion, in a turn
 
@@ -254,7 +254,7 @@ class Flywheel(Remembering):
 
     @cached_property
     def exact(self) -> Tangents:
-        """The flywheel for which the irregularity is exactly the wanted one.
+        """The flywheel for which the coefficient of speed fluctuation is exactly the required one.
 
         Its inertia is not positive where the machine is even enough without a flywheel.
         """
@@ -262,7 +262,7 @@ class Flywheel(Remembering):
 
     @property
     def fitted(self) -> float:
-        """J_f that the steady motion has, kg·m²: none where none is needed."""
+        """J_f of the steady motion, kg·m²: zero if no flywheel is needed."""
         return max(self.exact.inertia, 0.0)
 
     def speeds(self, turned: Reals) -> tuple[Reals, Reals]:

@@ -1,6 +1,6 @@
 """Reduced moments and inertia of a machine (приведённые моменты сил и момент инерции).
 
-What acts on the links is reduced to the crank by powers, their inertia by kinetic energies, both
+The loads on the links are reduced to the crank by powers, their inertia by kinetic energies, both
 with the velocities of the plans. A moment is positive where it resists the turning of the crank.
 """
 
@@ -22,7 +22,7 @@ from planmethod.solved.forces.loads import MotionValues, external
 from planmethod.solved.reading import Reals
 
 NEVER = 1e-12
-"""Share of the largest power below which a load does no work."""
+"""Fraction of the largest power below which a load does no work."""
 
 
 class Reduced(Struct, frozen=True):
@@ -50,7 +50,7 @@ class Reduced(Struct, frozen=True):
 
     @property
     def moment(self) -> Reals:
-        """The whole reduced moment, N·m."""
+        """Total reduced moment, N·m."""
         return np.asarray(sum(self.loads.values(), self.weights), dtype=float)
 
 
@@ -98,7 +98,7 @@ def reduce(motion: MotionValues, machine: Machine) -> Reduced:
 
 
 def reduced_curves(turn: TurnMotion, machine: Machine) -> Piecewise:
-    """Return moment, inertia and its slope over the cycle as polynomials of the angle turned.
+    """Return moment, inertia and its slope over the cycle as polynomials of the angle of rotation.
 
     Raises
     ------
@@ -152,7 +152,7 @@ def _load_fault(turn: TurnMotion, index: int, message: str, hint: str) -> Proble
 
 
 def _breaks(turn: TurnMotion, load: Load | Couple, index: int) -> Reals:
-    """Return where a load may jump or have a kink, angles turned, rad, in no order."""
+    """Return the places where a load may jump or have a kink, angles turned, rad, in no order."""
     return np.concatenate([np.zeros(0), *_found_breaks(turn, load, index)])
 
 

@@ -30,7 +30,7 @@ MOST_CYCLES = 600
 _CELL = 2.0 * pi / 240.0  # rad
 _TOLERANCE = 1e-10
 _HALVINGS = 44
-_SLOW = 1e-9  # rad: a crank that begins to move has turned so far after the first step
+_SLOW = 1e-9  # rad: the rotation of a crank after the first step from rest
 
 _NODES = (0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0)
 _STAGES = (
@@ -48,7 +48,7 @@ _Values: TypeAlias = list[list[float]]
 
 
 class StalledError(Exception):
-    """The crank stands, the angle turned until then and the time, rad and s."""
+    """The crank is at rest; with the angle turned until then and the time, rad and s."""
 
     def __init__(self, turned: float, time: float) -> None:
         super().__init__()
@@ -76,7 +76,7 @@ class TimeCourse(Struct, frozen=True):
         share = (turned - self.turned[k]) / step
         slopes = step * self.after[k], step * self.before[k + 1]
         half = hermite(self.half[k], self.half[k + 1], *slopes, share)
-        spent = self.time[k + 1] - self.time[k]  # the limit holds it rising where the crank stands
+        spent = self.time[k + 1] - self.time[k]  # the limit keeps it rising at rest
         with np.errstate(divide="ignore"):
             one, two = (np.minimum(step / self.omega[j], 3.0 * spent) for j in (k, k + 1))
         time = hermite(self.time[k], self.time[k + 1], one, two, share)
@@ -92,7 +92,7 @@ class TimeCourse(Struct, frozen=True):
         return np.asarray((low + high) / 2.0, dtype=float)
 
     def rows(self, count: int) -> tuple[Reals, Reals, Reals]:
-        """Return time, angle turned and speed at even times, the ends among them."""
+        """Return time, angle turned and speed at equally spaced times, with the ends."""
         time = np.linspace(0.0, self.time[-1], count)
         turned = np.append(self.turned_at(time[:-1]), self.turned[-1])
         omega = self.at(turned)[0]
@@ -150,7 +150,7 @@ class RunUp(Remembering):
         Raises
         ------
         StalledError
-            The crank stands.
+            The crank comes to rest.
         """
         first = True
         turns, cycle = 0, self.flywheel.cycle
@@ -222,7 +222,7 @@ class RunUp(Remembering):
 
     @cached_property
     def starting(self) -> TimeCourse:
-        """The run-up from rest in position 0, some cycles long, until the cycles are alike.
+        """The run-up from rest in position 0, some cycles long, until the cycles are equal.
 
         Raises
         ------
@@ -276,7 +276,7 @@ class RunUp(Remembering):
 
     @cached_property
     def wanted(self) -> float | None:
-        """The flywheel with which the motor keeps delta exactly, kg·m²; None: none is needed."""
+        """The flywheel with which the motor keeps delta exactly, kg·m²; None if none is needed."""
         delta, own = self.machine.delta, float(np.mean(self.curves(self.curves.samples)[:, 1]))
 
         def even(inertia: float) -> float:

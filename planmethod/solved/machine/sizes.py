@@ -28,11 +28,11 @@ WIDEST = 0.4
 
 
 STEPS = ((0.5, 0.01), (0.2, 0.005), (0.1, 0.002), (0.0, 0.001))
-"""From which diameter on it is rounded to which step, m."""
+"""Diameters from which a size is rounded, and the steps, m."""
 
 
 class FlywheelSizes(Struct, frozen=True):
-    """A flywheel as it is made (маховик).
+    """A flywheel as manufactured (маховик).
 
     Attributes
     ----------

@@ -18,7 +18,7 @@ Motion = Callable[[Reals], dict[str, Reals]]
 
 
 class SweptMotion:
-    """Motion of a mechanism as a sweep gives it, for `loads`: NaN where it does not exist."""
+    """Motion of a mechanism from a sweep, for `loads`: NaN where it does not exist."""
 
     def __init__(
         self, problem: Problem, construction: Construction, positions: Reals, motion: Motion

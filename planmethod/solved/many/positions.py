@@ -141,7 +141,7 @@ class Gaps(Struct, frozen=True):
 
 
 class CheckedPositions(Struct, frozen=True):
-    """Positions that were looked at.
+    """Results of the check of positions.
 
     Attributes
     ----------
@@ -183,7 +183,7 @@ def examine(
     numbers : ndarray of shape (n,), optional
         Numbers of the positions, from 0, where they are a part of others.
     forces : bool
-        Look at the force plans, too.
+        Check the force plans, too.
 
     Raises
     ------
@@ -260,7 +260,7 @@ def impossible_steps(solution: Solution) -> Codes:
 
 
 def why(problem: Problem, position: float, *, forces: bool = False) -> Failure:
-    """Return why one position has no results.
+    """Return the reason why one position has no results.
 
     Parameters
     ----------
@@ -304,9 +304,9 @@ def common_scales(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKi
 
 
 def force_scale(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKind, Scale]:
-    """Return the scale of forces in all positions, chosen as `common_scales` chooses; or nothing.
+    """Return the scale of forces in all positions, chosen like `common_scales`; or None.
 
-    Nothing of a problem without forces, or that gives their scale itself.
+    None for a problem without forces, or with a given scale of forces.
     """
     if problem.dynamics is None or problem.scales.mu_F is not None:
         return {}

@@ -1,4 +1,4 @@
-"""Rows of a sweep: which numbers of a tape a result consists of, and what they are called."""
+"""Rows of a sweep: the numbers on a tape that form a result, and their names."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def rows_of(
     origin : complex, m
         From which the places on the tape count.
     moved : sequence of Result
-        What the loads depend on, and all forces with them.
+        Quantities on which the loads, and so all forces, depend.
     drawn : sequence of Name
         Points and numbers of the plans that are rows as well.
     """

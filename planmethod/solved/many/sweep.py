@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 class SweepTable(Named[Array]):
-    """Results of a sweep by the names of their rows; those of a label are put together."""
+    """Results of a sweep by the names of their rows; rows of a label can be read together."""
 
     def __init__(self, found: dict[str, Array], rows: Sequence[SweepRow]) -> None:
         super().__init__(found, "result")
@@ -41,7 +41,7 @@ class SweepTable(Named[Array]):
         return found
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return what makes the same in another process."""
+        """Return the arguments for rebuilding it in another process."""
         return SweepTable, (dict(self), self.rows)
 
 
@@ -219,7 +219,7 @@ class Sweep:
                 return found
         if set(parameters) != set(self.varied):
             raise SweepError(f"run() takes the parameters {', '.join(self.varied) or '(none)'}")
-        # A size goes into a file, which is double whatever the sweep is.
+        # A size goes into a file, which is double precision in any sweep.
         given = {name: reals(name, parameters[name]) for name in self.varied}
         shape = self._shape(angle, list(given.values()), out, failed)
         rates = {own: given[name] for name, own in self._varied.rates.items()}
@@ -261,7 +261,7 @@ class Sweep:
         wide = {name: np.broadcast_to(rate, shape).ravel() for name, rate in rates.items()}
         gaps = None if failed is None else np.empty(whole.shape, failed.dtype)
         values = np.empty((len(self.rows), len(whole)), self._runner.dtype)
-        # What differs from position to position is known for the positions of one case.
+        # Values that vary with the position are known for the positions of one case.
         apart = list(range(len(cases))) if self._case.given else [id(tape) for tape in tapes]
         for part in dict.fromkeys(apart):
             mine = np.array([own == part for own in apart])
@@ -298,7 +298,7 @@ class Sweep:
         return self.rows, self._run(angle, shape, cases, which, {}, None, None)
 
     def _cases(self, sizes: list[Array]) -> tuple[list[Case], Array]:
-        """Return the cases of some sizes, and the number of that of each, in their common shape."""
+        """Return the distinct cases of some sizes, and the index of each entry's case."""
         if not sizes:
             return [self._case], np.zeros((), np.intp)
         shape = np.broadcast_shapes(*(value.shape for value in sizes))
@@ -547,7 +547,7 @@ def _named(problem: Problem) -> str:
 
 
 def _motion_of(problem: Problem) -> Motion:
-    """Return what sweeps the motion of a problem; it is made when it is first asked."""
+    """Return a sweep of a problem's motion, made at the first call."""
     made: list[Sweep] = []
 
     def swept(positions: Array) -> dict[str, Array]:

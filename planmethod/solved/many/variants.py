@@ -261,7 +261,7 @@ def constructed(problems: Sequence[Problem]) -> list[Construction | None]:
     wanted: dict[int, WantedReading] = {}
 
     def take(k: int, ask: Callable[[], WantedReading]) -> None:
-        """Take one problem to the next reading that it wants, or to its end."""
+        """Advance one problem to its next reading request, or to its end."""
         wanted.pop(k, None)
         problem = problems[k]
         try:
@@ -287,7 +287,7 @@ def constructed(problems: Sequence[Problem]) -> list[Construction | None]:
 
 
 def _read_together(wanted: Mapping[int, WantedReading]) -> list[tuple[int, Reading]]:
-    """Return the readings that are wanted, by the number of who wants them."""
+    """Return the requested readings, by the index of their problem."""
     alike: dict[tuple[Any, ...], list[int]] = {}
     for k, one in wanted.items():
         alike.setdefault((tuple(one.draft.b.steps), tuple(one.draft.numbers)), []).append(k)

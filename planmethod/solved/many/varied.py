@@ -1,7 +1,7 @@
 """Cases of a sweep: a problem as a program with its numbers, the file with others (случаи).
 
-What follows from a size, the height of a triangle or the way in which a group closes, follows as it
-does where the file has that size: each case is the file read again.
+Values that follow from a size, such as the height of a triangle or the assembly of a group, follow
+as they do where the file has that size: each case is the file read again.
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ class SweepTask(Struct, frozen=True):
         )
 
     def like(self, case: Case, problem: Problem, construction: Construction) -> Case:
-        """Return the case of a problem: where it is drawn as another one, numbers alone are new."""
+        """Return the case of a problem; one with the steps of another has only new numbers."""
         whole = case.loads is None and not any(one.kind.is_force for one in case.chosen)
         draft, known = construction.draft, case.results
         whole = whole and tuple(draft.numbers) == tuple(known.numbers)
@@ -294,7 +294,7 @@ class Varied:
                 self.sizes[name] = one
 
     def probed(self) -> list[str]:
-        """Return the numbers of the program that each size alone changes, near that of the file."""
+        """Return the numbers of the program that each size alone changes, near the file's value."""
         found = dict.fromkeys(self.rates.values())
         for one in self.sizes.values():
             try:

@@ -1,4 +1,4 @@
-"""Forces and couples by the short grammar of ``[published]``: exact, and as the hand reads them.
+"""Forces and couples by the short grammar of ``[published]``: exact, and as read by hand.
 
 A force is read off its plan with the ruler, unless it was computed and laid off there; arms are
 those of the position plan, from the line on which a force acts.
@@ -70,7 +70,7 @@ class ForceValues:
 
     @cached_property
     def _drawn(self) -> Reading:
-        """Plans of the hand, those of the forces at the source's scale."""
+        """Plans read by hand, with the forces at the source's scale."""
         drawn = self.statics.by_hand
         if self.mu_f != self.statics.scale.per_mm:
             scales = {**self.statics.per_mm, SCALE: self.mu_f}
@@ -247,7 +247,7 @@ class ForceValues:
         return math.degrees(math.atan2(vector.imag, vector.real)) % 360.0
 
     def _arm(self, selecting: SelectorSteps, line: ForceLine, about: str) -> NumberName:
-        """Return the arm of a force; that of a guide acts where its moment puts it."""
+        """Return the arm of a force; that of a guide acts where its moment requires."""
         self._directed(line)
         pole, force = selecting.point(PlanKind.POSITION, about), line.force
         arm = selecting.b.measure_arm(selecting.free_name, pole, force.at, *force.ends)
@@ -260,7 +260,7 @@ class ForceValues:
     # Names -----------------------------------------------------------------------------------
 
     def _joint(self, on: str, by: str) -> ForceLine:
-        """Return what one link does to another; two links have one joint."""
+        """Return the reaction of one link on another; two links have one joint."""
         for reaction in self.statics.board.reactions:
             if {reaction.on, reaction.by} == {on, by}:
                 sense = 1.0 if reaction.on == on else -1.0

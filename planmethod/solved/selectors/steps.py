@@ -1,4 +1,4 @@
-"""Steps that answer the selectors of ``[published]``: they go on from the program."""
+"""Steps that answer the selectors of ``[published]``: they continue the program."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ MAGNITUDES: Mapping[str, PlanKind] = {
 class NoValue(Enum):
     """Reason why a quantity has no value."""
 
-    NO_WHAT = "no what"  # the file does not say which quantity it is
+    NO_WHAT = "no what"  # the file does not specify the quantity
     NO_POSITION = "no position"  # the driver is never there
     NO_SCALE = "no scale"  # millimetres of a plan whose scale the source does not give
     NO_POINT = "no point"  # a name that the plans do not have
@@ -123,7 +123,7 @@ class SelectorSteps:
         return self.b.compute(self.free_name, *powers)
 
     def select(self, selector: Selector) -> Selected:
-        """Return the number that a selector of the motion asks for.
+        """Return the number that a selector of the motion requests.
 
         Raises
         ------

@@ -116,7 +116,7 @@ class SelectorValues:
         return float((rate.real if what == "x" else rate.imag)[self.position])
 
     def lever(self, selector: Selector) -> tuple[PlanKind, float] | None:
-        """Return the plan that an angle or a rate is read off, and what a metre of it is worth.
+        """Return the plan on which an angle or a rate is read, and the value of a metre of it.
 
         An omega or epsilon is a segment over the arm on which it was read; an angle shows best
         at the far end of its link. None for other quantities, and for a rate that is not read off.
@@ -129,7 +129,7 @@ class SelectorValues:
             return (PlanKind.POSITION, math.degrees(1.0 / reach)) if reach else None
         rates = {"omega": self.kin.omega, "epsilon": self.kin.epsilon}.get(kind, {})
         for (of, link), turning in self.kin.turnings.items():
-            # Links of a prismatic pair turn alike: the rate was read on one of them.
+            # Links of a prismatic pair rotate together: the rate was read on one of them.
             if of is PLAN_OF.get(kind) and name in rates and rates[link] == rates[name]:
                 return of, 1.0 / abs(self._place(turning.place) - self._place(turning.joint))
         return None

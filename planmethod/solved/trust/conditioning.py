@@ -31,13 +31,13 @@ SCALES = frozenset(UNIT_SCALES)
 """Data that carry no rounding."""
 
 SAFE = 2e-3
-"""Margin, and share of a difference in its terms, above which a position needs no closer look."""
+"""Margin, and relative difference of terms, above which a position needs no closer check."""
 
 CLEARED = MULTIPLE * UNIT_ROUNDOFF / SAFE**3
-"""Bound where no closer look is needed."""
+"""Bound if no closer check is needed."""
 
 BLOCK = 256
-"""Positions looked at in one go."""
+"""Number of positions checked in one go."""
 
 PLACING = (DimensionKind.LENGTH, DimensionKind.ALONG, DimensionKind.ACROSS)
 """Kinds of dimensions that determine the size of a mechanism."""
@@ -71,13 +71,13 @@ def _bound(solution: Solution) -> Reals:
 
 
 def blocks(suspects: npt.NDArray[np.intp]) -> Iterator[npt.NDArray[np.intp]]:
-    """Yield positions by the number that is looked at in one go."""
+    """Yield positions in blocks that are checked in one go."""
     for start in range(0, len(suspects), BLOCK):
         yield suspects[start : start + BLOCK]
 
 
 def _suspects(solution: Solution) -> npt.NDArray[np.intp]:
-    """Return the positions that a cheap look does not clear."""
+    """Return the positions that a quick check does not clear."""
     if solution.together <= FEW_ROWS:
         return np.arange(len(solution.positions))
     program = solution.construction.program

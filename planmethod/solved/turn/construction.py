@@ -1,9 +1,9 @@
 """Extreme positions by construction (построение крайних положений): arcs l ± r, tangents.
 
-The dyad that joins the crank with the frame turns back where crank and rod lie in one line, so
-that arcs of l + r and l - r about the crank's pivot cut the guide or the rocker's circle; a slotted
-link turns back where it touches the circle of the crank. What is constructed counts where it gives
-the roots of the output's velocity; of other mechanisms these alone are known.
+The dyad that joins the crank with the frame turns back where crank and rod lie in one line, so that
+arcs of l + r and l - r about the crank's pivot cut the guide or the rocker's circle; a slotted link
+turns back where it touches the circle of the crank. The construction counts if it gives the roots
+of the output's velocity; of other mechanisms these alone are known.
 
 Source: Артоболевский, Теория механизмов и машин; Попов, Курсовое проектирование по ТММ.
 """
@@ -145,7 +145,7 @@ class ExtremesConstruction(Struct, frozen=True, dict=True):
         return degrees(found[0]), degrees(found[1]), last
 
     def _off(self, centre: str, name: str) -> Callable[[Trace], Number]:
-        """Return what takes by how much a ray from a centre is turned, radians."""
+        """Return a function that reads the rotation of a ray about a centre, radians."""
         ray = self.place(name) - self.place(centre)
         back = -1j / ray
         ends = PointName(centre), PointName(name)

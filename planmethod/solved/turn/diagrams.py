@@ -45,7 +45,7 @@ POLE, FARTHEST = 36.0, 60.0
 """Pole distance where no scale sets it, and the largest one, mm."""
 
 LOW, HIGH = 20.0, 120.0
-"""Heights between which it is drawn in the scale of lengths, mm: as it is taken off the scheme."""
+"""Range of heights in which it is drawn in the scale of lengths, mm: as read from the scheme."""
 
 _BETWEEN = 16.0  # mm of paper between two diagrams
 
@@ -129,7 +129,7 @@ class Deviation(Struct, frozen=True):
 
     @classmethod
     def of(cls, found: Reals, exact: Reals) -> Deviation:
-        """Compare ordinates with exact ones; what does not exist is left out."""
+        """Compare ordinates with exact ones; missing ones are left out."""
         off = (found - exact)[np.isfinite(found - exact)]
         if not off.size:
             return cls(np.nan, np.nan)
@@ -143,7 +143,7 @@ class Diagrams(Remembering):
     ----------
     turn : Turn
     count : int, optional
-        Positions, if not those of the problem.
+        Number of positions. Default: that of the problem.
     """
 
     def __init__(self, turn: Turn, count: int | None = None) -> None:
@@ -309,10 +309,10 @@ class Diagrams(Remembering):
         return self.once(_graph, way)
 
     def drawn(self, way: Differentiation, arithmetic: Arithmetic | None = None) -> list[Reals]:
-        """Return the ordinates of s, v and a as a hand draws them, mm; an exact one if none."""
+        """Return the ordinates of s, v and a as drawn by hand, mm; exact ones by default."""
         graph, arithmetic = self.graph(way), arithmetic or Float64()
         curve = {}
-        if way is Differentiation.CURVE:  # through what this hand has found of chords
+        if way is Differentiation.CURVE:  # through the points that this hand has found by chords
             _, v, _ = self.drawn(Differentiation.CHORDS, arithmetic)
             read = smooth(v, np.arange(self.count, dtype=float) - 0.5)
             curve = {f"v{k}": float(y) for k, y in enumerate(read)}
@@ -405,7 +405,7 @@ def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
 
 
 def _taken_off(board: DiagramBoard, axes: DiagramAxes, at: Reals, path: Reals) -> list[PointName]:
-    """Plot a path that is read on the scheme: how far the output is from position zero."""
+    """Plot a path read on the scheme: the distance of the output from its position zero."""
     up = board.known("90", 90.0)
     places = [board.given(f"scheme {k}", complex(-100.0, y)) for k, y in enumerate(path)]
     zero = board.given("scheme zero", -100.0 + 0j) if path[0] else places[0]
@@ -419,7 +419,7 @@ def _taken_off(board: DiagramBoard, axes: DiagramAxes, at: Reals, path: Reals) -
 def deviations(
     diagrams: Diagrams, ways: Sequence[Differentiation], arithmetic: Arithmetic | None = None
 ) -> dict[tuple[Differentiation, str], Deviation]:
-    """Return how far v and a of some ways are off, drawn by a hand, or exactly."""
+    """Return the errors of v and a by some methods, drawn by hand, or exactly."""
     found = {}
     for way in ways:
         graph, drawn = diagrams.graph(way), diagrams.drawn(way, arithmetic)
@@ -434,7 +434,7 @@ def sigmas(diagrams: Diagrams, way: Differentiation) -> tuple[Reals, Reals]:
     """Return one sigma of the drafting error of every ordinate of v and a, mm, ndarrays (n,).
 
     The path is read on the scheme and laid off; rays, step lines and uprights are drawn. The smooth
-    curve of `Differentiation.CURVE` is taken as it stands.
+    curve of `Differentiation.CURVE` is taken as exact.
     """
     graph = diagrams.graph(way)
     items = [
@@ -463,7 +463,7 @@ def _ordinate(point: PointName, origin: PointName) -> Callable[[Trace], Number]:
 
 
 def diagrams_of(solution: Solution) -> Diagrams:
-    """Return the diagrams of a mechanism; kept, whatever the scales of its plans."""
+    """Return the diagrams of a mechanism; cached independently of the scales of its plans."""
     return _diagrams(solution.origin)
 
 

@@ -49,7 +49,7 @@ def number(problem: Problem) -> Problem:
         _ = turn.strokes if problem.cycle.working is not None else None  # may be a fault
     except ProblemError:
         raise
-    except PlanMethodError:  # said where the positions of the file are solved
+    except PlanMethodError:  # reported where the positions of the file are solved
         if not given:
             raise
         return problem
@@ -141,7 +141,7 @@ def numbered_positions(solution: Solution) -> Reals:
     Raises
     ------
     ProblemError
-        The driver slides, or nothing can be the output.
+        The driver slides, or the mechanism has no output.
     """
     problem = solution.problem
     if problem.numbered:

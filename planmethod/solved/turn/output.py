@@ -29,10 +29,10 @@ class Output(Struct, frozen=True):
         The point, or the link.
     link : str
     point : str
-        Point that is looked at: of a slider the one that moves along the guide; of a link that
-        turns one that is off its pivot.
+        Observed point: of a slider the one that moves along the guide; of a link that turns one
+        that is off its pivot.
     slide : Slide or None
-        The guide; None of a link whose angle is meant.
+        The guide; None for a link whose angle is the output.
     """
 
     name: str

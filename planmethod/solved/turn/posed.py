@@ -27,7 +27,7 @@ from planmethod.solved.turn.turn import LOOKS, TURN, Extreme, Turn
 
 _TRIES = 36  # positions of a turn in which it is tried how the groups close
 _SLIDER_TRIES = 120
-_ASIDE = 0.0931  # degrees off round numbers, where singular places like to be
+_ASIDE = 0.0931  # degrees off round numbers, at which singular places are common
 _SAME = 1e-7  # degrees, or share of the way of a slider, within which two roots are one
 _ROUNDING = 1e-15  # share of the range within which a round position is as good as the root
 _OFF = 1e-6  # share of the range of the output that a root may miss it by
@@ -60,7 +60,7 @@ def pose(problem: Problem) -> Problem:
     for solution in ways:
         for position, going in _roots(solution, posed, 0):
             if not _as_judged(solution, np.array([position])).all():
-                continue  # the motion goes on so, and the rules do not hold there
+                continue  # the motion continues like this, but the rules do not hold there
             position = position % TURN if problem.drive.is_crank else position
             at = _closed(problem, position)
             if at is not None and _sides(at) == _sides(solution):
@@ -243,7 +243,7 @@ def _period(problem: Problem, posed: Posed) -> float:
 
 
 def _roots(solution: Solution, posed: Posed, index: int) -> Found:
-    """Return the positions in which the output is where a value says."""
+    """Return the positions in which the output has a given value."""
     if posed.by is PosedBy.EXTREME:
         return _extreme(Turn(solution), posed, index)
     target = posed.values[index]
@@ -273,7 +273,7 @@ def _roots(solution: Solution, posed: Posed, index: int) -> Found:
 
 
 def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> Found:
-    """Return where a function is zero, and whether it grows there; 0 where it only touches it.
+    """Return the zeros of a function and whether it grows there; 0 where it only touches zero.
 
     A change of sign by a jump, of an angle by a turn, is none.
     """
@@ -282,7 +282,7 @@ def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> Found:
 
     def add(low: float, high: float, going: float) -> None:
         at = root(off, low, high)
-        round_one = round(at, 6)  # 90 degrees, and not what rounding makes of it
+        round_one = round(at, 6)  # 90 degrees, not its rounded value
         missed, of_round = np.abs(off(np.array([at, round_one])))
         if of_round <= max(missed, _ROUNDING * size) and abs(round_one - at) < _SAME:
             at = round_one
@@ -414,14 +414,14 @@ def _chosen(
 
 
 def _reached(way: Solution, posed: Posed, index: int) -> Reals:
-    """Return the values of the output in all positions that are looked at."""
+    """Return the values of the output in all sampled positions."""
     grid = _grid(way.problem, LOOKS, _turns(way))
     grid = grid if index else grid[_as_judged(way, grid)]
     return _value(way, posed, index)(grid)
 
 
 def _told(posed: Posed, value: float, problem: Problem) -> str:
-    """Return a value of the output as the file has it."""
+    """Return a value of the output in the file's units, as text."""
     if posed.by in (PosedBy.X, PosedBy.Y, PosedBy.LENGTH):
         return told_length(value, problem.unit, 5)
     return say("{:.5g} deg" if posed.by in (PosedBy.PHI, PosedBy.BETWEEN) else "{:.5g}", value)

@@ -69,7 +69,7 @@ def top(function: Function, low: float, high: float, *, looks: int = _PARTS) -> 
 def tops(
     function: Function, low: Reals, high: Reals, *, looks: int = _PARTS
 ) -> tuple[Reals, Reals]:
-    """Return the same for several pairs of places, which are looked at together.
+    """Return the same for several pairs of places, which are processed together.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ from planmethod.solved.turn.turn import Turn
 
 
 def quantities_over(turn: Turn, labels: Iterable[str]) -> list[GraphQuantity]:
-    """Return what labels name, in their order, each once.
+    """Return the quantities of some labels, in their order, each once.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def usual_labels(turn: Turn) -> tuple[str, ...]:
 def values_over(turn: Turn, quantity: GraphQuantity, positions: Reals) -> Reals:
     """Return a quantity in positions of the crank, SI; NaN where the mechanism is open.
 
-    Angles, degrees, go on through whole turns from position to position.
+    Angles, degrees, continue through whole turns from position to position.
     """
     with np.errstate(invalid="ignore"):
         made = _of_point if quantity.kind in OF_POINTS else _of_link

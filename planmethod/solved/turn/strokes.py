@@ -19,13 +19,13 @@ from planmethod.solved.reading import Flags, Reals
 from planmethod.solved.solution import Solution
 
 LOOKS = 720
-"""Positions of a turn that the work of a stroke is summed over."""
+"""Number of positions of a turn over which the work of a stroke is summed."""
 
 ALIKE = 1e-3
-"""Share of the larger work within which both strokes have the same."""
+"""Fraction of the larger work below which the difference of the strokes is ignored."""
 
 COUNTS = 0.05
-"""Share of the work of the working stroke from which a load is one that decides."""
+"""Fraction of the working stroke's work from which a load is named as deciding."""
 
 LONGER, TOLD = "longer stroke", "[cycle] working"
 """Criteria of the working stroke if no load decides."""
@@ -50,7 +50,7 @@ class Strokes(Struct, frozen=True):
         Ratio of the longer stroke to the shorter, 1 or more; None where the output comes to an end
         of its stroke more than once.
     by : str
-        What decides which one works: ``load P``, ``longer stroke`` or ``[cycle] working``.
+        Criterion of the working stroke: ``load P``, ``longer stroke`` or ``[cycle] working``.
     start_deg : float, degrees
         Driver position where the working stroke starts.
     """
@@ -91,7 +91,7 @@ def powers(solution: Solution, start: float, positions: Reals) -> dict[str, Real
 
 
 def looked_at(problem: Problem, start: float, turns: int) -> Reals:
-    """Return the even positions that the work is summed over; none where it is not known there.
+    """Return the equally spaced positions of the sum of work; none where it is not known.
 
     Loads that are known in the positions of the file only are summed over the numbered ones.
     """
@@ -112,7 +112,7 @@ def over_strokes(problem: Problem) -> bool:
 
 
 def by_loads(found: dict[str, Reals], first: Flags) -> tuple[bool, str] | None:
-    """Return whether the first stroke works, and the loads that decide; None where none does.
+    """Return whether the first stroke works, and the deciding loads; None if none decides.
 
     Parameters
     ----------

@@ -49,10 +49,10 @@ MOST = 6
 LOOKS = 1440
 """Number of samples of a turn: every quarter of a degree."""
 
-_ASIDE = 0.0931  # degrees that the looks stand off round numbers, where singular places like to be
-_SAME = 1e-9  # share of a stroke, or degrees, within which two extremes are alike
-_STILL = 1e-10  # share of the greatest rate below which nothing moves
-_NARROW = 0.05  # margin of a closing that may be none between two looks
+_ASIDE = 0.0931  # degrees of the samples off round numbers, at which singular places are common
+_SAME = 1e-9  # fraction of a stroke, or degrees, within which two extremes are equal
+_STILL = 1e-10  # fraction of the greatest rate below which the output is at rest
+_NARROW = 0.05  # margin of a closing step that may vanish between two samples
 _STEP = TURN / LOOKS
 _LEVEL, _MOST_TOPS = 0.01, 8  # degrees of pressure angle within which peaks are compared
 
@@ -95,7 +95,7 @@ class Turn(Remembering):
     Raises
     ------
     ProblemError
-        The driver slides, or nothing can be the output.
+        The driver slides, or the mechanism has no output.
     """
 
     def __init__(self, solution: Solution) -> None:
@@ -124,7 +124,7 @@ class Turn(Remembering):
 
     @property
     def _asked(self) -> tuple[float, ...]:
-        """Positions that are looked at first: in them the closings are judged."""
+        """Positions that are sampled first: in them the assembly modes are chosen."""
         drive = self.solution.problem.drive
         return drive.judged or drive.positions
 
@@ -150,7 +150,7 @@ class Turn(Remembering):
 
     @cached_property
     def _closing(self) -> list[tuple[tuple[str, ...], Name]]:
-        """Steps of the position plan that may find no meeting, after the links of their group."""
+        """Steps of the position plan that may lack an intersection, by the links of their group."""
         return [
             (section.group.links if section.group else (), step.out)
             for section in self.unit.construction.sections
@@ -167,7 +167,7 @@ class Turn(Remembering):
         return able
 
     def _margin(self, name: Name, positions: Reals) -> Reals:
-        """Return the margin of a step; where an earlier one fails already it is below nothing."""
+        """Return the margin of a step; negative if an earlier step fails already."""
         margin = np.asarray(self.read(positions).trace.margin[name], dtype=float)
         margin = np.broadcast_to(margin, positions.shape)
         return np.where(np.isnan(margin), -1.0, margin)
@@ -178,12 +178,12 @@ class Turn(Remembering):
 
     @cached_property
     def _looks(self) -> tuple[Reals, Reading, Flags]:
-        """Positions that are looked at, a turn from the first asked one that exists."""
+        """Sampled positions, a turn from the first requested one that exists."""
         asked = np.asarray(self._asked)
         there = np.flatnonzero(self._closed(self.read(asked)))
         start = float(asked[there[0]]) if there.size else float(asked[0])
         looks = start + _ASIDE + np.arange(0.0, self.period, _STEP)
-        # A closing that fails between two looks only: where its margin is least.
+        # A closing step that fails only between two samples: where its margin is smallest.
         reading, narrow = self.read(looks), []
         for _, name in self._closing:
             margin = np.broadcast_to(
@@ -204,7 +204,7 @@ class Turn(Remembering):
     def range(self) -> tuple[float, float] | None:
         """Driver positions between which the mechanism assembles, degrees; None: a full turn.
 
-        The range that has the first asked position that exists.
+        The range that contains the first requested position that exists.
         """
         looks, _, able = self._looks
         if able.all():
@@ -236,7 +236,7 @@ class Turn(Remembering):
 
     @cached_property
     def tightest(self) -> tuple[tuple[str, ...], float] | None:
-        """Links of the group that comes nearest to not closing in a turn, and where, degrees."""
+        """Links of the group that is most critical to close in a turn, and where, degrees."""
         looks, reading, _ = self._looks
         found = []
         for own, name in self._closing:
@@ -249,7 +249,7 @@ class Turn(Remembering):
 
     @cached_property
     def _course(self) -> tuple[Reals, Reals, Reals]:
-        """Positions that exist in one row, values (an angle goes on), first transfer functions."""
+        """Consecutive existing positions, values (an angle continues), first transfer functions."""
         looks, _, able = self._looks
         if self.range is not None:
             low, high = self.range
@@ -274,7 +274,7 @@ class Turn(Remembering):
         return float(np.round((value[-1] - value[0]) / TURN) * TURN)
 
     def values(self, positions: Reals) -> Reals:
-        """Return the value of the output, m or degrees; an angle as it goes on from the course."""
+        """Return the value of the output, m or degrees; an angle continues that of the range."""
         value = self.output.value(self.unit, self.read(positions))
         if self.output.slide is not None:
             return value
@@ -320,7 +320,7 @@ class Turn(Remembering):
         ]
 
     def _ahead(self, start: float, phi: float) -> float:
-        """Return how far the crank goes from one position to another in its sense, degrees."""
+        """Return the rotation of the crank from one position to another in its sense, degrees."""
         way = self.sense * (phi - start)
         if self.range is not None:
             return way
@@ -371,7 +371,7 @@ class Turn(Remembering):
 
     @cached_property
     def stroke(self) -> float | None:
-        """Stroke H, m, or swing psi, degrees (ход, угол размаха); of a range as far as it goes."""
+        """Stroke H, m, or swing psi, degrees (ход, угол размаха); over a range its whole extent."""
         if self.range is not None and not self.is_still:
             places = np.array([*self.range, *(one.phi for one in self._turnings)])
             values = self.values(places)
@@ -382,19 +382,19 @@ class Turn(Remembering):
 
     @cached_property
     def strokes(self) -> Strokes | None:
-        """Both strokes, and which of them works; None where the output has no two.
+        """Both strokes with the working one; None if the output does not have two.
 
         Raises
         ------
         ProblemError
-            The output moves on neither stroke as ``[cycle] working`` says.
+            The output moves on neither stroke as ``[cycle] working`` specifies.
         """
         if self.ends is None or self.range is not None:
             return None
         quick = self._ahead(self.ends[0].phi, self.ends[1].phi)
         told = self._told_stroke()
         found = (told, TOLD) if told is not None else self._loaded_stroke(quick)
-        # Of equal strokes that from the greater value.
+        # Of equal strokes the one from the greater value.
         is_first, by = found or (quick >= self.period / 2 - _SAME, LONGER)
         working, idle = (quick, self.period - quick)[:: 1 if is_first else -1]
         ratio = max(working, idle) / min(working, idle)
@@ -403,7 +403,7 @@ class Turn(Remembering):
 
     @property
     def contradicting(self) -> str | None:
-        """The loads that work on the other stroke than ``[cycle] working`` says; None without."""
+        """Loads that work on the other stroke than ``[cycle] working`` specifies, if given."""
         told = self._told_stroke()
         if told is None or self.ends is None or self.range is not None:
             return None
@@ -411,7 +411,7 @@ class Turn(Remembering):
         return loaded[1] if loaded is not None and loaded[0] is not told else None
 
     def _loaded_stroke(self, quick: float) -> tuple[bool, str] | None:
-        """Return whether the loads work on the quicker stroke, and which do; None without."""
+        """Return whether the loads work on the quicker stroke, and which do; None if none does."""
         assert self.ends is not None
         start = self.ends[0].phi
         positions = looked_at(self.solution.problem, start, self.turns)
@@ -570,7 +570,7 @@ class Turn(Remembering):
             tops += zip(extreme.tolist(), size(extreme).tolist(), strict=True)
             most = max(value for _, value in tops)
             alike = np.array([at for at, value in tops if value >= most - _SAME])
-            # Of several places with one value that which lasts longest, the first one from zero.
+            # Of several places with one value the one that lasts longest, starting from zero.
             flat = np.round(np.nan_to_num(size(alike - 1.0) + size(alike + 1.0), nan=-TURN), 6)
             ways = [self._ahead(self.zero, float(at)) for at in alike[flat == flat.max()]]
             found += [sign * most, self.zero + self.sense * min(ways)]
@@ -587,7 +587,7 @@ def task_of(problem: Problem) -> CycleTask:
 
 
 def turn_of(solution: Solution) -> Turn:
-    """Return the cycle of a solution's mechanism; kept, whatever the scales of its plans."""
+    """Return the cycle of a solution's mechanism; cached independently of the scales."""
     return _turn(solution.origin)
 
 
