@@ -19,7 +19,7 @@ from planmethod.cams.pictures import CamView, diagrams_picture
 from planmethod.note.wording import language
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
-from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.drawing import Drawing
 from planmethod.render.live.document import html_document, rich, speed_choice
 
 ROWS = 720
@@ -43,7 +43,7 @@ def live_page(problem: CamProblem, lang: str) -> str:
     """
     words, design = language(lang), CamDesign(problem)
     canvas = SvgCanvas(Options())
-    canvas.open(0.0, 0.0, "", in_use())
+    canvas.open(Drawing(0.0, 0.0))
     built = construct(design)
     picture = diagrams_picture(CamView(built, words, LETTER))
     left, low, right, high = picture.bounds

@@ -30,7 +30,7 @@ from planmethod.languages import say
 from planmethod.note.wording import language
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
-from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Picture
 from planmethod.render.live.document import html_document, rich, speed_choice
@@ -79,7 +79,7 @@ class _TrainPage:
         reach = max(map(self._reach(size), self._rims(size)))
         self.scheme = SchemeData(self.motion, EXTENT / 2.0 / reach)
         self.canvas = SvgCanvas(Options())
-        self.canvas.open(0.0, 0.0, "", in_use())
+        self.canvas.open(Drawing(0.0, 0.0))
 
     def _refuse(self) -> None:
         """Refuse what does not turn about parallel axes in mesh, or goes round what goes round."""

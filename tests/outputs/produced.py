@@ -15,7 +15,7 @@ import shutil
 import tempfile
 import tomllib
 from base64 import b64decode
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -30,7 +30,7 @@ from openpyxl import load_workbook
 from planmethod.check.pages.files import PACKAGES
 from planmethod.cli import COMMANDS, cli
 from planmethod.problem import FAMILIES, OTHER_FAMILIES
-from planmethod.render.backends import BACKENDS, PAGED
+from planmethod.render.backends import BACKENDS, Canvas, Options
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
 from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.specimen import SPECIMENS
@@ -274,10 +274,7 @@ def workplace() -> Iterator[None]:
         (place / "config.toml").touch()
         os.chdir(place)
         try:
-            with (
-                patch("planmethod.render.backends.render", _rendered),
-                patch("planmethod.render.backends.render_pages", _rendered_pages),
-            ):
+            with patch("planmethod.render.backends.make_canvas", ListCanvas):
                 yield
         finally:
             os.chdir(before)
@@ -365,16 +362,24 @@ def _rounded(text: str, digits: int, least: int = 0) -> str:
 # Display lists ------------------------------------------------------------------------------------
 
 
-def _rendered(drawing: Drawing, fmt: str, **_options: object) -> bytes:
-    assert fmt in BACKENDS
-    if fmt == "png":  # the pictures of a note: Word's writer wants some
-        return POINT
-    return "".join(_listed(drawing)).encode()
+class ListCanvas(Canvas):
+    """Canvas of every format that writes display lists."""
 
+    def __init__(self, fmt: str, _options: Options) -> None:
+        assert fmt in BACKENDS
+        self._fmt, self._pages = fmt, ""
 
-def _rendered_pages(drawings: Sequence[Drawing], fmt: str = "pdf", **_options: object) -> bytes:
-    assert fmt in PAGED
-    return b"".join(_rendered(drawing, fmt) for drawing in drawings)
+    def open(self, drawing: Drawing) -> None:
+        self._pages += "".join(_listed(drawing))
+
+    def stroke(self, item: Stroke) -> None: ...
+    def arc(self, item: Arc) -> None: ...
+    def fill(self, item: Fill | Disc) -> None: ...
+    def text(self, item: Text) -> None: ...
+
+    def close(self) -> bytes:
+        # The writer of Word's files reads the pictures of a note.
+        return POINT if self._fmt == "png" else self._pages.encode()
 
 
 def _listed(drawing: Drawing) -> Iterator[str]:

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from planmethod.check.pages.overlay import Overlay, true_plan
 from planmethod.plans.model import PlanKind
-from planmethod.render import backends
+from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options, draw_sheet
 from planmethod.render.backends.pdf import OnPage, registered
 from planmethod.render.ink.drawing import Fill, Ink, Pen, Stroke, shifted
@@ -76,13 +76,13 @@ class OverlayView(Struct, frozen=True):
         own = [item for one in plan.own for item in one.items()]
         items = list(shifted([*plan.drawing.items, *own], -complex(left, low)))
         drawing = replace(plan.drawing, width=width, height=height, items=items, views=[])
-        return backends.render(drawing, "png", options=Options(dpi=dpi * self.factor))
+        return render(drawing, "png", options=Options(dpi=dpi * self.factor))
 
 
 @remembered
 def true_svg(solution: Solution, kind: PlanKind, index: int) -> str:
     """Return the contents of the SVG of a plan alone."""
-    text = backends.render(true_plan(solution, kind, index)[0], "svg").decode("utf-8")
+    text = render(true_plan(solution, kind, index)[0], "svg").decode("utf-8")
     start = text.index(">", text.index("<svg")) + 1
     return text[start : text.rindex("</svg>")]
 

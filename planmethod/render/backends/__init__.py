@@ -44,7 +44,7 @@ def render(drawing: Drawing, fmt: str, *, options: Options | None = None) -> byt
     OutputError
         There is no such format, the picture would be too large for it, or its library is absent.
     """
-    canvas = _canvas(fmt, options)
+    canvas = make_canvas(fmt, options or Options())
     draw_sheet(drawing, canvas)
     return canvas.close()
 
@@ -70,15 +70,14 @@ def render_pages(
         raise OutputError("'{}' has no pages. Use one of: {}.", fmt, ", ".join(sorted(PAGED)))
     if not drawings:
         raise OutputError("There is no sheet to be put into the file. Draw at least one.")
-    canvas = _canvas(fmt, options)
+    canvas = make_canvas(fmt, options or Options())
     for drawing in drawings:
         draw_sheet(drawing, canvas)
     return canvas.close()
 
 
-def _canvas(fmt: str, options: Options | None) -> Canvas:
-    """Return the canvas of a format; it draws one sheet."""
-    options = options or Options()
+def make_canvas(fmt: str, options: Options) -> Canvas:
+    """Return an empty canvas of an output format."""
     if is_absent(fmt):
         raise OutputError(DXF_NEEDS)
     match fmt:

@@ -10,7 +10,6 @@ from msgspec import Struct
 
 from planmethod.errors import PlanMethodError
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
-from planmethod.render.ink.lettering import OutlineLettering
 
 
 class Options(Struct, frozen=True, kw_only=True):
@@ -38,8 +37,8 @@ class Canvas(Protocol):
     It is made of `Options`.
     """
 
-    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
-        """Begin a sheet of ``width`` by ``height`` mm whose texts are set in ``lettering``."""
+    def open(self, drawing: Drawing) -> None:
+        """Begin the sheet of a drawing; its items are drawn by the other verbs."""
         ...
 
     def stroke(self, item: Stroke) -> None:
@@ -101,7 +100,7 @@ def draw_sheet(drawing: Drawing, canvas: Canvas) -> None:
         An item has a coordinate that is not a finite number: whoever made it forgot to ask whether
         the point exists.
     """
-    canvas.open(drawing.width, drawing.height, drawing.title, drawing.lettering)
+    canvas.open(drawing)
     draw(drawing.items, canvas, drawing.title)
 
 

@@ -31,7 +31,7 @@ from planmethod.render.backends.layers import (
     layer_of_area,
     layer_of_text,
 )
-from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import ARROW, PENS, PenStyle, sweep
 
@@ -114,12 +114,13 @@ class DxfCanvas(Canvas):
         self._held: Stroke | Disc | None = None
         self._runs: list[Text] = []  # of one turned inscription
 
-    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
+    def open(self, drawing: Drawing) -> None:
         """Begin a sheet: layers, line types and the text style."""
         with _no_clock():
             document = _LIBRARY.new("R2010", units=4)  # millimetres
+        width, height = drawing.width, drawing.height
         self._document = document
-        self._lettering = lettering
+        self._lettering = drawing.lettering
         self._space = document.modelspace()
         header = document.header
         header["$LTSCALE"] = 1.0
@@ -127,7 +128,7 @@ class DxfCanvas(Canvas):
         header["$EXTMIN"], header["$EXTMAX"] = (0.0, 0.0, 0.0), (width, height, 0.0)
         self._space.reset_extents((0.0, 0.0, 0.0), (width, height, 0.0))
         self._space.reset_limits((0.0, 0.0), (width, height))
-        header.custom_vars.append("Title", _clean(title))
+        header.custom_vars.append("Title", _clean(drawing.title))
         header.custom_vars.append("Author", _clean(self._author))
         middle = (width / 2, height / 2)
         document.set_modelspace_vport(height * 1.05, center=middle)
@@ -158,7 +159,7 @@ class DxfCanvas(Canvas):
             )
             if PENS[pen].grey:
                 layer.dxf.true_color = _grey(PENS[pen])
-        document.styles.add(TEXT_STYLE, font=lettering.font_file.name)
+        document.styles.add(TEXT_STYLE, font=drawing.lettering.font_file.name)
 
     # Attributes -----------------------------------------------------------------------------------
 

@@ -16,7 +16,7 @@ from reportlab.pdfgen.canvas import Canvas as Pages
 
 from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.curves import arc_curves
-from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
@@ -45,17 +45,17 @@ class PdfCanvas(Canvas):
         self._pen: Pen | None = None
         self._ink: Ink | None = None
 
-    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
+    def open(self, drawing: Drawing) -> None:
         """Begin a page whose unit is the millimetre; the first one begins the file."""
-        size = (width * _MM, height * _MM)
+        size = (drawing.width * _MM, drawing.height * _MM)
         if self._pdf is None:
-            self._begin(size, title, registered(lettering))
+            self._begin(size, drawing.title, registered(drawing.lettering))
         else:
             self._pdf.showPage()
             self._pdf.setPageSize(size)
             self._pen = self._ink = None  # every page begins anew
         self._pdf.scale(_MM, _MM)
-        self._take_lettering(lettering)
+        self._take_lettering(drawing.lettering)
 
     def _take_lettering(self, lettering: OutlineLettering) -> None:
         self._font, self._lettering = registered(lettering), lettering
@@ -159,9 +159,9 @@ class OnPage(PdfCanvas):
         super().__init__(Options())
         self._pdf = page
 
-    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
+    def open(self, drawing: Drawing) -> None:
         """Take the lettering."""
-        self._take_lettering(lettering)
+        self._take_lettering(drawing.lettering)
 
 
 def _trace(path: Any, points: tuple[complex, ...]) -> None:

@@ -19,7 +19,7 @@ from PIL.PngImagePlugin import PngInfo
 from planmethod.errors import OutputError
 from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.curves import arc_curves
-from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
@@ -37,8 +37,9 @@ class PngCanvas(Canvas):
         self._to_pixels: Any = None
         self._lettering: OutlineLettering
 
-    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
+    def open(self, drawing: Drawing) -> None:
         """Begin a sheet of white pixels."""
+        width, height = drawing.width, drawing.height
         per_mm = self._dpi / 25.4
         columns, rows = round(width * per_mm), round(height * per_mm)
         if not (1 <= columns <= _LARGEST and 1 <= rows <= _LARGEST):
@@ -52,8 +53,8 @@ class PngCanvas(Canvas):
                 rows,
                 _LARGEST,
             )
-        self._title = title
-        self._lettering = lettering
+        self._title = drawing.title
+        self._lettering = drawing.lettering
         renderer: Any = RendererAgg  # it has no types
         self._agg = renderer(columns, rows, self._dpi)
         # The nearest whole number of pixels covers the sheet exactly: no half-painted edge.

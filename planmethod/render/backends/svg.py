@@ -18,11 +18,11 @@ from typing import Any
 from xml.etree.ElementTree import Element
 from zlib import crc32
 
-from svgwrite import Drawing
+from svgwrite import Drawing as SvgDocument
 from svgwrite.params import Parameter
 
 from planmethod.render.backends.canvas import Canvas, Options, draw
-from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 from planmethod.render.ink.typeset import PART_OF
@@ -90,17 +90,19 @@ class SvgCanvas(Canvas):
         self._headings: list[str] = []
         self._lettering: OutlineLettering
 
-    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
+    def open(self, drawing: Drawing) -> None:
         """Begin a sheet on white paper, so that dark viewers show it too."""
-        w, h = _number(width), _number(height)
-        self._height = height
-        self._lettering = lettering
+        w, h = _number(drawing.width), _number(drawing.height)
+        self._height = drawing.height
+        self._lettering = drawing.lettering
         white = _INKS[Ink.WHITE]
         unchecked = SimpleNamespace(_parameter=Parameter(False))
-        self._sheet = Drawing(size=(f"{w}mm", f"{h}mm"), viewBox=f"0 0 {w} {h}", factory=unchecked)
+        self._sheet = SvgDocument(
+            size=(f"{w}mm", f"{h}mm"), viewBox=f"0 0 {w} {h}", factory=unchecked
+        )
         # What is marked with the mouse is the text, not the letters over it.
         self._sheet["pointer-events"] = "none"
-        self._title = _clean(title)
+        self._title = _clean(drawing.title)
         self._sheet.add(self._sheet.rect((0, 0), (w, h), class_="paper", fill=white, stroke="none"))
         self._words = self._sheet.add(
             self._sheet.g(class_="words", fill=white, pointer_events="all", font_size="5")

@@ -7,7 +7,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.render import backends
+from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options, draw_sheet
 from planmethod.render.ink.drawing import Bounds, Drawing, shifted
 from planmethod.render.ink.extent import ink_bounds, overlap
@@ -45,7 +45,7 @@ class DrawingView(Struct, frozen=True):
 
     def svg(self) -> str:
         """Return an SVG element."""
-        text = backends.render(self.shown(), "svg").decode("utf-8")
+        text = render(self.shown(), "svg").decode("utf-8")
         return text[text.index("<svg") :].rstrip()
 
     def draw(self, canvas: Any) -> None:
@@ -60,4 +60,4 @@ class DrawingView(Struct, frozen=True):
 
     def png(self, dpi: float) -> bytes:
         """Return a PNG file with so many dots to the inch."""
-        return backends.render(self.shown(), "png", options=Options(dpi=dpi, packed=False))
+        return render(self.shown(), "png", options=Options(dpi=dpi, packed=False))

@@ -28,7 +28,6 @@ from planmethod.problem.model import Problem
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke, placed
-from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.live.scene import LETTER, LiveScene, LiveView, Ref
 from planmethod.render.symbols import vector_arrow
@@ -126,7 +125,7 @@ class Film(Struct):
     def svg(self, seconds: float) -> bytes:
         """Return an SVG that plays by itself, one way and all again after so many seconds."""
         canvas = SvgCanvas(Options())
-        canvas.open(0.0, 0.0, "", in_use())
+        canvas.open(Drawing(0.0, 0.0))
         times = f'dur="{seconds:g}s" repeatCount="indefinite"'
         ring = [*range(len(self.positions)), *([0] if self.closed else [])]
 

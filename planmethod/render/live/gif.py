@@ -6,7 +6,7 @@ from io import BytesIO
 
 from PIL import Image
 
-from planmethod.render import backends
+from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options
 from planmethod.render.live.film import Film
 
@@ -20,7 +20,7 @@ def gif(film: Film, seconds: float, dpi: float) -> bytes:
     table = [min(range(_GREYS), key=lambda k: abs(levels[k] - grey)) for grey in range(256)]
     frames = []
     for drawing in film.frames():
-        with Image.open(BytesIO(backends.render(drawing, "png", options=options))) as picture:
+        with Image.open(BytesIO(render(drawing, "png", options=options))) as picture:
             frame = picture.convert("L").point(table)
         frame = Image.frombytes("P", frame.size, frame.tobytes())
         frame.putpalette([level for grey in levels for level in (grey,) * 3])

@@ -19,7 +19,7 @@ from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
-from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.live.document import html_document, rich, runs, speed_choice
 from planmethod.render.live.scene import LETTER, LiveScene, LiveView
@@ -45,7 +45,7 @@ class _Page:
         self.problem, self.words = problem, language(lang)
         self.scene = LiveScene(problem, self.words)
         self.canvas = SvgCanvas(Options())
-        self.canvas.open(0.0, 0.0, "", in_use())
+        self.canvas.open(Drawing(0.0, 0.0))
 
     def html(self) -> str:
         """Return the document."""
