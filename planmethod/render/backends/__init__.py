@@ -1,4 +1,4 @@
-"""Output formats: one module each, imported only when it is asked for."""
+"""Output formats: one module each, imported only when it is needed."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ DXF_NEEDS = "DXF needs ezdxf: pip install ezdxf"
 
 
 def is_absent(fmt: str) -> bool:
-    """Return whether a format cannot be written for want of a library, without importing it."""
+    """Return whether the library that a format needs is absent, without importing it."""
     return fmt == "dxf" and find_spec("ezdxf") is None
 
 
@@ -37,7 +37,7 @@ def render(drawing: Drawing, fmt: str, *, options: Options | None = None) -> byt
     fmt
         One of `BACKENDS`: ``"svg"``, ``"pdf"``, ``"png"`` or ``"dxf"``.
     options
-        Resolution and the like; the defaults when absent.
+        Resolution and the like. Default: `Options()`.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def render_pages(
     Raises
     ------
     OutputError
-        The format has no pages, or there is no drawing; and as `render`.
+        The format has no pages, or ``drawings`` is empty; and as `render`.
     """
     if fmt not in PAGED:
         raise OutputError("'{}' has no pages. Use one of: {}.", fmt, ", ".join(sorted(PAGED)))

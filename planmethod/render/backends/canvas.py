@@ -1,4 +1,4 @@
-"""What an output format must be able to do, and the replay of a display list on it."""
+"""Protocol of an output format, and the replay of a display list on it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class Options(Struct, frozen=True, kw_only=True):
     """Wishes that only some formats can grant.
 
     ``dpi`` is the resolution of a raster picture, dots to the inch; ``author`` goes into the
-    properties of the file. ``dxf_text`` says whether the letters of a DXF are text or outlines;
+    properties of the file. ``dxf_text`` chooses text or outlines for the letters of a DXF;
     ``packed``, whether a raster picture is made as small as can be, which takes three times longer.
     """
 
@@ -31,10 +31,10 @@ class Canvas(Protocol):
 
     A format with pages is opened once more for each further sheet; the others draw one sheet.
 
-    Coordinates are millimetres, y up, origin at the lower left corner of the sheet. Pens, dashes
-    and letter outlines are the business of `style` and `lettering`, which a canvas asks.
+    Coordinates are millimetres, y up, origin at the lower left corner of the sheet. A canvas takes
+    pens, dashes and letter outlines from `style` and `lettering`.
 
-    It is made of `Options`.
+    Its constructor takes `Options`.
     """
 
     def open(self, drawing: Drawing) -> None:
@@ -77,7 +77,7 @@ def _coordinates(item: Item) -> Iterator[complex]:
 
 
 def _is_bare(item: Item) -> bool:
-    """Return whether an item leaves nothing on the paper: then no format is asked to draw it."""
+    """Return whether an item leaves nothing on the paper; such items are skipped."""
     match item:
         case Stroke():
             return len(item.points) < 2
@@ -97,8 +97,8 @@ def draw_sheet(drawing: Drawing, canvas: Canvas) -> None:
     Raises
     ------
     PlanMethodError
-        An item has a coordinate that is not a finite number: whoever made it forgot to ask whether
-        the point exists.
+        An item has a coordinate that is not a finite number: the caller did not check that the
+        point exists.
     """
     canvas.open(drawing)
     draw(drawing.items, canvas, drawing.title)

@@ -1,8 +1,8 @@
 """DXF (R2010) for CAD programs: one drawing unit is one millimetre of paper, y up.
 
-What a draughtsman would pick is one entity: a side of a plan is a line from end to end, a dashed
-line is whole and its line type dashes it, a joint and an arrowhead are blocks. The meaning of an
-item is its layer, and its width, dashes and grey are those of the layer wherever they can be.
+Everything a draughtsman would pick is one entity: a side of a plan is a line from end to end, a
+dashed line is whole and its line type dashes it, a joint and an arrowhead are blocks. The meaning
+of an item is its layer, and its width, dashes and grey are those of the layer wherever they can be.
 """
 
 from __future__ import annotations
@@ -50,8 +50,8 @@ LINE_TYPES: Mapping[Pen, str] = MappingProxyType(
     }
 )
 
-_WITHIN = 2e-3  # mm: how far a polygon may leave the curve that it stands for
-_BY_BLOCK = -2  # line weight of what takes that of its block
+_WITHIN = 2e-3  # mm: how far a polygon may leave the curve that it replaces
+_BY_BLOCK = -2  # line weight that is inherited from the block
 _SMOOTH = radians(20.0)
 _DEGREE = 3  # of splines
 _NOT_TEXT = "[\x00-\x1f\x7f-\x9f]"
@@ -71,17 +71,17 @@ def _grey(style: PenStyle) -> int:
 
 
 def _escaped(text: str) -> str:
-    """Return a text that a CAD program shows as it stands: no codes in it."""
+    """Return a text that a CAD program shows unchanged: control codes are escaped."""
     return _clean(text).replace("^", "^ ").replace("%%", "%%%%%%")
 
 
 def _coded(text: str) -> str:
-    """Return a text of several heights that shows as it stands: no codes in it."""
+    """Return a text of several heights that is shown unchanged: control codes are escaped."""
     return re.sub(r"([\\{}])", r"\\\1", _clean(text)).replace("^", "^ ")
 
 
 def _stacked(text: str) -> str:
-    """Return an index: what parts a stack in two is told to be a letter."""
+    """Return an index whose stack separators are escaped as letters."""
     return re.sub(r"([#/;])", r"\\\1", _coded(text))
 
 
@@ -91,7 +91,7 @@ def _clean(text: str) -> str:
 
 @contextmanager
 def _no_clock() -> Iterator[None]:
-    """Keep the time and chance out of what the library writes: same drawing, same bytes."""
+    """Make the library's output free of time and chance: same drawing, same bytes."""
     options = _LIBRARY.options
     before = options.write_fixed_meta_data_for_testing
     options.write_fixed_meta_data_for_testing = True
@@ -110,7 +110,8 @@ class DxfCanvas(Canvas):
         self._document: Any = None
         self._space: Any = None
         self._lettering: OutlineLettering
-        # An item whose meaning the next one tells: the shaft of an arrow, the inside of a joint.
+        # An item whose meaning depends on the next one: the shaft of an arrow, the inside of a
+        # joint.
         self._held: Stroke | Disc | None = None
         self._runs: list[Text] = []  # of one turned inscription
 
@@ -132,7 +133,7 @@ class DxfCanvas(Canvas):
         header.custom_vars.append("Author", _clean(self._author))
         middle = (width / 2, height / 2)
         document.set_modelspace_vport(height * 1.05, center=middle)
-        # What a program prints without being asked: the sheet as it lies, 1:1.
+        # The default printed area: the whole sheet, 1:1.
         header["$PSVPSCALE"] = 1.0
         paper = document.paperspace()
         paper.page_setup(size=(width, height), scale=(1, 1))
@@ -140,9 +141,9 @@ class DxfCanvas(Canvas):
         paper.reset_limits((0.0, 0.0), (width, height))
         window = paper.add_viewport(middle, (width, height), middle, height)
         for viewport in (paper.main_viewport(), window):
-            viewport.dxf.layer = "Defpoints"  # whose lines are never printed
+            viewport.dxf.layer = "Defpoints"  # its lines are never printed
         document.set_wipeout_variables(frame=0)
-        # Else the library adds them in the order of a set, which is another in every process.
+        # Otherwise the library adds them in the order of a set, which differs between processes.
         for name in ("ACDBPLACEHOLDER", "LAYOUT", "WIPEOUT", "WIPEOUTVARIABLES"):
             document.classes.add_class(name)
         for pen, name in LINE_TYPES.items():
@@ -164,14 +165,14 @@ class DxfCanvas(Canvas):
     # Attributes -----------------------------------------------------------------------------------
 
     def _by_layer(self, layer: str, pen: Pen) -> dict[str, Any]:
-        """Return the attributes of a line; only what its layer does not say is said."""
+        """Return the attributes of a line: only those that differ from its layer's."""
         own: dict[str, Any] = {"layer": layer}
         return {**own, **_unlike(LAYERS[layer], pen)}
 
     # Verbs ----------------------------------------------------------------------------------------
 
     def stroke(self, item: Stroke) -> None:
-        """Draw a line or polyline, once the next item tells whether it is an arrow's shaft."""
+        """Draw a line or polyline, once the next item shows whether it is an arrow's shaft."""
         self._let_go()
         if PENS[item.pen].dashes and len(set(item.points)) < 2:
             return
@@ -217,7 +218,7 @@ class DxfCanvas(Canvas):
             if isinstance(item, Disc):
                 x, y = item.centre.real, item.centre.imag
                 hatch.paths.add_edge_path().add_arc((x, y), item.radius, 0.0, 360.0)
-                # What an object snap finds.
+                # A target for the object snap.
                 thin = {"layer": layer, "lineweight": 0}
                 self._space.add_circle((x, y), item.radius, dxfattribs=thin)
             else:
@@ -284,7 +285,7 @@ class DxfCanvas(Canvas):
     # Parts ----------------------------------------------------------------------------------------
 
     def _let_go(self) -> None:
-        """Draw the held item as what it is by itself, and the runs of a turned inscription."""
+        """Draw the held item on its own, and the runs of a turned inscription."""
         runs, self._runs = self._runs, []
         if len(runs) > 1:
             self._inscription(runs)
@@ -377,7 +378,7 @@ class DxfCanvas(Canvas):
         )
 
     def _joint(self, radius: float, pen: Pen) -> str:
-        """Return the block of a revolute pair: a circle, nothing to be seen through it."""
+        """Return the block of a revolute pair: an opaque circle."""
         name = f"JOINT_{radius:.6g}_{layer_of('', pen)}"
         if name not in self._document.blocks:
             block = self._document.blocks.new(name)
@@ -400,7 +401,7 @@ class DxfCanvas(Canvas):
 
 
 def _unlike(own: Pen, pen: Pen) -> dict[str, Any]:
-    """Return what a line of ``pen`` must say for itself on a layer with the pen ``own``."""
+    """Return the attributes that a line of ``pen`` needs on a layer with the pen ``own``."""
     said: dict[str, Any] = {}
     if line_weight(pen) != line_weight(own):
         said["lineweight"] = line_weight(pen)

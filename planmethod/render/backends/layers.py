@@ -1,4 +1,4 @@
-"""Layers of a DXF file: which there are, and what goes on which, by tag and pen (слои)."""
+"""Layers of a DXF file: their names, and the choice of a layer by tag and pen (слои)."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from planmethod.errors import OutputError
 from planmethod.languages import say
 
 UNFINISHED = ".planmethod-*.tmp"
-"""What a file is called, or a folder of files, until it is whole; one that was killed leaves it."""
+"""Name of a file or folder until it is complete; a killed process leaves one behind."""
 
 _CAUSES = {
     errno.EACCES: "no permission. Choose another directory with --out, or close the program that "
@@ -57,14 +57,14 @@ def write_all(
 ) -> None:
     """Write files into a folder, all of them or none.
 
-    They are written into a folder of their own first; what else is there stays.
+    They are first written into a temporary folder; other files of the folder stay.
 
     Parameters
     ----------
     files : mapping of str to bytes
         By their names in the folder.
     gone : iterable of str
-        Names of files of an earlier time that are removed then.
+        Names of older files that are removed afterwards.
     within : Path, optional
         The folder of ``--out``: a link that leads out of it is refused.
 
@@ -104,8 +104,8 @@ def opened(path: Path | str, *, within: Path | None = None) -> Iterator[BinaryIO
 
     The bytes go to a temporary file beside ``path``, which takes its place when the block ends: a
     reader sees the old file or the new one, and a failure leaves what was there. Missing
-    directories are made; a symbolic link is followed to a file that is there, and refused where
-    there is none; an existing file keeps its permissions.
+    directories are made; a symbolic link to an existing file is followed, a dangling one is
+    rejected; an existing file keeps its permissions.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ def opened(path: Path | str, *, within: Path | None = None) -> Iterator[BinaryIO
     asked = Path(path)
     _stay(asked, within)
     try:
-        # Before links are followed: nothing is made where one of them leads.
+        # Before links are followed: no directory is made at the target of one.
         asked.parent.mkdir(parents=True, exist_ok=True)
         target = whither(asked)
         mode = _mode_to_keep(target, asked)
@@ -160,7 +160,7 @@ def whither(asked: Path, *, within: Path | None = None) -> Path:
     Raises
     ------
     OutputError
-        It is a link to where there is nothing, or out of the folder.
+        It is a dangling link, or a link out of the folder.
     """
     _stay(asked, within)
     target = Path(os.path.realpath(asked))
@@ -174,7 +174,7 @@ def whither(asked: Path, *, within: Path | None = None) -> Path:
 
 
 def _mode_to_keep(target: Path, asked: Path) -> int | None:
-    """Return the permissions of the file to be replaced; refuse what must not be replaced."""
+    """Return the permissions of a replaceable file; reject any other existing path."""
     if target.is_dir():
         raise OutputError("Cannot write {}: it is a directory. Give the name of a file.", asked)
     if not target.exists():
@@ -202,9 +202,9 @@ def cause_of(error: OSError) -> str:
 
 
 def unwritten(error: Exception) -> OSError | None:
-    """Return what of the system stands behind an error of a library that writes; None of others.
+    """Return the system error behind an error of a writing library, or None.
 
-    What writes XML by libxml2 (a workbook, into a folder of the system for a while) has its words.
+    Libraries that write XML by libxml2 (a workbook, in a temporary folder) report it in its words.
     """
     if isinstance(error, OSError):
         return error

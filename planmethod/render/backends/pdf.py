@@ -28,7 +28,7 @@ _CAPS = {"butt": 0, "round": 1}
 
 @cache
 def registered(lettering: OutlineLettering) -> str:
-    """Return the name of a lettering, registered when it is first asked for."""
+    """Return the name of a lettering, registered on first use."""
     pdfmetrics.registerFont(TTFont(lettering.name, str(lettering.font_file)))
     return lettering.name
 
@@ -53,7 +53,7 @@ class PdfCanvas(Canvas):
         else:
             self._pdf.showPage()
             self._pdf.setPageSize(size)
-            self._pen = self._ink = None  # every page begins anew
+            self._pen = self._ink = None  # every page starts without state
         self._pdf.scale(_MM, _MM)
         self._take_lettering(drawing.lettering)
 
@@ -69,7 +69,7 @@ class PdfCanvas(Canvas):
             pageCompression=1,
             # The same drawing gives the same bytes: no clock in the file.
             invariant=1,
-            # Else a Helvetica that nobody uses stays in the file, not embedded.
+            # Otherwise an unused Helvetica stays in the file, not embedded.
             initialFontName=font,
         )
         self._pdf.setTitle(title)
@@ -153,7 +153,7 @@ class PdfCanvas(Canvas):
 
 
 class OnPage(PdfCanvas):
-    """Canvas that draws on a page of reportlab that is there already (на готовой странице)."""
+    """Canvas that draws on an existing page of reportlab (на готовой странице)."""
 
     def __init__(self, page: Any) -> None:
         super().__init__(Options())

@@ -67,11 +67,11 @@ class PngCanvas(Canvas):
     def _ink_pen(self, pen: Pen, path: Path) -> None:
         style = PENS[pen]
         gc = self._gc(style.width, style.cap, style.grey)
-        gc.set_snap(None)  # upright lines stand on whole pixels
+        gc.set_snap(None)  # upright lines snap to whole pixels
         self._agg.draw_path(gc, path, self._to_pixels)
 
     def _gc(self, width: float, cap: str = "round", grey: float = 0.0) -> Any:
-        """Return what Agg draws lines with; ``width`` is mm."""
+        """Return Agg's graphics context for lines; ``width`` is mm."""
         gc = self._agg.new_gc()
         gc.set_linewidth(width * 72.0 / 25.4)  # points
         gc.set_capstyle(cap)
@@ -121,7 +121,7 @@ class PngCanvas(Canvas):
             ("Software", "planmethod"),
         ):
             properties.add_text(key, text)
-        # The drawing is black on white: one channel of four says it all.
+        # The drawing is black on white: one channel of the four is enough.
         grey = np.ascontiguousarray(np.asarray(self._agg.buffer_rgba())[..., 0])
         file = BytesIO()
         dots = (self._dpi, self._dpi)

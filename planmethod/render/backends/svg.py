@@ -1,9 +1,9 @@
 """SVG: one millimetre is one user unit, letters are strokes, so no font is needed to view it.
 
-What every viewer draws alike is used and nothing else: presentation attributes (no style sheet),
-``xlink:href`` (some programs drop a plain ``href``), generated dashes. What is written stands once
-more as text under everything, white on the white paper: it is found, marked and copied where the
-letters are, printed with them, and read aloud; no eye sees in which font.
+Only features that every viewer draws alike are used: presentation attributes (no style sheet),
+``xlink:href`` (some programs drop a plain ``href``), generated dashes. Each inscription is repeated
+as text under everything, white on the white paper: it can be found, marked, copied, printed and
+read aloud where the letters are; its font is invisible.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _LINES = {
     "stroke-linecap": "round",
     "stroke-linejoin": "round",
 }
-"""What a group of pens does not say itself."""
+"""Default attributes of the groups of pens."""
 _HEADING, _LETTERS = 5.0, 8  # mm, and letters: an inscription larger and longer is a heading
 # XML 1.0 cannot hold these, not even as references. All others, negated, take ten times as long
 # to compile.
@@ -42,7 +42,7 @@ _NOT_XML = r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]"
 
 
 class _Letters:
-    """Stands in a group for letters, which are half of all elements and written as text.
+    """Placeholder in a group for letters, which are half of all elements and written as text.
 
     As elements they cost as much as all the rest of a drawing.
     """
@@ -100,7 +100,7 @@ class SvgCanvas(Canvas):
         self._sheet = SvgDocument(
             size=(f"{w}mm", f"{h}mm"), viewBox=f"0 0 {w} {h}", factory=unchecked
         )
-        # What is marked with the mouse is the text, not the letters over it.
+        # The mouse marks the text, not the letters over it.
         self._sheet["pointer-events"] = "none"
         self._title = _clean(drawing.title)
         self._sheet.add(self._sheet.rect((0, 0), (w, h), class_="paper", fill=white, stroke="none"))
@@ -114,7 +114,7 @@ class SvgCanvas(Canvas):
         return f"{_number(point.real)} {_number(self._height - point.imag)}"
 
     def _way(self, points: Sequence[complex]) -> str:
-        """Return a polyline: where it starts, and its steps between places in thousandths of mm."""
+        """Return the path data of a polyline: its start, and its steps in thousandths of mm."""
         places = [(round(p.real, 3), round(self._height - p.imag, 3)) for p in points]
         steps = (f"{_number(c - a)} {_number(d - b)}" for (a, b), (c, d) in pairwise(places))
         return f"M{self._xy(points[0])}l{' '.join(steps)}".replace(" -", "-")
@@ -194,8 +194,9 @@ class SvgCanvas(Canvas):
         self._written.append(item)
 
     def _run(self, item: Text) -> str:
-        """Return the name of a run of letters, which is put together once, wherever it stands."""
-        # As far as it can be seen: 5 mm and 5.0, 0° and -0.0 are one, whoever computed them.
+        """Return the name of a run of letters, which is composed once for all its places."""
+        # Rounded to visible digits: 5 mm and 5.0, 0° and -0.0 are the same, however they were
+        # computed.
         height, angle = round(item.height, 6) + 0.0, round(item.angle, 6) + 0.0
         key = f"{item.text} {height} {angle}"
         name = f"t{crc32(key.encode(errors='replace')):x}"
@@ -216,7 +217,7 @@ class SvgCanvas(Canvas):
         return name
 
     def _there(self, placed: tuple[str, str, str, str], *, kept: bool) -> str:
-        """Return a run where it stands; one that is ``kept`` stands in the definitions."""
+        """Return the element of a placed run; if ``kept``, it refers to the definitions."""
         name, x, y, tag = placed
         if kept:
             return f'<use{tag} x="{x}" xlink:href="#{name}" y="{y}"/>'
@@ -224,7 +225,7 @@ class SvgCanvas(Canvas):
         return f'<g{tag} transform="translate({x} {y}){turn}">{uses}</g>' if uses else ""
 
     def _with_letters(self, text: str, letters: Iterable[str]) -> str:
-        """Return what svgwrite wrote with letters in their places."""
+        """Return svgwrite's text with the placeholders replaced by letters."""
         first, *rest = text.replace(" />", "/>").split(_Letters.TEXT)
         return first + "".join(map(str.__add__, letters, rest))
 

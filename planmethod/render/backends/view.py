@@ -14,13 +14,13 @@ from planmethod.render.ink.extent import ink_bounds, overlap
 
 
 class DrawingView(Struct, frozen=True):
-    """A drawing as it stands on its sheet, whole or what is in a box (вид чертежа).
+    """A drawing of a sheet, whole or the part in a box (вид чертежа).
 
     Attributes
     ----------
     drawing : Drawing
     box : Bounds, mm, optional
-        Of the sheet: what of it is shown. Items that are partly outside are cut there.
+        The shown part of the sheet. Items that are partly outside are cut there.
     """
 
     drawing: Drawing
@@ -35,7 +35,7 @@ class DrawingView(Struct, frozen=True):
         return right - left, high - low
 
     def shown(self) -> Drawing:
-        """Return what is shown as a drawing of its own."""
+        """Return the shown part as a drawing of its own."""
         if self.box is None:
             return self.drawing
         width, height = self.size
@@ -59,5 +59,5 @@ class DrawingView(Struct, frozen=True):
         draw_sheet(self.shown(), OnPage(canvas))
 
     def png(self, dpi: float) -> bytes:
-        """Return a PNG file with so many dots to the inch."""
+        """Return a PNG file with ``dpi`` dots to the inch."""
         return render(self.shown(), "png", options=Options(dpi=dpi, packed=False))
