@@ -1,6 +1,6 @@
 """Letters of views that are too many or too few (плотность и полнота обозначений).
 
-``PM-D17``  more letters in one part of a scheme than can be told apart
+``PM-D17``  too many letters in one part of a scheme to be distinguished
 ``PM-D18``  vectors of a plan that have no name
 """
 
@@ -19,10 +19,10 @@ NAMED, NAMED_OF_SEVERAL = 5.0, 8.0
 """Length from which a vector has its name, and on a plan of several positions, mm."""
 
 UNNAMED = 20.0
-"""Most vectors of a plan that may be without, per cent: where no place is free, the letters of
-their ends tell them."""
+"""Largest share of a plan's vectors that may be without a name, per cent: where no place is free,
+the letters of their ends name them."""
 
-_SLACK = 4  # more letters than points there may be in a square, for they lie beside these
+_SLACK = 4  # a square may have more letters than points, for letters lie beside the points
 
 
 def crowded(writings: Sequence[Writing], views: Sequence[View]) -> Iterator[Finding]:
@@ -38,7 +38,7 @@ def crowded(writings: Sequence[Writing], views: Sequence[View]) -> Iterator[Find
 
 
 def unnamed(writings: Sequence[Writing], views: Sequence[View]) -> Iterator[Finding]:
-    """Find plans more of whose vectors have no name than may: one finding for each plan."""
+    """Find plans with too many vectors without a name: one finding for each plan."""
     there = {writing.name for writing in writings}
     for view in views:
         for position in dict.fromkeys(span.position for span in view.spans):

@@ -1,6 +1,6 @@
 """Inscriptions and arrows that mislead (обозначения, вводящие в заблуждение).
 
-``PM-D14``  a letter is far from what it names, or nearer to another point or arrow than to its own
+``PM-D14``  a letter is far from its point or arrow, or nearer to another one than to its own
 ``PM-D15``  an arrow of a turn touches another one or runs through a slider
 ``PM-D16``  two inscriptions read as one: side by side as a word, over a short line as a fraction
 """
@@ -29,12 +29,12 @@ LEADER = 40.0
 """Longest leader line of a letter, mm: the eye does not follow it further."""
 
 AMONG, AT_OTHER = 24.0, 4.0
-"""Longest leader line of the letter of a point that stands at another point, and how near that is,
-mm: it is read as that one's."""
+"""Longest leader line of a letter that is placed at another point, and the distance from that
+point, mm: it is read as that point's."""
 
 NEARER = 0.5
-"""So much nearer to another point than to its own a letter without a leader line is taken for that
-one's, mm."""
+"""Difference of distances from which a letter without a leader line is taken for the nearer
+point's, mm."""
 
 ARROWS_APART = 1.0
 """Least white between two arrows of turns, mm."""
@@ -42,16 +42,16 @@ ARROWS_APART = 1.0
 WORDS_APART = 1.0
 """Least white between two inscriptions on one level, mm: a word gap of letters of 2.5 mm."""
 
-_BAR = 25.0  # mm: a longer line is no fraction's
-_OVER = 3.5  # mm: a letter further from a line than this does not stand on it
-_TOUCH = 0.05  # mm: what is not yet nearer
+_BAR = 25.0  # mm: a longer line is not the bar of a fraction
+_OVER = 3.5  # mm: a letter further from a line than this is not on it
+_TOUCH = 0.05  # mm: smaller differences do not count as nearer
 
 _VECTORS = {*(kind.value for kind in VectorKind), "similar"}
 """Tags of vectors and of the sides of similar figures, which the letters at their ends name."""
 
 _POINTS = ("point ", *(f"{kind.value} " for kind in PlanKind))
 _FORCES = (f"{FORCE} ", f"{PLAN_FORCE} ")
-_SAME = 1.0  # mm: points nearer to each other are one for the eye
+_SAME = 1.0  # mm: points nearer to each other look like one
 
 Arrows = dict[str, BaseGeometry]
 """Arcs of the arrows of ω and ε by their tags."""
@@ -60,7 +60,7 @@ Arrows = dict[str, BaseGeometry]
 def misleading(
     items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
 ) -> Iterator[Finding]:
-    """Find letters and arrows that may be taken for something else.
+    """Find letters and arrows that may be misread.
 
     ``writings`` are the inscriptions of the items; only those of views read as a word or fraction,
     for equations and calculations are set as such.
@@ -81,7 +81,7 @@ def misleading(
 
 
 def holds(box: Bounds, place: complex) -> bool:
-    """Tell whether a place is in a box."""
+    """Return whether a place is in a box."""
     return box[0] <= place.real <= box[2] and box[1] <= place.imag <= box[3]
 
 
@@ -97,14 +97,14 @@ def _long_leaders(items: Sequence[Item], writings: Sequence[Writing]) -> Iterato
 
 
 def is_of_point(name: str) -> bool:
-    """Tell whether an inscription names a point of a scheme or plan, by its own name."""
+    """Return whether an inscription, by its name, labels a point of a scheme or plan."""
     return name.startswith(_POINTS)
 
 
 def own_and_other(
     writings: Sequence[Writing], views: Sequence[View]
 ) -> Iterator[tuple[Writing, float, float]]:
-    """Yield the letters of points, how far each is from its point and from another one, mm."""
+    """Yield the letters of points with their distances from their own and another point, mm."""
     for view in views:
         inside = [w for w in writings if is_of_point(w.name) and holds(view.box, w.where)]
         there = [(w, at) for w in inside if (at := w.runs[0].names) is not None]
@@ -137,7 +137,7 @@ def _of_other_points(
 def _of_other_forces(
     items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
 ) -> Iterator[Finding]:
-    """Find letters of forces without a leader line that stand at the arrow of another force."""
+    """Find letters of forces without a leader line that are placed at another force's arrow."""
     led = {item.tag for item in items if isinstance(item, Stroke) and item.tag.startswith(LED)}
     for view in views:
         arrows: Arrows = {}
@@ -204,7 +204,7 @@ def _words(writings: Sequence[Writing]) -> Iterator[Finding]:
 
 
 def _fractions(items: Sequence[Item], writings: Sequence[Writing]) -> Iterator[Finding]:
-    """Find short level lines with a letter standing on them and another one hanging under them."""
+    """Find short level lines with one letter above and another one below them."""
     for item in items:
         if not (isinstance(item, Stroke) and item.pen is Pen.THIN and len(item.points) == 2):
             continue

@@ -1,4 +1,4 @@
-"""What the norm control says (замечания нормоконтроля): codes, severities, findings, sentences."""
+"""Remarks of the norm control (замечания нормоконтроля): codes, severities, findings, sentences."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ Segments: TypeAlias = tuple[tuple[str, float], ...]
 """Letters and lengths of segments, mm."""
 
 Facts: TypeAlias = Mapping[str, str | float | Segments]
-"""What fills the places of a remark's templates; numbers are written as the language does."""
+"""Values for the templates of a remark; numbers are formatted for the language."""
 
 
 class Severity(StrEnum):
-    """How grave a finding is: an error is a fault of the drawing, a warning is advice."""
+    """Severity of a finding: an error is a fault of the drawing, a warning is advice."""
 
     ERROR = "error"
     WARNING = "warning"
 
 
 class Remark(NamedTuple):
-    """One code: how grave, and in which unit its numbers are (код замечания)."""
+    """One code: its severity and the unit of its numbers (код замечания)."""
 
     severity: Severity
     unit: str
@@ -80,7 +80,7 @@ def limit_text(limit: float, lang: str) -> str:
 
 
 def unlike(value: float, limit: float, lang: str, decimals: int) -> str:
-    """Return a number with as many decimals, up to three, as tell it from a limit."""
+    """Return a number with as many decimals, up to three, as distinguish it from a limit."""
     while decimals < 3 and round(value, decimals) == round(limit, decimals):
         decimals += 1
     return number_text(value, lang, decimals)
@@ -109,9 +109,9 @@ def _fact(fact: str | float | Segments, limit: float, lang: str) -> str:
 
 
 def thing_text(name: str, words: Words) -> str:
-    """Return what an inscription lies on (``stroke main``), or a line by itself (``line axis``)."""
+    """Return the name of an obstacle (``stroke main``), or of a line by itself (``line axis``)."""
     kind, _, rest = name.partition(" ")
-    # The names of pens may have a space, as may what follows them.
+    # The names of pens may have a space, as may the tags that follow them.
     pen = max((p for p in Pen if f"{rest} ".startswith(f"{p.value} ")),
               key=lambda p: len(p.value), default=None)  # fmt: skip
     tag = rest if pen is None else rest[len(pen.value) :].strip()
@@ -125,7 +125,7 @@ def thing_text(name: str, words: Words) -> str:
 
 
 class Finding(Struct, frozen=True):
-    """One thing the norm control has to say (замечание).
+    """One finding of the norm control (замечание).
 
     Attributes
     ----------
@@ -134,13 +134,13 @@ class Finding(Struct, frozen=True):
     where : complex, mm
         Place on the sheet, from its lower left corner.
     value, limit : float
-        What was found and what is allowed: mm, mm² for overlaps, per cent for unused paper.
+        Measured and permitted value: mm, mm² for overlaps, per cent for unused paper.
     facts : mapping
-        What else the sentences of the code need.
+        Further values for the sentences of the code.
     view : str
-        Kind of the view it is found on, ``stamp``, or empty.
+        Kind of the view with the finding, ``stamp``, or empty.
     position : int, optional
-        Number of the position whose plan it is found on.
+        Number of the position whose plan has the finding.
     """
 
     code: str
@@ -153,20 +153,20 @@ class Finding(Struct, frozen=True):
 
     @property
     def severity(self) -> Severity:
-        """How grave it is."""
+        """Severity by its code."""
         return REMARKS[self.code].severity
 
     @property
     def message(self) -> str:
-        """What, where, with numbers, in English."""
+        """Fault, place and numbers in English."""
         return self.what("en")
 
     def what(self, lang: str) -> str:
-        """Return what is wrong, where, with numbers."""
+        """Return the fault, its place and numbers in a language."""
         return self._filled(language(lang).control["remarks"][self.code].what, lang)
 
     def action(self, lang: str) -> str:
-        """Return what to do about it."""
+        """Return the advice of the finding in a language."""
         actions = language(lang).control["remarks"][self.code]["actions"]
         return self._filled(actions[str(self.facts.get("advice", ""))], lang)
 

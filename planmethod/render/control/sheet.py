@@ -4,7 +4,7 @@ To the codes of `planmethod.render.control.texts`, which looks at texts, it adds
 
 ``PM-D07``  lines of a view leave the frame
 ``PM-D08``  segments of a plan are too short to be measured
-``PM-D09``  there is no scale inscription under a view that has a scale
+``PM-D09``  the scale inscription is missing under a view that has a scale
 ``PM-D10``  a large part of the paper is unused
 ``PM-D11``  a dashed line does not begin and end with a stroke
 ``PM-D12``  a dashed line is too short to show its pattern
@@ -59,17 +59,17 @@ UNUSED = 12.0
 INKED = 18.0
 """Least share of the field that has ink, per cent of its squares of 5 mm."""
 
-_TOUCH = 0.05  # mm: what is not yet outside
+_TOUCH = 0.05  # mm: smaller overhangs do not count as outside
 _FRAME_TAGS = frozenset({"edge", "frame", STAMP})
 
 
 def inspect(drawing: Drawing) -> list[Finding]:
-    """Look a whole sheet over (нормоконтроль).
+    """Check a whole sheet (нормоконтроль).
 
     Returns
     -------
     list of Finding
-        In the order of the codes, then of the drawing; each knows the view that it is found on.
+        In the order of the codes, then of the drawing; each has the view that it is found on.
     """
     with using(drawing.lettering):
         return _inspected(drawing)
@@ -102,7 +102,7 @@ def _inspected(drawing: Drawing) -> list[Finding]:
 
 
 def _attributed(finding: Finding, views: Iterable[View], inner: Bounds) -> Finding:
-    """Return a finding with the view that its place is in, or the title block."""
+    """Return a finding with the view, or the title block, that contains its place."""
     for view in views:
         if holds(view.box, finding.where):
             return replace(finding, view=view.kind)
@@ -144,7 +144,7 @@ def lines_outside(items: Sequence[Item], views: Sequence[View], inner: Bounds) -
 
 
 def run_into_graphs(items: Sequence[Item], views: Sequence[View]) -> Iterator[Finding]:
-    """Find what runs into the title block and the other graphs: one finding for each of them."""
+    """Find items that run into the title block and the other graphs: one finding for each graph."""
     graphs = [
         ink_bounds([item])
         for item in items
@@ -166,7 +166,7 @@ def _is_furniture(item: Item) -> bool:
 
 
 def _inside(item: Item, box: Bounds) -> tuple[float, complex]:
-    """Return how deep the ink of an item is in a box, mm, and where it is deepest."""
+    """Return the depth of an item's ink in a box, mm, and its deepest place."""
     found = (
         (min(p.real - box[0], box[2] - p.real, p.imag - box[1], box[3] - p.imag), p)
         for p in ink_points(item)
@@ -204,7 +204,7 @@ def short_segments(views: Iterable[View]) -> Iterator[Finding]:
 
 
 def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Finding]:
-    """Find views that have a scale and no inscription of it."""
+    """Find views that have a scale but no inscription of it."""
     writings = writings_of(items)
     for view in views:
         letters = view.scale.translate({ord(sign): None for sign in "_{}"})
@@ -253,7 +253,7 @@ def dashes_unseen(items: Iterable[Item]) -> Iterator[Finding]:
 
 
 def _dashed(item: Stroke | Arc) -> tuple[int, float]:
-    """Return how many pieces a line has, and how far its ends are from the strokes, mm."""
+    """Return the number of pieces of a line, and the distance of its ends from the strokes, mm."""
     if isinstance(item, Arc):
         turn, spans = sweep(item), arc_spans(item)
         if not spans or turn >= tau - 1e-9:
@@ -275,7 +275,7 @@ def _length(item: Stroke | Arc) -> float:
 
 
 def _enlarged(item: Stroke | Arc) -> float:
-    """Return how many times larger a figure shows two strokes, to a thousandth."""
+    """Return the enlargement at which a figure shows two strokes, to a thousandth."""
 
     def shows(times: float) -> bool:
         if isinstance(item, Arc):

@@ -1,8 +1,8 @@
-"""Lint of a display list (нормоконтроль чертежа): what a norm controller would mark in texts.
+"""Lint of a display list (нормоконтроль чертежа): faults of texts by the drafting standards.
 
-The lint knows nothing of mechanisms: it looks at the paper. Lines, views and the sheet as a whole
-are looked at by `planmethod.render.control.sheet`; what is said is in
-`planmethod.render.control.remarks`.
+The lint looks at the paper, not at mechanisms. Lines, views and the sheet as a whole are checked by
+`planmethod.render.control.sheet`; the sentences are in `planmethod.render.control.remarks`.
+
 Codes:
 
 ``PM-D01``  two inscriptions overlap
@@ -34,13 +34,13 @@ SMALLEST_OF_ALL = 1.8
 """Smallest height of an index and in the title block, mm (the smallest of GOST 2.304)."""
 
 GRID = "grid"
-"""Tag of the lines of the grid that letters are shown on: they are meant to run through them."""
+"""Tag of the lines of the grid under sample letters, which may run through the letters."""
 
-_TOUCH = 0.05  # mm: what is not yet an overlap
+_TOUCH = 0.05  # mm: smaller depths do not count as an overlap
 
 
 class Writing(Struct, frozen=True):
-    """One inscription (надпись): its runs, the ink boxes, where in the drawing order it stands."""
+    """One inscription (надпись): its runs, the ink boxes, its place in the drawing order."""
 
     name: str
     runs: tuple[Text, ...]
@@ -50,7 +50,7 @@ class Writing(Struct, frozen=True):
 
     @property
     def shown(self) -> str:
-        """Its letters, those of the indices too."""
+        """All its letters, with the indices."""
         return "".join(run.text for run in self.runs)
 
     @property
@@ -65,7 +65,7 @@ def lint(
     *,
     ignore: Iterable[Pen] = (),
 ) -> list[Finding]:
-    """Look a display list over and return what is wrong with its texts (нормоконтроль).
+    """Check a display list and return the faults of its texts (нормоконтроль).
 
     Parameters
     ----------
@@ -138,8 +138,8 @@ def _crossed(
 ) -> Iterator[Finding]:
     """Find lines and areas that run through letters and are not hidden by white.
 
-    The white ground that a label of a crowd brings hides thin lines alone; what else it covers is
-    as bad as letters on it.
+    The white ground of a label of a crowd hides thin lines only; any other covered item counts as
+    covered by letters.
     """
     seen = ((k, item) for k, item in enumerate(items) if item.tag != GRID)
     things = [(k, shape) for k, item in seen if (shape := _shape(item, ignore))]
@@ -171,12 +171,12 @@ def _is_white(item: Item) -> bool:
 
 
 def _breaks(item: Item) -> bool:
-    """Tell whether the white ground of a label may break a thing: a thin line, nothing else."""
+    """Return whether the white ground of a label may break an item: only thin lines."""
     return isinstance(item, (Stroke, Arc)) and item.pen in BREAKABLE
 
 
 def _shape(item: Item, ignore: frozenset[Pen]) -> BaseGeometry | None:
-    """Return what a thing covers: a line, or an area when it is filled."""
+    """Return the geometry of an item: a line, or an area when it is filled."""
     match item:
         case Stroke(points=path, pen=pen, closed=closed) if len(path) > 1 and pen not in ignore:
             ends = (*path, path[0]) if closed else path
@@ -191,7 +191,7 @@ def _shape(item: Item, ignore: frozenset[Pen]) -> BaseGeometry | None:
 
 
 def called(item: Item) -> str:
-    """Return what a thing is called in the facts of a finding: kind, pen, tag."""
+    """Return the name of an item in the facts of a finding: kind, pen, tag."""
     pen = item.pen.value if isinstance(item, (Stroke, Arc)) else ""
     return f"{type(item).__name__.lower()} {pen} {item.tag}".rstrip()
 

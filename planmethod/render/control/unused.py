@@ -11,17 +11,17 @@ from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import text_corners
 
 CELL = 5.0
-"""Side of the squares that the paper is looked at in, mm."""
+"""Side of the squares that the paper is divided into, mm."""
 
 FRAME = ("edge", "frame")
-"""Tags of the lines around the field, which are no ink on it."""
+"""Tags of the lines around the field, which do not count as ink on it."""
 
 
 def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
     """Return the largest rectangle within the frame that no ink touches, mm.
 
-    The paper is divided into squares of `CELL`; a square with ink is taken as a whole, so that the
-    rectangle is found to one square at each side.
+    The paper is divided into squares of `CELL`; a square with ink is taken as a whole, so the
+    rectangle is exact to one square at each side.
     """
     x0, y0, x1, y1 = inner
     taken = _taken(items, inner)
@@ -41,7 +41,7 @@ def inked_share(items: Iterable[Item], inner: Bounds) -> float:
 
 
 def _taken(items: Iterable[Item], inner: Bounds) -> list[list[bool]]:
-    """Return which squares ink touches, in rows from below."""
+    """Return the squares that ink touches as rows of flags from below."""
     x0, y0, x1, y1 = inner
     columns, rows = ceil((x1 - x0) / CELL), ceil((y1 - y0) / CELL)
     taken = [[False] * columns for _ in range(rows)]
@@ -60,7 +60,7 @@ def share_of(box: Bounds, inner: Bounds) -> float:
 
 
 def ink_points(item: Item) -> list[complex]:
-    """Return points of an item's ink, near enough that no square of `CELL` is passed over."""
+    """Return points of an item's ink, close enough that no square of `CELL` is missed."""
     match item:
         case Stroke(points=path, closed=closed):
             return _along([*path, path[0]] if closed and path else path)
