@@ -18,13 +18,13 @@ from planmethod.render.symbols import unit
 from planmethod.solved.forces.reading import ForceReading
 
 ARM, ACTION = "arm", "action beyond an arrow"
-"""Tags of the perpendicular, before the force's letter, and of the line that it stands on."""
+"""Tags of the perpendicular, before the force's letter, and of the line of action that it meets."""
 
-_LEAST = 3.0  # mm: a shorter arm is no line that an eye would find
-_SAME = 0.3  # mm: arms so near one another are one line
+_LEAST = 3.0  # mm: a shorter arm is too short to be seen
+_SAME = 0.3  # mm: closer arms are drawn as one line
 _CORNER = 2.0  # mm: sides of the sign of a right angle
 _BEYOND = 3.0  # mm that a line of action goes on beyond its foot
-_MOST = 24  # arms on a picture: of more nobody finds one, and the equations tell them
+_MOST = 24  # arms on a picture: more would be unreadable, and the equations list them
 
 
 class ForceArm(Struct, frozen=True):
@@ -54,7 +54,7 @@ def arm_of(force: Acting, about: complex, read: float) -> ForceArm:
 
 
 def arms_of(reading: ForceReading, equations: Iterable[Moments], say: Notation) -> list[ForceArm]:
-    """Return the arms that the equations of moments of a force plan need, each once."""
+    """Return the arms used in the moment equations of a force plan, each once."""
     found: dict[tuple[str, complex], ForceArm] = {}
     for equation in equations:
         about = reading.place(equation.about)
@@ -80,10 +80,10 @@ def arm_items(
     prefix: str,
     say: Notation,
 ) -> tuple[list[Item], list[Label]]:
-    """Return the perpendiculars with what they measure, and the lines of action as far as there.
+    """Return the perpendiculars with their lengths, and the lines of action extended to them.
 
-    ``placed`` are the arrows of the forces. Arms on one line have it together: ``h_{G5} = h_{Φ5}``.
-    None are drawn where they are more than a reader can tell apart.
+    ``placed`` are the arrows of the forces. Arms on one line share an inscription: ``h_{G5} =
+    h_{Φ5}``. If there are too many arms to read, none is drawn.
     """
     lines: list[list[ForceArm]] = []
     for arm in arms:

@@ -31,10 +31,10 @@ COUPLE = "couple"
 """First word of the tags of circular arrows; the second is the letter."""
 
 MANNER = replace(BUSY, leader_from=4.5, stranger=25.0)
-"""How the letter of a force looks for its place: nearest to its own arrow, or with a leader."""
+"""Label style of a force's letter: nearest to its own arrow, or with a leader."""
 
-_NEAR = 3.0  # mm: nearer two arrows would read as one
-_ON = 1.0  # mm: nearer an arrow lies on a link
+_NEAR = 3.0  # mm: closer arrows would read as one
+_ON = 1.0  # mm: a closer arrow lies on a link
 _LEVELS = 4
 _STRANGER = 10.0  # cost of another joint on the way to an arrow, or under it
 
@@ -44,7 +44,7 @@ Segment = tuple[complex, complex]
 class Acting(Struct, frozen=True):
     """Force to be drawn: its letter, where it acts, mm, and in which direction.
 
-    ``gap`` is the white between its arrow and its point, mm, where it is not that of the others.
+    ``gap`` is the white between its arrow and its point, mm, if different from the others'.
     """
 
     symbol: str
@@ -57,7 +57,7 @@ class Acting(Struct, frozen=True):
 class CoupleArc(Struct, frozen=True):
     """Couple to be drawn: its letter, a place on its link, mm, and its sense.
 
-    ``along`` is the segment of a lever that it turns: its arrow may stand at any place of it.
+    ``along`` is the lever segment that it acts on: its arrow may be placed anywhere on it.
     """
 
     symbol: str
@@ -84,9 +84,8 @@ def lay_forces(
 ) -> list[tuple[Acting, Segment]]:
     """Return where the arrow of each force is drawn, its tail and its head.
 
-    ``bars`` are the lines of the links, which arrows rather do not lie on; beyond another of the
-    ``joints`` an arrow would read as that joint's. ``gap`` is the white between an arrow and its
-    point, mm.
+    ``bars`` are the lines of the links, which arrows avoid; beyond another of the ``joints`` an
+    arrow would read as that joint's. ``gap`` is the white between an arrow and its point, mm.
     """
     placed: list[tuple[Acting, Segment]] = []
     for force in forces:
@@ -108,7 +107,7 @@ def lay_forces(
 
 
 def _crowded(segment: Segment, arrows: Sequence[Segment], bars: Sequence[Segment]) -> float:
-    """Return what an arrow costs among others and on links."""
+    """Return the cost of an arrow's place among other arrows and on links."""
     near, on = _beside(segment, arrows, _NEAR), _beside(segment, bars, _ON)
     return float(
         np.where(near > 2, 8.0 * near, near).sum() + np.where(on > 2, 1.5 * on, 0.5 * on).sum()
@@ -116,7 +115,7 @@ def _crowded(segment: Segment, arrows: Sequence[Segment], bars: Sequence[Segment
 
 
 def _beside(segment: Segment, others: Sequence[Segment], white: float) -> NDArray[np.intp]:
-    """Return how many of ten places along a segment are nearer than ``white`` to each other one."""
+    """Return for each other segment how many of ten points of this one are near (``white``)."""
     if not others:
         return np.zeros(0, dtype=np.intp)
     tail, head = segment
@@ -155,7 +154,7 @@ def force_items(
 def couple_items(
     couples: Sequence[CoupleArc], around: Sequence[Item], height: float, prefix: str
 ) -> tuple[list[Item], list[Label]]:
-    """Return circular arrows where there is room for them, and their letters."""
+    """Return circular arrows in the freest places, and their letters."""
     items: list[Item] = []
     labels: list[Label] = []
     for k, couple in enumerate(couples):
@@ -197,9 +196,9 @@ def _places(couple: CoupleArc) -> list[complex]:
 
 
 def _room(centre: complex, lines: Sequence[Segment]) -> tuple[float, complex, float, float]:
-    """Return where a circular arrow about a centre crosses least.
+    """Return the place of a circular arrow about a centre with the fewest crossings.
 
-    What the place is worth, the centre again, the radius and the middle: mm, degrees.
+    The result is the value of the place, the centre, the radius and the middle: mm, degrees.
     """
     best = (-1e9, 0.0, 0.0)
     for radius in _RADII:

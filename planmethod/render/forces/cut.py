@@ -1,6 +1,6 @@
-"""Links with what acts on them: the scheme, a structural group, the driver (схемы нагружения).
+"""Links with the forces on them: the scheme, a structural group, the driver (схемы нагружения).
 
-A group is cut free at its outer joints: there the reactions stand for what was cut away.
+A group is cut free at its outer joints: there reactions replace the links that were cut away.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class FreeBodyScheme(Scheme):
     reach: float = 0.0
 
     def draw(self) -> None:
-        """Draw the links and, of the pairs that were cut, what belongs to them."""
+        """Draw the links and their halves of the pairs that were cut."""
         problem = self.solution.problem
         for link in self.links:
             self.draw_link(link)
@@ -103,7 +103,7 @@ class FreeBodyScheme(Scheme):
             self.bodies += self._body(slide, pin)
 
     def _body(self, slide: Slide, middle: complex) -> list[Item]:
-        """Return the slider of a cut pair, as long as it is where that can be drawn."""
+        """Return the slider of a cut pair, in its true length where that can be drawn."""
         length = drawn_length(self.solution, slide, self.factor) / self.factor
         angle = angle_of(self.line_direction(slide))
         return slider(middle, angle=angle, length=length, factor=self.factor, pen=self.pen)
@@ -209,7 +209,7 @@ def loads_picture(reading: ForceReading, letter_height: float, say: Notation) ->
 
 @remembered
 def cut_picture(reading: ForceReading, number: int, letter_height: float, say: Notation) -> Picture:
-    """Return the links of a force plan cut free, with all that acts on them, mm."""
+    """Return the links of a force plan cut free, with all forces on them, mm."""
     plan = reading.plans[number]
     scheme = FreeBodyScheme(reading.solution, reading.index, letter_height, links=plan.links)
     prefix = f"cut {reading.index} {number}"
@@ -255,7 +255,8 @@ def _cut(
     spans = [abs(one.span.end - one.span.start) for one in guided if one.span is not None]
     scheme.reach = max((span + _BEYOND_POINT for span in spans if span <= FAR), default=0.0)
     replaced = {symbol for one in guided for symbol in one.replaced}
-    # The found reactions first, where they have to be: across or along the link, at its end.
+    # Components of reactions first, for their places are fixed: across or along the link, at its
+    # end.
     shown = sorted(edges, key=lambda edge: edge.share is Share.WHOLE)
     forces = [force for one in guided for force in one.forces]
     forces += [
@@ -285,7 +286,7 @@ def _link_lines(reading: ForceReading, links: Iterable[str]) -> list[Segment]:
 
 
 def turning(reading: ForceReading, scheme: Scheme, couple: CoupleOn, say: Notation) -> CoupleArc:
-    """Return a couple as it is drawn: about its own place, else about the centre of mass."""
+    """Return the arc of a couple: about its own place, otherwise about the centre of mass."""
     sense, symbol = 1 if reading.number(couple.moment) > 0 else -1, say.symbol(couple.symbol)
     if couple.at is not None:
         return CoupleArc(symbol, reading.place(couple.at), sense)

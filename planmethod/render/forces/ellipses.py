@@ -14,8 +14,8 @@ from planmethod.solved.reading import remembered
 def vertex_ellipses(reading: ForceReading, number: int) -> Ellipses:
     """Return the ellipses around the vertices of a force plan.
 
-    They are off from the point where the construction of the plan begins, which may stand anywhere.
-    A vertex from which segments are drawn apart has its ellipse at the end of the first of them.
+    They are relative to the point where the construction of the plan begins, which is arbitrary. A
+    vertex from which segments are drawn apart has its ellipse at the end of the first of them.
     """
     edges, shifts = drawn_edges(reading, number), apart(reading, number)
     places: dict[PointName, complex] = {}

@@ -1,7 +1,8 @@
 """Links cut free with reactions that friction inclines: circles and cones (круги и конусы трения).
 
-The whole reaction of a turning pair touches its friction circle; that of a sliding one is off the
-normal by the angle of friction. So neither moments nor forces of friction stand beside them.
+The whole reaction of a turning pair touches its friction circle; that of a sliding one deviates
+from the normal by the angle of friction. So moments and forces of friction are not drawn
+separately.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ CIRCLE, CONE = "friction circle", "friction cone"
 """First words of the tags; the second is the letter."""
 
 LEAST = 3.0
-"""Radius of the smallest friction circle, mm: smaller ones are enlarged, all alike."""
+"""Radius of the smallest friction circle, mm: smaller ones are enlarged, all by one factor."""
 
 _MOST = 7.0  # mm: an enlarged circle is not larger
 _REACH = 30.0  # length of the lines of a cone, mm
@@ -64,7 +65,7 @@ class Inclined(Struct, frozen=True):
 
 
 def is_enlarged(reading: RubbedReading) -> bool:
-    """Tell whether the friction circles are drawn larger than to scale."""
+    """Return whether the friction circles are drawn larger than to scale."""
     return _factor(reading) > 1.0
 
 
@@ -116,7 +117,7 @@ def _touching(
     sign: float,
     radius: float,
 ) -> Inclined:
-    """Shift the force of a hinge to its friction circle, where it turns as the friction does."""
+    """Shift the force of a hinge to its friction circle, on the side of the friction moment."""
     against = -sign * float(pair.sense[reading.index]) * _done(reading, pair, abs(one.direction))
     aside = -1j * unit(one.direction) * against * radius
     acting = replace(one, symbol=one.symbol.replace("F", "R", 1), at=one.at + aside, gap=radius)
@@ -124,7 +125,7 @@ def _touching(
 
 
 def _done(reading: RubbedReading, pair: Rubbing, force: float) -> float:
-    """Return what of the friction of a force one correction has: nearly all, where it was there."""
+    """Return the fraction of a force's friction that one correction includes, at most 1."""
     rub = reading.friction.rub(pair, reading.friction.corrected)
     friction = float(rub[reading.index])
     return min(1.0, friction / (pair.share * force))

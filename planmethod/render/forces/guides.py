@@ -1,7 +1,7 @@
 """Reactions of the guides drawn where they act: at their distance, or at the edges (направляющие).
 
-A force across a guide and a moment are drawn as the one force that they are, with its distance
-from the joint; where a slider does not reach so far, as two forces at its edges.
+A force across a guide and a moment are drawn as their resultant, with its distance from the joint;
+where a slider does not reach so far, as two forces at its edges.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ DIMENSION = "dimension"
 _SHORTEST = 8.0  # of a slider that is drawn to scale, mm
 _LEAST = 1.5  # mm: a distance below it is not dimensioned
 _LEVELS = (9.0, 14.0, 19.0, 25.0, 31.0)  # from the guide to a dimension line, mm
-_CLEAR = 2.5  # mm: nearer a dimension line crowds a line of the drawing
+_CLEAR = 2.5  # mm: a closer dimension line crowds a line of the drawing
 
 
 def drawn_length(solution: Solution, slide: Slide, factor: float) -> float:
-    """Return how long a slider is drawn, mm: to scale where it looks like one, else the symbol."""
+    """Return the drawn length of a slider, mm: to scale if it looks like one, else the symbol's."""
     if slide.length is not None:
         true = slide.length / solution.scales[PlanKind.POSITION].per_mm
         if _SHORTEST <= true <= 2 * FAR:
@@ -77,8 +77,8 @@ def pressed(
 ) -> list[Pressed]:
     """Return the reactions of the guides, on links cut free, that do not act in their joints.
 
-    One that acts too far away to be drawn there is left out, and so is a couple of which no slider
-    tells the edges: they stay what they are.
+    A reaction that acts too far away to be drawn there is left out, and so is a couple whose slider
+    has no known edges: both stay a force and a couple.
     """
     found = []
     for guided in guides(reading).values():
@@ -91,7 +91,7 @@ def pressed(
 def _origin(guided: Guided) -> complex:
     """Return the place from which distances along the guide count, mm.
 
-    A slider is drawn at its pin; on the link that carries the line it is the foot of the pin.
+    A slider is drawn at its pin; on the link that carries the line, at the foot of the pin.
     """
     reading, contact = guided.reading, guided.contact
     place = reading.place(guided.reaction.force.at)
@@ -164,7 +164,7 @@ def span_dimension(
     Parameters
     ----------
     lines : sequence of Segment
-        What is drawn already: it keeps clear of that.
+        Lines already drawn, which the dimension keeps clear of.
     """
     along = unit(span.end - span.start)
     out = min(
@@ -187,7 +187,7 @@ def span_dimension(
 
 
 def _crowded(span: DimensionSpan, out: complex, lines: Iterable[Segment]) -> float:
-    """Return what a dimension line costs among other lines; less the nearer it is."""
+    """Return the cost of a dimension line among other lines; a nearer one costs less."""
     start, end = span.start + out, span.end + out
     places = [start + (end - start) * k / 6 for k in range(-2, 9)]
     places += [foot + out * k / 4 for foot in (span.start, span.end) for k in (2, 3, 4)]

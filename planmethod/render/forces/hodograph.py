@@ -26,8 +26,9 @@ def hodograph_scale(cycle: Cycle, number: int, side: float) -> Scale:
 def polar_groups(cycle: Cycle) -> list[list[int]]:
     """Return the numbers of the reactions that have a polar diagram.
 
-    They are something, and may turn as they like, unlike those across a guide. Reactions that are
-    the same but for their sign, as those at the ends of a massless link, share one.
+    They are not zero, and their direction is free, unlike that of reactions across a guide.
+    Reactions that are the same but for their sign, as those at the ends of a massless link, share
+    one.
     """
     reactions = statics_of(cycle.solution).board.reactions
     groups: list[list[int]] = []
@@ -44,7 +45,7 @@ def polar_groups(cycle: Cycle) -> list[list[int]]:
 
 
 def opposite(cycle: Cycle, one: int, two: int) -> bool | None:
-    """Tell whether two reactions are opposite (True) or equal (False) all over; None if neither."""
+    """Return whether two reactions are always opposite (True) or equal (False); None if neither."""
     a, b = cycle.joints[one].force, cycle.joints[two].force
     least = FAINT_SHARE * cycle.peak(one).size
     if float(np.max(np.abs(a + b))) <= least:

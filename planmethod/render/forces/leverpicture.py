@@ -31,7 +31,7 @@ LEVER = "lever"
 
 @remembered
 def lever_picture(reading: ForceReading, letter_height: float, say: Notation) -> Picture:
-    """Return the lever with all that hangs on it, its pole at the origin, mm."""
+    """Return the lever with all its forces and couples, its pole at the origin, mm."""
     solution = reading.solution
     lever, plan = LeverReading(reading), solution.construction.plan(PlanKind.VELOCITY)
     pairs = [(vector.tail, vector.head) for vector in plan.vectors]

@@ -34,7 +34,7 @@ def start_place(reading: ForceReading, number: int) -> complex:
 def drawn_edges(reading: ForceReading, number: int) -> list[Edge]:
     """Return the segments of a force plan that are drawn: polygon, resultants, inner reaction.
 
-    Of the resultants and the inner reaction those that no side of the polygon shows.
+    Resultants and the inner reaction are drawn only if no side of the polygon shows them.
     """
     plan = reading.plans[number]
     result: list[Edge] = []
@@ -53,9 +53,9 @@ def _rounded(place: complex) -> complex:
 
 
 def _written(reading: ForceReading, number: int, edge: Edge, say: Notation) -> str:
-    """Return what is written at a segment: all reactions that it shows.
+    """Return the inscription of a segment: all reactions that it shows.
 
-    A component may be the whole reaction, and the inner reaction the same line.
+    A component may be the whole reaction; the inner reaction may be the same line.
     """
     plan = reading.plans[number]
     others = [*plan.wholes, *plan.inner]
@@ -73,9 +73,9 @@ def _written(reading: ForceReading, number: int, edge: Edge, say: Notation) -> s
 
 
 def apart(reading: ForceReading, number: int) -> list[complex]:
-    """Return by how much the segments of a plan are drawn beside their places, mm.
+    """Return the offsets at which the segments of a plan are drawn beside their places, mm.
 
-    Segments that lie on one another would hide each other's heads.
+    Overlapping segments would hide each other's heads.
     """
     placed: list[Segment] = []
     shifts: list[complex] = []
@@ -98,7 +98,7 @@ _HIDES = 0.3
 
 
 def _hides(one: Segment, other: Segment) -> bool:
-    """Tell whether two segments lie on one another for more than a point."""
+    """Return whether two segments overlap along more than a point."""
     short, long = sorted((one, other), key=lambda part: abs(part[1] - part[0]))
     places = [short[0] + (short[1] - short[0]) * k / 8 for k in range(9)]
     return sum(distance(place, long) < _HIDES for place in places) > 2

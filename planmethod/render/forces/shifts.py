@@ -18,15 +18,15 @@ from planmethod.solved.forces.reading import ForceReading
 SHIFT = "shift"
 """First word of the tags of the lines; the second is the letter of the point."""
 
-_LEAST = 0.3  # mm: nearer the point is the centre of mass
+_LEAST = 0.3  # mm: a nearer point coincides with the centre of mass
 _ROOM = 6.0  # mm: a shorter shift has no room for the mark of its right angle
 _CORNER = 2.0  # side of that mark, mm
 
 
 class Shifted(Struct, frozen=True):
-    """Force moved off the centre of mass: its letter, that of its point, both places, mm.
+    """Force moved off the centre of mass: its letter, its point's letter, both places, mm.
 
-    ``told`` is what is written at the line between them.
+    ``told`` is the inscription of the line between them.
     """
 
     force: str
@@ -37,7 +37,7 @@ class Shifted(Struct, frozen=True):
 
     @property
     def is_seen(self) -> bool:
-        """Whether there is a line to be drawn."""
+        """True if there is a line to be drawn."""
         return abs(self.at - self.centre) >= _LEAST
 
     @property
@@ -47,7 +47,7 @@ class Shifted(Struct, frozen=True):
 
 
 def shifts_on(reading: ForceReading, links: Iterable[str], say: Notation) -> list[Shifted]:
-    """Return the shifts on some links that are there to be drawn."""
+    """Return the visible shifts on some links."""
     found = []
     for link in links:
         shift = reading.statics.board.shifts.get(link)
@@ -94,7 +94,7 @@ def _line_of_action(one: Shifted, end: complex) -> list[Item]:
 
 
 def _letters(one: Shifted, height: float, prefix: str) -> list[Label]:
-    """Return the letter of the point, and what is written at the shift."""
+    """Return the labels of the point and of the shift."""
     labels = [
         Label(
             typeset(one.letter, height),
