@@ -1,7 +1,7 @@
 """Frame of a sheet (рамка: GOST 2.301, 2.104): its edge, title block, additional graphs, columns.
 
 The sizes of paper are in `planmethod.paper`, the forms in `planmethod.render.frame.forms`, the
-choice of what a sheet has in `planmethod.render.frame.furniture`.
+choice of form and graphs in `planmethod.render.frame.furniture`.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ MARGIN_NOTE = "margin"
 
 
 class Frame(NamedTuple):
-    """Frame of a sheet: its items, and the room that it leaves, mm, see `Room`."""
+    """Frame of a sheet: its items, and the area that it leaves, mm, see `Room`."""
 
     items: list[Item]
     inner: Bounds
@@ -81,7 +81,7 @@ def sheet_frame(
     furniture : Furniture
         Which form and which additional graphs.
     sheet : int
-        Which of the sheets that the furniture is of, counted from 1.
+        Number of the sheet within the furniture's set, counted from 1.
 
     Raises
     ------
@@ -174,7 +174,7 @@ def _turned(items: Iterable[Item], about: complex, angle: float, box: Bounds) ->
 
 
 def _under_the_frame(paper: Format, words: Words) -> list[Item]:
-    """Return the notes below the title block: who copied, which format (графы 31, 32)."""
+    """Return the notes below the title block: copyist and format (графы 31, 32)."""
     right = paper.width - FRAME_OTHER
     base = (FRAME_OTHER - 2.5) / 2
     copied = typeset(words.copied, 2.5)

@@ -1,4 +1,4 @@
-"""Furniture of a sheet (оформление листа): which form, which additional graphs, how much room."""
+"""Furniture of a sheet (оформление листа): form, additional graphs and the drawing area left."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FORMS: Mapping[str, tuple[Form, Form]] = MappingProxyType(
         "2a": (FORM_2A, FORM_2A),
     }
 )
-"""Forms of the first and of the later sheets, by what the files and options call the pair."""
+"""Forms of the first and of the later sheets, by the name of the pair in files and options."""
 
 Graphs: TypeAlias = Mapping[str, Bounds]
 """Cells of additional graphs by number, mm on the sheet."""
@@ -34,11 +34,11 @@ _ABOVE = {"1": 8.0, "2": 22.0}  # mm: graph 30, or 27 to 30, above the title blo
 
 
 CLEARANCE = 4.0
-"""Least white between what is drawn and a graph within the frame (свободное поле), mm."""
+"""Least white between drawn items and a graph within the frame (свободное поле), mm."""
 
 
 class Room(Struct, frozen=True):
-    """Where on a sheet the drawing may be (поле чертежа), mm.
+    """Area of a sheet available for the drawing (поле чертежа), mm.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class Room(Struct, frozen=True):
     stamp : Bounds
         Title block, with the graphs above it, in the lower right corner of the inside.
     taken : tuple of Bounds
-        Other room of the inside that is taken: graph 26 and those beside it.
+        Other occupied boxes of the inside: graph 26 and those beside it.
     """
 
     inner: Bounds
@@ -55,20 +55,20 @@ class Room(Struct, frozen=True):
     taken: tuple[Bounds, ...] = ()
 
     def is_clear(self, items: Iterable[Item]) -> bool:
-        """Whether no item comes near a graph; one that lies across it is judged by its box."""
+        """Return whether no item comes near a graph; items are compared by their boxes."""
         boxes = [ink_bounds([item]) for item in items] if self.taken else []
         return not any(overlap(box, graph, CLEARANCE) for box in boxes for graph in self.taken)
 
 
 class Furniture(Struct, frozen=True):
-    """What stands around the drawings of a set of sheets (оформление комплекта листов).
+    """Furniture around the drawings of a set of sheets (оформление комплекта листов).
 
     Attributes
     ----------
     form : str
         A key of `FORMS`.
     graph_26 : bool, optional
-        The designation once more, upside down in the upper corner; by default where form 1 is.
+        The designation again, upside down in the upper corner. Default: on sheets of form 1.
     graphs_27_30 : bool
         Cells for the marks of a customer, beside graph 26 and above the title block.
     side_columns : bool
@@ -76,7 +76,7 @@ class Furniture(Struct, frozen=True):
     before : int
         Sheets of the set before the first of these.
     total : int, optional
-        Sheets of the whole set; those before and these when absent.
+        Sheets of the whole set. Default: those before plus these.
     lang : str
         Language of the captions.
     """
@@ -100,7 +100,7 @@ class Furniture(Struct, frozen=True):
 
     @classmethod
     def of(cls, settings: SheetSettings, *, before: int = 0, total: int | None = None) -> Furniture:
-        """Return what a problem file, a config file and options ask for; the rest by default."""
+        """Return the furniture that settings select, with defaults for the rest."""
         return cls(
             settings.form or "1",
             settings.graph_26,
@@ -112,7 +112,7 @@ class Furniture(Struct, frozen=True):
         )
 
     def is_first(self, sheet: int) -> bool:
-        """Whether one of these sheets, counted from 1, is the first of the set."""
+        """Return whether one of these sheets, counted from 1, is the first of the set."""
         return self.before + sheet == 1
 
     def form_of(self, sheet: int) -> Form:
@@ -130,7 +130,7 @@ class Furniture(Struct, frozen=True):
         return MappingProxyType(found)
 
     def room(self, paper: Format, sheet: int = 1) -> Room:
-        """Return what room a sheet, counted from 1, has within its furniture."""
+        """Return the area that a sheet, counted from 1, has within its furniture."""
         form, inner = self.form_of(sheet), paper.inner
         above = _ABOVE.get(form.name, 0.0) if self.graphs_27_30 else 0.0
         stamp = (inner[2] - form.width, inner[1], inner[2], inner[1] + form.height + above)
@@ -140,7 +140,7 @@ class Furniture(Struct, frozen=True):
     def numbers(self, sheet: int, sheets: int) -> dict[str, str]:
         """Return graphs 7 and 8 of one of ``sheets`` sheets.
 
-        A single sheet has no number, and only the first one says how many there are (GOST 2.104).
+        A single sheet has no number, and only the first one gives the total (GOST 2.104).
         """
         whole = self.total or self.before + sheets
         if whole == 1:
@@ -154,9 +154,9 @@ def upper_corner(
 ) -> Bounds:
     """Return a cell of the row of graph 26: from ``start`` to ``end`` mm along it.
 
-    The row goes from the upper left corner to the right; on a standing sheet larger than A4 from
-    the upper right corner down. ``low`` and ``high`` are across it, its lower edge being that
-    which is further from the frame.
+    The row goes from the upper left corner to the right; on a portrait sheet larger than A4, from
+    the upper right corner down. ``low`` and ``high`` are across it, from the edge that is further
+    from the frame.
     """
     left, _, right, top = paper.inner
     if paper.stands and paper.size != "A4":

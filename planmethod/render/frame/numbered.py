@@ -16,15 +16,14 @@ GRAPHS = ("sheet", "sheets")
 
 
 def numbered(drawing: Drawing, furniture: Furniture, sheet: int) -> Drawing:
-    """Return a sheet with its number, and on the first one how many there are.
+    """Return a sheet with its number, and on the first one the number of sheets.
 
     Parameters
     ----------
     furniture : Furniture
-        How many go before these sheets, and how many there are in all; its form is that with which
-        the sheet was drawn.
+        It has the numbers of preceding and of all sheets; its form must be that of the drawn sheet.
     sheet : int
-        Which of these sheets it is, counted from 1.
+        Number of the sheet among these, counted from 1.
     """
     form = FORM_2A if drawing.goes_on else furniture.form_of(sheet)
     by = complex(drawing.width - FRAME_OTHER - form.width, FRAME_OTHER)

@@ -1,4 +1,4 @@
-"""Title block (основная надпись): what its fields are, and a form drawn with its texts."""
+"""Title block (основная надпись): its fields, and a form drawn with its texts."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ STAMP = "stamp"
 """Tag of the lines and texts of the title block."""
 
 ALIASES: Mapping[str, str] = MappingProxyType({"subject": "material", "date": "author_date"})
-"""Fields with a second name, for those who look for the meaning and not for the graph."""
+"""Fields with a second name, by their meaning instead of their graph."""
 
 SHARED = ("organisation", "department", "group")
 """Fields that share graph 9, from the top."""
@@ -29,7 +29,7 @@ SHARED = ("organisation", "department", "group")
 def merged(*layers: Mapping[str, str]) -> dict[str, str]:
     """Return the fields of several layers, the later ones over the earlier.
 
-    A field has one place whatever it is called: ``date`` of a layer outranks ``author_date`` of the
+    A field has one place under either name: ``date`` of a layer outranks ``author_date`` of the
     layers below. An empty text clears the field.
     """
     fields: dict[str, str] = {}
