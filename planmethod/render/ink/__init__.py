@@ -1,1 +1,1 @@
-"""What is put on the paper: display list, pens, lettering, typesetting (перо)."""
+"""Marks on the paper: display list, pens, lettering, typesetting (перо)."""

@@ -1,7 +1,7 @@
-"""Display list: what is on the paper, mm, y up, origin at the sheet's lower left corner.
+"""Display list: the items on the paper, mm, y up, origin at the sheet's lower left corner.
 
-Everything that draws makes these records; every output format (backend) replays them. The list is
-plain data, so tests compare lists, not pictures, and a lint can look for labels that collide.
+All drawing code makes these records; every output format (backend) replays them. The list is plain
+data, so tests compare lists, not pictures, and a lint can look for labels that collide.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Pen(Enum):
 
 
 class Ink(Enum):
-    """What a filled area is filled with."""
+    """Colour of a filled area."""
 
     BLACK = "black"
     WHITE = "white"
@@ -43,8 +43,7 @@ class Ink(Enum):
 class Stroke(Struct, frozen=True):
     """Open or closed polyline.
 
-    ``smooth`` tells that its points are of a curve without corners, which a format that has splines
-    draws as one.
+    ``smooth`` marks points of a curve without corners, which a format with splines draws as one.
     """
 
     points: tuple[complex, ...]
@@ -86,10 +85,9 @@ class Text(Struct, frozen=True):
     """One run of letters; ``at`` is the left end of its base line (always left anchored).
 
     ``height`` is the cap height h of GOST 2.304 in mm, ``angle`` turns the run about ``at``,
-    degrees.
-    ``label`` groups the runs of one inscription (a letter and its index): the lint treats runs with
-    one non-empty label as one. ``box`` is the cell that the text must stay in, or None; ``names``
-    the point that a letter names, or None.
+    degrees. ``label`` groups the runs of one inscription (a letter and its index): the lint treats
+    runs with one non-empty label as one. ``box`` is the cell that the text must stay in, or None;
+    ``names`` is the point that a letter names, or None.
     """
 
     at: complex
@@ -110,10 +108,10 @@ Bounds: TypeAlias = tuple[float, float, float, float]
 class Span(Struct, frozen=True):
     """One segment of a plan as it lies on the sheet (отрезок плана).
 
-    ``name`` is its letters, ``position`` the number of the position as the sheet has it (None when
-    there is one), ``start`` and ``end`` are mm; ``share`` tells how many times larger than by the
-    scale of its view it is drawn: a plan may have a scale of its own. ``label`` is the name of the
-    inscription that names its vector; empty where none is asked for.
+    ``name`` is its letters, ``position`` the number of the position on the sheet (None if there is
+    only one), ``start`` and ``end`` are mm; ``share`` is its enlargement relative to the scale of
+    its view: a plan may have a scale of its own. ``label`` is the name of the inscription that
+    names its vector; empty if it needs none.
     """
 
     name: str
@@ -133,11 +131,11 @@ VIEW_KINDS = (
     "position", "velocity", "acceleration", "forces", "balance", "reactions", "hodograph",
     "structure", "flywheel", "diagram", "meshing", "trajectory", "cam",
 )  # fmt: skip
-"""Kinds of views: whoever tells of them has a word for each."""
+"""Kinds of views; every language has a word for each."""
 
 
 class View(Struct, frozen=True):
-    """One view of a sheet, for those who look the sheet over (вид).
+    """One view of a sheet, for its checks (вид).
 
     Attributes
     ----------
@@ -146,7 +144,7 @@ class View(Struct, frozen=True):
     box : Bounds, mm
         The picture with its title and inscriptions.
     scale : str
-        What the inscription of its scale begins with, ``μ_{v}``; empty where a view has no scale.
+        Beginning of its scale inscription, ``μ_{v}``; empty where a view has no scale.
     per_mm : float
         The scale, SI units per mm.
     spans : tuple of Span
@@ -161,11 +159,11 @@ class View(Struct, frozen=True):
 
 
 class Drawing(Struct):
-    """Display list of one sheet, drawn in order (чертёж), and what its views are.
+    """Display list of one sheet, drawn in order (чертёж), and its views.
 
-    ``lettering`` is that in which its texts were measured: the output formats draw them in it.
-    ``is_cut_down`` tells that blocks were left out that may be, so that the others had room;
-    ``goes_on``, that it is a sheet with what the one before had no room for.
+    ``lettering`` is the one that its texts were measured in: the output formats draw them in it.
+    ``is_cut_down`` means that optional blocks were left out to make room for the others;
+    ``goes_on``, that the sheet continues the one before.
     """
 
     width: float
@@ -178,10 +176,10 @@ class Drawing(Struct):
     goes_on: bool = False
 
     def _repr_svg_(self) -> str:
-        """Return what a notebook shows."""
+        """Return the SVG that a notebook shows."""
         from pkgutil import resolve_name
 
-        # Ink knows no format: the page asks for one by name (ADR 0044).
+        # Ink knows no format: the notebook's one is found by name (ADR 0044).
         data: bytes = resolve_name("planmethod.render.backends:render")(self, "svg")
         return data.decode()
 

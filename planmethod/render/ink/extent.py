@@ -1,4 +1,4 @@
-"""Room that items take on the paper (габариты)."""
+"""Extent of items on the paper (габариты)."""
 
 from __future__ import annotations
 
@@ -39,6 +39,6 @@ def ink_bounds(items: Iterable[Item]) -> Bounds:
 
 
 def overlap(one: Bounds, two: Bounds, gap: float = 0.0) -> bool:
-    """Whether two boxes are nearer than ``gap`` mm, or lie on each other."""
+    """Return whether two boxes are nearer than ``gap`` mm, or overlap."""
     across = one[0] < two[2] + gap - 1e-6 and two[0] < one[2] + gap - 1e-6
     return across and one[1] < two[3] + gap - 1e-6 and two[1] < one[3] + gap - 1e-6

@@ -53,7 +53,7 @@ class Dashes(Struct, frozen=True):
 
 
 class PenStyle(Struct, frozen=True):
-    """How a pen draws: width in mm, dashes, grey from 0 (black) to 1 (white), line ends."""
+    """Style of a pen: width in mm, dashes, grey from 0 (black) to 1 (white), line ends."""
 
     width: float
     dashes: Dashes | None = None
@@ -89,7 +89,7 @@ PENS: Mapping[Pen, PenStyle] = MappingProxyType(
         Pen.HATCH: PenStyle(_THIN, cap="butt"),
         # GOST 2.303: a break is a thin line by hand; its waves are drawn, not dashed.
         Pen.BREAK: PenStyle(_THIN),
-        # The standard knows no grey: thin lines set back so that the main position stands out.
+        # The standard knows no grey: thin lines set back so that the main position is prominent.
         Pen.PALE: PenStyle(_THIN, grey=0.5),
     }
 )
@@ -103,9 +103,9 @@ _CORNER = radians(20.0)
 
 
 class ArrowStyle(Struct, frozen=True):
-    """Swept arrowhead: ``notch`` is how far its back is cut in along the shaft.
+    """Swept arrowhead: ``notch`` is the depth of the cut in its back along the shaft.
 
-    There is one shape: an arrowhead of another length is as much narrower or wider.
+    There is one shape: the width of an arrowhead is proportional to its length.
     """
 
     length: float
@@ -233,9 +233,9 @@ def sweep(arc: Arc) -> float:
 
 
 def stroke_lines(stroke: Stroke) -> list[tuple[complex, ...]]:
-    """Return what the pen of ``stroke`` leaves on the paper, in order.
+    """Return the lines that the pen of ``stroke`` leaves on the paper, in order.
 
-    The pieces of a dashed line are open. A solid line comes back as it is, still to be closed if
+    The pieces of a dashed line are open. A solid line is returned unchanged, still to be closed if
     ``stroke.closed``, so that its last corner is joined like the others: see `closes`.
     """
     dashes = PENS[stroke.pen].dashes

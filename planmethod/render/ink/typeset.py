@@ -43,7 +43,7 @@ class Run(Struct, frozen=True):
 
 
 class Inscription(Struct, frozen=True):
-    """Typeset line (надпись): what it is made of and how much room it takes.
+    """Typeset line (надпись): its parts and its extent.
 
     Attributes
     ----------
@@ -80,11 +80,11 @@ class Inscription(Struct, frozen=True):
         Parameters
         ----------
         point : complex, mm
-            Left end of the base line; its middle or right end when ``anchor`` says so.
+            Left end of the base line; its middle or right end by ``anchor``.
         angle : float, degrees
             Turn about ``point``, counter-clockwise.
         label : str
-            Name that joins the runs for the lint; made of markup and place when empty.
+            Name that joins the runs for the lint. Default: made of markup and place.
         box : Bounds, optional
             Cell that the text must stay in.
         """
@@ -187,9 +187,9 @@ def typeset(markup: str, height: float) -> Inscription:
     Raises
     ------
     LayoutError
-        If braces do not pair, an index has nothing in it, or a command is unknown.
+        If braces do not pair, an index is empty, or a command is unknown.
     """
-    # Kept for equal heights: 5 and 5.0 are one, and what is kept has the height of the first.
+    # Cached by height: 5 and 5.0 are one key, and the cached line has the height of the first.
     return _typeset(inlined(markup), float(height), in_use())
 
 
@@ -199,7 +199,7 @@ def _typeset(markup: str, height: float, lettering: OutlineLettering) -> Inscrip
     nodes = parse(written)
     setter = _Setter(lettering)
     end_x = setter.set(nodes, 0.0, 0.0, height)
-    # Slanted letters lean out of the room that they take along the line.
+    # Slanted letters lean beyond their advance along the line.
     inks = [(run.x, lettering.ink(run.text, run.height)) for run in setter.runs]
     left = min([0.0, *(x + ink[0] for x, ink in inks)])
     right = max([end_x, *(x + ink[2] for x, ink in inks)])
@@ -229,7 +229,7 @@ def text_corners(text: Text) -> list[complex]:
     return [at + corner for corner in _corners(text.text, text.height, text.angle, in_use())]
 
 
-@lru_cache(maxsize=8192)  # the same letters stand at many places
+@lru_cache(maxsize=8192)  # the same letters recur at many places
 def _corners(
     text: str, height: float, angle: float, lettering: OutlineLettering
 ) -> tuple[complex, ...]:
@@ -242,7 +242,7 @@ def _corners(
 
 
 class _Setter:
-    """Collect runs and bars from left to right and the room they take."""
+    """Collect runs and bars from left to right, and their extent."""
 
     def __init__(self, lettering: OutlineLettering) -> None:
         self.lettering = lettering

@@ -1,7 +1,7 @@
 """Lettering (шрифт): widths and strokes of the letters; heights are cap heights h in mm.
 
-Who sets texts asks `in_use` for the lettering that a sheet is set in; `using` sets another. To the
-output formats a `Drawing` brings it along.
+`in_use` is the lettering that the texts of a sheet are set in; `using` sets another. A `Drawing`
+carries it to the output formats.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Style(Struct, frozen=True):
 
     @property
     def lean(self) -> float:
-        """How far its letters lean to the right on the way up."""
+        """Lean of its letters to the right per unit of height."""
         return SLANT if self.slanted else 0.0
 
     @property
@@ -57,13 +57,13 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "A-upright": Style("A", slanted=False),
     }
 )
-"""Letterings by the name that a user gives: with slope unless said otherwise."""
+"""Letterings by the name that a user gives: slanted by default."""
 
 
 class Glyph(NamedTuple):
     """One letter in font units, y up, origin on the base line.
 
-    ``strokes`` is what the middle of the pen does, an SVG path of M and l; it is empty for a blank,
+    ``strokes`` is the path of the pen's middle, an SVG path of M and l; it is empty for a blank,
     and the bounds, those of the ink, are then all zero.
     """
 
@@ -78,8 +78,8 @@ class Glyph(NamedTuple):
 class OutlineLettering(Struct, eq=False, dict=True):
     """Lettering read from the data files that ``scripts/make_font.py`` makes.
 
-    Letters stand side by side by their advances, some pairs closer: `places` tells where, so that
-    every output format places them alike. The data are read when the first letter is asked for.
+    Letters follow each other by their advances, some pairs closer: `places` returns their places,
+    so that every output format places them alike. The data are read with the first letter.
     """
 
     style: Style = STYLES["B"]
@@ -143,7 +143,7 @@ class OutlineLettering(Struct, eq=False, dict=True):
         return {char for char in text if f"{ord(char):x}" not in table}
 
     def places(self, text: str) -> list[tuple[str, int]]:
-        """Return each letter of a run and where its origin stands, font units."""
+        """Return each letter of a run and the place of its origin, font units."""
         placed: list[tuple[str, int]] = []
         pen, before, closer, kern = 0, "", self._data["closer"], self._data["kern"]
         for char in text:
@@ -160,7 +160,7 @@ class OutlineLettering(Struct, eq=False, dict=True):
         Returns
         -------
         tuple of (int, str)
-            Where a part starts, font units, and its letters.
+            Start of a part, font units, and its letters.
         """
         return _pieces(self, text)
 
@@ -181,7 +181,7 @@ class OutlineLettering(Struct, eq=False, dict=True):
         return (left * unit, low * unit, right * unit, high * unit)
 
     def strokes(self, char: str) -> tuple[tuple[complex, ...], ...]:
-        """Return what the middle of the pen does for a letter, in parts of h."""
+        """Return the path of the pen's middle for a letter, in parts of h."""
         lines = []
         for line in self.glyph(char).strokes.split("M")[1:]:
             numbers = [int(number) / self.cap_height for number in re.findall(_NUMBER, line)]
@@ -206,7 +206,7 @@ class OutlineLettering(Struct, eq=False, dict=True):
         return max(0.0, -self.ink(text, height)[1])
 
 
-# Runs recur, on one sheet and on those of many variants: the last of them are kept.
+# Runs recur, on one sheet and on those of many variants: the latest are cached.
 
 
 @lru_cache(maxsize=8192)

@@ -19,7 +19,7 @@ class Proportions(Struct, frozen=True):
     small : int
         Height c of small letters.
     tail : int
-        How far tails of small letters go below the base line.
+        Depth of the tails of small letters below the base line.
     gap : int
         Gap a between letters.
     line_step : int
@@ -45,4 +45,4 @@ TYPES: Mapping[str, Proportions] = MappingProxyType(
 """Types of lettering by the Latin letter of their name (типы А и Б)."""
 
 SLANT = tan(radians(15.0))
-"""How far slanted letters lean to the right on the way up: about 75° to the base line."""
+"""Lean of slanted letters to the right per unit of height: about 75° to the base line."""
