@@ -1,12 +1,12 @@
-"""Placing of labels (размещение надписей): nothing overlaps, nothing lies on a line.
+"""Placing of labels (размещение надписей): labels overlap neither each other nor lines.
 
-``model``       what wants a place, and the place it got
-``candidates``  the places that come into question for a label
-``paper``       what the drawing that is there already makes of them
-``others``      what the labels make of them that have their places
+``model``       labels to be placed, and labels with their places
+``candidates``  the candidate places of a label
+``paper``       their costs from items already drawn
+``others``      their costs from labels already placed
 ``ladder``      columns for the labels of points that are close together
-``place``       one label after another, the hard ones first; then those that stand badly are mended
-``spare``       labels that are left out where there is no room
+``place``       greedy placement, hardest labels first, then local repair
+``spare``       labels that are left out for lack of space
 """
 
 from planmethod.render.labels.model import (

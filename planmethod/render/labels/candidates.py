@@ -1,4 +1,4 @@
-"""Places that come into question for a label, and the geometry of boxes and leader lines."""
+"""Candidate places of a label, and the geometry of boxes and leader lines."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Complexes: TypeAlias = NDArray[np.complex128]
 
 _ALONG = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
 _BESIDE = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
-_OTHER_SIDE = 3.0  # being on the other side of its segment than preferred, mm of distance
+_OTHER_SIDE = 3.0  # cost of the side of its segment that is not preferred, mm of distance
 _LEVEL = 0.6  # a leader line that rises no more reads as the bar of a fraction, mm
 
 
@@ -35,7 +35,7 @@ class Candidates(Struct, frozen=True, dict=True):
     dislike : ndarray of shape (n,), mm
         Cost of the place itself.
     starts, ends : ndarray of shape (n,), mm
-        Ends of the leader lines: at what is named, and at the edge of the box.
+        Ends of the leader lines: at the named point or segment, and at the edge of the box.
     """
 
     label: Label
@@ -58,7 +58,7 @@ class Candidates(Struct, frozen=True, dict=True):
 
     @cached_property
     def led(self) -> NDArray[np.bool_]:
-        """Which places are so far that they need a leader line."""
+        """Flags of the places that are far enough to need a leader line."""
         return np.abs(self.ends - self.starts) > self.label.manner.leader_from
 
     @cached_property
@@ -120,13 +120,13 @@ def _made(label: Label, centres: Complexes, dislike: Floats) -> Candidates:
 
 
 def _rings(label: Label, rings: Sequence[float], angles: int) -> Candidates:
-    """Places about a point: the box touches the ring with the side or corner that looks inwards."""
+    """Return places about a point: the box touches the ring with its inner side or corner."""
     half_w = label.inscription.width / 2
     half_h = (label.inscription.ascent + label.inscription.descent) / 2
     start = np.angle(label.prefer) if label.prefer else tau / 8
     turns = np.exp(1j * (start + tau * np.arange(angles) / angles))
-    # A box beside the point is centred on the ring's direction; one at a slant stands by its
-    # corner: the clipped cosine and sine pass from one to the other.
+    # A box beside the point is centred on the ring's direction; one in an oblique direction touches
+    # it with a corner: the clipped cosine and sine blend the two.
     support = half_w * np.clip(1.5 * turns.real, -1, 1) + 1j * half_h * np.clip(
         1.5 * turns.imag, -1, 1
     )
@@ -138,7 +138,7 @@ def _rings(label: Label, rings: Sequence[float], angles: int) -> Candidates:
 
 
 def _beside(label: Label, start: complex, end: complex) -> Candidates:
-    """Places beside a segment, near its middle, on both sides."""
+    """Return places beside a segment, near its middle, on both sides."""
     half_w = label.inscription.width / 2
     half_h = (label.inscription.ascent + label.inscription.descent) / 2
     normal = unit(end - start) * 1j
@@ -214,9 +214,9 @@ def inside(segments: Floats, boxes: Floats) -> Floats:
 def crossing(
     one: Floats, two: Floats, i: NDArray[np.intp], j: NDArray[np.intp]
 ) -> NDArray[np.bool_]:
-    """Tell which segments ``one[i]`` and ``two[j]`` cross each other; NaN crosses nothing.
+    """Return whether each pair of segments ``one[i]``, ``two[j]`` crosses; NaN never does.
 
-    The segments have the shape (n, 2, 2); of few there may be many pairs.
+    The segments have the shape (n, 2, 2); a few segments may form many pairs.
     """
     (ax, ay, bx, by), (cx, cy, dx, dy) = (line.reshape(-1, 4).T.copy() for line in (one, two))
     x, y, along, up = (part.take(i) for part in (ax, ay, bx - ax, by - ay))
@@ -225,7 +225,7 @@ def crossing(
         return np.asarray(along * (qy.take(k) - y) - up * (qx.take(k) - x))
 
     apart = np.asarray(side(cx, cy, j) * side(dx, dy, j) < 0)
-    i, j = i[apart], j[apart]  # few get so far
+    i, j = i[apart], j[apart]  # few remain
     x, y, along, up = (part.take(j) for part in (cx, cy, dx - cx, dy - cy))
     apart[apart] = side(ax, ay, i) * side(bx, by, i) < 0
     return apart
@@ -253,6 +253,6 @@ def crossed_leaders(placed: Sequence[Placed]) -> int:
 
 
 def untidiness(placed: Sequence[Placed]) -> int:
-    """Return what is to be least: crossed leader lines, and labels that are not free."""
+    """Return a cost to be minimized: crossed leader lines, and labels that are not free."""
     unfree = sum(0 if label.free else _BROKEN if label.ground else _OVER for label in placed)
     return unfree + crossed_leaders(placed)

@@ -2,7 +2,7 @@
 
 Points of one series whose labels cannot stand each beside its own point get their labels in the
 order of the points, one under another (or side by side where the points lie in a row), each with a
-leader line. The order keeps the leader lines from crossing. Where in the column each label stands
+leader line. The order keeps the leader lines from crossing. The place of each label in the column
 is found by dynamic programming over slots a fraction of a millimetre apart, so that no label lies
 on a line and the leader lines are short in all.
 """
@@ -22,15 +22,15 @@ from planmethod.render.labels.model import APART, Label
 from planmethod.render.labels.paper import CROSSED, Paper
 
 _FEWEST = 3  # labels that make a column
-_ROOM = 1.1  # of a label's size: nearer neighbours are too near
-_DENSE = 0.4  # share of neighbours that are, in a column
+_ROOM = 1.1  # of a label's size: nearer neighbours are too close
+_DENSE = 0.4  # share of such neighbours that makes a column
 _OPEN = 2.4  # of a label's size: here a column ends
-_UPRIGHT = 0.6  # height over width of what has its labels in a column and not in a row
+_UPRIGHT = 0.6  # height over width of a series from which its labels form a column, not a row
 _OFFSETS = (3.0, 6.0, 10.0, 16.0)  # from the points to the column, mm
 _SLOT = 1.0  # mm between two slots
 _SLANT = 0.6  # mm of cost for a millimetre that a label is shifted along the column
-_LONGEST = 32.0  # shift along the column that comes into question, mm
-_BOTH_SIDES = 1.0  # mm of cost for a label, where columns stand on both sides
+_LONGEST = 32.0  # largest shift along the column, mm
+_BOTH_SIDES = 1.0  # mm of cost for a label, if there are columns on both sides
 _CROSS = 100.0  # mm of cost for two leader lines that cross
 _WHITE = 0.6  # mm between a leader line and its label
 _BAD = 1e9
@@ -46,11 +46,11 @@ class _Series(Struct, frozen=True):
     upright: bool
 
     def along(self, place: complex) -> float:
-        """Return where a place is along the column: up, or to the right."""
+        """Return the coordinate of a place along the column: up, or to the right."""
         return place.imag if self.upright else place.real
 
     def size(self, label: Label) -> float:
-        """Return how much of the column a label takes, the white beside it too, mm."""
+        """Return the length of column that a label takes, with the white beside it, mm."""
         if self.upright:
             return tall(label) + APART
         return label.inscription.width + label.manner.beside
@@ -89,9 +89,9 @@ def dense(labels: Sequence[Label]) -> list[_Series]:
 
 
 def ladder(paper: Paper, series: _Series, standing: Standing) -> list[Candidates | None]:
-    """Return one place for each label of a series, in its order; None where there is none.
+    """Return one place, or None, for each label of a series, in its order.
 
-    ``standing`` tells what the labels that are there already cost some places of a label.
+    ``standing`` returns the costs of a label's places from the labels already placed.
     """
     columns = {side: [_Column(series, side, offset) for offset in _OFFSETS] for side in (-1, 1)}
     both = [*columns[-1], *columns[1]]
@@ -131,7 +131,7 @@ def ladder(paper: Paper, series: _Series, standing: Standing) -> list[Candidates
 
 
 class _Column:
-    """A column of slots on one side of a series, and what each label costs in each slot."""
+    """A column of slots on one side of a series, and the cost of each label in each slot."""
 
     def __init__(self, series: _Series, side: int, offset: float) -> None:
         self.series = series
@@ -142,7 +142,7 @@ class _Column:
         across = [label.anchor.real if series.upright else label.anchor.imag for label in labels]
         self.side = side
         self.edge = (max(across) + offset) if side > 0 else (min(across) - offset)
-        # Only the slots that are not too far from a label's point come into question.
+        # Only slots that are not too far from a label's point are considered.
         self.windows = [
             np.flatnonzero(np.abs(self.slots - series.along(label.anchor)) <= _LONGEST)
             for label in labels
@@ -154,7 +154,7 @@ class _Column:
         self.costs: list[Floats] = []
 
     def reckon(self, known: Floats) -> Floats:
-        """Take what the next label costs in its slots; return what is known of other columns."""
+        """Take the next label's costs from ``known``; return the rest, of other columns."""
         window = self.windows[len(self.costs)]
         whole = np.full(len(self.slots), _BAD)
         whole[window] = known[: len(window)]
@@ -181,14 +181,14 @@ class _Column:
     def filled(self, members: Sequence[int]) -> tuple[float, dict[int, int]]:
         """Return the least cost of some labels in this column, and the slot of each.
 
-        A label that finds none counts much and is left out.
+        A label without a slot costs much and is left out.
         """
         steps: list[NDArray[np.intp]] = []
         total = np.zeros(len(self.slots))
         needs = [self.series.size(self.series.labels[k]) / 2 for k in members]
         for k, before, need in zip(members, [0.0, *needs], needs, strict=False):
             apart = int(np.ceil((before + need) / _SLOT)) if steps else 0
-            # The best of all slots so far below this one by what the two labels need.
+            # The best of all slots that leave enough space for the two labels.
             low = np.minimum.accumulate(total)
             where = np.maximum.accumulate(np.where(total <= low, np.arange(len(total)), 0))
             shifted = np.full(len(total), np.inf)

@@ -1,4 +1,4 @@
-"""Labels that want a place, and the places they get."""
+"""Labels to be placed, and labels with their places."""
 
 from __future__ import annotations
 
@@ -15,35 +15,35 @@ UNDER_LABEL = "under a label"
 """Tag of the white under a label that breaks the thin lines behind it."""
 
 LED = "leader of "
-"""How the tag of a leader line begins, before the name of its label."""
+"""Prefix of the tag of a leader line, before the name of its label."""
 
 BREAKABLE = frozenset({Pen.THIN, Pen.PALE, Pen.PHANTOM})
-"""Pens of the lines that it may break."""
+"""Pens of the lines that the white of a label may break."""
 
 
 class LabelStyle(Struct, frozen=True):
-    """How a label looks for its place; all lengths mm.
+    """Placement style of a label; all lengths mm.
 
     Attributes
     ----------
     rings, far_rings : tuple of float
-        Distances beyond the gap at which it looks, and at which it looks when these are taken.
+        Distances beyond the gap to try first, and those to try when the first are occupied.
     angles, far_angles : int
         Places on each ring.
     leader_from : float
-        Further than this from what it names it gets a leader line (линия-выноска).
+        Distance from its point or segment beyond which it gets a leader line (линия-выноска).
     leader : float
-        Distance that having a leader line is as bad as.
+        Cost of a leader line, in mm of distance.
     turned : float
-        Distance that looking quite away from the preferred direction is as bad as.
+        Cost of the direction opposite to the preferred one, in mm of distance.
     stranger : float
-        Distance that standing nearer to another label's point than to its own is as bad as.
+        Cost of a place nearer to another label's point than to its own, in mm of distance.
     beside : float
-        White between it and another one side by side: nearer they would read as one.
+        White between it and another label side by side: closer they would read as one.
     heavy : float
-        Distance that a thick line between it and what it names is as bad as.
+        Cost of a thick line between it and its point or segment, in mm of distance.
     slanted : bool
-        Its leader line is never level: between letters it would read as the bar of a fraction.
+        Its leader line is never horizontal: between letters it would read as a fraction bar.
     """
 
     rings: tuple[float, ...] = (0.0, 1.2, 3.0, 5.5, 9.0)
@@ -83,7 +83,7 @@ CROWDED = LabelStyle(
     beside=3.2,
     heavy=12.0,
 )
-"""One of a series of labels: many places, firm in its direction, a leader line soon."""
+"""One of a series of labels: many places, a strict direction, an early leader line."""
 
 
 NEAREST = LabelStyle(
@@ -96,7 +96,7 @@ NEAREST = LabelStyle(
     heavy=25.0,
     slanted=True,
 )
-"""The letter of a point among others near it: nearer to its own, a leader line soon."""
+"""The letter of a point among other points: close to its own, an early leader line."""
 
 NAMING = LabelStyle(
     rings=(0.0, 1.5, 4.0),
@@ -111,7 +111,7 @@ NAMING = LabelStyle(
 
 
 class Label(Struct, frozen=True):
-    """Inscription that wants a place near a point or along a segment (надпись).
+    """Inscription to be placed near a point or along a segment (надпись).
 
     Attributes
     ----------
@@ -121,20 +121,19 @@ class Label(Struct, frozen=True):
     along : (complex, complex) or None, mm
         The segment it names: it is then placed beside it, near its middle.
     prefer : complex
-        Direction from the anchor in which it would like to be; 0 when it does not care. For a
-        segment only the side that this points to matters.
+        Preferred direction from the anchor; 0 for none. For a segment only its side matters.
     gap : float, mm
         White between the anchor point and the label: the radius of a joint and a little more.
     priority : int
-        Greater is placed earlier.
+        Labels of higher priority are placed earlier.
     name : str
-        Name of the inscription for the lint; made of markup and place when empty.
+        Name of the inscription for the lint. Default: made of markup and place.
     manner : LabelStyle
-        How it looks for its place.
+        Its placement style.
     series : str
-        What it is one of: the labels of a series whose points are close together stand in a column.
+        Name of its series: labels of a series whose points are close together form a column.
     optional : bool
-        It is left out where it finds no free place, and sends no other one away.
+        It is left out if there is no free place, and displaces no other label.
     """
 
     inscription: Inscription
@@ -152,8 +151,8 @@ class Label(Struct, frozen=True):
 class Placed(Struct, frozen=True):
     """Label with its place: ``at`` is the left end of its base line, mm.
 
-    ``leader`` is the leader line or None; ``free`` tells that nothing is crossed or overlapped;
-    ``ground`` that the thin lines under the label are broken by white, because it is not free.
+    ``leader`` is the leader line or None; ``free`` means that the label crosses and overlaps no
+    item; ``ground``, that white breaks the thin lines under the label, because it is not free.
     """
 
     label: Label

@@ -1,4 +1,4 @@
-"""The labels that have their places, and what they make of the places of another one."""
+"""Labels already placed, and their costs for the places of another label."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _OFF_LEADERS = 0.5  # white between a label and another one's leader line, mm
 
 
 class Met(Struct):
-    """What the labels cost the places of one: shape (n, labels), and with which of their places."""
+    """Costs of one label's places from the others: shape (n, labels), and the others' stamps."""
 
     candidates: Candidates
     costs: Floats
@@ -30,7 +30,7 @@ class Met(Struct):
 
     @classmethod
     def of(cls, candidates: Candidates, labels: int) -> Met:
-        """Return that of a number of labels, none of them asked for yet."""
+        """Return empty costs for a number of labels, none of them computed yet."""
         return cls(candidates, np.zeros((len(candidates.boxes), labels)), np.full(labels, -1))
 
 
@@ -46,10 +46,10 @@ class Others:
         self._there: dict[int, None] = {}
         self._stamps = np.full(len(labels), -1)
         self.changes = 0
-        """How often a label was put down or lifted."""
+        """Number of times that a label was placed or removed."""
 
     def put(self, k: int, candidates: Candidates, row: int, stamp: int) -> None:
-        """Note the place that a label takes; no other place has its ``stamp``."""
+        """Record the place of a label; its ``stamp`` is unique."""
         self._boxes[k] = candidates.boxes[row]
         self._leaders[k] = candidates.leaders[row]
         self._around[k] = candidates.around[row]
@@ -67,15 +67,15 @@ class Others:
         return np.array([other for other in self._there if other != k], dtype=np.intp)
 
     def costs(self, k: int, candidates: Candidates, rows: Numbers) -> Floats:
-        """Return what all labels but ``k`` cost some places, shape (n,)."""
+        """Return the costs of some places from all labels but ``k``, shape (n,)."""
         there = self.but(k)
         return np.asarray(self.each(candidates, rows, there).sum(axis=1))
 
     def met(self, choice: Met, rows: Numbers, there: Numbers) -> Floats:
-        """Return what `each` does of certain places: of labels that stand as they did, as then."""
+        """Return the result of `each` for some places, cached for labels that have not moved."""
         old = choice.stamps[there] != self._stamps[there]
         away = np.zeros(0, dtype=np.intp)
-        if len(rows) == 1 and old.any():  # of one place only those near it are looked at
+        if len(rows) == 1 and old.any():  # for a single place only labels near it are checked
             around, white = choice.candidates.around[rows[0]], self._widest
             theirs = self._around[there]
             meets = (theirs[:, 2:] > around[:2] - white) & (theirs[:, :2] < around[2:] + white)
@@ -91,11 +91,11 @@ class Others:
         return np.asarray(found)
 
     def each(self, candidates: Candidates, rows: Numbers, others: Numbers) -> Floats:
-        """Return what each of some labels costs each place, shape (n, len(others))."""
+        """Return the cost of each place from each of some labels, shape (n, len(others))."""
         costs = np.zeros((len(rows), len(others)))
         if not len(rows) or not len(others):
             return costs
-        # Only a label near a place can meet it.
+        # Only a label near a place can overlap it.
         theirs, white = self._around[others], self._widest
         low, high = candidates.within
         near = (theirs[:, 2:] > low - white) & (theirs[:, :2] < high + white)

@@ -1,4 +1,4 @@
-"""What is on the paper already, and what it makes of the places of labels."""
+"""Items already on the paper, and their costs for the places of labels."""
 
 from __future__ import annotations
 
@@ -26,22 +26,22 @@ from planmethod.render.labels.model import ALONE, BREAKABLE, CLEAR
 FORBIDDEN = 1e6
 CROSSED = 4000.0  # a label on a line, and its share per mm of line under it
 _PER_MM = 20.0
-_BETWEEN = 7.0  # per thin line between a label and what it names
+_BETWEEN = 7.0  # per thin line between a label and its point or segment
 _THROUGH = 60.0  # per filled area, an arrowhead mostly, that the leader runs through
 _ROUND_LINES = CLEAR * np.array([-1, -1, 1, 1])
 ROUND_AREAS = 0.54  # white between a label and a filled area, mm
-_BESIDE = 0.6  # more of it at the sides of letters, mm: nearer they would read as one word
+_BESIDE = 0.6  # more of it at the sides of letters, mm: closer they would read as one word
 _ALONG_LINE = 25.0  # a leader line along a line
-_ALONG = 0.2  # radians: less between them and they run along each other
-_AT = 0.3  # mm: a line nearer goes through the point
+_ALONG = 0.2  # radians: lines at a smaller angle run along each other
+_AT = 0.3  # mm: a nearer line goes through the point
 _SAGITTA = 0.05  # how far the chords of a large arc may be off, mm
 _PIECE = 12.0  # longest piece of a line in the tree, mm
-_PAIRS = 1 << 19  # of places and lines looked at at once: each that meets takes a hundred bytes
+_PAIRS = 1 << 19  # of places and lines checked at once: each hit takes a hundred bytes
 
 
 LED_STRANGER = 0.5
-"""Part of the cost of standing nearer to another label's point for one whose leader line tells its
-own."""
+"""Fraction of the cost of a place nearer to another label's point, for a label with a leader line
+to its own."""
 
 
 class Paper:
@@ -51,7 +51,7 @@ class Paper:
     ----------
     segments : ndarray of shape (n, 2, 2), mm
     breakable : ndarray of shape (n,)
-        Which of them are thin: a label may break them as the last resort.
+        Flags of the thin ones, which a label may break as the last resort.
     bounds : Bounds, mm
     """
 
@@ -72,7 +72,8 @@ class Paper:
             grown = boxes[ask] + _ROUND_LINES
             which, line = self._lines.query(box(*grown.T))
             on_line = np.zeros(len(ask), dtype=bool)
-            # Nearly every line whose box is met is met: after one of each few are left to look at.
+            # Nearly every line whose box is hit is hit: after one line per place few are left to
+            # check.
             pair = np.flatnonzero(np.diff(which, prepend=-1))
             for _ in range(2):
                 at = which[pair]
@@ -93,11 +94,11 @@ class Paper:
         free: bool = False,
         breaking: bool = False,
     ) -> list[Floats]:
-        """Return the costs of all places but for the other labels, one array for each label.
+        """Return the costs of all places without other labels, one array for each label.
 
-        ``strangers`` are the points that labels name, ``lines`` the segments. Places that are
-        ``free`` need not be looked at again for what they stand on. With ``breaking`` a label on
-        thin lines costs little: it will break them.
+        ``strangers`` are the points that labels name, ``lines`` the segments. ``free`` places are
+        not checked again for items under them. With ``breaking`` a label on thin lines costs
+        little: it will break them.
         """
         led = np.concatenate([c.led for c in many])
         manners = [c.label.manner for c in many]
@@ -119,7 +120,7 @@ class Paper:
         ]
 
     def _within(self, boxes: Floats) -> NDArray[np.bool_]:
-        """Tell which boxes are within the bounds."""
+        """Return flags of the boxes that are within the bounds."""
         x0, y0, x1, y1 = self.bounds
         return np.asarray(
             (boxes[:, 0] >= x0) & (boxes[:, 1] >= y0) & (boxes[:, 2] <= x1) & (boxes[:, 3] <= y1)
@@ -150,9 +151,9 @@ class Paper:
     def _between(
         self, many: Sequence[Candidates], led: NDArray[np.bool_], so_far: Floats
     ) -> Floats:
-        """Return the cost of what is between the places and the thing they name.
+        """Return the cost of items between the places and their named points or segments.
 
-        A line between them makes a reader take the label for another's, leader line or not.
+        With a line between, the label is read as another item's, with a leader line or without.
         """
         costs = np.zeros(len(so_far))
         starts, ends = [c.starts for c in many], [c.ends for c in many]
@@ -196,7 +197,7 @@ class Paper:
         return costs
 
     def _ways_from(self, place: complex) -> Complexes:
-        """Return the ways along the lines that go through a place."""
+        """Return the directions of the lines that go through a place."""
         if self._lines is None:
             return np.empty(0, dtype=complex)
         if place not in self._ways:
@@ -209,7 +210,7 @@ class Paper:
 
 
 AT_LINE = 2.0
-"""So near another segment the name of one stands at it, in spite of its leader line, mm."""
+"""Distance within which a name is read as another segment's, in spite of its leader line, mm."""
 
 
 def _square(place: complex, half: float) -> Bounds:
@@ -217,7 +218,7 @@ def _square(place: complex, half: float) -> Bounds:
 
 
 def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[complex]) -> Floats:
-    """Return the cost of standing nearer to another label's point, less of it at a leader line."""
+    """Return the cost of places nearer to another label's point, reduced with a leader line."""
     costs = np.zeros(len(so_far))
     dislike = candidates.label.manner.stranger
     ask = np.flatnonzero(so_far < CROSSED)
@@ -237,9 +238,9 @@ def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[
 def _other_line_costs(
     candidates: Candidates, so_far: Floats, lines: Sequence[tuple[complex, complex]]
 ) -> Floats:
-    """Return the cost of the name of a segment for standing nearer to another label's segment.
+    """Return the cost of places of a segment's name that are nearer to another label's segment.
 
-    At the end of a leader line it may not stand at that one either.
+    A name with a leader line may not be at another segment either.
     """
     costs = np.zeros(len(so_far))
     label = candidates.label
@@ -321,7 +322,7 @@ def _round(discs: Sequence[Disc]) -> Iterable[object]:
 
 
 def _chopped(segments: Floats, breakable: NDArray[np.bool_]) -> tuple[Floats, NDArray[np.bool_]]:
-    """Return long segments in pieces, whose boxes the tree tells apart."""
+    """Return long segments in pieces, whose boxes the tree separates."""
     way = segments[:, 1] - segments[:, 0]
     counts = np.maximum(1, np.ceil(np.hypot(way[:, 0], way[:, 1]) / _PIECE)).astype(int)
     whole = np.repeat(np.arange(len(segments)), counts)

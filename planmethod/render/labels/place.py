@@ -1,8 +1,8 @@
-"""Labels put down one after another, the hard ones first, and mended where they stand badly.
+"""Greedy label placement, hardest labels first, then local repair.
 
 Each label takes its cheapest place. Another label is never overlapped; a line is crossed only where
-there is no free place at all. Labels that found none look again when all are there, and may send
-one or two others elsewhere. The same input gives the same places.
+all places are occupied. Labels without a free place try again when all are placed, and may displace
+one or two others. The same input gives the same places.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ from planmethod.render.labels.model import ALONE, Label, Placed
 from planmethod.render.labels.others import LEADERS_CROSS, Met, Others
 from planmethod.render.labels.paper import CROSSED, FORBIDDEN, Paper
 
-_FAR_IF = 200.0  # cost from which one of a crowd looks at its far places
-_AT_ONCE = 24  # places looked at together
-_PASSES = 4  # times that all labels of a crowd look again
-_POOR = 45.0  # cost from which a better place is looked for, though others have to go
-_WORTH = 5.0  # what must be won by it
-_SENT_AWAY = 2  # most labels that one may send elsewhere
+_FAR_IF = 200.0  # cost from which a label of a crowd tries its far places
+_AT_ONCE = 24  # places checked together
+_PASSES = 4  # times that all labels of a crowd try again
+_POOR = 45.0  # cost from which a better place is sought, even by displacing others
+_WORTH = 5.0  # least gain of a displacement
+_SENT_AWAY = 2  # largest number of labels that one may displace
 _TRIED = 12  # places for which it may
-_LONG = 30.0  # length of a leader line from which a letter rather breaks thin lines, mm
-_FEW_BROKEN = CROSSED / 2  # cost up to which it does: four lines or so
-_HOPELESS = 2  # labels without room: mending never made so many free in 143 crowded schemes
+_LONG = 30.0  # length of a leader line from which a letter breaks thin lines instead, mm
+_FEW_BROKEN = CROSSED / 2  # cost up to which it does: about four lines
+_HOPELESS = 2  # labels without a place: repair never freed that many in 143 crowded schemes
 
 
 def place_labels(
@@ -50,20 +50,20 @@ def place_labels(
     ----------
     labels : sequence of Label
     obstacles : iterable of Item
-        What is on the sheet already. Lines, arcs and outlines should not be crossed, texts and
-        filled areas (the white ones too: a joint, a slider) must not be. White hides nothing
-        here: draw order is not looked at.
+        Items already on the sheet. Lines, arcs and outlines should not be crossed, texts and filled
+        areas (also white ones: a joint, a slider) must not be. Draw order does not matter: white
+        hides no items here.
     bounds : Bounds, mm
         All labels stay inside.
     breaking : bool
-        A label of a crowd that finds no free place may break thin lines by a white ground. If it
-        may not, and several find none, they are left as they are: the crowd has to be thinned.
+        A label of a crowd that finds no free place may break thin lines by a white ground. If not,
+        and several find none, they are left unrepaired: the crowd has to be thinned.
 
     Returns
     -------
     list of Placed
-        In the order of ``labels``, without the optional ones that found no free place. Where there
-        is no room at all a label overlaps or leaves the bounds, and is not ``free``.
+        In the order of ``labels``, without the optional ones that found no free place. A label
+        without any place overlaps others or leaves the bounds, and is not ``free``.
     """
     return list(_placed(tuple(labels), tuple(obstacles), bounds, in_use(), breaking=breaking))
 
@@ -77,9 +77,9 @@ def _placed(
     *,
     breaking: bool,
 ) -> tuple[Placed, ...]:
-    """Return the labels with their places: of a picture that was tried on other paper, as there.
+    """Return the labels with their places, cached for a picture that is tried on other paper.
 
-    How far the ink of texts among the obstacles goes depends on the lettering that is in use.
+    The extent of texts among the obstacles depends on the lettering in use.
     """
     if not labels:
         return ()
@@ -106,7 +106,7 @@ def _placed(
 class _Choice(Struct):
     """A set of places of one label with their costs, the cheapest first.
 
-    Of ``every`` place only the free ones are there, until none of them will do; then it is None.
+    It has only the free ones of ``every`` place until none of them will do; then ``every`` is None.
     """
 
     candidates: Candidates
@@ -157,7 +157,7 @@ class _Places:
     # A series --------------------------------------------------------------------------------
 
     def line_up(self) -> None:
-        """Place the series of labels whose points are close together."""
+        """Place labels of series whose points are close together."""
         names = dict.fromkeys(label.series for label in self.labels if label.series)
         if not names:
             return
@@ -173,7 +173,7 @@ class _Places:
                             self.lined.add(k)
 
     def _standing(self, candidates: Candidates, rows: NDArray[np.intp]) -> Floats:
-        """Return what the labels that are there cost a label that is not yet, shape (n,)."""
+        """Return the costs of a new label's places from the labels already placed, shape (n,)."""
         return self.others.costs(-1, candidates, rows)
 
     # One label -------------------------------------------------------------------------------
@@ -201,7 +201,7 @@ class _Places:
         self.others.lift(k)
 
     def _best(self, k: int) -> _Taken:
-        """Return the cheapest place of a label; look further away when all near ones are taken."""
+        """Return the cheapest place of a label, a further one when all near ones are occupied."""
         best = self._sought(k, self._wider)
         if self.labels[k].optional:
             return best
@@ -212,8 +212,8 @@ class _Places:
     def _sought(self, k: int, choice: Callable[[int, int], _Choice]) -> _Taken:
         """Return the cheapest of some places of a label, of further ones where it is needed."""
         best = self._cheapest(k, choice(k, 0))
-        # One of a crowd looks further before its leader line crosses others, but rather breaks a
-        # line than stands at the other end of the drawing.
+        # A label of a crowd tries further places before its leader line crosses others, but breaks
+        # a line sooner than moving to the other end of the drawing.
         alone = self.labels[k].manner == ALONE
         for number in (1, 2) if alone else (1,):
             if best.cost < (CROSSED if alone else _FAR_IF):
@@ -245,7 +245,7 @@ class _Places:
         return choice
 
     def _cheapest(self, k: int, choice: _Choice) -> _Taken:
-        """Return the cheapest place of a set: only as many are compared as can be it."""
+        """Return the cheapest place of a set, comparing only places that may be the cheapest."""
         best, cost = 0, np.inf
         first, count = 0, _AT_ONCE
         while first < len(choice.order):
@@ -273,10 +273,10 @@ class _Places:
         return _Choice.of(candidates, costs, len(self.labels), every)
 
     def _met(self, k: int, choice: _Choice, rows: NDArray[np.intp]) -> Floats:
-        """Return what the other labels cost some places of a label, shape (n,)."""
+        """Return the costs of some places of a label from the other labels, shape (n,)."""
         return np.asarray(self.others.met(choice.met, rows, self.others.but(k)).sum(axis=1))
 
-    # Mending ---------------------------------------------------------------------------------
+    # Repair ----------------------------------------------------------------------------------
 
     def unfree(self) -> list[int]:
         """Return the labels that cross or overlap something."""
@@ -287,7 +287,7 @@ class _Places:
         return [k for k, label in enumerate(self.labels) if not label.optional]
 
     def _cost(self, k: int) -> float:
-        """Return what the place of a label costs with all others where they are now."""
+        """Return the cost of a label's place with all others where they are now."""
         changes, cost = self._costs.get(k, (-1, 0.0))
         if changes != self.others.changes:
             choice, row = self.taken[k].choice, self.taken[k].row
@@ -296,7 +296,7 @@ class _Places:
         return cost
 
     def look_again(self) -> None:
-        """Let every label look for a better place now that all are there."""
+        """Move every label to a better place, if any, now that all are placed."""
         for _ in range(_PASSES):
             moved = False
             for k in self._firm:
@@ -304,7 +304,7 @@ class _Places:
                     continue  # out of its column it would be cheaper, but not better
                 now, near = self._cost(k), self.choices[k][0]
                 if now < _FAR_IF and len(near.order) and now <= near.costs[near.order[0]]:
-                    continue  # no place is cheaper, whoever moves
+                    continue  # no place is cheaper, whichever label moves
                 best = self._best(k)
                 if best.cost < now - 1e-6:
                     self._take(k, best)
@@ -313,17 +313,17 @@ class _Places:
                 return
 
     def improve(self) -> None:
-        """Find shorter leader lines where others can make room."""
+        """Find shorter leader lines by moving other labels."""
         costs = {k: self._cost(k) for k in self._firm if k not in self.lined}
         bad = [k for k, cost in costs.items() if _POOR < cost < CROSSED]
         for k in sorted(bad, key=lambda k: (-costs[k], k)):
             self.send_away(k)
 
     def send_away(self, k: int) -> None:
-        """Give a label a better place that one or two others find a way to leave."""
+        """Give a label a better place by displacing one or two others."""
         now = self._cost(k)
         if now < _POOR:
-            return  # better since another one was mended
+            return  # better since another one was repaired
         for choice in list(self.choices[k]):
             rows = choice.order[:_TRIED]
             rows = rows[choice.costs[rows] < min(now, CROSSED) - _WORTH]
@@ -339,7 +339,7 @@ class _Places:
                         return
 
     def _moved(self, k: int, to: _Taken, sent: Sequence[int]) -> bool:
-        """Put a label down where others are, and these elsewhere, if that is better in all."""
+        """Put a label in the place of others, and these elsewhere, if that is better in total."""
         before = {other: self.taken[other] for other in (k, *sent)}
         crossed, cost = self._state(before)
         for other in before:
@@ -357,7 +357,7 @@ class _Places:
         return False
 
     def _state(self, numbers: Iterable[int]) -> tuple[int, float]:
-        """Return how many of some labels are not free, and what they cost together."""
+        """Return the number of some labels that are not free, and their total cost."""
         costs = [self._cost(k) for k in numbers]
         return sum(cost >= CROSSED for cost in costs), sum(costs)
 
@@ -380,12 +380,12 @@ class _Places:
             self._take(k, best)
 
     def far_away(self) -> list[int]:
-        """Return the letters of a crowd at the ends of leader lines that the eye follows badly."""
+        """Return the letters of a crowd whose leader lines are too long to follow."""
         crowd = (k for k in self._firm if self.labels[k].manner != ALONE)
         return [k for k in crowd if k not in self.lined and self._leader(k) > _LONG]
 
     def _leader(self, k: int) -> float:
-        """Return the length of the leader line of a label, mm; none where it has none."""
+        """Return the length of the leader line of a label, mm; 0 without one."""
         candidates, row = self.taken[k].choice.candidates, self.taken[k].row
         return float(np.nan_to_num(abs(candidates.ends[row] - candidates.starts[row])))
 

@@ -1,4 +1,4 @@
-"""Labels that are put down only where there is room beside what they name."""
+"""Labels that are placed only if there is space beside their points or segments."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from planmethod.render.labels.model import Label, Placed
 from planmethod.render.labels.paper import CROSSED, ROUND_AREAS, Paper
 
 NEAR = 8.0
-"""Furthest middle of a label that may be left out from what it names, mm."""
+"""Largest distance of an optional label's middle from its point or segment, mm."""
 
 BESIDE = 1.0
-"""White on either side of a label on top of that around an area: it is not read as one with it."""
+"""Extra white on either side of a label, so that it is not read together with another."""
 
 
 def spare_labels(
     labels: Sequence[Label], obstacles: Iterable[Item], bounds: Bounds
 ) -> list[Placed]:
-    """Place what labels have a free place, one after another; the others are left out.
+    """Place the labels that have a free place, one after another; the others are left out.
 
     Parameters
     ----------

@@ -8,14 +8,14 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels.model import ALONE, Label, LabelStyle
 
 Spots = list[tuple[complex, list[str]]]
-"""Places, mm, and what stands there."""
+"""Places, mm, and their letters."""
 
 NEAR = 0.3
-"""Points so near one another are one point on the paper, mm."""
+"""Distance below which points coincide on the paper, mm."""
 
 
 def shared_spots(letters: Iterable[tuple[complex, Sequence[str]]], near: float = NEAR) -> Spots:
-    """Return places with the letters that stand there, each letter once, in the order given.
+    """Return places with their letters, each letter once, in the order given.
 
     Parameters
     ----------
