@@ -1,1 +1,1 @@
-"""Blocks of a sheet and how they are put together (компоновка)."""
+"""Blocks of a sheet and their arrangement (компоновка)."""

@@ -1,4 +1,4 @@
-"""Blocks (блоки листа): things that know their size and draw themselves where they are put.
+"""Blocks (блоки листа): objects that know their size and draw themselves at a given place.
 
 Every block is placed by its **upper left** corner, since a sheet is filled from the top down.
 """
@@ -22,7 +22,7 @@ from planmethod.render.ink.typeset import (
     typeset,
 )
 
-# What must not be taken apart when a word is broken: an escaped sign, a letter with its indices.
+# Parts that stay whole when a word is broken: an escaped sign, a letter with its indices.
 _SIGNS = r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*"
 
 # Letters of a unit are few, or there is a sign between them.
@@ -35,7 +35,7 @@ CUT = "cut"
 
 
 class Block(Protocol):
-    """What the layout of a sheet needs of its parts (блок)."""
+    """Protocol of the parts of a sheet for its layout (блок)."""
 
     @property
     def width(self) -> float:
@@ -53,9 +53,9 @@ class Block(Protocol):
 
 
 class Shapes(Struct, frozen=True):
-    """A block that can be laid out in several ways (варианты блока); alone it is the first one.
+    """A block with several layouts (варианты блока); by itself it is the first one.
 
-    ``grows``: of two ways the larger one is at a larger scale, and not only looser.
+    ``grows``: a larger layout has a larger scale, and is not only looser.
     """
 
     ways: tuple[Block, ...]
@@ -72,12 +72,12 @@ class Shapes(Struct, frozen=True):
         return self.ways[0].height
 
     def place(self, corner: complex) -> list[Item]:
-        """Return the items of the first way."""
+        """Return the items of the first layout."""
         return self.ways[0].place(corner)
 
 
 def shaped(ways: Iterable[Block], *, grows: bool = False) -> Block:
-    """Return a block that can be laid out in several ways, or the only one."""
+    """Return a block with several layouts, or the only layout."""
     found = tuple(ways)
     return Shapes(found, grows) if len(found) > 1 else found[0]
 
@@ -94,7 +94,7 @@ class Spacer(Struct, frozen=True):
 
 
 class Picture(Struct, frozen=True):
-    """Ready items in their own coordinates; ``bounds`` is the room they take, mm."""
+    """Ready items in their own coordinates; ``bounds`` is their extent, mm."""
 
     items: tuple[Item, ...]
     bounds: Bounds
@@ -160,7 +160,7 @@ class Lines(Struct, frozen=True):
         return first.ascent + sum(self.steps()) + last.descent
 
     def steps(self) -> list[float]:
-        """Return the steps of base lines: wider where indices or bars would come too near."""
+        """Return the steps of base lines: wider where indices or bars would come too close."""
         pairs = zip(self.inscriptions, self.inscriptions[1:], strict=False)
         return [
             max(self.step, above.descent + below.ascent + 0.2 * below.height)
@@ -254,7 +254,7 @@ def heading(markup: str, height: float = 5.0, *, width: float | None = None) -> 
 
 
 _ALONE = 12
-"""Signs of a word, its markup too, that is not left alone in a line."""
+"""Length of a word, with its markup, below which it is not left alone in a line."""
 
 
 def paragraph(
@@ -266,8 +266,9 @@ def paragraph(
 ) -> Lines:
     r"""Return rich text wrapped at spaces into lines not wider than ``width`` mm (абзац).
 
-    ``\n`` in the markup starts a new line. A word wider than ``width`` gets a line of its own. What
-    equals a number and its unit are on one line. A short word is not left alone in the last line.
+    ``\n`` in the markup starts a new line. A word wider than ``width`` gets a line of its own. Both
+    sides of an equality, and a number and its unit, are on one line. A short word is not left alone
+    in the last line.
     """
     lines: list[str] = []
     for part in markup.split("\n"):
@@ -279,7 +280,7 @@ def paragraph(
 def _in_company(
     lines: list[str], words: Sequence[str], height: float, width: float | None
 ) -> list[str]:
-    """Return lines the last of which is not one short word, if the one before it can spare one."""
+    """Return lines without a single short word in the last, if the line before can spare a word."""
     alone = len(lines) > 1 and lines[-1] == words[-1] and len(words[-1]) < _ALONE
     if not alone or lines[-2] == words[-2]:
         return lines
@@ -329,7 +330,7 @@ def fit(
     One line at the first or second height if it fits; else lines at the first height that holds
     them in the cell; else long words are broken at the last height, the lines as near as their ink
     allows if need be; else the text is cut with an ellipsis and its tag gets the word `CUT`, which
-    the lint reports. Nothing leaves the cell, however little of the text that leaves.
+    the lint reports. The text never leaves the cell, however little of it is left.
 
     Parameters
     ----------
@@ -366,7 +367,7 @@ def _fitting(
     align: Align,
     alone: int,
 ) -> tuple[Lines, bool]:
-    """Choose lines and height; True when the text had to be cut.
+    """Choose lines and height; return also whether the text had to be cut.
 
     ``alone`` are the heights tried in one line before words are wrapped.
     """
@@ -384,7 +385,7 @@ def _fitting(
     for part in words:
         pieces = [piece for word in part for piece in _broken(word, size, room[0])]
         broken += wrapped(pieces, size, room[0])
-    # Last of all the lines are set as near as their ink allows: a date in two lines, say.
+    # Finally, the lines are set as close as their ink allows: a date in two lines, for example.
     tries += [(broken, size, line_step(size)), (broken, size, 0.0)]
     for lines, height, step in tries:
         block = made(lines, height, step)
@@ -411,7 +412,7 @@ def _fits(block: Lines, room: tuple[float, float]) -> bool:
 
 
 def _balanced(words: Sequence[str], size: float, width: float) -> list[str]:
-    """Wrap into the same number of lines as is needed, but of nearly equal length."""
+    """Wrap into the least number of lines, of nearly equal length."""
     lines = wrapped(words, size, width)
     count = len(lines)
     for tenths in range(40, 100, 3):
@@ -431,7 +432,7 @@ def _broken(word: str, size: float, width: float) -> list[str]:
         take = len(signs) - 1
         while take > 1 and typeset(_hyphened(signs, take), size).width > width:
             take -= 1
-        # Rather after a dot or a hyphen of the text itself: 12.03. / 2025.
+        # Preferably after a dot or a hyphen of the text itself: 12.03. / 2025.
         stops = [k for k in range(2, take + 1) if signs[k - 1] in ".-/,"]
         take = stops[-1] if stops else take
         pieces.append(_hyphened(signs, take))

@@ -27,33 +27,33 @@ Arrange: TypeAlias = Literal["free", "row", "column"]
 
 
 class Packed(Struct, frozen=True):
-    """A block to be packed; ``text`` says that it stands together with neighbouring texts."""
+    """A block to be packed; a ``text`` is joined with neighbouring texts."""
 
     block: Block
     text: bool = False
 
     @property
     def ways(self) -> tuple[Block, ...]:
-        """The block in all its ways."""
+        """All layouts of the block."""
         return self.block.ways if isinstance(self.block, Shapes) else (self.block,)
 
     @property
     def grows(self) -> bool:
-        """Whether larger ways are at larger scales."""
+        """True if larger layouts are at larger scales."""
         return isinstance(self.block, Shapes) and self.block.grows
 
 
 class Group(Struct, frozen=True):
     """Parts and groups that stay together (группа блоков).
 
-    ``arrange`` says how they may stand: as the paper has room, side by side, one under another.
+    ``arrange`` is their arrangement: free, side by side, one under another.
     """
 
     members: tuple[Packed | Group, ...]
     arrange: Arrange = "free"
 
     def inner(self) -> Group:
-        """Return the innermost groups alone, none arranged in a certain way."""
+        """Return only the innermost groups, freely arranged."""
         members: list[Packed | Group] = []
         for member in self.members:
             if isinstance(member, Packed):
@@ -78,7 +78,7 @@ class Group(Struct, frozen=True):
 
 
 class Leaf(Struct, frozen=True):
-    """A block by its number, in one of its ways, and its size, mm."""
+    """A block by its number, in one of its layouts, and its size, mm."""
 
     number: int
     block: Block
@@ -91,7 +91,7 @@ class Leaf(Struct, frozen=True):
 class GuillotineCut(Struct, frozen=True):
     """Two parts side by side (``across`` false) or one above the other.
 
-    ``text``: all in it are texts, which stand together; ``group``: it is a whole group.
+    ``text``: all its blocks are texts, which stay together; ``group``: it is a whole group.
     """
 
     first: Node
@@ -105,7 +105,7 @@ class GuillotineCut(Struct, frozen=True):
 
 Node: TypeAlias = "Leaf | GuillotineCut"
 Unit: TypeAlias = tuple[Node, Bounds]
-"""A block, or texts that stand together, and the room that is theirs."""
+"""A block, or texts that stay together, and its area."""
 
 
 _Size: TypeAlias = "tuple[float, float, Node, Node, bool]"
@@ -113,7 +113,7 @@ _Size: TypeAlias = "tuple[float, float, Node, Node, bool]"
 
 
 def fits(node: Node, room: tuple[float, float]) -> bool:
-    """Tell whether a part of the sheet fits a room of a width and height, mm."""
+    """Return whether a part of the sheet fits an area of a width and height, mm."""
     return node.width <= room[0] + 1e-6 and node.height <= room[1] + 1e-6
 
 
@@ -130,9 +130,9 @@ def cuttings(
 ) -> list[Node]:
     """Return cuttings of a group, none narrower and lower than another.
 
-    Of the whole sheet all cuttings are returned that fit: there it is the white that counts.
-    ``settled`` keeps the cuttings of groups, by their identity, for further sheets of the same
-    room; those it shall keep it has from the first, empty.
+    For the ``whole`` sheet all cuttings that fit are returned, to be compared by their white.
+    ``settled`` caches the cuttings of groups, by their identity, for further sheets of the same
+    area; it must have an empty entry for each group to be cached.
     """
     options: list[list[Node]] = []
     for member in group.members:
@@ -167,7 +167,7 @@ def cuttings(
 def _sizes(
     ones: Sequence[Node], twos: Sequence[Node], ways: Sequence[bool], room: tuple[float, float]
 ) -> Iterator[_Size]:
-    """Yield the sizes of all cuts of two parts that fit: most of them are not taken further."""
+    """Yield the sizes of all cuts of two parts that fit: most of them are discarded."""
     wide, tall = room[0] + 1e-6, room[1] + 1e-6
     twos_sizes = [(two, two.width, two.height) for two in twos]
     for one in ones:
@@ -189,7 +189,7 @@ def _joined(width: float, height: float, one: Node, two: Node, across: bool) -> 
 
 
 def _pareto(sizes: list[_Size]) -> list[_Size]:
-    """Return what no other beats in both sizes, thinned to a few."""
+    """Return the sizes that no other beats in both dimensions, thinned to a few."""
     sizes.sort(key=itemgetter(0, 1))
     best: list[_Size] = []
     for size in sizes:
@@ -201,14 +201,14 @@ def _pareto(sizes: list[_Size]) -> list[_Size]:
     return [best[round(k * step)] for k in range(_OPTIONS)]
 
 
-# Larger ways --------------------------------------------------------------------------------------
+# Larger layouts -----------------------------------------------------------------------------------
 
 
 def grown(node: Node, ways: Sequence[Sequence[Leaf]], room: tuple[float, float]) -> Node:
-    """Return a cutting whose blocks stand in larger ways, as far as all of it fits the room.
+    """Return a cutting whose blocks have larger layouts, as far as all of it fits the area.
 
-    A larger way is one that is wider or higher and nowhere smaller: a picture at a larger scale.
-    Blocks grow in turn, a way each. ``ways`` are those of every block by its number, none of those
+    A larger layout is wider or higher and nowhere smaller: a picture at a larger scale. Blocks grow
+    in turn, a layout each. ``ways`` are the layouts of every block by its number, empty for blocks
     that do not grow.
     """
     standing = {leaf.number: leaf for leaf in _leaves(node)}
@@ -226,7 +226,7 @@ def grown(node: Node, ways: Sequence[Sequence[Leaf]], room: tuple[float, float])
             if fits(tried, room):
                 node, standing[number] = tried, way
             else:
-                refused.append(way)  # nor will it when others have grown
+                refused.append(way)  # it will not fit when others have grown either
     return node
 
 
@@ -244,7 +244,7 @@ def _leaves(node: Node) -> Iterator[Leaf]:
 
 
 def _with(node: Node, way: Leaf) -> Node:
-    """Return a cutting with a block in another way."""
+    """Return a cutting with a block in another layout."""
     if isinstance(node, Leaf):
         return way if node.number == way.number else node
     one, two = _with(node.first, way), _with(node.second, way)
@@ -260,10 +260,10 @@ def _with(node: Node, way: Leaf) -> Node:
 
 
 def units_of(node: Node, box: Bounds, *, anchored: bool) -> Iterator[Unit]:
-    """Yield the room that each unit gets when the spare white is shared at every cut.
+    """Yield the area that each unit gets when the spare white is divided at every cut.
 
-    ``anchored`` is what ends in the lower right corner of the sheet; other groups are drawn
-    together within their room.
+    The ``anchored`` part ends in the lower right corner of the sheet; other groups are contracted
+    within their areas.
     """
     if node.group and not anchored:
         box = _drawn_together(node, box)
@@ -304,14 +304,14 @@ def _steps(node: Node, *, across: bool) -> int:
 
 
 def box_of(unit: Unit) -> Bounds:
-    """Return the box of a unit's blocks, which stand in the middle of their room."""
+    """Return the box of a unit's blocks, centred in their area."""
     node, (left, low, right, high) = unit
     corner = complex(left + right - node.width, low + high + node.height) / 2
     return (corner.real, corner.imag - node.height, corner.real + node.width, corner.imag)
 
 
 def corners_of(unit: Unit) -> Iterator[tuple[Leaf, complex]]:
-    """Yield a unit's blocks with their upper left corners, the unit in the middle of its box."""
+    """Yield a unit's blocks with their upper left corners, the unit centred in its box."""
     left, _, _, high = box_of(unit)
     yield from _set_together(unit[0], complex(left, high))
 

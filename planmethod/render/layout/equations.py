@@ -1,8 +1,8 @@
 """Vector equations with underlines and notes, and formula lines, as blocks (уравнения).
 
-A vector equation of the plan method says under every term what is known of it before the plan is
-drawn: one line under a term whose direction alone is known, two under one known altogether, and
-below the lines the direction itself::
+A vector equation of the plan method marks under every term the knowledge before the plan is drawn:
+one line under a term whose direction alone is known, two under one that is fully known, and below
+the lines the direction itself::
 
     v_C   =   v_B  +  v_CB
     ───       ═══     ────
@@ -40,11 +40,11 @@ OPERATORS = frozenset({"=", "+", "-", "−", "≈", "·", "±", "→"})
 """Signs that a formula may be broken at; the sign is repeated on the next line."""
 
 INDENT = 5.0
-"""How far to the right the further lines of a formula begin, mm."""
+"""Indent of the further lines of a formula, mm."""
 
 
 class _Term(Struct, frozen=True):
-    """Term of the equation and its note, and where its left edge is in the row, mm."""
+    """Term of the equation, its note, and the place of its left edge in the row, mm."""
 
     inscription: Inscription
     note: Inscription
@@ -132,7 +132,7 @@ def equation_block(
 ) -> EquationBlock:
     """Return a vector equation with underlines and notes (векторное уравнение).
 
-    A sum that is nothing (уравнение равновесия) has its name before it.
+    A sum equal to zero (уравнение равновесия) has its name before it.
 
     Parameters
     ----------
@@ -241,7 +241,7 @@ class _RowSetter:
         return typeset(sign, self.size)
 
     def reach(self, term: _Term, sign: str, *, last: bool) -> float:
-        """Return how far right the row would go with one more term, mm."""
+        """Return the right end of the row with one more term, mm."""
         placed, _ = self._next(term, sign)
         tail = 0.0 if last else self._set("+").width + _SIGN_GAP * self.size
         return max(placed.right, placed.x + placed.inscription.width + tail)

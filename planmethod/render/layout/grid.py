@@ -1,7 +1,7 @@
 """Grid of a sheet (сетка листа): blocks on few left edges, their headings on few common lines.
 
-Every block has a box of its own in which it may be moved. A line on which as many boxes as can be
-let their blocks stand is a line of the grid; so there are as few lines as the boxes allow.
+Every block may be moved within its own box. A line of the grid aligns the blocks of as many boxes
+as possible, so there are as few lines as the boxes allow.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from planmethod.render.ink.extent import overlap
 from planmethod.render.layout.cuttings import CLEAR, Unit, box_of
 
 Play: TypeAlias = tuple[float, float, float]
-"""Where an edge may be, from and to, and where it would be in the middle of its box, mm."""
+"""Range of an edge, from and to, and its coordinate in the middle of its box, mm."""
 
 
 def on_grid(units: Sequence[Unit], last: complex, kept: Sequence[Bounds]) -> list[Unit]:
@@ -24,9 +24,9 @@ def on_grid(units: Sequence[Unit], last: complex, kept: Sequence[Bounds]) -> lis
     ----------
     units : sequence of Unit
     last : complex, mm
-        Upper left corner of the last block, which stands fast: its lines are lines of the grid.
+        Upper left corner of the last block, which is fixed: its lines are lines of the grid.
     kept : sequence of Bounds, mm
-        What must stay free: a unit that would come too near keeps its place.
+        Boxes that must stay free: a unit that would come too near keeps its place.
     """
     across, along = [], []
     for node, (left, low, right, high) in units:
@@ -44,10 +44,11 @@ def on_grid(units: Sequence[Unit], last: complex, kept: Sequence[Bounds]) -> lis
 
 
 def _lines(plays: Sequence[Play], fixed: float) -> list[float]:
-    """Return for each edge its line: the fewest lines that all edges can stand on.
+    """Return for each edge its line, with the fewest lines that reach all edges.
 
-    The edges that can stand on the fixed one do; of the rest those that end first share a line
-    with all that begin before it ends. A line is as near to the middles of its boxes as can be.
+    Edges that can be on the fixed line are; of the rest, the edge whose range ends first shares a
+    line with all whose range begins before that end. A line is as near to the middles of its boxes
+    as possible.
     """
     found = [fixed] * len(plays)
     rest = [k for k, (low, high, _) in enumerate(plays) if not low <= fixed <= high]

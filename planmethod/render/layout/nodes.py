@@ -10,7 +10,7 @@ from planmethod.render.layout.block import Block, heading, paragraph
 from planmethod.render.layout.equations import equation_block, formula_block
 
 TextNode: TypeAlias = Caption | Paragraph | Item | Note | Formula | Equations
-"""Nodes that a column of a sheet is made of; tables and figures are set where they stand."""
+"""Nodes of a text column; tables and figures are set by their own blocks."""
 
 
 def blocks_of(

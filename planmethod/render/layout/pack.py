@@ -2,19 +2,19 @@
 
 Blocks keep the order in which they are read: from left to right and from the top down. The sheet is
 cut again and again by a straight line, across or along, between two neighbours of the sequence (a
-guillotine cutting); a group is cut as a whole first, and then within itself. Of the cuttings that
-fit, that of the least cost is taken, of equals the first. The cost is the sum of three parts:
+guillotine cutting); a group is cut as a whole first, and then within itself. The cutting of the
+least cost that fits is chosen, the first of equals. The cost is the sum of three parts:
 
 1. uneven white: over the blocks, the squares of the white that a block has in its box, as parts of
-   the paper's width and height; texts that stand together count as one block;
+   the paper's width and height; texts that stay together count as one block;
 2. `BACK` for every paper's height that the eye goes back up from a group to the next one;
 3. `VOID` times the part of the paper that the largest empty rectangle takes.
 
-In the cutting that is chosen blocks stand in larger ways as long as it fits: pictures at larger
-scales. Blocks stand on a grid (`planmethod.render.layout.grid`): within their boxes they are moved
-to as few left edges and upper lines as can be. Neighbouring texts stand together: set to one left
-edge under one another, to one upper edge side by side. The last block stands on the title block in
-the lower right corner, to its left edge where it is not wider, or to the left of it.
+In the chosen cutting blocks get larger layouts as long as it fits: pictures at larger scales.
+Blocks are aligned on a grid (`planmethod.render.layout.grid`): within their boxes they are moved to
+as few left edges and upper lines as possible. Neighbouring texts stay together: with one left edge
+under one another, with one upper edge side by side. The last block is on the title block in the
+lower right corner, aligned to its left edge if it is not wider, or to the left of it.
 """
 
 from __future__ import annotations
@@ -47,10 +47,10 @@ EDGE = 5.0
 """Least white between a block and the frame, mm."""
 
 BACK = 0.15
-"""What it costs when the reader goes back up by the height of the paper."""
+"""Cost of going back up by the height of the paper in reading."""
 
 VOID = 4.0
-"""What it costs when all of the paper were one empty rectangle."""
+"""Cost of an empty rectangle as large as the paper."""
 
 _LOOKED_AT = 40  # cheapest cuttings by the first two parts: their empty rectangles are measured
 
@@ -63,15 +63,15 @@ def pack(
     Parameters
     ----------
     whole : Group
-        The blocks in reading order; the last one stands above the title block or left of it.
+        The blocks in reading order; the last one is placed above the title block or left of it.
     inner, stamp : Bounds, mm
         Inside of the frame, and the title block in its lower right corner.
     taken : sequence of Bounds, mm
-        Boxes inside the frame that must stay free, such as graph 26. The block that would stand
-        there is moved aside within its room; if it cannot be, all blocks keep clear of the strip
-        along the frame that the box lies in.
+        Boxes inside the frame that must stay free, such as graph 26. A block that would cover one
+        is moved aside within its area; if it cannot be, all blocks keep clear of the strip along
+        the frame that contains the box.
     """
-    if stamp[0] <= inner[0]:  # as wide as the sheet: there is nothing beside it
+    if stamp[0] <= inner[0]:  # as wide as the sheet: no space is left beside it
         inner = (inner[0], stamp[3] - EDGE + GAP / 2, *inner[2:])
         stamp = (inner[2], stamp[3], inner[2], stamp[3])
     for free in (inner, *_without(inner, stamp, taken)):
@@ -86,7 +86,7 @@ def _packed(
 ) -> list[Placed] | None:
     """Return the cheapest cutting of a group, if one fits."""
     *_, last = whole.parts()
-    # Groups before the last block are cut alike wherever that stands.
+    # Groups before the last block have the same cuttings for all its places.
     settled: dict[int, list[Node]] = {id(one): [] for one in whole.members[:-1]}
     found = [
         option
@@ -116,9 +116,9 @@ def _packed(
 
 
 def _alone(box: Bounds, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> Bounds:
-    """Return the box of the only block of a sheet in the middle of what the title block leaves.
+    """Return the box of the only block of a sheet, centred beside or above the title block.
 
-    That is below what must stay free, or beside it.
+    It stays below the boxes that must stay free, or beside them.
     """
     if box[1] < stamp[3]:
         return box
@@ -137,24 +137,24 @@ def _alone(box: Bounds, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -
 
 
 def _last_corners(last: Block, inner: Bounds, stamp: Bounds) -> list[complex]:
-    """Return where the last block may go: above the title block, a wide one to the left of it."""
+    """Return places of the last block: above the title block, or a wide one left of it."""
     wide, high = last.width, last.height
     left = stamp[0] if wide <= inner[2] - EDGE - stamp[0] else inner[2] - EDGE - wide
     above = complex(left, stamp[3] + GAP / 2 + high)
     beside = complex(stamp[0] - GAP / 2 - wide, inner[1] + EDGE + high)
-    # Beside the title block a high one would leave white above that.
+    # A high block beside the title block would leave white above the title block.
     low = high - (stamp[3] - stamp[1]) < (more := wide - (stamp[2] - stamp[0]))
     return [above, beside] if low and more > 0.0 and beside.real >= inner[0] + EDGE else [above]
 
 
 Placed: TypeAlias = tuple[Block, complex]
-"""A block, in the way that was chosen, and its upper left corner."""
+"""A block in its chosen layout, and its upper left corner."""
 
 
 class _Option(NamedTuple):
     """A cutting that fits: its cost without empty rectangles, its units, the last block's box.
 
-    ``ways`` are those of all blocks that it was cut of.
+    ``ways`` are the layouts of all its blocks.
     """
 
     cost: float
@@ -173,7 +173,7 @@ def _options(
     corner: complex,
     settled: dict[int, list[Node]],
 ) -> Iterator[_Option]:
-    """Yield the cuttings that fit with the last block in a certain way and place."""
+    """Yield the cuttings that fit with the last block in a given layout and place."""
     parts = tuple(whole.parts())
     room = _room(inner)
     leaves = [
@@ -197,7 +197,7 @@ def _options(
 
 
 def _units(node: Node, inner: Bounds, last: Bounds, taken: Sequence[Bounds]) -> list[Unit]:
-    """Return the room of each unit of a cutting, clear of boxes; none where it cannot be."""
+    """Return the area of each unit of a cutting, clear of boxes; empty if impossible."""
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
     units = list(units_of(node, box, anchored=True))
     if taken:
@@ -213,9 +213,9 @@ def _room(inner: Bounds) -> tuple[float, float]:
 
 
 def _with_the_last(whole: Group) -> Iterator[Group]:
-    """Yield the sheet whose last block stands among the blocks of the group before it.
+    """Yield the sheet whose last block is among the blocks of the group before it.
 
-    So the results may stand under the texts of a plan, to the right of the plan.
+    For example, the results under the texts of a plan, to the right of the plan.
     """
     *before, group, last = (None, *whole.members)
     if not isinstance(group, Group) or last is None:
@@ -232,7 +232,7 @@ def _with_the_last(whole: Group) -> Iterator[Group]:
 
 
 def _unevenness(units: Sequence[Unit], room: tuple[float, float]) -> float:
-    """Return how unevenly white is spread: squares of what each unit leaves of its box."""
+    """Return the unevenness of white: the squares of each unit's spare width and height."""
     total = 0.0
     for node, (left, low, right, high) in units:
         total += ((right - left - node.width) / room[0]) ** 2
@@ -241,7 +241,7 @@ def _unevenness(units: Sequence[Unit], room: tuple[float, float]) -> float:
 
 
 def _turns(whole: Group) -> list[int]:
-    """Return to which member of the whole sheet every block belongs."""
+    """Return for every block the number of its member of the whole sheet."""
     return [
         turn
         for turn, member in enumerate(whole.members)
@@ -250,7 +250,7 @@ def _turns(whole: Group) -> list[int]:
 
 
 def _way_back(units: Sequence[Unit], turns: Sequence[int], room: tuple[float, float]) -> float:
-    """Return how far up the eye goes from members of the sheet to the next, in paper heights."""
+    """Return the upward way of the eye between members of the sheet, in paper heights."""
     spans: dict[int, tuple[float, float]] = {}
     for node, (_, low, _, high) in units:
         turn = turns[_first(node)]
@@ -265,9 +265,9 @@ def _first(node: Node) -> int:
 
 
 def emptiest_share(boxes: Sequence[Bounds], inner: Bounds) -> float:
-    """Return the part of the paper inside the frame that the largest rectangle without boxes takes.
+    """Return the area of the largest rectangle without boxes as a part of the inside of the frame.
 
-    A largest one has its sides on the sides of boxes: only these are tried.
+    Its sides are on the sides of boxes: only these are tried.
     """
     left, low, right, high = inner
     most = 0.0
@@ -290,9 +290,9 @@ def emptiest_share(boxes: Sequence[Bounds], inner: Bounds) -> float:
 
 
 def _clear(unit: Unit, taken: Sequence[Bounds]) -> Unit | None:
-    """Return a unit with that part of its room where it is clear of boxes, or None without one.
+    """Return a unit with the part of its area that is clear of boxes, or None.
 
-    It is moved as little as can be.
+    It is moved as little as possible.
     """
     start = _middle(unit)
     for other in taken:
@@ -324,14 +324,14 @@ def _beside(box: Bounds, taken: Bounds) -> tuple[Bounds, ...]:
 
 
 def _without(inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> list[Bounds]:
-    """Return the inside of the frame below or right of the taken boxes, title block and all."""
+    """Return parts of the inside below or right of taken boxes, with the title block."""
     rooms = [inner] if taken else []
     for box in taken:
         rooms = [
             part
             for left, low, right, high in rooms
             for part in (
-                # A block keeps EDGE from what it is given, and CLEAR is enough here.
+                # A block keeps EDGE from the sides of its area, and CLEAR is enough here.
                 (left, low, right, min(high, box[1] + EDGE - CLEAR)),
                 (max(left, box[2] - EDGE + CLEAR), low, right, high),
             )

@@ -1,9 +1,9 @@
 """Tables of results (таблицы результатов) as blocks.
 
 A table is columns, each with a symbol, a unit and one value per row (one row per position of the
-mechanism). Under the symbols stand the units, equal ones of neighbouring columns in one cell. A
-table wider than the paper allows is cut into parts, one under another, each with the leading
-columns again.
+mechanism). The units are under the symbols, equal ones of neighbouring columns in one cell. A table
+wider than the paper allows is cut into parts, one under another, each with the leading columns
+again.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class TableCell(Struct, frozen=True):
     """One value (графа): rich text and, for ω and ε, the sense.
 
     ``sense`` is +1 (counter-clockwise) or -1 (clockwise): a small circular arrow beside the value;
-    0 keeps the room for it, so that a column stays aligned; None does not.
+    0 keeps space for it, so that a column stays aligned; None does not.
     """
 
     text: str
@@ -104,7 +104,7 @@ class TablePart(Struct, frozen=True, dict=True):
         return [max(map(self._room, row)) for row in [*heads, *map(list, values)]]
 
     def _room(self, text: Inscription) -> float:
-        """Least height of a row with this text, which is centred by its cap height."""
+        """Return the least height of a row with this text, which is centred by its cap height."""
         overhang = max(text.descent, text.ascent - text.height, 0.0)
         return max(self.row_height, text.height + 2 * overhang + 1.0)
 
@@ -132,7 +132,7 @@ class TablePart(Struct, frozen=True, dict=True):
         return self.units != "none" and not self.columns[k].source.unit
 
     def _unit_spans(self) -> list[tuple[int, int]]:
-        """First and last column of every unit cell; neighbours with one unit share it."""
+        """Return first and last column of each unit cell; neighbours with one unit share it."""
         spans: list[tuple[int, int]] = []
         for _, group in groupby(range(len(self.columns)), lambda k: self.columns[k].source.unit):
             members = list(group)
@@ -143,7 +143,7 @@ class TablePart(Struct, frozen=True, dict=True):
         return spans
 
     def _lines(self, xs: Sequence[float], ys: Sequence[float]) -> list[Item]:
-        """Thin inner lines, then the thick outline and the thick line under the head."""
+        """Return thin inner lines, then the thick outline and the thick line under the head."""
         head = self._head_rows()
         joined = {k for first, last in self._unit_spans() for k in range(first + 1, last + 1)}
         items: list[Item] = []
@@ -200,19 +200,19 @@ def table_block(
         Greatest width. A wider table is first set one GOST height smaller, and if that does not do
         either, cut into parts one under another at the full height.
     width : float, mm, optional
-        Width to stretch to (each part), for a table that stands above the title block.
+        Width to stretch each part to, for a table above the title block.
     units : {"below", "none"}
         Unit cells under the symbols, shared by neighbours, or none.
     leading : int
-        How many first columns (position number, φ) are repeated in every part.
+        Number of first columns (position number, φ) that are repeated in every part.
     title : str
         Rich text above the upper left corner.
 
     Raises
     ------
     LayoutError
-        If there is nothing to show, columns have different numbers of values, or a single column
-        with the leading ones is wider than ``max_width``.
+        If there are no columns, columns have different numbers of values, or a single column with
+        the leading ones is wider than ``max_width``.
     """
     _check(columns)
     limit = max_width if max_width is not None else width
@@ -256,7 +256,7 @@ def _set_column(column: TableColumn, size: float) -> _Set:
     return replace(made, width=max(made.width, least))
 
 
-@lru_cache(maxsize=1024)  # a sheet tries a table in many widths, beside many blocks
+@lru_cache(maxsize=1024)  # a sheet tries a table in many widths and arrangements
 def _set_at(column: TableColumn, size: float, _lettering: OutlineLettering) -> _Set:
     values = tuple(typeset(cell.text, size) for cell in column.cells)
     head, unit = typeset(column.head, size), typeset(column.unit, size)
@@ -266,7 +266,7 @@ def _set_at(column: TableColumn, size: float, _lettering: OutlineLettering) -> _
     room = max((value.width for value in values), default=0.0)
     lefts = tuple(-(value.width + tail) / 2 for value in values)
     if all(re.match(_NUMBER, cell.text) for cell in column.cells):
-        # Digits of one place stand under one another (GOST 2.105).
+        # Digits of one place are aligned under one another (GOST 2.105).
         wholes = [_integer_width(cell.text, size) for cell in column.cells]
         fractions = (v.width - w for v, w in zip(values, wholes, strict=True))
         room = max(wholes, default=0.0) + max(fractions, default=0.0)
@@ -317,7 +317,7 @@ def _filled(members: Sequence[tuple[_Set, ...]], room: float) -> list[tuple[_Set
 
 
 def _stretched(part: Sequence[_Set], target: float) -> tuple[float, ...]:
-    """Share spare width out evenly."""
+    """Return the column widths with spare width divided evenly."""
     spare = (target - _total(part)) / len(part)
     return tuple(column.width + spare for column in part)
 
