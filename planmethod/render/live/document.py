@@ -1,4 +1,4 @@
-"""The HTML document of a page that moves: what stands in it is data or escaped text, never source.
+"""The HTML document of a page that moves: its contents are data or escaped text, never source.
 
 A policy in the head lets the page's own script and style run, by their hashes, and nothing else.
 """
@@ -16,10 +16,10 @@ from planmethod.problem.head import KindProblem
 from planmethod.render.ink.typeset import typeset
 
 POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'"
-"""What the page may do: run its own script and style."""
+"""Content security policy of the page: only its own script and style may run."""
 
 SPEEDS = (0.25, 0.5, 1, 2)
-"""How many times quicker than usual a page may move."""
+"""Speeds of a page relative to the usual one."""
 
 
 def html_document(
@@ -37,13 +37,13 @@ def html_document(
     Parameters
     ----------
     body : str
-        What stands under the title, as HTML.
+        Contents under the title, as HTML.
     made : str
-        Who made the page, plain text.
+        Credit line of the page, plain text.
     letters : str
         Letters of the drawn texts, as SVG.
     scene : plain data
-        What the script reads.
+        Data that the script reads.
     script : str
         The page's own source.
     """
@@ -73,7 +73,7 @@ def speed_choice(label: str) -> str:
 
 
 def runs(markup: str) -> list[list[str]]:
-    """Return rich text as letters with the element that they stand in: ``sub``, ``sup`` or none."""
+    """Return rich text as letters with their element: ``sub``, ``sup`` or none."""
     height = 10.0
     level = {True: "sub", False: "sup"}
     found = typeset(markup, height).runs
@@ -88,7 +88,7 @@ def rich(markup: str) -> str:
 
 
 def _data(value: Any) -> str:
-    """Return a value as JSON that no element of a page ends in."""
+    """Return a value as JSON that cannot close an element of a page."""
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 

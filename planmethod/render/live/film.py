@@ -1,8 +1,8 @@
 """A mechanism as it moves, for slides: scheme and velocity plan in frames (анимация).
 
-What is drawn is the scene of the live page: rigid parts on their links, segments and inscriptions
-on points of the tape. A film says where each of them is in every frame; it is written as an SVG
-that plays by itself (SMIL, no script), or its frames as a GIF.
+It draws the scene of the live page: rigid parts on their links, segments and inscriptions on points
+of the tape. A film has the place of each of them in every frame; it is written as an SVG that plays
+by itself (SMIL, no script), or its frames as a GIF.
 """
 
 from __future__ import annotations
@@ -41,13 +41,13 @@ _CAPTION = 18.0  # mm of paper over a view: its name, and its scale on the paper
 _NEAR = 1e-9
 _FAR = (1.0, 4.0, 8.0, 12.0)
 _WAYS = np.array([far * np.exp(1j * np.pi / 8 * k) for far in _FAR for k in range(16)])
-"""Directions in which inscriptions stand, by 1 mm and more than the gap off their points."""
+"""Offsets of inscriptions from their points in all directions, mm: 1 is the gap alone."""
 
-_MOVED = 1.5  # what it costs to move on for a unit of these
+_MOVED = 1.5  # cost of a move by a unit of these
 
 
 class DrawnBody(Struct, frozen=True):
-    """Items in their own axes, and where these are in every frame: places, mm, and degrees."""
+    """Items in their own axes, and the places, mm, and angles, degrees, of these in every frame."""
 
     items: tuple[Item, ...]
     places: Complexes
@@ -78,12 +78,12 @@ class Film(Struct):
     positions : ndarray of shape (n,)
         Driver positions of the frames.
     total : int
-        Positions that were tried; ``closed``: all of them exist, and the first follows the last.
+        Number of tried positions; ``closed``: all of them exist, and the first follows the last.
     still : list of Item
     segments, bodies : list
-        What moves, that which lies below first.
+        Moving items, the lowest layer first.
     readings : list of list of Item
-        The position of the driver as it is told in every frame.
+        The inscription of the driver's position in every frame.
     """
 
     title: str
@@ -99,7 +99,7 @@ class Film(Struct):
 
     @property
     def skipped(self) -> str:
-        """What positions there are, where some of those tried do not exist; else nothing."""
+        """Note on the range if some of the tried positions do not exist; otherwise empty."""
         there = len(np.unique(self.positions))
         if there == self.total:
             return ""
@@ -123,7 +123,7 @@ class Film(Struct):
     # SVG -----------------------------------------------------------------------------------------
 
     def svg(self, seconds: float) -> bytes:
-        """Return an SVG that plays by itself, one way and all again after so many seconds."""
+        """Return an SVG that plays by itself and repeats after ``seconds``."""
         canvas = SvgCanvas(Options())
         canvas.open(Drawing(0.0, 0.0))
         times = f'dur="{seconds:g}s" repeatCount="indefinite"'
@@ -156,7 +156,7 @@ class Film(Struct):
             if segment.arrow:
                 items.append(Fill((0j, 1 + 0j, 1j)))
             drawn_parts = canvas.parts(items)
-            for name in ("line", "head")[: len(items)]:  # the canvas has the pens, here are places
+            for name in ("line", "head")[: len(items)]:  # the canvas has pens, here are places
                 start = drawn_parts.index("<path d=")
                 end = drawn_parts.index("/>", start)
                 path = f'<path d="{pieces[name][0]}">{moving("d", pieces[name])}</path>'
@@ -164,7 +164,7 @@ class Film(Struct):
                 drawn_parts = drawn_parts[end + 2 :]
             parts.append(drawn_parts)
         for body in self.bodies:
-            # A turn is as long as it is, not the shorter way between two frames.
+            # A rotation keeps its full angle, not the shorter one between two frames.
             turns = np.degrees(np.unwrap(np.radians(body.turns[ring])))
             there = turning("translate", [f"{p.real:.3f} {-p.imag:.3f}" for p in body.places[ring]])
             turned = turning("rotate", [f"{-turn:.3f}" for turn in turns]) if turns.any() else ""
@@ -197,7 +197,7 @@ def _path(points: tuple[complex, ...]) -> str:
 
 
 def film_of(problem: Problem, lang: str, *, frames: int, plans: bool) -> Film:
-    """Return the film of a mechanism: a turn of its crank, or the way of its driver to and fro.
+    """Return the film of a mechanism: a turn of its crank, or its driver's travel to and fro.
 
     Positions that do not exist are left out: a crank that does not turn fully goes to and fro
     through the range of its first position.
@@ -205,7 +205,7 @@ def film_of(problem: Problem, lang: str, *, frames: int, plans: bool) -> Film:
     Parameters
     ----------
     frames : int
-        Positions of a turn, or of a way.
+        Positions of a turn, or of the travel one way.
     plans : bool
         The velocity plan beside the scheme.
 
@@ -220,7 +220,7 @@ def film_of(problem: Problem, lang: str, *, frames: int, plans: bool) -> Film:
 
 
 class _Cutting:
-    """Puts a film together: which frames there are, and what stands where in them."""
+    """Builder of a film: its frames, and the items and their places in them."""
 
     def __init__(self, scene: LiveScene, views: list[LiveView], frames: int) -> None:
         self.scene, self.views, self.frames = scene, views, frames
@@ -230,7 +230,7 @@ class _Cutting:
         self.values = scene.sweep.run(self.positions)
 
     def _tried(self) -> Reals:
-        """Return the positions of a turn, or of some till all comes again, or of the way."""
+        """Return positions of a turn, of turns until the motion repeats, or of the travel."""
         if not self.drive.goes_round:
             return np.linspace(*self.scene.way, self.frames)
         sense = -1.0 if self.drive.rate < 0 else 1.0
@@ -245,7 +245,7 @@ class _Cutting:
         there = np.asarray(np.isfinite(values[rows]).all(axis=0))
         if there.all() and self.drive.goes_round:
             return tried, True
-        if not there.all() and self.drive.goes_round:  # a turn that begins behind a gap
+        if not there.all() and self.drive.goes_round:  # a range that begins after a gap
             tried = np.concatenate([tried, tried + (tried[1] - tried[0]) * len(tried)])
             there = np.tile(there, 2)
         cuts = np.flatnonzero(np.diff(there.astype(int))) + 1
@@ -256,7 +256,7 @@ class _Cutting:
                 "Give more --frames, or change the lengths.",
                 self.frames,
             )
-        # The first position again stands in the middle of the turn that is laid out twice.
+        # In the doubled turn, the first position is again in the middle.
         longest = max(runs, key=lambda r: (self.frames in r, len(r)))
         way = tried[longest]
         return np.concatenate([way, way[-2:0:-1]]), len(way) > 2
@@ -338,7 +338,7 @@ class _Cutting:
     def _labels(
         self, view: LiveView, at: Callable[..., Complexes], corner: complex
     ) -> Iterator[DrawnBody]:
-        """Yield the inscriptions, each where it covers the least, and seldom changes its place."""
+        """Yield the inscriptions in places that cover least and seldom change."""
         at_left, top, width, height = view.box
         low = corner + complex(at_left, -top - height)
         still = np.ones(len(self.positions), complex)
@@ -354,7 +354,7 @@ class _Cutting:
                     way = np.exp(1j * turns)
                     lines += [(foot + a * way, foot + b * way) for a, b in self.scene.bars(part)]
         tails, heads = (np.array([line[k] for line in lines]) for k in (0, 1))
-        # Boxes that are taken: their middles in every frame, half their widths and heights.
+        # Occupied boxes: their middles in every frame, half their widths and heights.
         blocks = self.scene.blocks if view.id == "scheme" else []
         taken = [(at(ref), float(half), float(half)) for ref, half in blocks]
         for x0, y0, x1, y1 in self.scene.supports if view.id == "scheme" else []:
@@ -389,14 +389,14 @@ class _Cutting:
 
 
 def _quiet(costs: Reals) -> npt.NDArray[np.intp]:
-    """Return which of the places of an inscription it has in every frame of a ring.
+    """Return the number of an inscription's place in every frame of a cycle.
 
-    The sum of the costs, and of what it costs to go from one to another, is least.
+    The sum of the costs of the places and of the moves between them is least.
     """
     count = costs.shape[1]
     moved = _MOVED * np.abs(_WAYS[:, None] - _WAYS[None, :])
     best, back = costs[:, 0], []
-    for k in range(1, 2 * count):  # the second time round it knows where it comes from
+    for k in range(1, 2 * count):  # in the second round the start is known
         reached = best[:, None] + moved
         back.append(np.argmin(reached, axis=0))
         best = reached.min(axis=0) + costs[:, k % count]
@@ -407,7 +407,7 @@ def _quiet(costs: Reals) -> npt.NDArray[np.intp]:
 
 
 def _covered(centre: Complexes, half: complex, tails: Complexes, heads: Complexes) -> Reals:
-    """Return how much of segments boxes cover in every frame."""
+    """Return a measure of the segments that a box covers in every frame."""
     if not tails.size:
         return np.zeros(len(centre))
     way = heads - tails

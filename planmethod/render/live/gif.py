@@ -10,11 +10,11 @@ from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options
 from planmethod.render.live.film import Film
 
-_GREYS = 8  # so many levels of grey are edges of black lines smooth with
+_GREYS = 8  # levels of grey with which the edges of black lines are smooth
 
 
 def gif(film: Film, seconds: float, dpi: float) -> bytes:
-    """Return a GIF that plays on and on, one way in so many seconds."""
+    """Return a GIF that repeats endlessly, ``seconds`` a cycle."""
     options = Options(dpi=dpi)
     levels = [round(255 * k / (_GREYS - 1)) for k in range(_GREYS)]
     table = [min(range(_GREYS), key=lambda k: abs(levels[k] - grey)) for grey in range(256)]
@@ -26,7 +26,7 @@ def gif(film: Film, seconds: float, dpi: float) -> bytes:
         frame.putpalette([level for grey in levels for level in (grey,) * 3])
         frames.append(frame)
     file = BytesIO()
-    # Viewers count hundredths of a second, and slow down what is quicker than two of them.
+    # Viewers count hundredths of a second, and slow down frames shorter than two of them.
     each = max(2, round(100 * seconds / len(frames))) * 10
     frames[0].save(
         file, "gif", save_all=True, append_images=frames[1:], duration=each, loop=0, optimize=False

@@ -1,4 +1,4 @@
-"""Loads that differ from position to position, as the page reads them."""
+"""Loads that differ from position to position, as data for the page."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from planmethod.solved.forces.loads import AHEAD, in_time
 
 
 def cycle_deg(problem: Problem) -> float:
-    """Return after how many degrees all is as before, the loads too."""
+    """Return the period of the motion and the loads, degrees."""
     dynamics, machine = problem.dynamics, problem.machine
     tables = [load.size for load in dynamics.loads] if dynamics is not None else []
     turns = [table.turn for table in tables if isinstance(table, SizeTable)]
@@ -33,14 +33,14 @@ def cycle_deg(problem: Problem) -> float:
 def moving_loads(
     problem: Problem, names: Iterable[str], points: Iterable[str], row: Mapping[str, int]
 ) -> dict[str, Any]:
-    """Return some loads, and what all of them need.
+    """Return some loads, and their common data.
 
     Parameters
     ----------
     names : iterable of str
-        Of the loads.
+        Names of the loads.
     points : iterable of str
-        Whose velocities tell where the loads act.
+        Points whose velocities determine where the loads act.
     row : mapping of str to int
         Outputs of the tape by their columns.
     """

@@ -1,6 +1,6 @@
 """The page of a moving mechanism: one HTML file without a server, a network or a library.
 
-What a problem file says comes in as escaped text or as data, never as source.
+Contents of a problem file are escaped text or data, never source.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def live_page(problem: Problem, lang: str) -> str:
     Parameters
     ----------
     lang : str
-        Language of all that it says.
+        Language of all its texts.
 
     Raises
     ------

@@ -22,7 +22,7 @@ from planmethod.solved.solution import Solution
 class MovingPart(Struct, frozen=True):
     """Items that move with a link as one body, mm, as they lie in one position.
 
-    ``layer`` tells which parts lie over which.
+    Parts of a higher ``layer`` lie over lower ones.
     """
 
     link: str
@@ -35,10 +35,10 @@ GUIDES, BODIES, LINES, JOINTS = range(4)
 
 
 def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart], Scheme]:
-    """Return the parts of a scheme, what lies below first, and the scheme of the first position.
+    """Return the parts of a scheme, the lowest first, and the scheme of the first position.
 
-    The positions of the solution are those that the mechanism moves through: slots and guides are
-    as long as they need.
+    The solution has the positions that the mechanism moves through: slots and guides are as long as
+    these require.
     """
     problem = solution.problem
     scheme = Scheme(solution, 0, letter_height)
@@ -57,7 +57,7 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart]
             alone = _drawn(scheme, slide, letter_height)
             found += _on_link(alone, slide)
             block = alone.blocks[-1]
-        if not problem.is_block(slide):  # the rods of the link are one piece with it
+        if not problem.is_block(slide):  # the link's rods are rigid with it
             lines, welds = welded(rods[link], f"link {link}", block, scheme.factor)
             rods[link] = [*lines, *welds]
     found = [*(MovingPart(link, 0, LINES, tuple(items)) for link, items in rods.items()), *found]
@@ -101,7 +101,7 @@ def _drawn(scheme: Scheme, slide: Slide, letter_height: float) -> Scheme:
 
 
 def _on_link(alone: Scheme, slide: Slide) -> Iterator[MovingPart]:
-    """Yield stone or block with what is one piece with it, and the bar through a block."""
+    """Yield stone or block with the parts rigid with it, and the bar through a block."""
     body = slide.host if alone.solution.problem.is_block(slide) else slide.slider
     yield MovingPart(body, alone.index, BODIES, tuple(alone.bodies))
     for link in (slide.host, slide.slider):
@@ -111,7 +111,7 @@ def _on_link(alone: Scheme, slide: Slide) -> Iterator[MovingPart]:
 
 
 def _on_frame(scheme: Scheme, slide: Slide) -> Iterator[MovingPart]:
-    """Yield a slider, and its fixed guide as long as the way, hatched away from the mechanism."""
+    """Yield a slider, and its fixed guide over its travel, hatched away from the mechanism."""
     solution, factor = scheme.solution, scheme.factor
     along = cis(slide.angle)
     angle, pin = slide.angle, scheme.at(slide.pin)

@@ -1,7 +1,7 @@
-"""What moves on the page, as plain data: outputs of the tape by number, and where they are drawn.
+"""Moving contents of the page as plain data: outputs of the tape by number, and their places.
 
 A view has a box, mm, and a scale at which the tape's SI numbers are drawn in it; segments and
-inscriptions hang on outputs. Lengths in millimetres are told at the scales of the sheets, `mu`.
+inscriptions follow outputs. Lengths in millimetres are given at the scales of the sheets, `mu`.
 """
 
 from __future__ import annotations
@@ -49,21 +49,21 @@ Ref = list[int]
 """Outputs of the two coordinates of a point: ``[k]`` is (k, k+1); ``[k, 1]`` is turned by 90°."""
 
 BOX = (105.0, 80.0)
-"""What a view's picture fills, mm: on a telephone its letters of 5 mm are read."""
+"""Size of a view's picture, mm: on a telephone its letters of 5 mm are legible."""
 
 LEAST = 0.6 * BOX[0]
-"""Width at least that a view has for its picture, mm, so that letters are not too large."""
+"""Least width of a view for its picture, mm, so that letters are not too large."""
 
 SHAPE = 1.3
-"""Width of all views by their height, so that they stand in rows."""
+"""Ratio of width to height of all views, so that they form rows."""
 
 LETTER, SMALL = 5.0, 4.5
 
 SPEEDS = 720
-"""Angles of a turn at which the page knows the speed of a machine."""
+"""Number of angles of a turn at which the page has the speed of a machine."""
 
 _STEPS = {True: 72, False: 60}  # of the positions in which the scheme is drawn
-_LOOKS = 4  # so many times finer is the way looked at
+_LOOKS = 4  # refinement of the driver's range for the search
 
 
 class LiveView(Struct):
@@ -92,7 +92,7 @@ class LiveScene:
     problem : Problem
     words : Language
     is_round : bool
-        The scales are of the series, else as the boxes are filled best.
+        Whether the scales are of the series; otherwise the boxes are filled best.
 
     Attributes
     ----------
@@ -100,15 +100,16 @@ class LiveScene:
         The tape: its rows are the outputs.
     views : list of LiveView
     parts : list of MovingPart
-        Of the scheme.
+        Parts of the scheme.
     shown : Solution
-        Of the positions that the mechanism moves through, at the scale of the scheme's view.
+        Solution of the positions that the mechanism moves through, at the scale of the scheme's
+        view.
 
     Raises
     ------
     StructureError, ProblemError, SelfCheckError
     AssemblyError
-        There is no position at all.
+        None of the positions exists.
     """
 
     def __init__(self, problem: Problem, words: Language, *, is_round: bool = False) -> None:
@@ -141,7 +142,7 @@ class LiveScene:
         self.parts: list[MovingPart]
         self.parts, self.drawing = parts_of(self.shown, LETTER)
         self._fit()
-        # What inscriptions keep clear of beside the segments: of the frame, and the sliders.
+        # Obstacles for inscriptions besides the segments: of the frame, and the sliders.
         still = [bar for part in self.parts if part.link == FRAME for bar in self.bars(part)]
         self.fixed = [[[end.real, -end.imag] for end in bar] for bar in still]
         self.supports = [ink_bounds(list(one.items())) for one in self.drawing.supports]
@@ -178,7 +179,7 @@ class LiveScene:
         return [self._row[f"{point}.x"]]
 
     def foot(self, link: str) -> PointName:
-        """Return the point of a link that its parts hang on."""
+        """Return the point of a link that its parts follow."""
         return PointName(next(iter(self.problem.bodies[link].points)))
 
     def rows_of(self, chosen: Callable[[QuantityKind], bool]) -> list[int]:
@@ -322,7 +323,7 @@ class LiveScene:
         return view
 
     def _segment_of(self, link: str) -> list[Ref]:
-        """Return the ends of the segment of the turned velocity plan that stands for a link."""
+        """Return the ends of the segment of the rotated velocity plan that represents a link."""
         motion = self.construction.kinematics.velocity
         own = [at for (name, _), at in motion.point.items() if name == link]
         ends = [own[0], next((at for at in own if at != own[0]), own[0])]
@@ -330,7 +331,7 @@ class LiveScene:
 
     @property
     def period(self) -> float:
-        """Degrees of the driver after which the links are where they were."""
+        """Driver angle after which the links have the same places, degrees."""
         again = comes_again(self.construction.draft.choice, 360.0)
         return again if isfinite(again) else 360.0
 
@@ -349,7 +350,7 @@ class LiveScene:
         }
 
     def chosen(self) -> set[str]:
-        """Return the labels of what has a diagram from the start: the motion of the last link."""
+        """Return labels of quantities with a diagram from the start: the last link's motion."""
         link = self.construction.draft.problem.mechanism.links[-1]
         groups = Solution(self.problem, positions=[]).structure.groups
         link = groups[-1].links[-1] if groups else link
@@ -360,10 +361,10 @@ class LiveScene:
             found = {f"omega_{link}", f"epsilon_{link}"}
         return found | {"M_dr", "F_dr"}
 
-    # The way of the driver -------------------------------------------------------------------
+    # Range of the driver ---------------------------------------------------------------------
 
     def _look(self) -> None:
-        """Look where the mechanism can go; choose the scales."""
+        """Find the range of the mechanism; choose the scales."""
         drive = self.problem.drive
         if drive.goes_round:
             turns = (round(way / 360.0) for way in (cycle_deg(self.problem), self.period))
@@ -420,7 +421,7 @@ class LiveScene:
         return np.asarray(places[:, ~np.isnan(places).any(axis=0)])
 
     def _reach(self) -> tuple[float, float]:
-        """Return the way of a driving slider: its positions, and on as far as it goes."""
+        """Return the range of a driving slider: its positions, extended as far as it can go."""
         own = np.asarray(self.problem.drive.positions, dtype=float)
         low, high = float(own.min()), float(own.max())
         size = max([high - low, *(length for _, _, length in self.problem.lengths)]) or 1.0
@@ -434,7 +435,7 @@ class LiveScene:
     # Boxes -----------------------------------------------------------------------------------
 
     def _fit(self) -> None:
-        """Choose the box and the scale of every view; the scheme's is as its parts are drawn."""
+        """Choose the box and the scale of every view; the scheme has that of its parts."""
         for view in self.views:
             view.scale = self.scales[kind_of(view)]
             if view.id == "scheme":
@@ -472,7 +473,7 @@ class LiveScene:
         return moving_loads(self.problem, self.sweep.loads.loads, named, self._row)
 
     def reasons(self) -> list[str]:
-        """Return for every guard of the tape why a position has no results where it fails."""
+        """Return for every guard of the tape why a position has no results if it fails."""
         said = self.words.live
         sentences = {
             PlanKind.POSITION: said.no_place,
