@@ -1,7 +1,7 @@
-"""What a structural picture shows: joints, sliders and links as shapes (кинематическая цепь).
+"""Contents of a structural picture: joints, sliders and links as shapes (кинематическая цепь).
 
 A chain is the whole mechanism, its driver, or one group taken apart with its outer joints open.
-Everything here follows from the graph; where things stand is found by `embedding`.
+Everything here follows from the graph; `embedding` finds the places.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from planmethod.render.pictures.embedding import Bar, Net, places
 
 
 class Far(Enum):
-    """What is on the other side of a joint."""
+    """Kind of the other side of a joint."""
 
     CHAIN = "chain"  # another link of the same picture
     FRAME = "frame"
@@ -78,7 +78,7 @@ class Shape(Struct, frozen=True):
 class Chain(Struct, frozen=True):
     """Links of a picture with their joints (кинематическая цепь).
 
-    ``replacing``: links that stand for higher pairs, drawn as such.
+    ``replacing``: links that replace higher pairs, drawn as such.
     """
 
     pins: tuple[Pin, ...]
@@ -136,7 +136,7 @@ def group_chain(mechanism: Mechanism, group: AssurGroup) -> Chain:
 
 
 class _Seen(Struct, frozen=True):
-    """Joint as a picture sees it: which of its links are there, what is on the other side."""
+    """Joint of a picture: its links in the picture, and the other side."""
 
     joint: Joint
     own: tuple[str, ...]
@@ -171,13 +171,13 @@ def _chain(mechanism: Mechanism, seen: Sequence[_Seen], rank: Mapping[str, float
 def _slides(
     mechanism: Mechanism, seen: Sequence[_Seen], pins: Sequence[Pin], count: Mapping[str, int]
 ) -> list[DrawnSlide]:
-    """Say of every prismatic pair which link is the stone and where its rectangle stands."""
+    """Return for every prismatic pair its stone and the node of the rectangle."""
     names = {(p.point, frozenset(p.links)): p.name for p in pairs(mechanism)}
     taken: set[str] = set()
     bars: set[str] = set()
     found: dict[_Seen, DrawnSlide] = {}
     sliding = [one for one in seen if isinstance(one.joint, Prismatic)]
-    # Stones on moving links first: a slider of the frame shows well at a place of its own too.
+    # Stones on moving links first: a slider of the frame is also clear at a place of its own.
     for one in sorted(sliding, key=lambda one: one.far is not Far.CHAIN):
         joint = one.joint
         assert isinstance(joint, Prismatic)
@@ -239,7 +239,7 @@ def _shapes(
 def _rests_on(
     between: Mapping[str, tuple[str, str, float]], node: str, ends: Iterable[str]
 ) -> bool:
-    """Whether the place of one of the ends follows from the node's."""
+    """Return whether the place of one of the ends follows from the node's."""
     queue = list(ends)
     while queue:
         end = queue.pop()
@@ -257,7 +257,7 @@ def _net(
     between: Mapping[str, tuple[str, str, float]],
     rank: Mapping[str, float],
 ) -> Net:
-    """Return the graph to be laid out."""
+    """Return the graph to be embedded."""
     members: dict[str, list[str]] = {pin.node: list(pin.links) for pin in pins}
     for slide in slides:
         members.setdefault(slide.node, []).extend(x for x in (slide.stone, slide.bar) if x)
@@ -266,7 +266,7 @@ def _net(
             members.setdefault(start, [shape.link])
     everywhere: dict[str, tuple[str, str, float]] = {}
     while len(everywhere) < len(between):
-        # A stone may lie between nodes that lie between others themselves: those first.
+        # A stone may lie between nodes that themselves lie between others: those first.
         everywhere |= {
             node: rule
             for node, rule in between.items()
@@ -322,7 +322,7 @@ def textbook_places(chain: Chain) -> dict[str, complex] | None:
     corners = base[0].outline
     if any(pin.far is Far.OPEN for pin in chain.pins if pin.node in corners):
         return None
-    # Three leads stand out from the corners of the base link (трёхповодковая группа).
+    # Three legs extend from the corners of the base link (трёхповодковая группа).
     found: dict[str, complex] = {}
     for corner, turn in zip(corners, (215.0, 90.0, -35.0), strict=True):
         found[corner] = 0.85 * exp(1j * radians(turn))
@@ -346,7 +346,7 @@ def _dyad(chain: Chain) -> dict[str, complex] | None:
         top = 1.1 + 1.25j if isinstance(last, Pin) else 1.2 + 1.0j
         return _if_whole(chain, {first.node: 0j, inner.node: top, last.node: 2.3 + 0j})
     if isinstance(inner, Pin):
-        # The inner pin stands on one of the sliders; the other is at the end of an arm.
+        # The inner pin is on one of the sliders; the other is at the end of an arm.
         own, other = (first, last) if inner.node == first.node else (last, first)
         from_left = {own.node: 1.7 + 0j, other.node: 1.15j}
         mirrored = {own.node: 1.15j, other.node: 1.7 + 0j}
@@ -359,5 +359,5 @@ def _dyad(chain: Chain) -> dict[str, complex] | None:
 
 
 def _if_whole(chain: Chain, found: dict[str, complex]) -> dict[str, complex] | None:
-    """Return the places of all nodes when those of the free ones, and no others, are there."""
+    """Return the places of all nodes if ``found`` has exactly the free ones, otherwise None."""
     return places(chain.net, found) if set(found) == set(chain.net.nodes) else None

@@ -1,7 +1,7 @@
-"""Diagrams over the course of a mechanism (диаграммы): axes with arrows, curves, marks, numbers.
+"""Diagrams over the positions of a mechanism (диаграммы): axes with arrows, curves, marks, numbers.
 
-Everything is millimetres from the crossing of the axes. The drawn positions stand on the axis of
-abscissae with their numbers, on the side that the curve leaves free.
+Everything is millimetres from the crossing of the axes. The drawn positions are ticks of the axis
+of abscissae with their numbers, on the side that the curve leaves free.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ AXIS = "diagram axis"
 CURVE = "diagram curve"
 """Tags of the axes, and of the curves (with the curve's letter)."""
 
-_BEYOND = 8.0  # mm: an axis goes on beyond what is drawn
+_BEYOND = 8.0  # mm: extension of an axis beyond the curves
 _TICK = 1.2  # mm: half of a tick
 _APART = 11.0  # mm: between the numbers of the axis of ordinates
-_RAYS_APART = 18.0  # mm: between them where rays end on it
+_RAYS_APART = 18.0  # mm: the same if rays end on it
 _HEAD = 4.0  # mm: arrowhead of an axis
-_BESIDE_AXIS = 25.0  # mm: so near the axis of ordinates no curve has its letter if it can
-_BESIDE_NUMBERS = 8.0  # mm: so low a curve has its letter above it
+_BESIDE_AXIS = 25.0  # mm: nearer to the axis of ordinates curves avoid their letters
+_BESIDE_NUMBERS = 8.0  # mm: a curve below this has its letter above it
 _DASHED = 20.0  # mm: shorter parts of a curve show no dashes
 _DOT = 0.7  # mm: a position that is a part of a curve alone
 _MARK = 1.3  # mm: half of a mark
 
 
 class Mark(Enum):
-    """Sign of a point that was found on its own (метка точки)."""
+    """Sign of a separately found point (метка точки)."""
 
     RING = "ring"
     CROSS = "cross"
@@ -55,7 +55,7 @@ class Curve(Struct, frozen=True):
 
 
 class Ordinates(Struct, frozen=True):
-    """Axis of ordinates: what stands at its arrow, its scale, units per mm, and its numbers."""
+    """Axis of ordinates: its name at the arrow, its scale, units per mm, and its notation."""
 
     name: str
     per_mm: float
@@ -63,9 +63,9 @@ class Ordinates(Struct, frozen=True):
 
 
 class Abscissae(Struct, frozen=True):
-    """Axis of abscissae: what stands at its arrow, the drawn positions (mm) and their numbers.
+    """Axis of abscissae: its name at the arrow, the drawn positions (mm) and their numbers.
 
-    It goes on ``beyond`` what is drawn, mm.
+    It extends ``beyond`` the curves, mm.
     """
 
     name: str
@@ -102,16 +102,16 @@ def diagram_picture(
     Parameters
     ----------
     marks : iterable of (Mark, complex)
-        Points that were found on their own.
+        Separately found points.
     construction : sequence of Item
-        Lines that the diagram was found with.
+        Lines of the construction of the diagram.
     labels : sequence of Label
         Letters of a pole and its rays, which take the left of the axis of ordinates: its numbers
-        are fewer then, and stand where there is room.
+        are then fewer, in free places.
     letter_height : float, mm
-        Of the letters; the numbers are a size smaller, 2.5 mm at least.
+        Height of the letters; the numbers are a size smaller, 2.5 mm at least.
     name : str
-        What the labels of this diagram begin with, for the lint.
+        Prefix of the names of the diagram's labels, for the lint.
     """
     places = [place for curve in curves for part in curve.parts for place in part]
     heights = [0.0, *(place.imag for place in places)]
@@ -152,7 +152,7 @@ def diagram_picture(
 
 
 def _every(at: Sequence[float], least: float) -> int:
-    """Return which positions have their numbers: all, or every so many, so far apart at least."""
+    """Return the step of numbered positions with gaps of at least ``least`` mm."""
     gaps = [abs(end - start) for start, end in pairwise(sorted(at)) if end != start]
     return max(1, ceil(least / min(gaps, default=least) - 1e-9))
 
@@ -160,12 +160,12 @@ def _every(at: Sequence[float], least: float) -> int:
 def _axes(
     across: Abscissae, up: Ordinates, reach: tuple[float, float, float], height: float
 ) -> list[Item]:
-    """Return both axes with arrows and what stands at them, beyond what curves reach.
+    """Return both axes with arrows and names, extended beyond the curves.
 
     ``reach`` is the lowest and the highest ordinate and the farthest abscissa, mm.
     """
     low, high, far = reach
-    # Below the axis of abscissae there are no curves to keep clear of, but its numbers above it.
+    # If all curves are below the axis of abscissae, the upper arrow keeps clear of its numbers.
     right, top = far + across.beyond, max(high + _BEYOND, 3.0 * height)
     items: list[Item] = [
         Stroke((0j, complex(right - _HEAD / 2, 0.0)), Pen.THIN, tag=AXIS),
@@ -179,7 +179,7 @@ def _axes(
 
 
 def _ordinates(up: Ordinates, low: float, high: float, *, apart: float) -> list[tuple[float, str]]:
-    """Return heights of round numbers on the axis of ordinates; at zero a position stands."""
+    """Return heights of round numbers on the axis of ordinates, without zero."""
     step = series_near(apart * up.per_mm, up=True)
     first, last = low * up.per_mm / step, high * up.per_mm / step
     return [
@@ -190,7 +190,7 @@ def _ordinates(up: Ordinates, low: float, high: float, *, apart: float) -> list[
 
 
 def _curve_items(curve: Curve) -> list[Item]:
-    """Return the parts of a curve; thin uprights where it jumps."""
+    """Return the parts of a curve; thin vertical lines where it jumps."""
     tag = f"{CURVE} {curve.symbol}"
     items: list[Item] = []
     for part in curve.parts:
@@ -198,7 +198,7 @@ def _curve_items(curve: Curve) -> list[Item]:
         if length < _DOT:
             items.append(Disc(part[0], _DOT, Ink.BLACK, tag))
         else:
-            # A part too short for dashes is drawn whole.
+            # A part too short for dashes is drawn solid.
             pen = curve.pen if length > _DASHED or curve.pen is Pen.MAIN else Pen.THIN
             items.append(Stroke(part, pen, tag=tag))
     for before, after in zip(curve.parts, curve.parts[1:], strict=False):
@@ -230,12 +230,12 @@ def _letters(curves: Sequence[Curve], height: float, name: str) -> list[Label]:
         )
         off = others - places[:, None]
         gaps = np.where(np.abs(off.real) < 6.0, np.abs(off.imag), np.inf).min(1, initial=np.inf)
-        near_axis = np.maximum(0.0, _BESIDE_AXIS - places.real)  # which has a name of its own there
+        near_axis = np.maximum(0.0, _BESIDE_AXIS - places.real)  # the axis has its own name there
         alone = np.where(gaps < np.inf, gaps, 99.0) + 0.2 * np.abs(places.imag) - near_axis
         at = complex(places[np.argmax(alone)])
         beside = others[np.abs(others.real - at.real) < 6.0].imag
         above, below = np.sum(beside < at.imag), np.sum(beside >= at.imag)
-        # Along the axis stand the numbers of the positions.
+        # The numbers of the positions are along the axis.
         up = (above >= below if len(others) else at.imag >= 0) or 0.0 <= at.imag < _BESIDE_NUMBERS
         labels.append(
             Label(

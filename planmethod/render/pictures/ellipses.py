@@ -25,16 +25,16 @@ if TYPE_CHECKING:
     from planmethod.solved.errors.spread import Errors
 
 SIGMAS = 2
-"""Half axes of an ellipse, in sigmas: it holds 86 % of what is drawn."""
+"""Half axes of an ellipse, in sigmas: it contains 86 % of drawings."""
 
 ENLARGED = (5, 2, 1)
-"""How many times the ellipses of a scheme are enlarged, to show beside the signs of its joints."""
+"""Enlargements of the ellipses of a scheme, to be visible beside the signs of its joints."""
 
 READABLE = 0.5
-"""Part of a view that an ellipse may be across: a larger one only hides the plan."""
+"""Largest width of an ellipse as a part of its view: a larger one only hides the plan."""
 
 CLUTTER = 0.25
-"""Part of a scheme that an enlarged ellipse may be across."""
+"""Largest width of an enlarged ellipse as a part of its scheme."""
 
 TAG = "ellipse"
 
@@ -42,11 +42,11 @@ _CORNERS = 64
 
 
 class Ellipses(Struct, frozen=True):
-    """Ellipses of one view, and what the view has to say about them.
+    """Ellipses of one view, and the facts for its inscription.
 
-    ``strained`` tells that some are dashed, ``too_large`` that some are larger than half of it,
-    ``undefined`` that first order gives no ellipse somewhere; ``enlarged`` is how many times the
-    ellipses are larger than the view.
+    ``strained`` means that some are dashed, ``too_large`` that some are larger than half of the
+    view, ``undefined`` that linear error propagation gives no ellipse somewhere; ``enlarged`` is
+    the enlargement of the ellipses relative to the view.
     """
 
     strokes: tuple[Stroke, ...] = ()
@@ -57,7 +57,7 @@ class Ellipses(Struct, frozen=True):
 
     @property
     def grounds(self) -> list[Item]:
-        """The insides of the ellipses, where no letter shall stand."""
+        """The insides of the ellipses, which letters should avoid."""
         return [Fill(stroke.points, tag=TAG) for stroke in self.strokes]
 
 
@@ -67,7 +67,7 @@ def half_axes(covariance: Reals) -> tuple[float, float, float]:
     Parameters
     ----------
     covariance : ndarray of shape (2, 2)
-        Of x and y, mm².
+        Covariance of x and y, mm².
 
     Returns
     -------
@@ -116,20 +116,21 @@ def shown_ellipses(
 ) -> Ellipses:
     """Return the ellipses around some points of a view in one position.
 
-    What is thinner than the pen is not drawn, nor what is larger than half of the view: there the
-    drawing hardly says where the point is. Dashed are those where first order does not hold.
+    Ellipses thinner than the pen, or larger than half of the view, are not drawn: in the latter
+    case the drawing barely locates the point. Ellipses are dashed where linear error propagation is
+    not valid.
 
     Parameters
     ----------
     errors : Errors
     index : int
-        Which position.
+        Number of the position.
     places : mapping of PointName to complex
-        Where the points are drawn, mm.
+        Places of the points on the drawing, mm.
     size : float, mm
-        Of the view.
+        Size of the view.
     share : float
-        How many times the view is larger than the drawing that ``errors`` are those of.
+        Enlargement of the view relative to the drawing that ``errors`` belong to.
     enlarged : sequence of int
         Enlargements to choose from, the largest first; the last is 1.
     """
@@ -170,20 +171,20 @@ def _places(solution: Solution, kind: PlanKind, index: int) -> Iterator[tuple[Po
 
 
 def _alike(one: Stroke, two: Stroke) -> bool:
-    """Tell whether two ellipses would be drawn over each other."""
+    """Return whether two ellipses would coincide on the drawing."""
     return all(abs(p - q) < 0.02 for p, q in zip(one.points, two.points, strict=True))
 
 
 def ellipse_inscription(
     solution: Solution, kind: PlanKind, indices: Sequence[int], words: Language
 ) -> list[str]:
-    """Return the lines that tell what the ellipses of a view are."""
+    """Return the lines that explain the ellipses of a view."""
     shown = [error_ellipses(solution, kind, i) for i in indices]
     return told_ellipses(shown, solution.profile, words)
 
 
 def told_ellipses(shown: Sequence[Ellipses], profile: Profile, words: Language) -> list[str]:
-    """Return the lines that tell what some ellipses are, drawn by the hand of a profile."""
+    """Return the lines that explain some ellipses for a drafting profile."""
     said = words.sheets
     hand = words.note["profiles"].get(profile.name, profile.name)
     if not any(view.strokes or view.too_large or view.undefined for view in shown):

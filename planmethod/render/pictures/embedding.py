@@ -1,8 +1,8 @@
 """Places of joints for a picture without scale (укладка структурной схемы).
 
-A structural scheme tells who is joined with whom and nothing else, so its joints may stand
-anywhere: they are put on a grid where bars do not cross, angles are open and bars are of like
-length. Places are complex, in grid units, y up; the frame is the row y = 0.
+A structural scheme shows only which links are joined, so its joints may be anywhere: they are
+placed on a grid so that bars do not cross, angles are open and bars have similar lengths. Places
+are complex, in grid units, y up; the frame is the row y = 0.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _STEP = 0.5
 _ROWS = (1.0, 1.5, 2.0, 2.5, 3.0)
 
 _CROSSING = 40.0
-_CLOSE = 30.0  # per unit by which things are nearer than they should be
+_CLOSE = 30.0  # per unit of missing distance
 _NODE_ROOM = 1.0  # between two joints
 _BAR_ROOM = 0.6  # between a joint and a bar of another link
 _SHORTEST = 0.9
@@ -43,27 +43,26 @@ class Bar(Struct, frozen=True):
 
 
 class Net(Struct, frozen=True):
-    """What is to be laid out (граф структурной схемы).
+    """Graph to be embedded (граф структурной схемы).
 
     Attributes
     ----------
     nodes : tuple of str
         Nodes that may be placed freely.
     low : frozenset of str
-        Nodes that stand on the frame, in the row y = 0.
+        Nodes on the frame, in the row y = 0.
     between : mapping of str to (str, str, float)
-        Nodes that follow from two others: start + part·(end - start); in an order in which each
-        uses only earlier ones.
+        Nodes determined by two others: start + part·(end - start); each uses only earlier ones.
     bars : tuple of Bar
         A bar with a node on it is given as its two halves.
     faces : tuple of tuple of str
-        Triangles (rigid links) that nothing may be drawn inside.
+        Triangles (rigid links) whose inside stays empty.
     flat : frozenset of str
         Sliders on horizontal guides: bars should not leave them along the guide.
     wish : mapping of str to float
-        Where along x a node would like to be: the order of formation.
+        Preferred x of a node: the order of formation.
     spread : frozenset of str
-        Open joints: they like to be far from the middle.
+        Open joints, preferably far from the middle.
     """
 
     nodes: tuple[str, ...]
@@ -87,7 +86,7 @@ def places(net: Net, free: Mapping[str, complex]) -> dict[str, complex]:
 def embed(net: Net) -> dict[str, complex]:
     """Find a place for every node (укладка графа), grid units.
 
-    Coordinate descent over a grid from several starts; the best end counts. The same net gives
+    Coordinate descent over a grid from several starts; the best result counts. The same net gives
     the same places: the starts come from a fixed seed.
     """
     if len(net.nodes) == 1:
@@ -122,7 +121,7 @@ def _start(net: Net, name: str, random: Random | None) -> complex:
 def _descend(
     net: Net, judge: _Judge, free: Complexes, row: Complexes, grid: Complexes
 ) -> tuple[Complexes, float]:
-    """Move one node after another to its cheapest place until none gains."""
+    """Move one node after another to its cheapest place until the cost no longer falls."""
     cost = float(judge.costs(free[None, :])[0])
     for _ in range(_SWEEPS):
         before = cost
@@ -258,7 +257,7 @@ class _Judge:
 
 
 def _weights(net: Net, index: Mapping[str, int]) -> Floats:
-    """Return the matrix that gives all nodes from the free ones."""
+    """Return the matrix from the free nodes to all nodes."""
     count = len(net.nodes)
     rows: list[Floats] = list(np.eye(count))
     for start, end, part in net.between.values():
@@ -271,7 +270,7 @@ def _way(bar: Bar, node: str) -> int:
 
 
 def _of_same(net: Net, name: str, bar: Bar) -> bool:
-    """Whether a node lies on the line of a bar by construction."""
+    """Return whether a node lies on the line of a bar by construction."""
     ends = {bar.start, bar.end}
     if name in net.between and ends & set(net.between[name][:2]):
         return True

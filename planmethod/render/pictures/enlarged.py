@@ -1,4 +1,4 @@
-"""Enlarged views of short segments of a plan (выносные элементы): a circle there, a view beside."""
+"""Enlarged views of short segments of a plan (выносные элементы): a circle and a view."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from planmethod.render.symbols import vector_arrow
 from planmethod.solved.enlarging import Knot
 
 ENLARGED = "enlarged"
-"""First word of the tag of the circle around a view, after it the number of its knot; of the
-circle on the plan the tag has ``place`` behind."""
+"""First word of the tag of the circle around a view, before the number of its knot; the tag of the
+circle on the plan ends in ``place``."""
 
 _ROUND, _SMALLEST = 5.0, 2.5
-"""White around what is shown on a view, and the least radius of the circle on the plan, mm."""
+"""White around the segments of a view, and the least radius of the circle on the plan, mm."""
 
 
 def radius_of(knot: Knot, at: Mapping[PointName, complex]) -> float:
@@ -30,7 +30,7 @@ def radius_of(knot: Knot, at: Mapping[PointName, complex]) -> float:
 
 
 def placed_in(knot: Knot, at: Mapping[PointName, complex]) -> dict[PointName, complex]:
-    """Return where the points of a plan lie on the view of a knot, mm from its middle."""
+    """Return the places of the points of a plan on the view of a knot, mm from its middle."""
     return {name: (place - knot.centre) * knot.times for name, place in at.items()}
 
 
@@ -53,16 +53,16 @@ def enlarged_picture(
     height: float,
     names: Sequence[Label],
 ) -> Picture:
-    """Return a knot of a plan as it is enlarged, its middle at the origin, mm.
+    """Return the enlarged view of a knot of a plan, its middle at the origin, mm.
 
     Parameters
     ----------
     at : mapping
-        Where the points of the plan lie, mm from its pole.
+        Places of the points of the plan, mm from its pole.
     thin : frozenset
         Ends of the vectors that are components.
     names : sequence of Label
-        Of the vectors that have no name on the plan.
+        Names of the vectors without a name on the plan.
     """
     radius = radius_of(knot, at)
     places = placed_in(knot, at)
@@ -84,7 +84,7 @@ def enlarged_picture(
 
 
 def part_within(tail: complex, head: complex, radius: float) -> tuple[complex, complex] | None:
-    """Return the part of a segment within a circle about the origin; None where there is none."""
+    """Return the part of a segment within a circle about the origin, or None."""
     way = head - tail
     if abs(way) < 1e-9:
         return None

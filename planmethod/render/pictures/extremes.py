@@ -22,16 +22,16 @@ EXTREME = "extreme position"
 STROKE = "stroke"
 """Tag of the dimension of the stroke or the swing."""
 
-_NOTCH = 7.0  # mm of an arc to both sides of what it cuts
+_NOTCH = 7.0  # mm of an arc to both sides of the line that it cuts
 _RIGHT = 2.5  # mm: sides of the sign of a right angle
 _LEVELS = np.arange(12.0, 60.0, 3.0)  # mm from the guide to the dimension of the stroke
-_CLEAR = 2.5  # mm: nearer a dimension line crowds a line of the scheme
+_CLEAR = 2.5  # mm: a closer dimension line crowds a line of the scheme
 
 
 def construction_items(made: ExtremesConstruction, height: float) -> tuple[list[Item], list[Label]]:
     """Return thin lines and the names of the radii, mm of the scheme.
 
-    Radii and tangents themselves are the links in these positions, which are drawn.
+    The links drawn in these positions are the radii and tangents themselves.
     """
     items: list[Item] = []
     labels: list[Label] = []
@@ -65,8 +65,8 @@ def stroke_items(
 ) -> tuple[list[Item], list[Label]]:
     """Return the dimension of the output's stroke H or swing ψ, and its letter.
 
-    ``ends`` are its point in the extreme positions; of the places that come into question the
-    dimension stands where fewest of the lines are, mm of the scheme.
+    ``ends`` are its point in the extreme positions, mm of the scheme; the dimension is placed where
+    it crosses the fewest lines.
     """
     output = paths.output
     assert output is not None

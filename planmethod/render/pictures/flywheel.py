@@ -22,8 +22,8 @@ from planmethod.solved.machine.drawing import FlywheelDrawing
 _BEYOND, _HEAD, _TICK = 10.0, 4.0, 1.2  # mm: an axis beyond its diagram, its arrowhead, a tick
 _POINT = 0.7  # mm: radius of a point of a diagram
 _FINE = 8  # pieces of a smooth line between two points
-_READABLE = 25.0  # mm: of a narrower energy-mass curve the points are shown enlarged
-_WIDEST, _ABOVE = 130.0, 26.0  # mm: of the enlarged curve; from the diagram to it
+_READABLE = 25.0  # mm: a narrower energy-mass curve is shown enlarged
+_WIDEST, _ABOVE = 130.0, 26.0  # mm: width of the enlarged curve; distance from the diagram
 _STEP = 0.01  # rad: between points of an exact curve
 
 
@@ -268,7 +268,7 @@ class _Sketch:
         told: list[complex] = []
         for k, (place, number) in enumerate(zip(curve, numbers, strict=False)):
             clear = all(abs(place - other) > self.size for other in told)
-            if k % every == 0 and clear:  # of points that lie together the first one has its number
+            if k % every == 0 and clear:  # of close points only the first has a number
                 told.append(place)
                 self._label(str(number), place, place - middle, f"E {number}")
         tangents = ((upper, "K", "max", 0), (lower, "L", "min", 1))
@@ -288,9 +288,9 @@ class _Sketch:
             self._label(psi, beyond, 1j if number == 0 else 1.0, f"psi {name}")
 
     def _enlarge(self, below: complex, curve: Sequence[complex], numbers: Sequence[int]) -> bool:
-        """Draw a small loop once more, enlarged above itself, and tell whether it has room.
+        """Draw a small loop again, enlarged above itself; return whether there is space for it.
 
-        The axis of the inertia under it does not begin at zero, as its heading says.
+        The axis of the inertia under it does not begin at zero, as its heading states.
         """
         width, height = (float(np.ptp([part(z) for z in curve])) for part in (np.real, np.imag))
         if min(width, height) >= _READABLE or max(width, height) < _POINT:

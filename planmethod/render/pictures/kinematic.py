@@ -23,12 +23,12 @@ from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.turn.diagrams import Diagrams, Graph, smooth
 
 FOUND = "diagram point"
-"""Tag of a point of a diagram that was found, after it the diagram: ``diagram point v``."""
+"""Tag of a found point of a diagram, followed by the diagram: ``diagram point v``."""
 
 EXACT = "exact"
 """Letter of the thin exact curves in their tags."""
 
-_NUMBERED = 12  # positions at the most that rays and all axes have numbers of
+_NUMBERED = 12  # largest number of positions with numbers on rays and all axes
 _APART = 4.0  # mm between two diagrams
 _CLEAR = 3.2  # mm between numbers of rays on the axis
 
@@ -36,7 +36,7 @@ _CLEAR = 3.2  # mm between numbers of rays on the axis
 def kinematic_picture(diagrams: Diagrams, letter_height: float, say: Notation) -> Picture:
     """Return the three diagrams, mm; the origin is that of the path.
 
-    The points stand where the construction has them over their axes.
+    The points have the places of the construction over their axes.
     """
     way = diagrams.task.differentiation
     graph = diagrams.graph(way)
@@ -74,8 +74,8 @@ def _axes(diagrams: Diagrams) -> Iterator[tuple[str, str, Scale]]:
 
 
 def _across(diagrams: Diagrams, *, numbered: bool) -> Abscissae:
-    """Return the axis of φ; of many positions only the first diagram has the numbers."""
-    # Of a range the axis ends with its last position.
+    """Return the axis of φ; with many positions only the first diagram has numbers."""
+    # In a range the axis ends with its last position.
     at = diagrams.x(diagrams.shares)[: None if diagrams.turn.range is None else -1]
     names = diagrams.turn.numbers
     numbers = [str(names[k % diagrams.count]) if numbered else "" for k in range(len(at))]
@@ -99,7 +99,7 @@ def _places(graph: Graph, trace: Trace, number: int) -> Complexes:
 
 
 def _curves(diagrams: Diagrams, graph: Graph, trace: Trace, number: int) -> list[Curve]:
-    """Return the drawn curve, through what was found, and the exact one beside it."""
+    """Return the curve drawn through the found points, and the exact one."""
     x, exact = diagrams.x(diagrams.fine), diagrams.exact(diagrams.fine)[number]
     if not number:
         return [Curve("", _parts(x, exact))]
@@ -136,9 +136,9 @@ def _construction(graph: Graph, trace: Trace, number: int) -> list[Item]:
 def _letters(
     diagrams: Diagrams, graph: Graph, trace: Trace, number: int, height: float
 ) -> list[Label]:
-    """Return the letter of the pole, and the numbers of the rays where they have room.
+    """Return the letter of the pole, and the numbers of the rays where there is space.
 
-    A ray has the number of its position; one of an interval that of the position where it ends.
+    A ray has the number of its position; a ray of an interval, that of its last position.
     """
     axes, letter = graph.axes[number], "sva"[number]
     origin = complex(trace.value[axes.origin])

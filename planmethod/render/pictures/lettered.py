@@ -1,4 +1,4 @@
-"""Pictures with their letters put around them."""
+"""Pictures with their letters placed around them."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from planmethod.render.labels import BESIDE, Label, Placed, place_labels, spare_
 from planmethod.render.layout.block import Picture
 
 ROOMS = (26.0, 60.0)
-"""Room around a picture for its letters, mm: more where they find no free place in less."""
+"""Margins around a picture for its letters, mm: the larger if the smaller has no free place."""
 
 LONGEST = 50_000.0
-"""Width or height of a picture that is begun at all, mm. The longest sheet has 2523, but scales
-that are tried may be finer, and plans next to a dead position are many times larger."""
+"""Largest width or height of a picture that is drawn, mm. The longest sheet has 2523, but trial
+scales may be finer, and plans next to a dead position are many times larger."""
 
 
 def refuse_long(left: float, low: float, right: float, high: float) -> None:
-    """Refuse a picture that fits no paper before time and memory are spent on it.
+    """Reject a picture that fits no paper before time and memory are spent on it.
 
     Raises
     ------
     LayoutError
-        It is wider or higher than `LONGEST`, or is nowhere.
+        It is wider or higher than `LONGEST`, or its size is not a number.
     """
     if not max(right - left, high - low) <= LONGEST:
         raise LayoutError(
@@ -44,8 +44,8 @@ def lettered(
 ) -> Picture:
     """Return a picture of items with their labels in free places around them.
 
-    ``clear`` is what the labels keep clear of though it is not drawn, as long as there is room.
-    ``welcome`` are labels that are left out where they have no free place within the picture.
+    The labels keep clear of the invisible items of ``clear`` as long as there is space. ``welcome``
+    are labels that are left out if they have no free place within the picture.
     """
     left, low, right, high = ink_bounds(items)
     refuse_long(left, low, right, high)
@@ -65,7 +65,7 @@ def lettered(
 
 
 def _beside(placed: Placed) -> Fill:
-    """Return what nothing may stand in that is not to be read as one with a label."""
+    """Return the area around a label that must stay free for it to be read alone."""
     left, low, right, high = placed.bounds
     left, right = left - BESIDE, right + BESIDE
     return Fill(

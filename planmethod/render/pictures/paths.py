@@ -1,4 +1,4 @@
-"""Ways of the points between the drawn positions (траектории) and the extreme positions."""
+"""Paths of the points between the drawn positions (траектории) and the extreme positions."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ TRAJECTORY = "trajectory"
 """Tag of the line that a point moves along: ``trajectory B``."""
 
 AWAY = 0.5
-"""So many times the size of what is drawn in the positions a line of a point goes beyond it.
+"""Extent of a point's line beyond its drawn positions, relative to their size.
 
-Further off it runs towards what no sheet has room for: a dead position lies between two drawn ones.
+Further off the line would fit no sheet: a dead position lies between two drawn ones.
 """
 
 _FLAT = 0.02  # mm off its chord: a straight line on the paper
@@ -34,7 +34,7 @@ _THIN = 0.05  # area of a closed line over that of a circle as long: it has no i
 
 
 class Paths(Struct, frozen=True, dict=True):
-    """Where the points of a mechanism go between the positions of a solution."""
+    """Paths of the points of a mechanism between the positions of a solution."""
 
     solution: Solution
 
@@ -76,8 +76,8 @@ class Paths(Struct, frozen=True, dict=True):
     def lines(self, point: str, shown: Complexes) -> list[Item]:
         """Return the thin line that a point moves along: circle, arc or smooth curve.
 
-        A point that moves in a straight line has none: the axis of its guide is there. Where it
-        goes far beyond the places that are ``shown``, of shape (n,) in mm, the line breaks off.
+        A point that moves in a straight line has none: the axis of its guide shows it. Where the
+        point goes far beyond the ``shown`` places, of shape (n,) in mm, the line breaks off.
         """
         places = self.of(point)
         tag = f"{TRAJECTORY} {point}"
@@ -96,7 +96,7 @@ class Paths(Struct, frozen=True, dict=True):
         ]
 
     def outward(self, point: str, places: Sequence[complex]) -> list[complex]:
-        """Return the direction in which labels of a point shall stand at some of its places.
+        """Return the preferred directions of a point's labels at some of its places.
 
         Normal to the line that it moves along: out of a closed one, on the convex side of an open
         one. All on the same side, so that they read as a series; 0 where the side does not matter.
@@ -127,7 +127,7 @@ class Paths(Struct, frozen=True, dict=True):
 
     @cached_property
     def output(self) -> tuple[str, str] | None:
-        """Link of the last group that is joined with the frame, and its moving point."""
+        """Last link of the groups that is joined with the frame, and its moving point."""
         s = self.solution
         if s.problem.cycle is not None:
             output = turn_of(s).output
@@ -147,10 +147,10 @@ class Paths(Struct, frozen=True, dict=True):
 
     @cached_property
     def extremes(self) -> tuple[float, ...]:
-        """Driver positions in which the output link turns back (крайние положения), at most two.
+        """Driver positions at which the output link reverses (крайние положения), at most two.
 
-        The furthest each way, in the order of the driver's motion; none where the link turns all
-        round, or goes on at the ends of what is drawn.
+        The furthest in each direction, in the order of the driver's motion; empty if the link
+        rotates fully, or does not reverse within the drawn positions.
         """
         if self.output is None:
             return ()
@@ -206,7 +206,7 @@ def _is_straight(places: Complexes) -> bool:
 
 
 def _arc(places: Complexes, pivot: complex, tag: str) -> list[Item]:
-    """Return the circle about a fixed point that a point moves on, as far as it goes."""
+    """Return the circle, or its arc, that a point describes about a fixed point."""
     radius = float(np.mean(np.abs(places - pivot)))
     if radius < _FLAT:
         return []

@@ -1,4 +1,4 @@
-"""Velocity and acceleration plans drawn as a draughtsman draws them: pole, vectors, letters."""
+"""Velocity and acceleration plans as drawn by a draughtsman: pole, vectors, letters."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ NAMES, SMALL_NAMES = 3.5, 2.5
 
 NAMED, SMALL_NAMED = 5.0, 8.0
 """Length from which a vector has a name, and on a plan of several positions, mm: shorter ones are
-told by the letters of their ends."""
+identified by the letters of their ends."""
 
 COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
 
 
 def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, PointName]]:
-    """Return the sides of the figures similar to links, as far as no vector draws them."""
+    """Return the sides of the figures similar to links that are not vectors of the plan."""
     drawn = {frozenset((v.tail, v.head)) for v in plan.vectors}
     pole = str(plan.pole)
     lines: dict[frozenset[PointName], tuple[PointName, PointName]] = {}
@@ -57,10 +57,10 @@ def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, Point
 def plan_places(
     solution: Solution, kind: PlanKind, index: int, *, by_hand: bool = False
 ) -> dict[PointName, complex]:
-    """Return where the points of a plan lie in one position, mm from its pole.
+    """Return the places of the points of a plan in one position, mm from its pole.
 
-    ``by_hand`` gives the plan as it comes out with the ruler, whose segments are those of the
-    calculation; where one of its points does not come out so, the exact plan.
+    ``by_hand`` selects the plan drawn with the ruler, whose segments are those of the calculation;
+    if one of its points cannot be drawn so, the exact plan.
     """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
@@ -86,10 +86,10 @@ def plan_picture(
 ) -> Picture:
     """Return a plan in one position as a picture, its own pole at the origin, mm.
 
-    ``errors`` draws the ellipses of the drafting error around its points; ``by_hand`` is told by
-    `plan_places`, and ``traces`` by `planmethod.render.pictures.traces`. ``knots`` are the letters
-    of what is shown enlarged beside it, in their order. Kept, since a sheet is
-    tried with fewer positions when it does not fit with more.
+    ``errors`` draws the ellipses of the drafting error around its points; ``by_hand`` is explained
+    by `plan_places`, and ``traces`` by `planmethod.render.pictures.traces`. ``knots`` are the
+    letters of the enlarged views beside it, in their order. Cached, since a sheet is tried with
+    fewer positions when it does not fit with more.
     """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
@@ -112,7 +112,7 @@ def plan_picture(
         )
     items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag=POLE))
     enlarged = solution.knots_of(kind, index) if knots else ()
-    whole = bool(enlarged) and index in solution.small_plans[kind]  # it has its letters there
+    whole = bool(enlarged) and index in solution.small_plans[kind]  # its letters are there
     prefix = f"{kind.value} {index}"
     labels = [] if whole else _labels(solution, plan, at, letter_height, prefix)
     for knot, letter in zip(enlarged, knots, strict=False):
@@ -126,14 +126,14 @@ def plan_picture(
 def vector_names(
     plan: Plan, at: Mapping[PointName, complex], letter_height: float, prefix: str
 ) -> list[Label]:
-    """Return the names of the vectors, each once, the shortest first: they have the least choice.
+    """Return the names of the vectors, each once, the shortest first: they have the fewest places.
 
     Parameters
     ----------
     at : mapping
-        Where the points of the plan lie, mm.
+        Places of the points of the plan, mm.
     letter_height : float, mm
-        That of the points.
+        Height of the letters of the points.
     """
     large = letter_height > NAMES
     height, named = (NAMES, NAMED) if large else (SMALL_NAMES, SMALL_NAMED)
@@ -162,7 +162,7 @@ def vector_label(prefix: str, vector: Vector) -> str:
 
 
 def is_thin(vector: Vector, kind: PlanKind) -> bool:
-    """Tell whether a vector is a component, which is drawn thin."""
+    """Return whether a vector is a component, which is drawn thin."""
     return vector.kind in COMPONENTS or (
         vector.kind is VectorKind.SLIDING and kind is PlanKind.ACCELERATION
     )
@@ -171,7 +171,7 @@ def is_thin(vector: Vector, kind: PlanKind) -> bool:
 def knot_pictures(
     solution: Solution, kind: PlanKind, index: int, *, letter_height: float, by_hand: bool
 ) -> list[Picture]:
-    """Return the knots of the plan of a position as they are enlarged."""
+    """Return the enlarged views of the knots of a position's plan."""
     plan = solution.construction.plan(kind)
     at = plan_places(solution, kind, index, by_hand=by_hand)
     thin = frozenset((v.tail, v.head) for v in plan.vectors if is_thin(v, kind))

@@ -22,9 +22,9 @@ HODOGRAPH = "hodograph"
 POLE = "hodograph pole"
 
 MOST_NUMBERS = 24
-"""Positions that have their numbers: of more every second one, or third."""
+"""Largest number of numbered positions: with more, every second or third has a number."""
 
-_BEYOND = 7.0  # mm: the axes go on beyond the curve
+_BEYOND = 7.0  # mm: extension of the axes beyond the curve
 _HEAD = 3.5
 _DASHED = 10.0  # mm: a shorter line shows no dashes
 _LEAST = 0.6  # mm: a shorter vector has no ray
@@ -42,7 +42,7 @@ def polar_picture(
     ends : ndarray of shape (n,), mm
         Ends of the vectors in the positions.
     name : str
-        What its labels are told of by, after "hodograph".
+        Name of its labels after "hodograph".
     pole : str
         Letter of the pole.
     """

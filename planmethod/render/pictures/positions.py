@@ -1,11 +1,11 @@
 """Many positions of a mechanism over one another, one of them bold, every joint lettered.
 
-The positions are thin lines; at every moving point stands its letter with the number of the
-position (A₀, A₁, ...), at the centres of mass, whose letters have an index already, the number
-alone; of many positions the driver and the output alone have letters, the others numbers. Where
-that is too much for its area it is thinned, step by step (`Thinned`). The
-lines that the points move along are there, and the extreme positions of the output link in
-dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
+The positions are thin lines; every moving point has its letter with the number of the position (A₀,
+A₁, ...), centres of mass, whose letters already have an index, the number alone; with many
+positions only the driver and the output have letters, the others numbers. Labels too dense for
+their area are thinned step by step (`Thinned`). The paths of the points are drawn, and the extreme
+positions of the output link in dash-dot lines with two dots (GOST 2.303), marked with one and two
+primes.
 """
 
 from __future__ import annotations
@@ -32,37 +32,37 @@ from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
 
 PRIMES = ("′", "″")
-"""What the extreme positions are called, in the order of the driver's motion."""
+"""Marks of the extreme positions, in the order of the driver's motion."""
 
 _MARK = 0.7  # radius of the circle at a joint in another position, mm
-_LEAST_MARK = 0.45  # where circles would run into each other, mm
+_LEAST_MARK = 0.45  # the same where circles would overlap, mm
 
 
 EVERY = 3
-"""Of intermediate positions every so manieth stays lettered where all find no room."""
+"""Step of the positions that keep their letters if the space is insufficient for all."""
 
 
 class Thinned(IntEnum):
-    """What is left out of the letters of many positions (прореживание), each with all before it.
+    """Letters left out of many positions (прореживание), each level including the previous ones.
 
-    The position in full and the extreme ones keep theirs.
+    The main position and the extreme ones keep their letters.
     """
 
     NOTHING = 0
     CENTRES = 1
-    """Of the centres of mass only those of the position in full are lettered."""
+    """Centres of mass are lettered only in the main position."""
     POINTS = 2
     """The points between driver and output are lettered in every third position."""
     ENDS = 3
-    """So are those of the driver and the output."""
+    """The points of the driver and the output, too."""
     BETWEEN = 4
-    """Those between are lettered in the position in full alone."""
+    """The points between are lettered only in the main position."""
     ALONE = 5
     """All are."""
 
 
 class SharedPlace(Struct):
-    """One place of a point and the numbers of the positions that it is there in."""
+    """One place of a point and the numbers of the positions in which it is there."""
 
     place: complex
     numbers: list[str]
@@ -90,7 +90,7 @@ class Positions:
         self.paths = Paths(s)
         self._spots: dict[str, list[SharedPlace]] = {}
         extremes = self.paths.extremes if shows_extremes(s, self.overlay) else ()
-        # The extreme positions behind the others, so that links have one length in all of them.
+        # The extreme positions after the others, so that links have the same length in all of them.
         at = [*s.positions.tolist(), *extremes]
         self.shown = s.moved(at).drawn_at(s.scales) if extremes else s
         self.numbers = {k: str(k) for k in self.overlay}
@@ -157,7 +157,7 @@ class Positions:
         return {*ends[:1], *([output[1]] if output else [])}
 
     def _by_number(self, point: str) -> bool:
-        """Tell whether a point has numbers alone: of many positions all but driver and output."""
+        """Return whether a point has only numbers: all but driver and output in many positions."""
         return len(self.overlay) > FEW and point not in self._turning
 
     # Lines -----------------------------------------------------------------------------------
@@ -185,7 +185,7 @@ class Positions:
     def marks(self, thinned: Thinned = Thinned.NOTHING) -> list[Item]:
         """Return the joints in the other positions: small circles, smaller where they are dense.
 
-        Centres of mass that have no letters there have none.
+        Centres of mass without letters there have no circles.
         """
         items: list[Item] = []
         left_out = self.solution.problem.centres if thinned >= Thinned.CENTRES else frozenset()
@@ -204,10 +204,10 @@ class Positions:
     def labels(
         self, height: float, *, every: int = 1, thinned: Thinned = Thinned.NOTHING
     ) -> list[Label]:
-        """Return the letters of all points in all positions, of ``every`` so manieth at the least.
+        """Return the letters of all points in all positions, or in each ``every``-th.
 
-        The bold position has larger ones; its own name stands there where the others have numbers
-        alone. A point that stays where it is has its letter once, without numbers.
+        The bold position has larger letters, and names where the others have only numbers. A point
+        that does not move has its letter once, without numbers.
         """
         labels: list[Label] = []
         for point in self.points:
@@ -224,7 +224,7 @@ class Positions:
         return labels
 
     def _step(self, point: str, thinned: Thinned) -> int:
-        """Return of how manieth position a point has letters; 0 of the one in full alone."""
+        """Return the step of positions in which a point has letters; 0 for the main one alone."""
         if point in self.solution.problem.centres and thinned >= Thinned.CENTRES:
             return 0
         if point in self._turning:
@@ -250,27 +250,27 @@ class Positions:
 
 
 def _readable(item: Item) -> Item:
-    """Return a line that is too short to show its pattern as a thin one (GOST 2.303)."""
+    """Return a line too short to show its pattern as a thin line (GOST 2.303)."""
     if not isinstance(item, Stroke) or item.pen is not Pen.PHANTOM:
         return item
     return replace(item, pen=Pen.THIN) if len(stroke_lines(item)) < 2 else item
 
 
 def shows_extremes(solution: Solution, indices: Sequence[int]) -> bool:
-    """Tell whether the extreme positions are shown: among few they would be taken for two more."""
+    """Return whether the extreme positions are shown: among few they would look like two more."""
     return len(indices) > FEW or solution.problem.cycle is not None
 
 
 def written(point: str, numbers: Sequence[str], *, bold: bool = False, alone: bool = False) -> str:
     """Return the letters of a point in some positions: ``B_{3}, B_{9}``, ``B′``, or ``3, 9``.
 
-    ``B`` alone where there are none; ``S_{5}′`` with the letter in any case.
+    ``B`` alone without numbers; ``S_{5}′`` always with the letter.
     """
     if not numbers:
         return point_name(point)
     if len(point) > 1 or (alone and not bold):
         if bold:
             return point_name(point) + (f" ({', '.join(numbers)})" if len(numbers) > 1 else "")
-        # A number alone is read with the others of its row, a prime alone is read as dirt.
+        # A number alone is read with the others of its series, a prime alone looks like dirt.
         return ", ".join(point_name(point) + n if n in PRIMES else n for n in numbers)
     return ", ".join(point + n if n in PRIMES else f"{point}_{{{n}}}" for n in numbers)

@@ -29,7 +29,7 @@ AXIS = 15.0
 """Length of a guide's axis beyond the slider before ``factor``, mm."""
 
 OVERHANG = 5.0
-"""How far a bar goes on beyond the stone that slides on it, mm."""
+"""Extension of a bar beyond the stone that slides on it, mm."""
 
 
 def extent(solution: Solution, positions: Sequence[int]) -> tuple[float, float, float, float]:
@@ -40,7 +40,7 @@ def extent(solution: Solution, positions: Sequence[int]) -> tuple[float, float, 
     return at.real.min(), at.imag.min(), at.real.max(), at.imag.max()
 
 
-_OFF = 0.3  # mm: a point further from a line than this does not lie on it
+_OFF = 0.3  # mm: a point further from a line than this is off it
 
 
 def off_segment(place: complex, start: complex, end: complex) -> float:
@@ -53,8 +53,8 @@ def off_segment(place: complex, start: complex, end: complex) -> float:
 class Scheme(Struct):
     """One mechanism being drawn in one position (схема).
 
-    ``bodies``, ``lines``, ``corners`` and ``joints`` are drawn in this order: the sliders lie under
-    the links that reach their pins, the joints cover the lines they join.
+    ``bodies``, ``lines``, ``corners`` and ``joints`` are drawn in this order: sliders are under the
+    links that reach their pins, joints cover the lines that they join.
     """
 
     solution: Solution
@@ -110,7 +110,7 @@ class Scheme(Struct):
     def draw_link(self, link: str) -> None:
         """Draw the lines of a link through its points and along the lines it carries.
 
-        A centre of mass is no part of its outline: off the lines it is led to them by a thin one.
+        A centre of mass is not part of the outline: off the lines it is connected by a thin line.
         """
         problem = self.solution.problem
         body, centres = problem.bodies[link].points, problem.centres
@@ -133,7 +133,7 @@ class Scheme(Struct):
                 self._lead(link, self.at(name), [place for _, place in ends])
 
     def _lead(self, link: str, centre: complex, joints: Sequence[complex]) -> None:
-        """Lead a centre of mass that lies off the lines of its link to the nearest joint."""
+        """Connect a centre of mass that lies off the lines of its link to the nearest joint."""
         parts = self.segments.get(link, ())
         if all(off_segment(centre, *part) > _OFF for part in parts) or not parts:
             nearest = min(joints, key=lambda place: abs(place - centre))
@@ -143,7 +143,7 @@ class Scheme(Struct):
     def _corner(
         self, link: str, z: complex, place: complex, along: list[tuple[complex, complex]]
     ) -> None:
-        """Join a point off the axis to the link: as a stiff triangle, or by a rigid arm."""
+        """Join a point off the axis to the link by a rigid triangle or a rigid arm."""
         inside = along[0][0].real < z.real < along[-1][0].real
         if len(along) > 1 and inside and abs(z.imag) > 0.15 * (along[-1][0] - along[0][0]).real:
             corners = (along[0][1], along[-1][1], place)
@@ -163,13 +163,13 @@ class Scheme(Struct):
                 break
 
     def _slot(self, link: str, slide: Slide, along: list[tuple[complex, complex]]) -> None:
-        """Draw the line that a link carries, as far as the stone on it and a little beyond."""
+        """Draw the line that a link carries, to a little beyond the stone on it."""
         u = self.line_direction(slide)
         start = self.base(slide)
         reach = ((self.foot(slide) - start) * u.conjugate()).real
         beyond = (7.0 + OVERHANG) * self.factor
-        # A link has one length: as far as the stone goes in any position of the sheet. Behind the
-        # position that stands in full it is drawn to its stone, or long ends would hide the rest.
+        # A link has one length: to the furthest stone of all positions of the sheet. In positions
+        # behind the main one it is drawn to its stone, or long ends would hide the rest.
         ways = self._reaches(slide) if self.pen is Pen.MAIN else (reach,)
         marks = [0.0, *(way + math.copysign(beyond, way if way else 1.0) for way in ways)]
         if slide.angle in (0.0, 180.0) and len(along) > 1:
@@ -193,12 +193,12 @@ class Scheme(Struct):
                 break
 
     def _name_slot(self, slide: Slide, low: complex, high: complex) -> None:
-        """Note the ends of a guide on a moving link that has a name of its own."""
+        """Record the ends of a guide on a moving link that has a name of its own."""
         if self.pen is Pen.MAIN and has_slot_name(slide, self.solution.problem):
             self.slot_ends.append((slot_name(slide), low, high))
 
     def _is_marked(self, link: str, place: complex) -> bool:
-        """Tell whether a corner of a link is marked as rigid: not inside its own slider."""
+        """Return whether a corner of a link is marked as rigid: not inside its own slider."""
         slide = self.solution.problem.slides.get(link)
         on_block = slide is not None and slide.host == FRAME and abs(self.at(slide.pin) - place) < 1
         return self.pen is Pen.MAIN and not on_block
@@ -213,7 +213,7 @@ class Scheme(Struct):
         return float(along.min()), float(along.max())
 
     def foot(self, slide: Slide) -> complex:
-        """Return the foot of the pin on the slide line: the pin itself when there is no offset."""
+        """Return the foot of the pin on the slide line: the pin itself without an offset."""
         u, start = self.line_direction(slide), self.base(slide)
         return start + u * ((self.at(slide.pin) - start) * u.conjugate()).real
 
@@ -268,14 +268,14 @@ class Scheme(Struct):
         self.blocks.append(block)
 
     def _weld(self, link: str) -> None:
-        """Fix the rods of a link to the block that was drawn last, which is one piece with it."""
+        """Fix the rods of a link to the last drawn block, which is rigid with it."""
         if self.pen is Pen.MAIN:
             tag, block = f"link {link}", self.blocks[-1]
             self.lines, welds = welded(self.lines, tag, block, self.factor)
             self.corners += welds
 
     def _frame_guide(self, slide: Slide, u: complex) -> None:
-        """Draw the axis of a fixed guide over the slider's way and the hatched plates at it."""
+        """Draw the axis of a fixed guide over the slider's travel, and its hatched plates."""
         foot, pin, start = self.foot(slide), self.at(slide.pin), self.base(slide)
         angle = symbols.angle_of(u)
         # The places of the pin in every position of the sheet, and of the slider's points.
@@ -286,7 +286,7 @@ class Scheme(Struct):
         half = edge + AXIS * self.factor
         low, high = min(way) - half, max(way) + half
         offset = pin - foot
-        # Two lines, for each begins with a stroke at the edge of the slider.
+        # Two lines, since each begins with a stroke at the edge of the slider.
         for end, side in ((low, -edge), (high, edge)):
             self.guides += axis_line(pin + u * side, start + u * end + offset, tag="guide")
         length = SIZES.slider_length + 8.0
@@ -297,12 +297,12 @@ class Scheme(Struct):
         problem = self.solution.problem
         if abs(offset) > 0.2 and told_beside(slide.label, problem) is None:
             self.guides += axis_line(start + u * low, start + u * high, tag="guide")
-            offset = 0j  # the letters stand at the line that is given
+            offset = 0j  # the letters belong to the given line
         name = problem.guide_name(slide.label)
         self.axis_ends.append((name, start + u * low + offset, start + u * high + offset))
 
     def clearance(self, place: complex) -> float:
-        """Return how far a place is from the nearest link, mm."""
+        """Return the distance of a place from the nearest link, mm."""
         room = math.inf
         for parts in self.segments.values():
             for start, end in parts:
@@ -315,7 +315,7 @@ class Scheme(Struct):
         return max(parts, key=lambda part: abs(part[1] - part[0]), default=None)
 
     def link_label(self, link: str, gap: float) -> Label:
-        """Return the number of a link: along it, or at the point that it is, with its gap, mm."""
+        """Return the number of a link: along it, or at its only point with ``gap`` mm."""
         part = self.longest(link)
         if part is not None:
             return segment_label(link, *part, self.letter_height)
@@ -345,13 +345,13 @@ class Scheme(Struct):
         self.named = sorted(named)
 
     def mark(self, point: str) -> list[Item]:
-        """Return a point that is no joint: a centre of mass has its own symbol."""
+        """Return the mark of a point that is not a joint; a centre of mass has its own symbol."""
         if point in self.solution.problem.centres:
             return symbols.mass_centre(self.at(point), factor=self.factor)
         return [Disc(self.at(point), 0.8 * self.factor, Ink.BLACK)]
 
     def joint_items(self, joint: Revolute, place: complex) -> list[Item]:
-        """Return a joint; a link that goes on through it is seen to be one piece."""
+        """Return a joint; a link that passes through it is drawn in one piece."""
         passing = {link: way for link in joint.links if (way := self.passes(link, place))}
         count = joint.pairs
         if len(passing) == 1 and count == 1:
@@ -371,7 +371,7 @@ class Scheme(Struct):
         return items
 
     def passes(self, link: str, place: complex) -> complex | None:
-        """Return the direction of a bar that goes on through a joint between its ends, if any."""
+        """Return the direction of a bar that passes through a joint between its ends, or None."""
         radius = SIZES.joint / 2 * self.factor
         for start, end in self.segments.get(link, []):
             along = symbols.unit(end - start)
@@ -382,7 +382,7 @@ class Scheme(Struct):
         return None
 
     def _leaves(self, link: str, place: complex) -> complex:
-        """Return where a link, or the frame's support, lies from a joint: a unit vector."""
+        """Return the direction of a link, or the frame's support, from a joint: a unit vector."""
         if link == FRAME:
             return self.free_direction(place)
         far = [p for part in self.segments.get(link, []) for p in part if abs(p - place) > 0.5]
@@ -404,7 +404,7 @@ class Scheme(Struct):
         return out
 
     def free_direction(self, place: complex) -> complex:
-        """Return where the support of a pivot stands, once `draw_joints` has chosen it."""
+        """Return the direction of a pivot's support, once `draw_joints` has chosen it."""
         ways = (s.direction for s in self.supports for p in s.places if abs(p - place) < 0.01)
         return next(ways, -1j)
 

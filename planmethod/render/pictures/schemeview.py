@@ -25,7 +25,7 @@ from planmethod.solved.solution import Solution
 
 
 class SchemeView(Struct):
-    """A drawn scheme and what is written on it."""
+    """A drawn scheme with its arrows and labels."""
 
     scheme: Scheme
     arrows: list[Item] = field(default_factory=list)
@@ -35,7 +35,7 @@ class SchemeView(Struct):
     def drawn(
         cls, solution: Solution, index: int, letter_height: float, traces: Shown = False
     ) -> SchemeView:
-        """Return the scheme in one position, nothing written on it yet."""
+        """Return the scheme in one position, without labels yet."""
         scheme = Scheme(solution, index, letter_height)
         scheme.draw()
         scheme.draw_joints()
@@ -43,7 +43,7 @@ class SchemeView(Struct):
         return cls(scheme)
 
     def items(self, marks: Sequence[Item] = ()) -> list[Item]:
-        """Return what is drawn, in order; ``marks`` are the joints of other positions."""
+        """Return the drawn items in order; ``marks`` are the joints of other positions."""
         s = self.scheme
         mechanism = before_links([*s.bodies, *s.lines, *s.corners, *marks, *s.joints])
         return [*s.guides, *mechanism, *self.arrows]
@@ -73,8 +73,8 @@ _LETTER = 6.0  # room of an axis's letter between the joints of other positions,
 def axis_labels(scheme: Scheme, others: Sequence[complex] = ()) -> Iterator[Label]:
     """Yield letters at the ends of the guides' axes, but for an end that lies on a link.
 
-    Of guides on moving links both ends do: one that a point lies at has the point's letter alone.
-    ``others`` are the joints in other positions, among which a letter would be lost.
+    Guides on moving links have letters at both ends, but an end at a point has only the point's
+    letter. ``others`` are the joints in other positions, among which a letter would be lost.
     """
     at = [scheme.at(point) for point in scheme.named]
     for label, low, high in scheme.slot_ends:
@@ -99,11 +99,11 @@ def axis_labels(scheme: Scheme, others: Sequence[complex] = ()) -> Iterator[Labe
 def letter_links(
     view: SchemeView, others: Sequence[Item] = (), *, senses: bool = True, given: bool = False
 ) -> list[Item]:
-    """Put the links' numbers down, and circular arrows for the senses of omega and epsilon.
+    """Add the links' numbers, and circular arrows for the senses of omega and epsilon.
 
-    Among the lines of ``others``, the other positions, only the driver has arrows; alone it has
-    its angle, too. ``given``: the driver alone has arrows in any case. Return what letters keep
-    clear of.
+    Among the lines of ``others``, the other positions, only the driver has arrows; in a single
+    position also its angle. With ``given`` only the driver has arrows in any case. Return the items
+    that letters keep clear of.
     """
     scheme, own = view.scheme, Senses(view.scheme, others)
     drive = scheme.solution.problem.drive.link
@@ -133,9 +133,9 @@ def scheme_picture(
     """Return the scheme in one position as a picture, mm.
 
     ``errors`` draws the ellipses of the drafting error around the moving points. ``bare`` leaves
-    out what tells of the motion: arrows, the angle of the driver, letters of the axes; ``given``,
-    the arrows of all links but the driver, which an assignment asks for. ``traces`` is told by
-    `planmethod.render.pictures.traces`. ``added`` are more items and their letters.
+    out the signs of the motion: arrows, the angle of the driver, letters of the axes; ``given``,
+    the arrows of all links but the driver, which an assignment asks to find. ``traces`` is
+    explained by `planmethod.render.pictures.traces`. ``added`` are more items and their letters.
     """
     view = SchemeView.drawn(solution, index, letter_height, traces)
     special = special_points(view.scheme) if not bare else ([], [])

@@ -1,4 +1,4 @@
-"""Arrows of ω and ε on a scheme, and the angle of its crank: who draws them, and where."""
+"""Arrows of ω and ε on a scheme, and the angle of its crank: their choice and places."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def small(height: float) -> float:
 
 
 SWEEP, ARC = 70.0, 24.0
-"""Most that an arrow of ω or ε turns by, degrees, and its length before ``factor``, mm."""
+"""Largest angle of an arrow of ω or ε, degrees, and its length before ``factor``, mm."""
 
 _LEAST, _BETWEEN = 14.0, 11.0
 """Least radius about a pivot, and between two arrows there, before ``factor``, mm."""
@@ -42,20 +42,19 @@ _CLEAR, _APART = 4.0, 7.0
 _FURTHER = 0.03  # cost of a mm of radius: one place of an arc on a line costs 1
 _TURNED = 0.8  # cost of half a turn from the link
 _LETTER = 4.0  # cost of a letter on a line
-_NO_ROOM = 2.5  # cost from which an arrow is left out: the table of results tells the sense
-_OFF_BAR = (2.0, 3.6, 8.0)  # mm from the zero line of φ: no letter stands there on its other side
+_NO_ROOM = 2.5  # cost from which an arrow is left out: the table of results shows the sense
+_OFF_BAR = (2.0, 3.6, 8.0)  # mm from the zero line of φ, where letters are kept off its other side
 _BAR = 8.0  # mm further than the line itself
 
 
 class Senses(Struct):
     """Arrows of turns on a scheme (направления угловых скоростей и ускорений).
 
-    An arrow is about the pivot of its link, that of ε well outside that of ω; on a link without
-    a pivot the two have one centre on the link and cross it on both sides. Of the places there it
-    takes the one that is most clear of lines, joints, sliders and other arrows; that of a crank
-    may stand all round the pivot. Its letter goes on behind its tail. Where there is no room at
-    all it is left out. ``others`` are the lines of other positions, among which the letters are
-    small and ε, which the statement tells, is left out.
+    An arrow is about the pivot of its link, ε well outside ω; on a link without a pivot the two
+    have one centre on the link and cross it on both sides. An arrow takes the place most clear of
+    lines, joints, sliders and other arrows; a crank's may be anywhere round the pivot. Its letter
+    is behind its tail. An arrow without space is left out. ``others`` are the lines of other
+    positions, among which the letters are small and ε, which the statement gives, is left out.
     """
 
     scheme: Scheme
@@ -69,7 +68,7 @@ class Senses(Struct):
         return small(self.scheme.letter_height) if self.others else self.scheme.letter_height
 
     def of(self, link: str) -> None:
-        """Draw the arrows of a link: none where it has no length, or turns as its guide does."""
+        """Draw the arrows of a link: none if it has no length, or rotates with its guide."""
         scheme, problem = self.scheme, self.scheme.solution.problem
         motion, body = scheme.solution.links[link], problem.bodies[link].points
         part = scheme.longest(link)
@@ -149,7 +148,7 @@ class Senses(Struct):
         self, link: str, kind: QuantityKind, centre: complex, radius: float, middle: float,
         sense: int,
     ) -> None:  # fmt: skip
-        """Draw an arrow, and ask for its letter behind its tail."""
+        """Draw an arrow, and add the label of its letter behind its tail."""
         sweep, name = self._sweep(radius), f"{kind.sign} {link}"
         size = 3.5 * self.scheme.factor
         self.arrows += turn_arrow(
@@ -175,7 +174,7 @@ class Senses(Struct):
     def _costs(
         self, centres: Complexes, radii: Reals, turns: Reals, sense: int, link: str
     ) -> Reals:
-        """Return what places of an arrow cost, by what is near its arc and its letter.
+        """Return the costs of places of an arrow by the items near its arc and its letter.
 
         ``turns`` are the directions of the arc's middle, degrees; all have one shape, as the costs.
         """
@@ -202,7 +201,7 @@ class Senses(Struct):
     # The crank's angle -----------------------------------------------------------------------
 
     def angle(self) -> None:
-        """Show the crank's angle phi from the horizontal; what stands there keeps clear of it."""
+        """Draw the crank's angle phi from the horizontal, which letters keep clear of."""
         scheme = self.scheme
         drive = scheme.solution.problem.drive
         if drive.pivot is None:
@@ -216,7 +215,7 @@ class Senses(Struct):
             radius = (SIZES.support_height + SIZES.hatch_stroke + 4.0) * scheme.factor
             pins = [scheme.at(p) for p in scheme.solution.problem.bodies[drive.link].points]
             if max(abs(pin - centre) for pin in pins) < radius + 4.0:
-                return  # no room for an arc around the support: the statement tells the angle
+                return  # no space for an arc around the support: the statement gives the angle
         end = centre + radius + 6
         drawn = [
             Stroke((centre, end), Pen.THIN, tag="phi"),
@@ -250,7 +249,7 @@ class Senses(Struct):
 
 
 def _swept(phi: float) -> float:
-    """Return the angle of an arc: a negative one within half a turn is laid off clockwise."""
+    """Return the angle of an arc: a negative one above -180° is laid off clockwise."""
     return phi if -180.0 < phi < 0.0 else phi % 360.0
 
 
@@ -270,7 +269,7 @@ def ends_of(items: Iterable[Item]) -> Complexes:
 
 
 def nearness(places: Complexes, ends: Complexes, clear: float) -> Reals:
-    """Return how near places are to lines: 1 on one, 0 from ``clear`` mm on; the places' shape.
+    """Return the nearness of places to lines: 1 on one, 0 from ``clear`` mm on; the places' shape.
 
     Places along the last axis lie together; lines too far from all of them are not measured.
     """

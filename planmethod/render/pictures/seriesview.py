@@ -32,16 +32,17 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction
 
 LEAST = 2.5
-"""Height of the letters of many positions where larger ones find no room, mm."""
+"""Height of the letters of many positions where larger ones do not fit, mm."""
 
 UNTIDY = 0.03
-"""More `untidiness` for each label is a reason to take the smaller letters."""
+"""`untidiness` per label from which smaller letters are used."""
 
 MOST = 14
-"""Positions that all have letters; of twice as many every other one has, and so on."""
+"""Largest number of positions that all have letters; with twice as many, every other one, and so
+on."""
 
 ROOM = 40.0
-"""Room around many positions for their letters, mm."""
+"""Margin around many positions for their letters, mm."""
 
 
 @remembered
@@ -103,7 +104,7 @@ def series_picture(
 
 
 def _thinned(positions: Positions, own: Sequence[Label], height: float, every: int) -> Thinned:
-    """Return how far the letters of the positions are thinned, so that their area bears them."""
+    """Return the level of thinning at which the letters fit their area."""
     there = [label.anchor for label in own]
     for thinned in Thinned:
         labels = positions.labels(height, every=every, thinned=thinned)

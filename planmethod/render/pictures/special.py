@@ -1,4 +1,4 @@
-"""Special points of a triad on the scheme (особые точки): where the lines of its legs meet."""
+"""Special points of a triad on the scheme (особые точки): intersections of its legs' lines."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from planmethod.render.labels import Label
 from planmethod.render.pictures.scheme import Scheme
 
 _BEYOND = 4.0
-"""How far a leg's line goes on beyond the special point, mm."""
+"""Extension of a leg's line beyond the special point, mm."""
 
 _NEAR = 1.0
-"""How far from the group a special point is drawn that no plan uses, in sizes of it."""
+"""Largest distance from the group of a drawn special point that no plan uses, in group sizes."""
 
 _FAR = 3.0
-"""The same of the one that the plans use: on the paper it is found further away by its angles."""
+"""Largest distance of the point that the plans use: on paper it is found by its angles."""
 
-_PARALLEL = 1e-3  # sine of the angle of two lines that meet too far away for any paper
+_PARALLEL = 1e-3  # sine of the angle of lines that intersect too far away for any paper
 
 
 def special_points(scheme: Scheme) -> tuple[list[Item], list[Label]]:
@@ -66,7 +66,7 @@ def _meeting(scheme: Scheme, one: LineName, two: LineName) -> complex | None:
 def _line(ends: list[complex], place: complex) -> list[Item]:
     """Return the line of a leg from its nearer joint to the special point, and a little on.
 
-    Nothing where it lies on the leg itself.
+    Empty if it lies on the leg itself.
     """
     start = min(ends, key=lambda end: abs(end - place))
     away = place - start

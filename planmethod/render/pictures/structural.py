@@ -1,8 +1,8 @@
 """Structural pictures without scale (структурная схема, структурные группы).
 
 Links are bars and rigid triangles, revolute pairs circles, prismatic pairs rectangles on bars, the
-frame is hatched; what replaces a higher pair is dashed. A group taken apart keeps its outer joints
-open: a dashed stub shows where a link outside the group goes on, with that link's number.
+frame is hatched; links that replace a higher pair are dashed. A group taken apart keeps its outer
+joints open: a dashed stub shows a link outside the group, with its number.
 """
 
 from __future__ import annotations
@@ -40,13 +40,13 @@ from planmethod.render.symbols import SIZES
 from planmethod.solved.aligned.schemes import SelfAligning
 
 MARGIN = 13.0
-"""Room about the joints for symbols and letters, mm."""
+"""Margin around the joints for symbols and letters, mm."""
 
 LARGEST_STEP = 42.0
-"""Greatest length of a grid unit unless another is asked for, mm."""
+"""Default greatest length of a grid unit, mm."""
 
 SMALLEST_STEP = 8.0
-"""Least length of a grid unit, mm: below it the symbols run into each other."""
+"""Least length of a grid unit, mm: below it the symbols would overlap."""
 
 STUB = 13.0
 """Length of the dashed stub of an open joint, mm."""
@@ -78,7 +78,7 @@ class Mobile(Struct, frozen=True):
         ]
 
     def mark(self, text: str, classes: Collection[str]) -> str:
-        """Return a letter with the classes of its pairs that are no more what they were."""
+        """Return a letter with the classes of its changed pairs."""
         told = [self.printed[name] for name in classes if name[0] != "1"]
         if not told:
             return text
@@ -101,13 +101,13 @@ def mechanism_picture(
     Parameters
     ----------
     width, height : float, mm
-        Room to fill.
+        Area to fill.
     largest : float, mm
-        Greatest length of a grid unit: on a large sheet a simple mechanism does not fill the room.
+        Greatest length of a grid unit: on a large sheet a simple mechanism does not fill the area.
     sense : int
-        Of the driver's motion: +1 counter-clockwise or to the right, -1 the other way.
+        Sense of the driver's motion: +1 counter-clockwise or to the right, -1 otherwise.
     mobile : Mobile, optional
-        What the pairs are in a scheme without redundant constraints; hinges and sliders else.
+        Classes of the pairs in a scheme without redundant constraints. Default: hinges and sliders.
     """
     chain, found = _whole(mechanism, structure)
     room = (width, height)
@@ -141,7 +141,7 @@ def group_picture(
 
 @lru_cache(maxsize=16)
 def _whole(mechanism: Mechanism, structure: Structure) -> tuple[Chain, Mapping[str, complex]]:
-    """Return the chain of a mechanism and its places: a sheet asks for several sizes."""
+    """Return the chain of a mechanism and its places, cached for several sizes of a sheet."""
     chain = mechanism_chain(mechanism, structure)
     return chain, embed(chain.net)
 
@@ -163,10 +163,10 @@ def _fitted(
     sense: int = 1,
     mobile: Mobile | None = None,
 ) -> Picture:
-    """Stretch places in grid units so that the picture with its letters fills a room, mm."""
+    """Stretch places in grid units so that the picture with its letters fills an area, mm."""
     xs, ys = [z.real for z in found.values()], [z.imag for z in found.values()]
     wide, tall = max(max(xs) - min(xs), 1e-3), max(max(ys) - min(ys), 1e-3)
-    about = (2 * MARGIN, 2 * MARGIN)  # what symbols and letters take, until it is measured
+    about = (2 * MARGIN, 2 * MARGIN)  # estimated extent of symbols and letters
     for _ in range(3):
         across = min(largest, max(SMALLEST_STEP, (room[0] - about[0]) / wide))
         up = min(largest, max(SMALLEST_STEP, (room[1] - about[1]) / tall))
@@ -234,7 +234,7 @@ class _Draft(Struct):
         elif shape.outline:
             ring = turned_outwards(shape.outline, at)
             corners = [at[node] for node in ring]
-            # Hatched under the stones; the outline goes to the pins that stand on stones.
+            # Hatched under the stones; the outline reaches the pins on stones.
             *hatching, outline = symbols.stiff_triangle(*corners, hatched=True)
             self.arms += hatching
             own = any(
@@ -246,7 +246,7 @@ class _Draft(Struct):
         for start_node, stone in shape.tips:
             start, through = at[start_node], at[stone]
             tip = through + symbols.unit(through - start) * (SIZES.slider_length / 2 + 5.0)
-            # Over the stone that slides on it, under a stone that it carries.
+            # Above the stone that slides on it, below a stone that it carries.
             near = through - symbols.unit(through - start) * SIZES.slider_length / 2
             self.arms.append(Stroke((start, near), tag=f"link {link}"))
             self.lines.append(Stroke((near, tip), tag=f"link {link}"))
@@ -257,7 +257,7 @@ class _Draft(Struct):
                 self.lines += symbols.rigid_corner(start, through, others[0])
 
     def directions(self, place: complex, link: str | None = None) -> list[complex]:
-        """Return the directions in which lines (of one link) leave a place, or pass it."""
+        """Return the directions of lines (of one link) that leave or pass a place."""
         found = []
         for owner, start, end in self.segments:
             if link is not None and owner != link:
@@ -276,7 +276,7 @@ class _Draft(Struct):
     # Sliders ---------------------------------------------------------------------------------
 
     def draw_slide(self, slide: DrawnSlide) -> None:
-        """Draw a stone and what it slides on."""
+        """Draw a stone and its guide."""
         place = self.at[slide.node]
         if slide.bar:
             along = self.directions(place, slide.bar)
@@ -351,7 +351,7 @@ class _Draft(Struct):
         elif pin.far is Far.OPEN:
             way = _freest(busy, tuple(cmath.exp(1j * radians(15 * k)) for k in range(24)))
             if len(busy) == 1:
-                # Bent a little from the line of the lead, and upright: groups stand side by side.
+                # Bent a little from the line of the leg, and upright: groups are side by side.
                 bends = [-busy[0] * cmath.exp(1j * radians(turn)) for turn in (35, -35)]
                 way = max(bends, key=lambda bend: round(abs(bend.imag), 6))
             on_stone = any(slide.node == pin.node for slide in self.chain.slides)
@@ -439,7 +439,7 @@ class _Draft(Struct):
 
 
 def _freest(busy: list[complex], choices: tuple[complex, ...]) -> complex:
-    """Return the first of the directions that is as far as can be from all busy ones."""
+    """Return the first of the directions that are furthest from all busy ones."""
 
     def room(way: complex) -> float:
         return round(min([abs(cmath.phase(u / way)) for u in busy] or [3.2]), 3)

@@ -1,7 +1,7 @@
-"""Where supports and guides stand on a scheme (размещение опор и направляющих).
+"""Placement of supports and guides on a scheme (размещение опор и направляющих).
 
-A support is turned to the side that links leave free, down if it can be. Pivots so near that
-their supports would run into each other get one base, and where that cannot be, smaller supports.
+A support points to the side that links leave free, down if possible. Close pivots whose supports
+would overlap get one base, or, if that is impossible, smaller supports.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 WAYS: tuple[tuple[complex, float], ...] = ((-1j, 0.0), (1j, 4.0), (-1 + 0j, 5.0), (1 + 0j, 5.0))
-"""Directions from a pivot to its base, and how little each is liked: mm of line under it."""
+"""Directions from a pivot to its base, and their costs in mm of line under it."""
 
 _ROOM = 2.0  # mm: white wished between a support and a line
 _APART = 0.5  # mm: the same between two supports, from either
-_JOINED = 1.0  # what a common base costs against two of their own
-_OVERLAP = 10.0  # what it costs that two supports run into each other, and 1 for each mm²
+_JOINED = 1.0  # cost of a common base instead of two
+_OVERLAP = 10.0  # cost of two overlapping supports, plus 1 for each mm²
 _ON_PIVOT = 30.0  # a base over another pivot
 _LEAST_FOOT = 1.5  # mm: half the width of the narrowest support on a common base
-_MOST_STEP = 6.0  # mm: how much higher a pivot may stand than another on its base
-_SMALLER = 0.65  # size of supports that overlap all the same
+_MOST_STEP = 6.0  # mm: largest difference of height of two pivots on one base
+_SMALLER = 0.65  # size of supports that overlap nevertheless
 
 
 class Support(Struct, frozen=True):
@@ -63,9 +63,9 @@ def stand(
     Parameters
     ----------
     pivots : sequence of complex, mm
-        No two in one place.
+        Distinct places.
     drawn : iterable of Item
-        The links and sliders that are there; only lines are looked at.
+        Drawn links and sliders, of which only lines count.
     factor : float
         Size of the symbols.
 
@@ -100,10 +100,10 @@ def free_sides(
     width: float = SIZES.slider_width,
     factor: float = 1.0,
 ) -> tuple[int, ...]:
-    """Return on which sides of a slider a guide's plate is not crossed by lines.
+    """Return the sides of a slider on which no lines cross a guide's plate.
 
-    The arguments are those of `guide_plates`; both sides where neither is free, for a slider needs
-    a guide.
+    The arguments are those of `guide_plates`; both sides if neither is free, since a slider needs a
+    guide.
     """
     from shapely import Polygon
 
@@ -135,7 +135,7 @@ def _lines(drawn: Iterable[Item]) -> BaseGeometry | None:
 
 
 def _ground(at: complex, way: complex, factor: float) -> BaseGeometry:
-    """Return what a support takes: legs, base and hatching, from the edge of the joint on."""
+    """Return the area of a support: legs, base and hatching, from the edge of the joint on."""
     from shapely import Polygon
 
     top = SIZES.joint * 0.8 * factor
@@ -148,7 +148,7 @@ def _ground(at: complex, way: complex, factor: float) -> BaseGeometry:
 
 
 def _under(lines: BaseGeometry | None, at: complex, way: complex, factor: float) -> float:
-    """Return the length of lines that a support would stand on or near, mm."""
+    """Return the length of lines under or near a support, mm."""
     if lines is None:
         return 0.0
     ground = _ground(at, way, factor).buffer(_ROOM * factor, quad_segs=2)
@@ -156,7 +156,7 @@ def _under(lines: BaseGeometry | None, at: complex, way: complex, factor: float)
 
 
 def _meet(one: complex, way: complex, two: complex, other: complex, factor: float) -> float:
-    """Return how much two supports overlap, mm²."""
+    """Return the overlap of two supports, mm²."""
     if abs(one - two) > 3 * SIZES.base * factor:
         return 0.0
     first = _ground(one, way, factor).buffer(_APART, quad_segs=2)
@@ -165,14 +165,14 @@ def _meet(one: complex, way: complex, two: complex, other: complex, factor: floa
 
 
 def _joinable(one: complex, two: complex, way: complex, factor: float) -> bool:
-    """Tell whether two pivots can stand on one base."""
+    """Return whether two pivots can share a base."""
     step = abs(((one - two) * way.conjugate()).real)
     foot = foot_of((one, two), direction=way, factor=factor)
     return step <= _MOST_STEP * factor and foot >= _LEAST_FOOT * factor
 
 
 def _against(one: complex, way: complex, two: complex, other: complex, factor: float) -> float:
-    """Return what it costs that two supports stand beside each other, mm of line."""
+    """Return the cost of two supports beside each other, mm of line."""
     from shapely import Point
 
     area = _meet(one, way, two, other, factor)
@@ -185,7 +185,7 @@ def _against(one: complex, way: complex, two: complex, other: complex, factor: f
 
 
 def _grouped(pivots: Sequence[complex], chosen: Sequence[complex], factor: float) -> list[Support]:
-    """Join the pivots whose supports run into each other, or make those smaller."""
+    """Join the pivots whose supports overlap, or make the supports smaller."""
     group = list(range(len(pivots)))
     small: set[int] = set()
     for i, j in combinations(range(len(pivots)), 2):

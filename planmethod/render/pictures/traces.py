@@ -1,8 +1,8 @@
-"""Traces of the construction (следы построения): what compass and set square leave on the paper.
+"""Traces of the construction (следы построения): marks of compass and set square on the paper.
 
-They are read off the steps: a step that meets arcs leaves notches (засечки), one that meets lines
-their directions a little beyond the meeting, and a right angle where it was drawn as one. All are
-short and thin, so that they explain a sheet without covering it.
+They follow from the steps: a step that intersects arcs leaves notches (засечки), one that
+intersects lines leaves these a little beyond the intersection, and a right angle where one was
+drawn. All are short and thin, so that they explain a sheet without covering it.
 """
 
 from __future__ import annotations
@@ -32,26 +32,26 @@ TRACE = "trace"
 """Tag of a trace."""
 
 NOTCH, BEYOND, CORNER = 8.0, 5.0, 2.5
-"""Half a notch of the scheme, how far a direction goes on beyond the meeting, and the sides of a
+"""Half a notch of the scheme, the extension of a line beyond an intersection, and the sides of a
 right angle, mm."""
 
 _NAMES = 2.5  # height of the name of a direction, mm
-_LEGS = 1.6  # legs of a right angle are so many times as long as its sides at least
+_LEGS = 1.6  # least length of the legs of a right angle, in sides of its sign
 _NOTHING = 0.5  # mm: a shorter vector gives its line no direction on the paper
 _RIGHT = 1e-6  # cosine of the angle between lines that were drawn as a right one
 
 
 def shown_traces(solution: Solution, told: Shown | None, *, room: bool) -> Shown:
-    """Return which traces are shown: as the layout says, else the file.
+    """Return the shown traces: those of the layout, else of the file.
 
-    Where neither says anything they are shown of one position, if the sheet has ``room`` for them.
+    By default the traces of a single position are shown if the sheet has ``room`` for them.
     """
     said = solution.problem.sheet.traces if told is None else told
     return room and len(solution.positions) == 1 if said is None else said
 
 
 def scheme_traces(solution: Solution, index: int, factor: float, shown: Shown) -> list[Item]:
-    """Return the notches by which points of the scheme were found, mm; ``factor`` makes smaller."""
+    """Return the notches of the construction of the scheme's points, mm, reduced by ``factor``."""
     items: list[Item] = []
     for step in _steps(solution, PlanKind.POSITION) if shown else ():
         if _is_shown(shown, [step.out]):
@@ -96,7 +96,7 @@ def _steps(solution: Solution, kind: PlanKind) -> Iterator[Step]:
 
 
 def _needles(step: Step, solution: Solution) -> tuple[PointName, ...]:
-    """Return where the needle of the compass stood for a point of the scheme."""
+    """Return the centres of the compass for a point of the scheme."""
     construction = solution.construction
     match step:
         case steps.LayOff(out=out, origin=origin, along=line) if out in construction.draft.marked:
@@ -117,21 +117,21 @@ def _notch(centre: complex, at: complex, half: float) -> Arc:
 
 
 def _corner_of_triangle(step: steps.Similar, at: Mapping[PointName, complex]) -> list[Item]:
-    """Return the notches by which the corner of a triangle was found from its two others."""
+    """Return the notches of the construction of a triangle's corner from the two others."""
     b, c, corner = (at.get(point) for point in (step.plan_b, step.plan_c, step.out))
     if b is None or c is None or corner is None:
         return []
     off = abs(((corner - b) * (c - b).conjugate()).imag)
     if off <= _NOTHING * abs(c - b):
-        return []  # on the line of the two, where one length lays it off
+        return []  # on the line of the two, laid off by one length
     return [_notch(end, corner, NOTCH / 2) for end in (b, c)]
 
 
 class _Ray(Struct, frozen=True):
-    """Direction in which an unknown vector was drawn, and what was laid off before it.
+    """Direction of an unknown vector, and the vector that was laid off before it.
 
-    ``along`` is the direction of its line, a unit vector; ``before`` the point that the vector
-    before it begins at, where the line stands at a right angle to that.
+    ``along`` is the direction of its line, a unit vector; ``before`` the tail of the previous
+    vector, if the line is perpendicular to it.
     """
 
     start: PointName
@@ -144,7 +144,7 @@ class _Ray(Struct, frozen=True):
     def of(
         cls, solution: Solution, plan: Plan, index: int, line: LineName, head: PointName
     ) -> _Ray | None:
-        """Return the ray of a line that meets another, or None of a line that was there."""
+        """Return the ray of an intersected line, or None for a line that was there before."""
         step = solution.construction.step(line)
         if not isinstance(step, steps.Parallel | steps.Perpendicular):
             return None
@@ -158,19 +158,19 @@ class _Ray(Struct, frozen=True):
         return cls(step.through, head, along, ends.get((step.through, head)), before)
 
     def _ends(self, at: Mapping[PointName, complex]) -> tuple[complex, complex]:
-        """Return where its vector begins and which way it goes, a unit vector."""
+        """Return the start of its vector and its direction, a unit vector."""
         start, way = at[self.start], at[self.head] - at[self.start]
         return start, unit(way) if abs(way) > _NOTHING else self.along
 
     def beyond(self, at: Mapping[PointName, complex]) -> list[Item]:
-        """Return the line beyond the meeting; of no vector to both sides of it."""
+        """Return the line beyond the intersection; to both sides of it without a vector."""
         start, way = self._ends(at)
         head = at[self.head]
         short = abs(head - start) <= _NOTHING
         return [Stroke((head - way * BEYOND * short, head + way * BEYOND), Pen.THIN, tag=TRACE)]
 
     def right_angle(self, at: Mapping[PointName, complex]) -> list[Item]:
-        """Return the sign of the right angle that it makes with what was laid off before it."""
+        """Return the sign of the right angle with the previous vector."""
         if self.before is None or self.before not in at:
             return []
         start, way = self._ends(at)
@@ -182,7 +182,7 @@ class _Ray(Struct, frozen=True):
         return [Stroke(corner, Pen.THIN, tag=TRACE)]
 
     def names(self, at: Mapping[PointName, complex]) -> list[Label]:
-        """Return how the line was drawn, for the end of it: ``⊥ CB``."""
+        """Return the label of the line's direction at its end: ``⊥ CB``."""
         told = None if self.vector is None else self.vector.direction
         if told is None or told.relation not in (Relation.ACROSS, Relation.ALONG):
             return []

@@ -1,4 +1,4 @@
-"""Rods that are one piece with a block (жёсткое соединение стержня с ползуном)."""
+"""Rods rigid with a block (жёсткое соединение стержня с ползуном)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from planmethod.render import symbols
 from planmethod.render.ink.drawing import Item, Stroke
 from planmethod.render.symbols import SIZES, unit
 
-_LEAST = 0.5  # mm: a shorter piece of a rod beyond the edge of its block is none
+_LEAST = 0.5  # mm: shorter pieces of a rod beyond the edge of its block are not drawn
 
 
 class BlockOutline(Struct, frozen=True):
@@ -37,7 +37,7 @@ class BlockOutline(Struct, frozen=True):
         return self.middle - half, self.middle + half
 
     def covers(self, other: BlockOutline) -> bool:
-        """Tell whether the middle of another block lies within this one."""
+        """Return whether the middle of another block lies within this one."""
         way = (other.middle - self.middle) * self.along.conjugate()
         return abs(way.real) < self.length / 2 and abs(way.imag) < self.width / 2
 
@@ -48,7 +48,7 @@ def welded(
     """Return lines whose rods of one link end at the edge of its block, and the welds there.
 
     A rod that ends within the block, or goes on through it, is fixed to the edge by two wedges;
-    within the block nothing of it is drawn, where it would be taken for a rod that is hinged there.
+    within the block it is not drawn, since it would look hinged there.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def _wedges(block: BlockOutline, at: complex, away: complex, factor: float) -> l
     aside = ((at - block.middle) * edge.conjugate()).real
     found: list[Item] = []
     for side in (-1, 1):
-        # As wide as there is edge on this side, and no wider than a rigid corner.
+        # As wide as the edge on this side, but no wider than a rigid corner.
         room = min(half - side * aside, SIZES.corner * factor)
         if room > 0.3:
             found += symbols.rigid_corner(
