@@ -1,1 +1,1 @@
-"""Sheets: what is on each and in which order; one module a sheet."""
+"""Sheets: their contents and order; one module a sheet."""

@@ -33,7 +33,7 @@ from planmethod.render.symbols import arrowhead
 from planmethod.solved.solution import Solution
 
 _WEIGHT = 2.4  # mm: radius of a counterweight
-_ASIDE = 4.0  # mm: between vectors of a polygon that lie in one line
+_ASIDE = 4.0  # mm: between collinear vectors of a polygon
 
 
 def _teller(solution: Solution, manner: Manner) -> BalancingTeller:
@@ -47,7 +47,7 @@ def _teller(solution: Solution, manner: Manner) -> BalancingTeller:
 
 
 def balancing_text(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return what is given, the masses, the counterweights and the forces with numbers."""
+    """Return the given data, the masses, the counterweights and the forces with numbers."""
     tell = _teller(solution, manner)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     assert solution.problem.dynamics is not None
@@ -96,7 +96,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
 
 
 def polygon_views(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the polygons of m·r; vectors in one line stand below one another."""
+    """Return the polygons of m·r; collinear vectors are drawn below one another."""
     tell = _teller(solution, manner)
     views: list[Block] = []
     for number, one in enumerate(tell.balancing.counterweights):
@@ -149,7 +149,7 @@ def hodograph_views(solution: Solution, indices: Sequence[int], manner: Manner) 
     titles = (tell.said.before, tell.said.after)
     for title, curve, points in zip(titles, curves, ends, strict=True):
         if float(np.max(np.abs(curve))) < 1e-6 * size:
-            continue  # nothing is left: the text says so
+            continue  # fully balanced, as the text states
         name = f"force {len(views)}"
         drawn = np.asarray(curve / per_mm, dtype=complex)
         picture = polar_picture([drawn], np.asarray(points / per_mm), manner.letter, name, "O")

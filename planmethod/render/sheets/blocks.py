@@ -1,8 +1,8 @@
-"""Kinds of blocks that a composition may name: for each the function that makes it, and its keys.
+"""Kinds of blocks that a composition may name: the function and the keys of each.
 
 A new kind is one function, its line in the table of its subject and one in `BLOCKS`. The makers of
-the kinematics are imported at once; those of the other subjects when a composition names one, as
-they bring forces, machines and the turn of a crank.
+the kinematics are imported at once; those of the other subjects when a composition names one, since
+they import forces, machines and the turn of a crank.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ Makers: TypeAlias = Callable[[], Mapping[str, Maker]]
 
 
 class BlockKind(Struct, frozen=True):
-    """Kind of block: where its maker is, and the keys of a composition that it listens to.
+    """Kind of block: its maker, and the keys of a composition that it uses.
 
-    ``each``: there is one for every force plan, whose blocks in a row stand together.
+    ``each``: there is one for every force plan, whose consecutive blocks form a group.
     """
 
     makers: Makers
@@ -45,7 +45,7 @@ OF_CYCLE = frozenset(
         "load-diagram",
     }
 )  # fmt: skip
-"""Kinds that number the positions of the cycle, whatever positions a sheet is of."""
+"""Kinds that number the positions of the cycle, regardless of the positions of a sheet."""
 
 OF_POSITIONS = frozenset(
     {
@@ -54,16 +54,16 @@ OF_POSITIONS = frozenset(
         "hodographs", "cycle-reactions",
     }
 )  # fmt: skip
-"""Kinds that number the positions that a sheet is of."""
+"""Kinds that number the positions of a sheet."""
 
 
 def has_forces(kind: str) -> bool:
-    """Whether the blocks of a kind show what forces make."""
+    """Return whether the blocks of a kind need forces."""
     return BLOCKS[kind].makers in (_forces, _friction, _cycle, _flywheel, _run_up)
 
 
 def maker_of(kind: str) -> Maker:
-    """Return what makes the blocks of a kind."""
+    """Return the maker of the blocks of a kind."""
     return BLOCKS[kind].makers()[kind]
 
 
@@ -101,7 +101,7 @@ def _scheme(solution: Solution, indices: Sequence[int], manner: Manner) -> Block
 
 def _plan(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     still = manner.entry.of is PlanKind.VELOCITY and not np.any(solution.driven[1])
-    if manner.entry.droppable and still:  # a plan of nothing
+    if manner.entry.droppable and still:  # an empty plan
         return Column([])
     if len(solution.positions) == 1:
         return views.plan_view(solution, indices, manner)

@@ -1,8 +1,8 @@
-"""One composer of sheets (компоновка листов): what a kind proposes is put on paper and framed.
+"""One composer of sheets (компоновка листов): the proposals of a kind are put on paper and framed.
 
-Every kind of problem has a `Strategy`, which knows in what order papers, scales and blocks are to
-be tried. The composer takes the first proposal that has room, draws its pages with frame and title
-block, and says what to do where nothing has room.
+Every kind of problem has a `Strategy`, which determines the order in which papers, scales and
+blocks are tried. The composer takes the first proposal that fits, draws its pages with frame and
+title block, and gives advice if none fits.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ Box: TypeAlias = tuple[float, float]
 class Sizes(Struct, frozen=True):
     """Letter heights and widths of a sheet, mm (высота шрифта, ширина столбца).
 
-    ``letter``: letters of views; ``title``: names of views; ``text``: everything else;
-    ``column``: the width that texts are set to; ``row``: height of the rows of tables, where it is
-    not the rule; ``boxes``: what the views shall fill, where it is not the rule of the format.
+    ``letter``: letters of views; ``title``: names of views; ``text``: everything else; ``column``:
+    the width that texts are set to; ``row``: height of the rows of tables, if not the default;
+    ``boxes``: sizes of the views, if not those of the format.
     """
 
     letter: float
@@ -76,7 +76,7 @@ class Viewed(Struct, frozen=True):
         return self.block.place(corner)
 
     def views(self, items: Sequence[Item], corner: complex) -> list[View]:
-        """Return what is known of the view, or the views, whose items were placed at a corner."""
+        """Return the records of the view, or views, whose items were placed at a corner."""
         box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
         return [view_of(self.name, self.scale, box, self.spans(items, corner))]
 
@@ -86,7 +86,7 @@ class Viewed(Struct, frozen=True):
 
 
 def view_of(name: str, scale: Scale | None, box: Bounds, spans: Iterable[Span]) -> View:
-    """Return what is known of a view in a box of the sheet."""
+    """Return the record of a view in a box of the sheet."""
     if scale is None:
         return View(name, box)
     letter = scale.symbol.removeprefix("mu_")
@@ -94,7 +94,7 @@ def view_of(name: str, scale: Scale | None, box: Bounds, spans: Iterable[Span]) 
 
 
 class Blank(Struct, frozen=True):
-    """Paper that sheets are tried on; ``is_asked`` tells that no other may be taken."""
+    """Paper that sheets are tried on; with ``is_asked`` no other is permitted."""
 
     format: Format
     furniture: Furniture
@@ -106,26 +106,26 @@ class Blank(Struct, frozen=True):
         return self.format.name
 
     def room(self, number: int = 1) -> Room:
-        """Return the room of the sheet of a number, counted from 1."""
+        """Return the drawing area of a sheet by its number, counted from 1."""
         return self.furniture.room(self.format, number)
 
     def continued(self, name: str) -> Room:
-        """Return the room of a sheet of another format that goes on, with the small title block."""
+        """Return the area of a continuation sheet of another format, with the small title block."""
         return replace(self.furniture, form=SMALL).room(paper_format(name), 2)
 
 
 SMALL = "2a"
-"""Form of the title block of sheets that go on with what the one before had no room for."""
+"""Form of the title block of continuation sheets."""
 
 Tried: TypeAlias = tuple[bool, int, int]
-"""What was given up: blocks left out, letter heights passed over, groups taken apart."""
+"""Concessions: whether blocks are left out, letter heights skipped, level of ungrouping."""
 
 
 class LaidPage(Struct, frozen=True):
     """Blocks of one sheet with their upper left corners.
 
-    ``title`` is its name, if it has one of its own. ``paper`` is the format of a sheet that goes on
-    with what was left out.
+    ``title`` is its name, if it has one of its own. ``paper`` is the format of a continuation
+    sheet.
     """
 
     placed: Sequence[Placed]
@@ -135,13 +135,13 @@ class LaidPage(Struct, frozen=True):
 
 
 class Laid(Struct, frozen=True):
-    """Sheets that have room, and the scales of their views, units per mm by name."""
+    """Sheets that fit, and the scales of their views, units per mm by name."""
 
     pages: Sequence[LaidPage]
     scales: Mapping[str, float] = MappingProxyType({})
 
     def is_as_good_as(self, other: Laid) -> bool:
-        """Tell whether no more pages are taken, and nothing more is given up on them."""
+        """Return whether it has as many pages as another, and no more concessions."""
         pairs = zip(self.pages, other.pages, strict=False)
         same = len(self.pages) == len(other.pages)
         return same and all(one.tried <= two.tried for one, two in pairs)
@@ -152,29 +152,29 @@ class Proposal(Protocol):
 
     @property
     def paper(self) -> Blank:
-        """What they are for."""
+        """Paper of the blocks."""
 
     def laid(self) -> Laid | None:
         """Return the sheets, or None where the blocks have no room on the paper."""
 
 
 class Strategy(Protocol):
-    """How sheets of a kind of problem are searched for (стратегия компоновки)."""
+    """Search strategy for the sheets of a kind of problem (стратегия компоновки)."""
 
     @property
     def formats(self) -> Sequence[str]:
-        """Formats to try in turn where none is asked for."""
+        """Formats to try in turn if none is requested."""
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[Proposal]:
-        """Yield what is to be tried, the best first."""
+        """Yield the proposals to try, the best first."""
 
 
 class Misfit(Struct, frozen=True):
-    """What is said where nothing has room on any paper.
+    """Error and advice if no proposal fits on any paper.
 
-    ``error`` is that of a paper and an advice; ``less`` says what to ask less of where there is no
-    larger paper; ``scales`` are those of the file, which may be too fine. ``fits`` tries a paper:
-    without it the next one is named untried.
+    ``error`` makes the error from a paper and an advice; ``less`` advises what to reduce if a
+    larger paper is not available; ``scales`` are those of the file, which may be too fine. ``fits``
+    tries a paper; if it is None, the next paper is suggested untried.
     """
 
     error: Callable[[str, str], LayoutError]
@@ -183,7 +183,7 @@ class Misfit(Struct, frozen=True):
     fits: Callable[[str], bool] | None = None
 
     def advice(self, formats: Sequence[str], tried: Blank) -> str:
-        """Return what to do: take coarser scales, a larger paper than the tried one, or less."""
+        """Return the advice: coarser scales, a larger paper than the tried one, or less content."""
         given, fits = self.scales, self.fits
         has_scales = given and any(mu is not None for mu in (given.mu_l, given.mu_v, given.mu_a))
         if has_scales and not (fits and tried.is_asked):
@@ -214,7 +214,7 @@ class Packing(Struct, frozen=True):
     scales: Mapping[str, float] = MappingProxyType({})
 
     def laid(self) -> Laid | None:
-        """Return the sheets, or None where a group has no room on its own."""
+        """Return the sheets, or None if a group does not fit its sheet."""
         pages = []
         for number, group in enumerate(self.groups, 1):
             placed = packed(group, self.paper.room(number))
@@ -225,12 +225,12 @@ class Packing(Struct, frozen=True):
 
 
 def packed(group: Group, room: Room) -> list[Placed] | None:
-    """Return blocks in reading order with their upper left corners, or None without room.
+    """Return blocks in reading order with their upper left corners, or None if they do not fit.
 
     Raises
     ------
     LayoutError
-        There are no blocks.
+        The group is empty.
     """
     left, low, right, high = room.inner
     parts = [[(way.width, way.height) for way in part.ways] for part in group.parts()]
@@ -247,7 +247,7 @@ def packed(group: Group, room: Room) -> list[Placed] | None:
 
 
 def free_area(room: Room) -> float:
-    """Return how much of a sheet is free for blocks, mm²."""
+    """Return the area of a sheet that is free for blocks, mm²."""
     left, low, right, high = room.inner
     stamp = (room.stamp[2] - room.stamp[0]) * (room.stamp[3] - room.stamp[1])
     return (right - left) * (high - low) - stamp
@@ -259,23 +259,21 @@ def enlarged(
     asked: Scales,
     draw: Callable[[Mapping[str, float]], Laid | None],
 ) -> Laid:
-    """Return sheets with scales as large as they bear (увеличение масштаба по свободному полю).
+    """Return sheets with scales as large as fit (увеличение масштаба по свободному полю).
 
     Parameters
     ----------
     laid : Laid
-        The sheets as they are, with the scales that are free.
+        The present sheets, with the free scales.
     turns : iterable of str
-        Which scale is tried to go on by a member of the series, in turn.
+        Names of the scales to increase by a member of the series, in turn.
     asked : Scales
-        Those of the file, which say what round numbers are.
+        Scales of the file, which determine the series of round numbers.
     draw : callable
-        Draws the sheets at other scales; None when they do not fit.
+        Draws the sheets at other scales, or returns None if they do not fit.
 
-    Notes
-    -----
-    A larger view is accepted when it takes no more pages, no smaller letters and no groups apart.
-    What had no room once has none when others have grown.
+    Notes ----- A larger view is accepted if it needs no more pages, no smaller letters and no more
+    ungrouping. A scale that did not fit once is not tried again after others have grown.
     """
     refused = set()
     for key in turns:
@@ -305,21 +303,21 @@ def compose(
     Parameters
     ----------
     problem : KindProblem
-        Its settings of the sheet, and its title block.
+        Problem with its settings of the sheet and its title block.
     strategy : Strategy
     misfit : Misfit
-        What to say where nothing has room.
+        Error and advice if no proposal fits.
     fields : mapping, optional
         Texts of the title block that outrank the file's.
     furniture : Furniture, optional
-        Form of the title block and additional graphs; the file's when absent.
+        Form of the title block and additional graphs. Default: the file's.
     title : str
-        What the sheets are called where the file does not say.
+        Title of the sheets. Default: the problem's.
 
     Raises
     ------
     LayoutError
-        When the blocks fit no format, or not the asked one.
+        When the blocks fit no format, or not the requested one.
     """
     paper, laid = composed(problem, strategy, misfit, furniture or Furniture.of(problem.sheet))
     with using(lettering(problem.sheet.lettering or "B")):
@@ -332,12 +330,12 @@ def compose(
 def composed(
     problem: KindProblem, strategy: Strategy, misfit: Misfit, furniture: Furniture
 ) -> tuple[Blank, Laid]:
-    """Return the first of the proposals that has room, and its paper.
+    """Return the first proposal that fits, and its paper.
 
     Raises
     ------
     LayoutError
-        When there is none.
+        When none fits.
     """
     asked = problem.sheet.paper
     papers = [

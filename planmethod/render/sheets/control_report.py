@@ -19,7 +19,7 @@ from planmethod.render.sheets.controlled import Controlled
 
 
 def counted(sheets: Sequence[Controlled], severity: Severity) -> int:
-    """Return how many findings of a severity there are."""
+    """Return the number of findings of a severity."""
     return sum(f.severity is severity for sheet in sheets for f in sheet.findings)
 
 
@@ -29,7 +29,7 @@ def control_text(name: str, sheets: Sequence[Controlled], lang: str = "ru") -> s
     Raises
     ------
     UnknownLanguageError
-        When nobody speaks the language here.
+        When the language is unknown.
     """
     words, lines = language(lang).control, []
     for number, sheet in enumerate(sheets, 1):

@@ -1,4 +1,4 @@
-"""Norm control of a problem's sheets: findings, and scales that would mend them, tried out."""
+"""Norm control of a problem's sheets: findings, and trials of scales that would fix them."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from planmethod.render.sheets.structure import structure_sheet
 from planmethod.solved.analysed import structure_of
 
 LARGEST = 20.0
-"""A segment that so large a plan shows no better is nothing in that position."""
+"""Enlargement of a plan beyond which its short segments count as zero."""
 
 KEYS = {"velocity": "mu_v", "acceleration": "mu_a", "forces": "mu_F"}
 """Keys of ``[scales]`` by the kind of view."""
 
 
 class Controlled(Struct, frozen=True):
-    """One sheet and what the norm control says of it."""
+    """One sheet and its findings of the norm control."""
 
     drawing: Drawing
     paper: str
@@ -48,13 +48,13 @@ def paper_of(drawing: Drawing) -> str:
 def controlled_structure(
     problem: Problem, *, paper: str | None = None, fields: Mapping[str, str] | None = None
 ) -> list[Controlled]:
-    """Draw the structural sheet and look it over."""
+    """Draw the structural sheet and check it."""
     drawing = structure_sheet(problem, structure_of(problem), paper=paper, fields=fields)
     return looked_over([drawing])
 
 
 def looked_over(drawings: Sequence[Drawing], scales: str = "[scales]") -> list[Controlled]:
-    """Look sheets over; no other scales are tried. ``scales`` is where the file has them."""
+    """Check sheets without trying other scales. ``scales`` is their key in the file."""
     own = {} if scales == "[scales]" else {"scales": scales}
 
     def told(drawing: Drawing) -> tuple[Finding, ...]:
@@ -74,7 +74,7 @@ def controlled_kinematics(
     sigma: bool | None = None,
     layout: str | Path | Composition | None = None,
 ) -> list[Controlled]:
-    """Draw the sheets of the kinematic analysis and look them over.
+    """Draw the sheets of the kinematic analysis and check them.
 
     Where segments of a plan are too short, the next scale of the series that makes them long enough
     is tried on the same paper, by drawing the sheets with it.
@@ -116,7 +116,7 @@ class _Trial:
     ----------
     problem : Problem
     drawings : list of Drawing
-        Its sheets as they are.
+        Its present sheets.
     draw : callable
         Draws a problem on a paper.
     """
@@ -132,10 +132,10 @@ class _Trial:
         self._tried: dict[tuple[str, float], list[Drawing] | None] = {}
 
     def advised(self, finding: Finding) -> Finding:
-        """Return a finding of short segments with the scale that mends it.
+        """Return a finding of short segments with the scale that fixes it.
 
-        The scale is one for all plans of a kind: where there are several in the position, as force
-        plans are, that one is told that mends them all, else the one for the plan itself.
+        All plans of a kind share a scale: for several plans in a position, such as force plans, the
+        scale that fixes all is given, if any, otherwise the one for the plan itself.
         """
         if finding.code != "PM-D08" or finding.view not in KEYS:
             return finding
@@ -177,13 +177,13 @@ class _Trial:
     def _fits(
         self, finding: Finding, key: str, per_mm: float, chosen: slice, names: frozenset[str]
     ) -> bool:
-        """Tell whether with another scale the named segments of plans are long enough, and fit."""
+        """Return whether at another scale the named segments of plans are long enough, and fit."""
         views = _views(self.drawings, finding.view)
         inner = FORMATS[self.paper].inner
         if not all(_has_room(view, view.per_mm / per_mm, inner) for view in views):
             return False
         made = self._drawn(key, per_mm)
-        # A scale is not to push out what stands beside the plans.
+        # A scale must not displace the blocks beside the plans.
         if made is None or _cut_down(made) != _cut_down(self.drawings):
             return False
         found = _spans(_views(made, finding.view)[chosen], finding)
@@ -208,16 +208,16 @@ def _views(drawings: Sequence[Drawing], kind: str) -> list[View]:
 
 
 def _has(view: View, finding: Finding) -> bool:
-    """Tell whether a finding of short segments is of a view."""
+    """Return whether a finding of short segments belongs to a view."""
     spans = _spans([view], finding)
     return any((span.start + span.end) / 2 == finding.where for span in spans)
 
 
 def _has_room(view: View, times: float, inner: Bounds) -> bool:
-    """Tell whether a view so many times larger can be on the paper at all.
+    """Return whether a view enlarged ``times`` can be on the paper at all.
 
-    Its letters do not grow with it: of one plan the segments alone are looked at, of many in rows
-    the whole view, which is still drawn to see when it is a little too large.
+    Its letters do not grow with it: for one plan only the segments are compared, for plans in rows
+    the whole view, which is drawn for a trial even if a little too large.
     """
     (left, low, right, high), much = view.box, 0.6
     if len({span.position for span in view.spans}) == 1:
@@ -229,7 +229,7 @@ def _has_room(view: View, times: float, inner: Bounds) -> bool:
 
 
 def _cut_down(drawings: Sequence[Drawing]) -> list[bool]:
-    """Return of which sheets blocks were left out."""
+    """Return for each sheet whether blocks were left out."""
     return [drawing.is_cut_down for drawing in drawings]
 
 

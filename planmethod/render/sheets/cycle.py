@@ -46,7 +46,7 @@ WIDE, HIGH, SIDE = 0.8, 0.3, 0.45
 """Length and height of a diagram, and side of a polar diagram, as parts of the width of a text."""
 
 HIGHER = (1.0, 1.5)
-"""So many times as high a diagram stands where there is room."""
+"""Enlargements of the height of a diagram where there is space."""
 
 PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
 """Lines of the curves of one diagram, in turn."""
@@ -60,7 +60,7 @@ def _line(manner: Manner, text: str) -> Line:
 
 
 class _Frame(Struct, frozen=True):
-    """Where the positions stand on the axis of abscissae: its scale and its first position."""
+    """Axis of abscissae of the positions: its scale and its first position."""
 
     solution: Solution
     scale: Scale
@@ -77,11 +77,11 @@ class _Frame(Struct, frozen=True):
         return cls(solution, scale, float(ends[-1 if falling else 0]), -1 if falling else 1)
 
     def x(self, position: float) -> float:
-        """Return where a driver position is, mm."""
+        """Return the abscissa of a driver position, mm."""
         return self.sense * (position - self.first) / self.scale.per_mm
 
     def axis(self, forces: Cycle) -> Abscissae:
-        """Return the axis with the numbers of the asked positions."""
+        """Return the axis with the numbers of the requested positions."""
         marks = [(self.x(float(p)), str(k)) for k, p in enumerate(self.solution.positions)]
         if forces.course.closed:
             end = int(np.argmin(self.sense * self.solution.positions))
@@ -105,7 +105,7 @@ class _Frame(Struct, frozen=True):
     def ordinates(
         self, curves: Iterable[Sequence[Piece]], value: Callable[[complex], float], height: float
     ) -> float:
-        """Return the scale at which curves are so high, units per mm."""
+        """Return the scale at which curves have a height, units per mm."""
         values = [value(complex(v)) for one in curves for piece in one for v in piece.values]
         reach = max([0.0, *values]) - min([0.0, *values])
         inverse = self.solution.problem.scales.convention is Convention.MM_PER_UNIT
@@ -118,13 +118,13 @@ class _Frame(Struct, frozen=True):
 
 
 def _as_high(manner: Manner, draw: Callable[[float, float], Viewed]) -> Block:
-    """Return a diagram of a length in the heights that it may have, the usual one first, mm."""
+    """Return a diagram in all its heights, the usual one first."""
     column = manner.width(manner.sizes.column)
     return at_scales(draw(WIDE * column, times * HIGH * column) for times in HIGHER)
 
 
 def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return what balances the driver over the cycle, and what both methods find on paper."""
+    """Return the balancing force or moment over the cycle, with both methods' results."""
     return _as_high(manner, lambda width, height: _balance(solution, manner, width, height))
 
 
@@ -166,7 +166,7 @@ def _real(value: complex) -> float:
 
 
 def _legend(manner: Manner, width: float) -> Block:
-    """Return what the marks of the balance are, in two lines where one would be too wide."""
+    """Return the legend of the balance's marks, in two lines where one would be too wide."""
     height, said = manner.text(manner.sizes.text), manner.words.sheets
     parts: list[Block] = [Line(typeset(said.legend_exact, height))]
     for mark, text in ((Mark.RING, said.legend_plans), (Mark.CROSS, said.legend_lever)):
@@ -224,7 +224,7 @@ def _reactions(solution: Solution, manner: Manner, width: float, height: float) 
 
 
 def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -> bool:
-    """Tell whether two curves would be drawn over each other."""
+    """Return whether two curves would coincide on the drawing."""
     if [len(part) for part in one] != [len(part) for part in two]:
         return False
     pairs = (pair for a, b in zip(one, two, strict=True) for pair in zip(a, b, strict=True))
@@ -237,7 +237,7 @@ def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -
 def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the polar diagrams of the reactions in the revolute joints, in rows.
 
-    They may be larger: the packer takes what fills the paper.
+    They may be larger: the packer takes the size that fills the paper.
     """
     usual = SIDE * manner.width(manner.sizes.column)
     ways = (way for times in LARGER for way in _in_rows(solution, manner, times * usual))
@@ -289,7 +289,7 @@ def _whose(forces: Cycle, group: Sequence[int], words: Language) -> str:
 
 
 def _largest(solution: Solution, symbol: str, peak: ReactionPeak, words: Language) -> str:
-    """Return the largest size of a reaction and the position where it is, or comes near to."""
+    """Return the largest size of a reaction, and the position where it is reached or approached."""
     drive, say = solution.problem.drive, words.say
     letter, _, index = symbol.partition("_")
     head = f"{letter}_{{{index.strip('{}')} max}} = {say.found(peak.size)} {say.units['N']}"

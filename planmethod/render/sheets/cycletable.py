@@ -38,7 +38,7 @@ def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) 
 
 
 def _drawn_at(solution: Solution, words: Language) -> str:
-    """Return at which scales the plans of all positions are drawn, and how they are read."""
+    """Return the note on the scales of the plans of all positions, and on their reading."""
     convention = solution.problem.scales.convention
     scales = [*solution.scales.values(), statics_of(solution).scale]
     told = (scale_inscription(scale, convention, words.say) for scale in scales)
@@ -85,7 +85,7 @@ def _balance_columns(
 ) -> list[TableColumn]:
     """Return the balance: exact, by both methods, their difference and its expected size.
 
-    The difference is that of the numbers which stand in the table.
+    The difference is between the numbers of the table.
     """
     statics, balancing = statics_of(solution), solution.problem.drive.balancing
     said, say = words.sheets, words.say
@@ -119,9 +119,9 @@ def _balance_columns(
 
 
 def _apart(one: str, two: str, *, sense: bool) -> str:
-    """Return a second number less the first, with the decimals that both of them have.
+    """Return a second number minus the first, with their common decimals.
 
-    Where a sense stands beside their sizes, it is the difference of these.
+    With a sense in the table, it is the difference of their sizes.
     """
     decimals = min(len(text.partition(".")[2]) for text in (one, two) if float(text) or one == two)
     both = ComparedNumber(float(one), float(two))

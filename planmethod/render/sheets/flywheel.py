@@ -64,7 +64,7 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 
 
 def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the formulas of the construction, the exact flywheel, and what lies between them."""
+    """Return the formulas of the construction, the exact flywheel, and their difference."""
     tell = _teller(solution, manner)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     nodes: list[TextNode] = [
@@ -98,7 +98,7 @@ class _DiagramsViewed(Viewed, frozen=True):
 
 
 def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
-    """Return moment, work, energy, inertia and what the method draws of them, as constructed."""
+    """Return the constructed diagrams of moment, work, energy, inertia and those of the method."""
     drawing, tell = _drawing(solution), _teller(solution, manner)
     picture = construction_picture(drawing, tell, manner.letter)
     scales, made = drawing.scales, drawing.made
@@ -125,7 +125,7 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
 
 
 def speed_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
-    """Return by how much the speed of the steady motion differs from the mean one."""
+    """Return the deviation of the speed of the steady motion from the mean as a diagram."""
     tell, flywheel = _teller(solution, manner), flywheel_of(solution)
     _, height = _diagram_room(manner)
     at = np.linspace(0.0, flywheel.cycle, 721)
@@ -156,9 +156,9 @@ def _diagram_room(manner: Manner) -> tuple[float, float]:
 
 
 def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the forces that change, over the strokes of their points, one beside another.
+    """Return diagrams of variable forces over the strokes of their points, side by side.
 
-    A diagram that is another load's, later, is told with that one.
+    A load that repeats another one's diagram later is listed under that diagram.
     """
     tell, flywheel = _teller(solution, manner), flywheel_of(solution)
     width, height = _diagram_room(manner)
@@ -175,7 +175,7 @@ def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) ->
         way = flywheel.turn.course(load.at)
         along = (moved.points[load.at].place * way.conjugate()).real
         stroke = float(np.ptp(along))
-        # from the end where position 0 is, or nearer to
+        # from the end at or nearer to position 0
         start = along.min() if along[0] - along.min() <= along.max() - along[0] else along.max()
         if load.size.over is Over.STROKES:  # from the top dead centre
             start = (flywheel.turn.stroke_of(number).start * way.conjugate()).real
@@ -214,7 +214,7 @@ def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) ->
 
 
 def _fine(flywheel: Flywheel) -> Reals:
-    """Return angles turned from which a curve of a load is drawn: both sides of every jump."""
+    """Return the rotation angles for a load's curve, with both sides of every jump."""
     edges = flywheel.moment.edges
     inside = [
         np.linspace(low + 1e-7, high - 1e-7, max(int((high - low) / 0.02), 2))
@@ -227,7 +227,7 @@ def _fine(flywheel: Flywheel) -> Reals:
 
 
 def machine_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return what is reduced to the crank, work, energy and speed by positions."""
+    """Return the quantities reduced to the crank, work, energy and speed by positions."""
     tell = _teller(solution, manner)
     height = manner.text(min(manner.sizes.text, 3.5))
     columns = [
@@ -300,7 +300,7 @@ def wheel_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     size = max(3.5, height)
     items += _measure(complex(-half, -radius), complex(half, -radius), -9j, "b", size)
     if sizes.bore:
-        aside = -10.0 - 2.5 * size  # beside the other diameter, inside of it
+        aside = -10.0 - 2.5 * size  # inside, beside the other diameter
         items += _measure(complex(-half, -radius), complex(-half, radius), aside, "D", size)
         items += _measure(complex(-half, -bore), complex(-half, bore), -10.0, "D_{1}", size)
     else:
@@ -313,7 +313,7 @@ def wheel_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
 
 
 def _measure(one: complex, two: complex, aside: complex, letter: str, size: float) -> list[Item]:
-    """Return a dimension with its extension lines; ``aside`` is where it stands."""
+    """Return a dimension with its extension lines; ``aside`` is its offset."""
     beyond = aside / abs(aside) * 2.0
     tail, head = one + aside, two + aside
     way = (head - tail) / abs(head - tail)
@@ -326,7 +326,7 @@ def _measure(one: complex, two: complex, aside: complex, letter: str, size: floa
         *arrowhead(head, -way if outside else way, length=3.0),
     ]
     text, middle = typeset(letter, size), (tail + head) / 2.0
-    if abs(way.imag) > 0.5:  # left of an upright dimension, off its middle where axes go
+    if abs(way.imag) > 0.5:  # left of a vertical dimension, off its middle, where axes are
         place = middle + complex(-text.width - 1.2, 0.25 * abs(head - tail))
     elif outside:
         place = head + complex(8.5, -size / 2.0)

@@ -53,7 +53,7 @@ def _reading(solution: Solution, indices: Sequence[int], manner: Manner) -> Forc
 
 
 class ForcePlanViewed(Viewed, frozen=True):
-    """A force plan among the blocks of a sheet: what the hand measures on it are the reactions."""
+    """A force plan among the blocks of a sheet: the reactions are measured on it."""
 
     reading: ForceReading
     number: int
@@ -83,7 +83,7 @@ class ForcePlanViewed(Viewed, frozen=True):
 def scheme_of(
     reading: ForceReading, picture: Block, title: str, manner: Manner, *said: str
 ) -> Viewed:
-    """Return a picture at the scale of the position plan, with its title and what is said of it."""
+    """Return a picture at the scale of the position plan, with its title and notes."""
     solution, kind = reading.solution, PlanKind.POSITION
     scale, convention = solution.scales[kind], solution.problem.scales.convention
     told = [scale_inscription(scale, convention, manner.words.say), *said]
@@ -98,7 +98,7 @@ def loads_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vi
 
 
 def cut_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
-    """Return a structural group, or the driver, cut free with all that acts on it."""
+    """Return a structural group, or the driver, cut free with all forces on it."""
     reading, number = _reading(solution, indices, manner), manner.entry.number
     words = manner.words
     title = plan_title(reading, reading.plans[number], words)
@@ -114,12 +114,12 @@ def cut_view(solution: Solution, indices: Sequence[int], manner: Manner) -> View
 
 
 def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return a force plan; of forces that are all nothing its name alone."""
+    """Return a force plan, or only its name if all its forces are zero."""
     return plan_of(_reading(solution, indices, manner), manner)
 
 
 def plan_of(reading: ForceReading, manner: Manner) -> Block:
-    """Return the force plan of a reading that a composition asks for."""
+    """Return the force plan of a reading that a composition selects."""
     solution, number = reading.solution, manner.entry.number
     links, words = reading.plans[number].links, manner.words
     whose = words.sheets.plan_of_group if len(links) > 1 else words.sheets.plan_of_link
@@ -139,12 +139,12 @@ def plan_of(reading: ForceReading, manner: Manner) -> Block:
 
 
 def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the Zhukovsky lever; of a driver that stands there is none."""
+    """Return the Zhukovsky lever, or only its title if the driver is at rest."""
     reading = _reading(solution, indices, manner)
     words = manner.words
     title = manner.entry.title or words.sheets.lever
     if reading.statics.lever_at(reading.index) is None:
-        return heading(title, manner.title)  # the reason stands beside it
+        return heading(title, manner.title)  # the text beside it gives the reason
     scale = LeverReading(reading).scale
     said = [
         words.sheets.lever_turned,
@@ -173,12 +173,12 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 
 
 def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the equations of a force plan: moments with arms, forces, what the plan gives."""
+    """Return the equations of a force plan: moments with arms, forces, results of the plan."""
     return equations_of(_reading(solution, indices, manner), manner)
 
 
 def equations_of(reading: ForceReading, manner: Manner) -> Block:
-    """Return the equations of the force plan of a reading that a composition asks for."""
+    """Return the equations of the force plan of a reading that a composition selects."""
     number, context = manner.entry.number, lettered(reading, manner.words)
     plan, voice = reading.plans[number], MomentNarrator(context, reading.plans[number])
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
@@ -201,7 +201,7 @@ def equations_of(reading: ForceReading, manner: Manner) -> Block:
 
 
 def _closing(context: ForceContext, number: int) -> str:
-    """Return what a force plan gives; of one whose forces are all nothing, that there is none."""
+    """Return the results of a force plan, or a note if all its forces are zero."""
     reading, said = context.reading, context.language.sheets
     reactions = reading.plans[number].reactions
     if drawn_edges(reading, number):
@@ -212,7 +212,7 @@ def _closing(context: ForceContext, number: int) -> str:
 
 
 def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the equation of the lever, and how far it is from the force plans."""
+    """Return the equation of the lever, and its difference from the force plans."""
     reading = _reading(solution, indices, manner)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     told = [manner.words.sheets.lever_stands]

@@ -27,25 +27,25 @@ from planmethod.solved.turn.series import quantities_over, values_over
 from planmethod.solved.turn.turn import Turn
 
 HEIGHTS = (55.0, 70.0, 90.0, 120.0, 160.0)
-"""Heights that the curves of a diagram keep to, mm: the least one, and larger ones for its room."""
+"""Largest heights of the curves of a diagram, mm: the least one, and larger ones to fill space."""
 
 PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
 """Lines of the curves of one diagram, in turn."""
 
 LETTERS = {"x": "x, y", "phi": "φ", "v_q": "v_{q}", "u": "u", "a_q": "a_{q}", "epsilon_q": "ε_{q}",
            "v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}  # fmt: skip
-"""What stands at the axis of a diagram with several curves."""
+"""Name of the axis of a diagram with several curves."""
 
 NOTHING = 1e-12
-"""Size of what is nothing but for rounding, SI."""
+"""Largest rounding error of a zero value, SI."""
 
 MARKS = {"x": "l", "u": "u", "omega": "ω", "epsilon": "ε", "phi": "φ_{i}", "v_q": "vq", "a_q": "aq",
          "epsilon_q": "εq"}  # fmt: skip
-"""Indices of the scales by what a diagram shows, where they are not its letter."""
+"""Indices of the scales by the quantity of a diagram, where they are not its letter."""
 
 
 def graph_groups(turn: Turn, labels: Sequence[str]) -> list[list[GraphQuantity]]:
-    """Return what is asked by diagrams: quantities of one kind, as many as there are lines.
+    """Return the requested quantities by diagrams: of one kind, at most one for each line type.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def graph_picture(
 ) -> tuple[Picture, Scale]:
     """Return one diagram over the angle of the crank, and its scale of ordinates.
 
-    Its curves keep to a height of ``tall`` mm; its axis is ``wide`` times as long as the usual one.
+    Its curves are at most ``tall`` mm high; its axis is ``wide`` times as long as the usual one.
     """
     turn, say = diagrams.turn, words.say
     shares, drawn = diagrams.fine, diagrams.shares
@@ -86,7 +86,7 @@ def graph_picture(
     curves: list[Curve] = []
     for one, row in zip(group, values, strict=True):
         if len(group) > 1 and not np.any(row):
-            continue  # it is the axis, and is told beside
+            continue  # it coincides with the axis, and is listed in the heading
         parts = _parts(x, row / per_mm)
         same = next((k for k, other in enumerate(curves) if _alike(other.parts, parts)), None)
         if same is None:
@@ -109,14 +109,14 @@ def graph_picture(
 
 
 def is_none(diagrams: Diagrams, quantity: GraphQuantity) -> bool:
-    """Tell whether a quantity is nothing all the time: what is along the other axis."""
+    """Return whether a quantity is always zero, such as a component along the other axis."""
     turn = diagrams.turn
     size = np.abs(values_over(turn, quantity, turn.at(diagrams.fine)))
     return bool(np.nanmax(size, initial=0.0) <= NOTHING)
 
 
 def _clean(values: Reals) -> Reals:
-    """Return values without the rounding noise about nothing."""
+    """Return values without the rounding noise about zero."""
     return np.where(np.abs(values) <= NOTHING, 0.0, values)
 
 
@@ -132,7 +132,7 @@ def _parts(x: Reals, y: Reals) -> tuple[tuple[complex, ...], ...]:
 
 
 def _alike(one: Iterable[Iterable[complex]], two: Iterable[Iterable[complex]]) -> bool:
-    """Tell whether two curves would be drawn over each other."""
+    """Return whether two curves would coincide on the drawing."""
     first, second = ([place for part in curve for place in part] for curve in (one, two))
     return len(first) == len(second) and all(
         abs(p - q) < 0.2 for p, q in zip(first, second, strict=True)
@@ -140,9 +140,9 @@ def _alike(one: Iterable[Iterable[complex]], two: Iterable[Iterable[complex]]) -
 
 
 def graph_labels(solution: Solution, manner: Manner) -> tuple[str, ...]:
-    """Return what is asked: on the command line, of the block, in the file; none if nothing is.
+    """Return the requested quantities: of the command line, the block or the file, possibly none.
 
-    A block that asks for the output alone has that where nothing else is asked.
+    A block that selects only the output has it unless there are other requests.
     """
     task, own = solution.problem.cycle, manner.entry.asked
     if not solution.problem.drive.goes_round:
@@ -152,7 +152,7 @@ def graph_labels(solution: Solution, manner: Manner) -> tuple[str, ...]:
 
 
 def graphs_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the graphs of what is asked, in one column or several; nothing if nothing is.
+    """Return the requested graphs, in one column or several; an empty block without a request.
 
     They may be larger: the packer takes what fills the paper.
     """
@@ -170,7 +170,7 @@ def graphs_view(solution: Solution, indices: Sequence[int], manner: Manner) -> B
     ways: list[Viewed] = []
     for tall, per_mm in product(HEIGHTS, (usual.per_mm, finer, coarser)):
         ways += _ways(diagrams, labels, manner, replace(usual, per_mm=per_mm), tall)
-    # First the one that is shaped as the sheet.
+    # First the one that has the shape of the sheet.
     ways.sort(key=lambda way: (way.width > manner.inside, abs(log(way.width / way.height / 1.4))))
     return shaped(ways, grows=True)
 
@@ -195,7 +195,7 @@ def _ways(
                             align="centre"))  # fmt: skip
     title = Line(typeset(manner.entry.title or words.cycle.graphs_title, manner.title))
     said = Line(typeset(scale_inscription(axis, convention, words.say), height))
-    # Of a few graphs no row is left half empty.
+    # With few graphs no row is left half empty.
     steps = [k for k in (1, 2, 3, 4) if len(cells) > 4 or len(cells) % k == 0]
     steps = [manner.entry.per_row] if manner.entry.per_row else steps
     for step in dict.fromkeys(min(k, len(cells)) for k in steps):

@@ -1,4 +1,4 @@
-"""Reactions of the guides in the table of a sheet: where they act, and those at the edges."""
+"""Reactions of the guides in the table of a sheet: their places, and those at the edges."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ def angle_text(force: complex, say: Notation) -> str:
 
 
 def place_columns(reading: ForceReading, say: Notation) -> list[TableColumn]:
-    """Return the distance l of each reaction from its joint, m; the moment of one without a force.
+    """Return the distance l of each reaction from its joint, m, and moments without a force.
 
-    There are cells for all reactions in their order, and no columns where nothing stands in them.
+    There are cells for all reactions in their order; empty columns are left out.
     """
     numbers = range(len(reading.statics.reactions))
     found = [guided_at(reading, number) for number in numbers]
@@ -56,7 +56,7 @@ def _distance(one: Guided | None, say: Notation) -> str:
 
 
 def is_couple(one: Guided | None) -> bool:
-    """Tell whether a guide gives a moment and no force."""
+    """Return whether a guide has a moment and no force."""
     return one is not None and one.is_none and not one.is_no_couple
 
 

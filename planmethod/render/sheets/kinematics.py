@@ -46,17 +46,17 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.turn.numbering import counting
 
 STEPS = 3
-"""Most members of the series that a scale goes on by."""
+"""Largest number of members of the series by which a scale is changed."""
 
 SMALLER = ((0.8, 1.0), (0.65, 1.0), (0.65, 0.8), (0.5, 0.8))
-"""Parts of their boxes that plans get, and the scheme, rather than plans being left out of a sheet
-of one position."""
+"""Parts of the boxes for plans and scheme, tried before plans are left out of a sheet of one
+position."""
 
 MOST_SHEETS = 1_000_000
-"""No limit of sheets is as large."""
+"""Largest limit of sheets."""
 
 LEAST_CHOSEN = 4
-"""Fewest positions of a turn for plans to be chosen among them."""
+"""Least number of positions of a turn from which plans are chosen."""
 
 KEYS = [FACTS[kind].scale for kind in reversed(MOTION)]
 """Keys of the scales, the plan that is to be largest first."""
@@ -82,38 +82,38 @@ def kinematics_sheets(
     Parameters
     ----------
     paper : str, optional
-        Format; the file's when absent, or the smallest that the blocks fit.
+        Format. Default: the file's, or the smallest that the blocks fit.
     positions : array_like of shape (n,), optional
         Other driver positions than the file's.
     ruler : float, mm, optional
-        Step of the ruler with which the plans are read; the profile's when absent.
+        Step of the ruler with which the plans are read. Default: the profile's.
     profile : Profile or str
-        How well the plans are drawn.
+        Drafting accuracy of the plans.
     fields : mapping, optional
         Texts of the title block that outrank the file's.
     furniture : Furniture, optional
-        Form of the title block and additional graphs; the file's when absent.
+        Form of the title block and additional graphs. Default: the file's.
     errors : bool
         Draw the ellipses of the drafting error around the points of scheme and plans.
     sigma : bool, optional
-        Show the drafting errors of the results in their tables; None: of one position alone.
+        Show the drafting errors of the results in their tables; None: only for a single position.
     layout : str, Path or Composition, optional
-        What is on the sheets: the name of a shipped composition or a file of one's own. When
-        absent, ``one-position`` or ``many-positions``.
+        Contents of the sheets: the name of a shipped composition or a file. Default: by the number
+        of positions, from ``one-position`` to ``many-positions``.
     most : int, optional
-        Sheets that may be made; any number when absent.
+        Largest number of sheets. Default: no limit.
     asked : sequence of str
-        Labels of quantities whose graphs the composition's block of graphs has; without them
-        those of the block or of ``[cycle]``.
+        Labels of quantities for the composition's block of graphs. Default: those of the block or
+        of ``[cycle]``.
 
     Raises
     ------
     ArgumentError
-        An argument is none that this function takes.
+        An argument has a wrong type or value.
     UnknownQuantityError
         There is no such quantity.
     LayoutError
-        When the blocks fit no format, or not the asked one, or when more sheets than that follow.
+        When the blocks fit no format, or not the requested one, or need more than ``most`` sheets.
     CompositionError
         When the composition is faulty.
 
@@ -170,9 +170,9 @@ def sheet_scales(
     layout: str | Path | Composition | None = None,
     positions: npt.ArrayLike | None = None,
 ) -> Scales:
-    """Return the scales at which a layout shows a mechanism, decided (масштабы листа).
+    """Return the decided scales of a mechanism in a layout (масштабы листа).
 
-    In the problem they are kept to by every output. Parameters and errors are those of
+    Every output of a problem with them keeps to them. Parameters and errors are those of
     `kinematics_sheets`.
     """
     problem = _counted(problem, layout, positions)
@@ -192,7 +192,7 @@ def _counted(
     Raises
     ------
     LayoutError
-        Some blocks number positions of the cycle, others those that were asked for.
+        Some blocks number positions of the cycle, others the requested ones.
     """
     if layout is None or not problem.drive.goes_round:
         return problem
@@ -219,7 +219,7 @@ def _strategy(
     most: int | None = None,
     asked: Sequence[str] = (),
 ) -> Linkage:
-    """Return how sheets of a layout are searched for; ``moved``: positions were asked for."""
+    """Return the search strategy of a layout's sheets; ``moved``: positions were requested."""
     words = language(solution.problem.sheet.lang or LANGUAGES[0])
     made = composition(layout, words.lang) if isinstance(layout, str | Path) else layout
     if not moved and made is not None and made.cycle:
@@ -231,7 +231,7 @@ def _strategy(
         solution = solution.moved([float(solution.positions[calculated])])
     count = len(solution.positions)
     least = len(made.sheets) * -(-count // made.at_most(count)[0])
-    _refuse_many(solution, least, most)  # before the work, where it is known
+    _refuse_many(solution, least, most)  # before the work, if already known
     verify(solution)
     return Linkage(made, solution, Extras(words, errors, sigma, made.turn, asked=tuple(asked)))
 
@@ -247,7 +247,7 @@ def _misfit(problem: Problem) -> Misfit:
 
 
 def _refuse_many(solution: Solution, sheets: int, most: int | None) -> None:
-    """Refuse more sheets than are probably meant; those of one position are always made."""
+    """Reject more sheets than were probably intended; those of one position are always made."""
     count = len(solution.positions)
     if most is not None and sheets > most and count > 1:
         raise LayoutError(
@@ -261,12 +261,12 @@ def _refuse_many(solution: Solution, sheets: int, most: int | None) -> None:
 
 
 def _over_the_cycle(solution: Solution) -> Solution:
-    """Return the mechanism in the numbered positions of its cycle; a slider has those of its file.
+    """Return the solution at the numbered positions of the cycle; a slider keeps the file's.
 
     Raises
     ------
     ProblemError
-        Nothing can be the output.
+        No link can be the output.
     PositionError
         One of these positions does not exist.
     """
@@ -275,12 +275,12 @@ def _over_the_cycle(solution: Solution) -> Solution:
     if not solution.problem.drive.goes_round:
         return solution
     solution = solution.moved(numbered_positions(solution).tolist())
-    verify(solution)  # of one calculated position the diagrams have all others
+    verify(solution)  # besides a calculated position the diagrams need all others
     return solution
 
 
 def _usual(count: int, words: Language) -> Composition:
-    """Return the shipped composition for so many positions."""
+    """Return the shipped composition for ``count`` positions."""
     return composition(SHIPPED[(count > 1) + (count > FEW)], words.lang)
 
 
@@ -318,9 +318,9 @@ def _check_positions(layout: Composition, solution: Solution) -> None:
 
 
 class Linkage(Struct, frozen=True):
-    """How sheets of a linkage are searched for: which scales and how many positions on a sheet.
+    """Search strategy for the sheets of a linkage: scales and numbers of positions on a sheet.
 
-    ``solution`` is that whose views are the first guess.
+    The views of ``solution`` are the first guess.
     """
 
     layout: Composition
@@ -333,15 +333,15 @@ class Linkage(Struct, frozen=True):
         layout, count = self.layout, len(self.solution.positions)
         views = self.solution.views
         estimated = views.paper in layout.formats and any(entry.of for entry in layout.blocks)
-        if not self.solution.problem.sheet.paper and not estimated:  # one of schemes and plans
+        if not self.solution.problem.sheet.paper and not estimated:  # for schemes and plans
             views = Views.for_paper(layout.formats[0], count)
         return layout.views_for(views.paper, count)
 
     @property
     def formats(self) -> Sequence[str]:
-        """Formats of the composition, from the estimated one on where none is asked for.
+        """Formats of the composition, from the estimated one on unless one is requested.
 
-        Smaller ones come first; scales that are decided are those of the others.
+        Smaller ones come first, unless scales are decided, which are for the others.
         """
         formats = self.layout.formats
         problem = self.solution.problem
@@ -353,9 +353,9 @@ class Linkage(Struct, frozen=True):
     def proposals(self, papers: Sequence[Blank]) -> Iterator[OnPaper]:
         """Yield scales and numbers of positions on a sheet, paper by paper.
 
-        One decision: the estimated scales stay on a larger paper, if the smaller one had no room
-        after all. Where a composition has views of its own, each paper has its own scales then, and
-        at last those of the file are given up: for one position they may be too fine for a turn.
+        The estimated scales stay on a larger paper if the smaller one turns out not to fit. If a
+        composition has views of its own, each paper then has its own scales, and finally those of
+        the file are dropped: scales for one position may be too fine for a turn.
         """
         problem, count = self.solution.problem, len(self.solution.positions)
         own: tuple[Views | None, Scales] = (None, problem.scales)
@@ -376,11 +376,11 @@ class Linkage(Struct, frozen=True):
 
     @property
     def _is_own(self) -> bool:
-        """Whether the positions are those of the file."""
+        """True if the positions are those of the file."""
         return tuple(self.solution.positions.tolist()) == self.solution.problem.drive.positions
 
     def solved(self, views: Views, scales: Scales) -> Solution:
-        """Return the solution whose plans fill certain views, at the scales that are given."""
+        """Return the solution whose plans fill given views, at given scales."""
         one = self.solution
         if (one.views, one.given_scales) == (views, scales):
             return one
@@ -388,7 +388,7 @@ class Linkage(Struct, frozen=True):
 
 
 class OnPaper(Struct, frozen=True):
-    """Sheets of a linkage on a paper, with so many positions on each (`Proposal`)."""
+    """Sheets of a linkage on a paper, ``per_sheet`` positions on each (`Proposal`)."""
 
     of: Linkage
     paper: Blank
@@ -398,14 +398,14 @@ class OnPaper(Struct, frozen=True):
     scales: Scales
 
     def laid(self) -> Laid | None:
-        """Return the sheets, drawn as large as they bear where the composition lets them grow."""
+        """Return the sheets, enlarged as far as they fit if the composition permits."""
         of, extras = self.of, self.of.extras
         solution = of.solved(self.views, self.scales)
         laid = self._laid(solution, extras)
         if laid is None or (self._is_smaller and _cut_down(laid)):
             return None
         if extras.traces and len(solution.positions) == 1 and _cut_down(laid):
-            # The traces of the construction are not to push out what explains it.
+            # The traces of the construction must not displace the texts that explain it.
             bare = replace(extras, traces=False)
             without = self._laid(solution, bare)
             if without is not None and not _cut_down(without):
@@ -433,15 +433,15 @@ class OnPaper(Struct, frozen=True):
         return self._with_plans(laid, extras)
 
     def _at(self, scales: Mapping[str, float], extras: Extras, views: Views) -> Laid | None:
-        """Return the sheets at certain scales, or None when one does not fit."""
+        """Return the sheets at given scales, or None when one does not fit."""
         wish: dict[str, Any] = dict(scales)
         return self._laid(self.of.solved(views, replace(self.scales, **wish)), extras)
 
     def _with_plans(self, laid: Laid, extras: Extras) -> Laid:
-        """Return the sheets with the plans of as many positions of a turn as there is room for.
+        """Return the sheets with the plans of as many positions of a turn as fit.
 
-        All of them, of every second position, or of every third, where the file names none; at a
-        coarser scale, too, as long as no plan of the turn is smaller than it shall be.
+        If the file names none: plans of all positions, of every second, or of every third, also at
+        a coarser scale, as long as no plan of the turn becomes too small.
         """
         kinds = [
             entry.of
@@ -468,7 +468,7 @@ class OnPaper(Struct, frozen=True):
         return laid
 
     def _with_smaller_plans(self) -> Iterator[Views]:
-        """Yield the views with less room for the plans that would be left out otherwise."""
+        """Yield the views with smaller boxes for the plans that would be left out otherwise."""
         left_out = [
             entry.of
             for entry in self.of.layout.blocks
@@ -486,16 +486,16 @@ class OnPaper(Struct, frozen=True):
 
     @property
     def _is_smaller(self) -> bool:
-        """Whether the paper is taken only where nothing is left out, nor letters of positions."""
+        """True if the paper is taken only when no blocks or letters of positions are left out."""
         return not self.paper.is_asked and self.paper.name in self.of.layout.smaller
 
     def _is_crowded(self, laid: Laid) -> bool:
-        """Tell whether a scheme of many positions has too many letters for its area."""
+        """Return whether a scheme of many positions has too many letters for its area."""
         one = self.of.solution
         if len(one.positions) <= FEW or all(e.kind != "scheme" for e in self.of.layout.blocks):
             return False
         apart, positions = one.problem.drive.coordinate.apart, one.positions.tolist()
-        # One that is a position shares its letters.
+        # An extreme position that is also a drawn one shares its letters.
         more = sum(min(apart(p, end) for p in positions) > 1e-6 for end in Paths(one).extremes)
         per_mm = laid.scales[FACTS[PlanKind.POSITION].scale]
         return is_crowded(one.construction, one.si, per_mm, more)
@@ -516,5 +516,5 @@ class OnPaper(Struct, frozen=True):
 
 
 def _cut_down(laid: Laid) -> bool:
-    """Tell whether blocks were left out."""
+    """Return whether blocks were left out."""
     return any(page.tried[0] for page in laid.pages)

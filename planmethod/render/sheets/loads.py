@@ -1,4 +1,4 @@
-"""Loads that change as the file has them, over what it has them (диаграммы нагрузок)."""
+"""Diagrams of tabulated loads over their independent variable (диаграммы нагрузок)."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ _ACROSS, _UP = 0.5, 0.15
 """Largest width and height of a diagram, parts of the width of a column."""
 
 _NUMBERS = 6
-"""Most steps between the numbers of the axis of abscissae."""
+"""Largest number of steps between the numbers of the axis of abscissae."""
 
 
 def load_curves(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the tables of loads over angles, coordinates and strokes, and what a position has.
+    """Return the diagrams of loads over angles, coordinates and strokes, with a position's value.
 
-    Where a load does not act it has nothing.
+    Where a load does not act, no value is marked.
     """
     dynamics, index = solution.problem.dynamics, shown_position(solution, indices, manner)
     assert dynamics is not None
@@ -92,7 +92,7 @@ def _diagram(
 
 
 def _from_zero(table: SizeTable) -> SizeTable:
-    """Return a table over a turn from zero on, wherever its rows begin; others as they are."""
+    """Return a table over a turn with rows from zero on; other tables are unchanged."""
     if table.over is not Over.PHI:
         return table
     whole, turn = closed(table), table.turn
@@ -113,7 +113,7 @@ def _from_zero(table: SizeTable) -> SizeTable:
 
 
 def _limited(table: SizeTable, spans: Sequence[tuple[float, float]]) -> SizeTable:
-    """Return a table over the turn that has nothing where its load does not act."""
+    """Return a table over the turn that is zero where its load does not act."""
     first, last = table.at[0], table.at[-1]
     rows = [(first, 0.0)]
     for start, end in spans:
@@ -127,7 +127,7 @@ def _limited(table: SizeTable, spans: Sequence[tuple[float, float]]) -> SizeTabl
 
 
 def _over(solution: Solution, load: Load | Couple, table: SizeTable) -> tuple[str, str]:
-    """Return the letter of what a table is over, and its unit; none of a share of the stroke."""
+    """Return the letter and unit of a table's variable; no unit for a fraction of the stroke."""
     if table.over in (Over.PHI, Over.S):
         coordinate = solution.problem.drive.coordinate
         return coordinate.symbol, coordinate.unit

@@ -1,9 +1,9 @@
-"""Table of what the plans of all positions give, beside the exact values (измеренное и точное).
+"""Table of values measured on the plans of all positions, and exact values (измеренное и точное).
 
-Of every quantity: what is exact, what is measured, and how far off that is in per cent. What is the
-same by nature stands once: ω₂ = ω₃ of a sliding pair. What was computed and laid off has nothing to
-be compared: points that a proportion gives have their exact values alone, and what is the same in
-all positions, as the velocity of the crank's pin, stands under the table.
+Every quantity has the exact value, the measured one, and the deviation in per cent. Quantities
+equal by nature appear once: ω₂ = ω₃ of a sliding pair. Values that were computed and laid off are
+not compared: points given by a proportion have only exact values, and values that are the same in
+all positions, such as the velocity of the crank's pin, are listed under the table.
 """
 
 from __future__ import annotations
@@ -32,19 +32,19 @@ from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
 
 WIDE = 0.72
-"""Part of the paper's width that the table may take where rows of many positions are high."""
+"""Part of the paper's width for the table when rows of many positions are high."""
 
 HALF = 0.6
-"""Part of a table's width that is enough for half of its columns and those that are repeated."""
+"""Part of a table's width that suffices for half of its columns and the repeated ones."""
 
 RULED = (Measure, MeasureAlong)
-"""Steps that give what a ruler gives."""
+"""Steps whose values are read with a ruler."""
 
 
 def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return of every quantity what is measured on the plans and what is exact, by positions.
+    """Return measured and exact values of every quantity, by positions.
 
-    Where errors are asked for, the exact values with them.
+    If errors are requested, the exact values with their errors.
     """
     if manner.extras.sigma:
         return results_block(solution, indices, manner)
@@ -80,7 +80,7 @@ def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -
 
 
 def _is_measured(solution: Solution, quantity: Quantity) -> bool:
-    """Tell whether the ruler gives a quantity: the segment of a vector, something of a number."""
+    """Return whether a quantity is read with the ruler: a vector's segment, or a number from it."""
     if quantity.size is None:
         return False
     if quantity.kind.is_number:
@@ -91,7 +91,7 @@ def _is_measured(solution: Solution, quantity: Quantity) -> bool:
 
 @remembered
 def read_names(solution: Solution) -> frozenset[Name]:
-    """Return the names of a construction that hang on what the ruler gives."""
+    """Return the names of a construction that depend on ruler readings."""
     found: set[Name] = set()
     for step in solution.construction.program.steps:
         if isinstance(step, RULED) or not found.isdisjoint(name for name, _ in operands(step)):
@@ -105,7 +105,7 @@ def _signed(cell: TableCell) -> str:
 
 
 def _once(every: Sequence[Series]) -> list[tuple[Series, list[str]]]:
-    """Return quantities with their symbols, those that one number stands for together."""
+    """Return quantities with their symbols, joining those with the same number."""
     found: dict[tuple[object, ...], tuple[Series, list[str]]] = {}
     for one in every:
         of = one.quantity
@@ -116,9 +116,9 @@ def _once(every: Sequence[Series]) -> list[tuple[Series, list[str]]]:
 def _measured(
     series: Series, exact: TableColumn, indices: Sequence[int], words: Language
 ) -> list[TableColumn]:
-    """Return what is measured and how far off that is, %; "—" where there is nothing to be off of.
+    """Return the measured values and their deviations, %; "—" where a deviation is undefined.
 
-    Of what is measured no zeros stand that all of them end with: the ruler has no such digits.
+    Zeros at the end of all measured values are left out: the ruler has no such digits.
     """
     say, values = words.say, series.shown(series.reads(), indices)
     texts = _without_zeros(series.texts(values))

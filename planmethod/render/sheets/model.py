@@ -1,4 +1,4 @@
-"""What a sheet is composed of (компоновка): blocks in reading order, their groups and sizes.
+"""Composition of a sheet (компоновка): blocks in reading order, their groups and sizes.
 
 A composition is data: the shipped ones are TOML files beside this module, and a department may give
 its own. `planmethod.render.sheets.composition.reader` reads them.
@@ -21,20 +21,20 @@ from planmethod.solved.scaling import AS_HIGH, LESS, Views
 
 
 class Entry(Struct, frozen=True):
-    """One block of a composition, as the file asks for it (блок компоновки).
+    """One block of a composition, as specified by the file (блок компоновки).
 
     Attributes
     ----------
     kind : str
         A name of `planmethod.render.sheets.blocks.BLOCKS`.
     of : PlanKind or None
-        Whose plan, equations or calculation.
+        Plan of the block, its equations or calculation.
     group : tuple of str
-        The groups it stands in, the outer one first.
+        The groups that contain it, the outer one first.
     sheet : int
         Number of the sheet, from 1.
     droppable : bool
-        It may be left out where the paper has no room.
+        It may be left out if the paper is too small.
     heights : tuple of float, mm
         Letter heights to try, the first that fits; empty for that of the format.
     letter, title_height : float or None, mm
@@ -54,7 +54,7 @@ class Entry(Struct, frozen=True):
     asked : tuple of str
         Quantities whose graphs are drawn, by label.
     number : int
-        Which of the force plans, from 0: the blocks of one are made for each of them.
+        Number of the force plan, from 0: each plan has its own copies of the blocks.
     """
 
     kind: str
@@ -78,26 +78,28 @@ class Entry(Struct, frozen=True):
 
 
 class Composition(Struct, frozen=True):
-    """Blocks of the sheets, and how they are arranged (компоновка листов).
+    """Blocks of the sheets, and their arrangement (компоновка листов).
 
     Attributes
     ----------
     formats : tuple of str
-        Formats tried in turn when none is asked for.
+        Formats tried in turn if none is requested.
     smaller : tuple of str
-        Formats tried before them: taken where nothing is left out, as a larger one would be white.
+        Formats tried before them: taken only if no blocks are left out, since a larger one would be
+        mostly white.
     per_sheet : tuple of int
-        Positions on one sheet: as many as fit; the others go on further sheets.
+        Numbers of positions on one sheet, the largest that fits; the others are on further sheets.
     grow : bool
         Plans whose scale is free are drawn larger where the paper has room.
     turn : bool
-        It is the sheet of a turn: ``cycle``, and scales of velocities and accelerations give way.
+        It is the sheet of a turn: ``cycle``, with adjustable scales of velocities and
+        accelerations.
     cycle : bool
-        The positions are the numbered ones of the cycle where no others are asked.
+        The positions are the numbered ones of the cycle unless others are requested.
     sizes : mapping
-        By basic format.
+        Sizes by basic format.
     arranged : mapping
-        How the members of a group stand, by its path; ``()`` is the whole sheet.
+        Arrangement of the members of a group, by its path; ``()`` is the whole sheet.
     titles : mapping
         Names of sheets for the title block, by their numbers.
     """
@@ -122,19 +124,19 @@ class Composition(Struct, frozen=True):
 
     @property
     def is_estimated(self) -> bool:
-        """Whether room and scales are those that the estimate has decided for all outputs.
+        """True if sizes and scales are those that the estimate has decided for all outputs.
 
-        So it is of the compositions that are taken when none is asked for.
+        This holds for the default compositions.
         """
         return self.name in SHIPPED[:3]
 
     @property
     def levels(self) -> int:
-        """How many letter heights there are to try."""
+        """Number of letter heights to try."""
         return max((len(entry.heights) for entry in self.blocks), default=1) or 1
 
     def at_most(self, positions: int) -> tuple[int, ...]:
-        """Return the numbers of positions on one sheet to try for so many positions."""
+        """Return the numbers of positions on one sheet to try for ``positions`` in all."""
         if positions == 1:
             return (1,)
         room = min((n for n in self.per_sheet if n >= positions), default=max(self.per_sheet))
@@ -142,16 +144,16 @@ class Composition(Struct, frozen=True):
 
     @property
     def shares(self) -> tuple[float, ...]:
-        """Parts of its sizes to try on a format; boxes that it asks for itself may be smaller."""
+        """Fractions of its sizes to try on a format; only boxes of its own may be reduced."""
         return (1.0, LESS) if any(sizes.boxes for sizes in self.sizes.values()) else (1.0,)
 
     def sizes_for(self, paper: str, share: float = 1.0) -> Sizes:
-        """Return the sizes of a format; an elongated one has those of the basic one as high."""
+        """Return the sizes of a format, for an elongated one those of the basic one as high."""
         basic = AS_HIGH.get(paper, paper)
         return self.sizes[basic if basic in self.sizes else paper[:2]].parts(share)
 
     def views_for(self, paper: str, positions: int, share: float = 1.0) -> Views:
-        """Return the boxes that the views shall fill on a format."""
+        """Return the boxes of the views on a format."""
         views = Views.for_paper(paper, positions)
         for kind, box in self.sizes_for(paper, share).boxes:
             named: dict[str, Any] = {kind.value: box}
@@ -160,14 +162,13 @@ class Composition(Struct, frozen=True):
 
 
 class Extras(Struct, frozen=True):
-    """What is asked of all blocks of a sheet: its language, and what it shows of drafting errors.
+    """Options of all blocks of a sheet: its language, and the display of drafting errors.
 
-    ``errors`` are ellipses around points, ``sigma`` stands in the tables; None: in that of the
-    results of one position alone. ``turn``: it is that of a turn, and the scheme has the
-    construction of the extreme positions. ``traces``: there is room for those of the construction
-    where nobody asks for them. ``asked`` are the quantities whose graphs are drawn. ``plans``: how
-    many positions of a turn have their plans chosen where nobody names them; 0: one of either
-    stroke.
+    ``errors``: ellipses around points; ``sigma``: errors in the tables; None: only in the results
+    of a single position. ``turn``: it is the sheet of a turn, and the scheme has the construction
+    of the extreme positions. ``traces``: there is space for traces of the construction that are not
+    requested. ``asked`` are the quantities whose graphs are drawn. ``plans``: number of positions
+    of a turn with plans if the file names none; 0: one of either stroke.
     """
 
     words: Language
@@ -180,7 +181,7 @@ class Extras(Struct, frozen=True):
 
 
 class Manner(Struct, frozen=True):
-    """How a block is drawn on a certain sheet: what the file asks for, and the format's sizes.
+    """Style of a block on a sheet: the settings of the file, and the format's sizes.
 
     ``level`` counts the letter heights that did not fit; ``inside`` is the width inside the frame,
     mm.
@@ -193,7 +194,7 @@ class Manner(Struct, frozen=True):
     level: int = 0
 
     def larger(self, *, below: float) -> Manner:
-        """Return it with the next larger letters, where there are any below a height, mm."""
+        """Return it with the next larger letters below a height, mm, if any."""
         heights, now = self.entry.heights, self.text(0.0)
         levels = [k for k in range(len(heights)) if now < heights[k] < below]
         return replace(self, level=max(levels)) if levels else self
@@ -215,12 +216,12 @@ class Manner(Struct, frozen=True):
         return self.sizes.title if asked is None else asked
 
     def text(self, usual: float) -> float:
-        """Return the height of a text, mm; ``usual`` where the file asks for none."""
+        """Return the height of a text, mm; ``usual`` unless the file sets one."""
         heights = self.entry.heights
         return heights[min(self.level, len(heights) - 1)] if heights else usual
 
     def width(self, usual: float) -> float:
-        """Return the width to set to, mm; ``usual`` where the file asks for none."""
+        """Return the width to set to, mm; ``usual`` unless the file sets one."""
         asked = self.entry.width
         if asked is None:
             return usual

@@ -24,30 +24,30 @@ Parts: TypeAlias = "list[list[Placed]]"
 """Blocks and their corners, by pages."""
 
 MOST_EXTRA = 4
-"""Sheets that one sheet of a composition may take on a format that was asked for."""
+"""Largest number of sheets for one sheet of a composition on a requested format."""
 
 GOES_ON = ("calculation",)
-"""Kinds of blocks that go to a sheet of their own where one has no room for them.
+"""Kinds of blocks that may move to a continuation sheet.
 
-Of many positions they are in the protocol alone then: these sheets are full of plans.
+With many positions they are then only in the protocol: these sheets are full of plans.
 """
 
 CONTINUED = "A4"
-"""Format of that sheet where none is asked for."""
+"""Format of that sheet if none is requested."""
 
 MOST_TURNS = 60
-"""Most ways to divide blocks among pages that are tried."""
+"""Largest number of divisions of blocks among pages that are tried."""
 
 
 class Made(Struct, frozen=True):
-    """A block that was made, and what the file says of it."""
+    """A finished block, and its entry of the file."""
 
     entry: Entry
     block: Block
 
     @property
     def is_text(self) -> bool:
-        """Whether it is no view."""
+        """True if it is not a view."""
         one = self.block.ways[0] if isinstance(self.block, Shapes) else self.block
         return not isinstance(one, Viewed)
 
@@ -64,8 +64,7 @@ def pages_of(
 ) -> list[LaidPage] | None:
     """Return the sheets that show some positions, or None when one of them does not fit.
 
-    ``share`` is that of the sizes of the composition that is taken, ``first`` the number of the
-    first sheet.
+    ``share`` is the fraction of the composition's sizes, ``first`` the number of the first sheet.
     """
     pages: list[LaidPage] = []
     for number in composition.sheets:
@@ -90,7 +89,7 @@ def _sheet(
 ) -> list[LaidPage] | None:
     """Return a sheet of a composition: a page, perhaps several, or None when it does not fit.
 
-    For what is tried see `_tries`.
+    For the order of trials see `_tries`.
     """
     entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
     sizes = composition.sizes_for(paper.name, share)
@@ -130,11 +129,11 @@ def _with_larger_texts(
     arranged: Mapping[tuple[str, ...], Arrange],
     apart: int,
 ) -> Parts:
-    """Return a page with the texts of each kind in larger letters, if there is room for them.
+    """Return a page with the texts of each kind in larger letters, if they fit.
 
-    All letters of a sheet shrink alike until everything fits; what is left goes to the texts whose
-    letters are the smallest, so that none are twice as high as others. Those of the forces, which
-    are many short ones, have one height.
+    All letters of a sheet shrink alike until everything fits; the remaining space goes to the texts
+    with the smallest letters, so that none are twice as high as others. Texts of the forces, which
+    are many and short, have one height.
     """
     kinds = list(dict.fromkeys(_family(m.entry) for m in manners if m.entry.heights))
     while kinds:
@@ -154,7 +153,7 @@ def _with_larger_texts(
 
 
 def _family(entry: Entry) -> str:
-    """Return what has texts of one height: the forces, else the kind of the block alone."""
+    """Return the family of texts of one height: the forces, otherwise the kind of the block."""
     kind = BLOCKS[entry.kind].makers
     return kind.__name__ if kind is BLOCKS["loads"].makers else entry.kind
 
@@ -167,7 +166,7 @@ def _going_on(
     extras: Extras,
     title: str,
 ) -> list[LaidPage]:
-    """Return sheets with texts that the sheet before had no room for: one, else one for each."""
+    """Return continuation sheets for left-out texts: one for all, otherwise one for each."""
     name = paper.name if paper.is_asked else CONTINUED
     around, sizes = paper.continued(name), composition.sizes_for(name)
     left, _, right, high = around.inner
@@ -187,10 +186,10 @@ def _going_on(
 
 
 def spread(entries: Sequence[Entry], solution: Solution) -> list[Entry]:
-    """Return entries with those of a force plan once for each of the plans.
+    """Return entries, with those of force plans repeated for each plan.
 
-    Such entries that follow one another stand in a group of their own for every plan: for those of
-    the structural groups, the last one first, and for that of the driver.
+    Consecutive entries of this kind form a group of their own for every plan: for those of the
+    structural groups, the last one first, and for that of the driver.
     """
     found: list[Entry] = []
     for each, run in groupby(entries, lambda entry: BLOCKS[entry.kind].each):
@@ -204,7 +203,7 @@ def spread(entries: Sequence[Entry], solution: Solution) -> list[Entry]:
 
 
 class _Stock(Struct, frozen=True):
-    """Blocks that were made for a sheet: what is tried again is not made again."""
+    """Cache of the blocks of a sheet: repeated trials do not make them again."""
 
     solution: Solution
     indices: Sequence[int]
@@ -213,7 +212,7 @@ class _Stock(Struct, frozen=True):
     def made(self, manners: Sequence[Manner], room: float) -> list[Made] | None:
         """Return the blocks of a sheet, or None when they are larger than ``room``, mm².
 
-        The scheme, whose letters take the longest to place, is made last.
+        The scheme, whose letters take longest to place, is made last.
         """
         found: dict[int, Block] = {}
         for k in sorted(range(len(manners)), key=lambda k: manners[k].entry.kind == "scheme"):
@@ -237,12 +236,12 @@ class _Stock(Struct, frozen=True):
 def _tries(
     levels: int, *, droppable: bool, most: int
 ) -> Iterator[tuple[int, int, bool, tuple[int, ...]]]:
-    """Yield what is tried in turn.
+    """Yield the trials in turn.
 
-    How many pages; how many letter heights are passed over; whether blocks are left out that may
-    be; how far groups are taken apart: not at all, then but for what may go on, then into the
-    innermost groups however they have room, then altogether. Letters shrink before groups are taken
-    apart altogether, and groups are taken apart before anything is left out.
+    A trial is the number of pages; the number of skipped letter heights; whether droppable blocks
+    are left out; and the levels of ungrouping: none, then without continuable blocks, then into the
+    innermost groups in any arrangement, then completely. Letters shrink before groups are dissolved
+    completely, and groups are dissolved before blocks are left out.
     """
     for count in range(1, most + 1):
         if count < MOST_EXTRA:
@@ -258,10 +257,10 @@ def _divided(
     arranged: Mapping[tuple[str, ...], Arrange],
     taken_apart: Sequence[int],
 ) -> tuple[Parts, int]:
-    """Return blocks put on pages in reading order with their corners, and how far taken apart.
+    """Return blocks on pages in reading order with their corners, and the level of ungrouping.
 
-    There are no pages where the blocks do not fit. Pages are turned between groups rather than
-    within one, and are as evenly full as can be.
+    The pages are empty if the blocks do not fit. Page breaks are preferably between groups, and
+    pages are as evenly full as possible.
     """
     areas = [one.block.width * one.block.height for one in made]
 
@@ -287,7 +286,7 @@ def _divided(
 
 
 def _loosened(made: Sequence[Made]) -> list[Made]:
-    """Return blocks with those out of their groups that may go on a further sheet."""
+    """Return blocks, with continuable ones taken out of their groups."""
     return [
         Made(replace(m.entry, group=()), m.block) if m.entry.kind in GOES_ON else m for m in made
     ]

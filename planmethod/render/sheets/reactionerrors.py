@@ -1,4 +1,4 @@
-"""Drafting errors in the table of reactions: what was read, and sigmas (погрешности построения)."""
+"""Drafting errors in the table of reactions: read values, and sigmas (погрешности построения)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from planmethod.solved.forces.reading import ForceReading
 
 
 def sigma_cell(reading: ForceReading, label: str | None, say: Notation) -> str:
-    """Return the error of a quantity in the position, with its mark; a dash of none."""
+    """Return the error of a quantity in the position, with its mark; a dash without one."""
     if label is None or label not in drawn_forces(reading.statics).items:
         return NONE
     sigma, mark = marked(drawn_forces(reading.statics), label, reading.index)
@@ -31,13 +31,13 @@ def sigma_cell(reading: ForceReading, label: str | None, say: Notation) -> str:
 
 
 def read_text(reading: ForceReading, label: str, say: Notation) -> str:
-    """Return what was read on the drawing, to the place of its error, without its sign."""
+    """Return the value read on the drawing, to the place of its error, without its sign."""
     sigma, _ = marked(drawn_forces(reading.statics), label, reading.index)
     return say.number(rounded_to(abs(read_value(reading, label)), sigma))
 
 
 def read_value(reading: ForceReading, label: str) -> float:
-    """Return what was read on the drawing, N or N·m."""
+    """Return the value read on the drawing, N or N·m."""
     return float(drawn_forces(reading.statics).read(label)[reading.index])
 
 
@@ -51,7 +51,7 @@ def sizes_as_long(reading: ForceReading, texts: Sequence[str]) -> list[str]:
 
 
 def size_columns(reading: ForceReading, words: Language) -> list[TableColumn]:
-    """Return the columns of what was read of the sizes of the reactions, and of its errors."""
+    """Return the columns of the read sizes of the reactions, and of their errors."""
     labels = [size_label(one) for one in reading.statics.reactions]
     say, unit = words.say, words.say.units["N"]
     return [
@@ -63,7 +63,7 @@ def size_columns(reading: ForceReading, words: Language) -> list[TableColumn]:
 
 
 def angle_column(reading: ForceReading, none: Sequence[bool], say: Notation) -> TableColumn:
-    """Return the column of the errors of the directions; ``none`` tells which have no direction."""
+    """Return the column of the directions' errors; ``none`` marks reactions without a direction."""
     pairs = zip(reading.statics.reactions, none, strict=True)
     labels = [None if nil else angle_label(one) for one, nil in pairs]
     return TableColumn(
@@ -72,7 +72,7 @@ def angle_column(reading: ForceReading, none: Sequence[bool], say: Notation) -> 
 
 
 def moment_column(reading: ForceReading, say: Notation) -> TableColumn:
-    """Return the column of the errors of the moments that stand in the table: without a force."""
+    """Return the column of the errors of the moments in the table: those without a force."""
     found = [guided_at(reading, k) for k in range(len(reading.statics.reactions))]
     pairs = zip(reading.statics.reactions, found, strict=True)
     labels = [moment_label(one) if is_couple(guided) else None for one, guided in pairs]
@@ -114,5 +114,5 @@ def _with_error(
 
 
 def _like(column: TableColumn, text: str) -> TableCell:
-    """Return a cell that keeps room for the sign of a sense where the column has one."""
+    """Return a cell that keeps space for the sign of a sense if the column has one."""
     return TableCell(text, None if column.cells[0].sense is None else 0)

@@ -1,4 +1,4 @@
-"""Table of reactions of a sheet, and what balances the driver (таблица реакций)."""
+"""Table of reactions of a sheet, and of the driver's balance (таблица реакций)."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 
 
 def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:
-    """Return the columns of what balances the driver, by both methods."""
+    """Return the columns of the driver's balancing force or moment, by both methods."""
     said, say = words.sheets, words.say
     symbol = say.symbol(reading.balancing_symbol)
     unit = say.units[reading.balancing.unit]

@@ -22,9 +22,9 @@ from planmethod.solved.solution import Solution
 
 
 def position_text(solution: Solution, index: int, say: Notation) -> str:
-    """Return a driver position as the sheet writes it: an angle within one turn, two decimals.
+    """Return the text of a driver position: an angle within one turn, two decimals.
 
-    Where none is a whole turn away, angles are as they were given, negative ones, too.
+    If all are within a turn, negative angles stay negative.
     """
     value = float(solution.positions[index])
     if not solution.problem.drive.goes_round:
@@ -42,7 +42,7 @@ def value_column(
     """Return the exact values of a quantity, their senses beside them, by positions.
 
     With ``sigma`` they have their errors beside them, and a single position (``alone``) has rows
-    for what was read, for how far off that is, and for its error.
+    for the read value, for its deviation, and for its error.
     """
     values, cells = series.shown(series.exact, indices), list[TableCell]()
     texts = series.texts(values)
@@ -61,12 +61,12 @@ def value_column(
 
 
 def _read_cells(series: Series, index: int, like: str, say: Notation) -> list[TableCell]:
-    """Return what was read on the plans, how far off, and the error.
+    """Return the value read on the plans, its deviation, and the error.
 
-    What was read has as many decimals as the exact value, ``like``, but where that is nothing; no
-    zeros at its end are finer than the error.
+    The read value has as many decimals as the exact one, ``like``, unless that is zero; zeros at
+    its end are not finer than the error.
     """
-    room = 0 if series.turns else None  # for the sign that others of the column have
+    room = 0 if series.turns else None  # for the sign of other values of the column
     one = series.compared(index, lost=True)
     size = one.read if series.signed else abs(one.read)
     as_exact = like != "0" and "e" not in like
@@ -94,9 +94,8 @@ def result_columns(
 ) -> list[TableColumn]:
     """Return the columns of the result table: v, ω, a, ε with values and senses.
 
-    ``kinds`` are the quantities that are shown, all when there are none.
-    With ``sigma`` a single position has rows for what was read and for its error, and the values
-    of many have their errors beside them.
+    ``kinds`` are the shown quantities. Default: all. With ``sigma`` a single position has rows for
+    the read value and its error, and the values of many positions have their errors beside them.
     """
     shown = [kind for kind in MOTION_KINDS if not kinds or kind.sign in kinds]
     return columns_of(motion_series(solution, *shown), solution, indices, words, sigma=sigma)
@@ -132,13 +131,13 @@ def position_columns(
 
 
 def table_width(manner: Manner, usual: float = inf) -> float:
-    """Return the width of a table, mm: asked or usual, no less than the title block's."""
+    """Return the width of a table, mm: requested or usual, at least the title block's."""
     room = manner.inside - 2 * EDGE
     return min(max(STAMP_WIDTH, manner.width(min(usual, room))), room)
 
 
 def results_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the table of results and, with sigmas, what its errors are."""
+    """Return the table of results and, with sigmas, a note on its errors."""
     alone, sigma = len(solution.positions) == 1, manner.extras.sigma
     sigma = alone if sigma is None else sigma
     size = manner.sizes.text
@@ -169,7 +168,7 @@ def with_note(
     profile: str,
     words: Language,
 ) -> Column:
-    """Return tables and what the errors in their columns are, those that have the mark too."""
+    """Return tables with a note on the errors in their columns, also on marked ones."""
     note = words.note
     told = words.sheets.sigma_note.format(profile=note["profiles"].get(profile, profile))
     if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):

@@ -71,7 +71,7 @@ def run_up_tables(solution: Solution, indices: Sequence[int], manner: Manner) ->
 def run_up_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the motor's characteristic, the speed over time and angle, and that of the stop.
 
-    They are as large as the paper has room for.
+    They are as large as the paper permits.
     """
     tell = _teller(solution, manner.words)
     width = 0.82 * manner.width(manner.sizes.column)
@@ -100,12 +100,12 @@ def _diagrams(tell: MachineTeller, manner: Manner, size: Box) -> Block:
 
 
 def _count(course: TimeCourse) -> int:
-    """Return of how many points a curve is drawn: as many as show every turn."""
+    """Return the number of points of a curve, sufficient to show every turn."""
     return min(max(_POINTS, int(4.0 * course.turned[-1])), _MOST)
 
 
 def _numbered(symbol: str, largest: float, width: float, manner: Manner) -> Abscissae:
-    """Return an axis from 0 with round numbers beyond the largest, which is so many mm off."""
+    """Return an axis from 0 with round numbers beyond the largest, which is at ``width`` mm."""
     step = series_near(largest / 8.0, up=True)
     count = ceil(largest / step + 0.3) + 1
     numbers = tuple(manner.words.say.number(trimmed(k * step, 6)) for k in range(count))

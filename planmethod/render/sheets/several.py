@@ -59,7 +59,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
 
 
 def _extremes(solution: Solution, indices: Sequence[int], manner: Manner) -> list[str]:
-    """Return what is told of the extreme positions on a scheme, if it shows both."""
+    """Return the notes on the extreme positions of a scheme that shows both."""
     if not shows_extremes(solution, indices):
         return []
     paths = Paths(solution)
@@ -72,7 +72,7 @@ def _extremes(solution: Solution, indices: Sequence[int], manner: Manner) -> lis
 
 
 def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the plans of several positions in rows, drawn as those of one are."""
+    """Return the plans of several positions in rows, drawn like those of one."""
     kind = manner.entry.of
     assert kind is not None
     if manner.entry.position is not None:
@@ -85,7 +85,7 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Blo
 
 
 def _alike(solution: Solution, indices: Sequence[int]) -> dict[int, list[int]]:
-    """Return positions with those of the second turn of a cycle in which the crank stands alike."""
+    """Return positions with those of the cycle's second turn at the same crank angle."""
     found: dict[float, list[int]] = {}
     two = solution.repeated > 1 and solution.problem.drive.goes_round
     for i in indices:
@@ -106,8 +106,8 @@ def plan_grid(
 ) -> list[Block]:
     """Return the plans of many positions in rows and columns, each with its number.
 
-    There are as many ways as numbers of plans in a row, the usual one first; ``in_row`` asks for
-    one. ``alike`` are the numbers of positions that have the plan of one.
+    There is a layout for each number of plans in a row, the usual one first; ``in_row`` selects
+    one. ``alike`` are the numbers of all positions that share the plan of one.
     """
     coordinate, say = solution.problem.drive.coordinate, words.say
     cells: list[Block] = []
@@ -131,7 +131,7 @@ def plan_grid(
 
 
 def _rows(cells: Sequence[Block], step: int) -> Block:
-    """Return blocks in rows of so many, in columns where these are not much wider."""
+    """Return blocks in rows of ``step``, in columns if these are not much wider."""
     columns = even_columns([cell.width for cell in cells], step)
     if columns:
         wide = [Spacer(width, 0.0) for width in columns]

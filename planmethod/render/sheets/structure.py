@@ -54,14 +54,14 @@ CAPTION_GAP = 4.0
 """White between a picture and its caption, mm."""
 
 MOST_GAP = 16.0
-"""Most white between two blocks of the right column, mm: rather larger rows and letters."""
+"""Largest white between two blocks of the right column, mm: rows and letters grow first."""
 
 GOOD_SHARE, LEAST_SHARE = 0.36, 0.25
-"""Part of the left column's height that the scheme should have, and must have."""
+"""Preferred and least part of the left column's height for the scheme."""
 
 
 COLUMN = STAMP_WIDTH - 2 * EDGE
-"""Width of tables and formulas that stand over the title block, mm."""
+"""Width of tables and formulas above the title block, mm."""
 
 
 class Pictures(Struct, frozen=True):
@@ -108,20 +108,20 @@ def structure_sheet(
     Parameters
     ----------
     problem : Problem
-        Its mechanism and its title block; coordinates and lengths are not looked at.
+        Problem with mechanism and title block; coordinates and lengths are not used.
     structure : Structure
-        What `planmethod.mechanism.structure.analyse` says of the mechanism.
+        Result of `planmethod.mechanism.structure.analyse` for the mechanism.
     aligned : SelfAligning, optional
-        Its schemes without redundant constraints; looked for when absent.
+        Its schemes without redundant constraints. Default: computed.
     paper : str, optional
-        Format; the file's when absent, or A3, or the smallest larger one that everything fits.
+        Format. Default: the file's, or A3, or the smallest larger one that everything fits.
     fields : mapping, optional
         Texts of the title block that outrank the file's.
 
     Raises
     ------
     LayoutError
-        When everything fits no format, or not the asked one.
+        When the sheet fits no format, or not the requested one.
     """
     if paper:
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
@@ -144,7 +144,7 @@ def structure_sheet(
 
 
 class _Structural(Struct, frozen=True):
-    """How the structural sheet is searched for: by sizes of tables and pictures."""
+    """Search strategy for the structural sheet, by sizes of tables and pictures."""
 
     problem: Problem
     structure: Structure
@@ -173,7 +173,7 @@ class _Columns(Struct, frozen=True):
     def laid(self) -> Laid | None:
         """Return the sheet, or None when the columns do not fit.
 
-        A column that would lie on a graph in an upper corner begins below it.
+        A column that would cover a graph in an upper corner begins below it.
         """
         problem, structure = self.problem, self.structure
         pictures, words = self.pictures, self.words
@@ -219,7 +219,7 @@ def _told(
     height: float,
     words: Language,
 ) -> Block | None:
-    """Return tables and formulas, in rows as high as the room allows."""
+    """Return tables and formulas, in rows as high as the space permits."""
     mechanism, said = problem.mechanism, words.structure
     sizes = pictures.sizes
     for row in pictures.rows:
@@ -337,20 +337,20 @@ def _shown(
 
 
 class _Centred(Struct, frozen=True):
-    """Block in the middle of a room of a given width and height."""
+    """Block centred in an area of a given width and height."""
 
     block: Block
     width: float
     height: float
 
     def place(self, corner: complex) -> list[Item]:
-        """Return what is in the block."""
+        """Return the items of the block."""
         across, down = self.width - self.block.width, self.height - self.block.height
         return self.block.place(corner + across / 2 - 1j * down / 2)
 
 
 def _grid(pictures: Sequence[Block], told: Sequence[Block], across: int, cell: float) -> Block:
-    """Return cells in rows: pictures stand on one line, captions begin on one line."""
+    """Return cells in rows: pictures end on one line, captions begin on one line."""
     rows: list[Block] = []
     for first in range(0, len(pictures), across):
         views, texts = pictures[first : first + across], told[first : first + across]
@@ -361,7 +361,7 @@ def _grid(pictures: Sequence[Block], told: Sequence[Block], across: int, cell: f
 
 
 class _Cell(Struct, frozen=True):
-    """Picture over its caption in a room of a given width and height; both are centred."""
+    """Picture over its caption in an area of a given width and height; both are centred."""
 
     view: Block
     text: Block
@@ -373,7 +373,7 @@ class _Cell(Struct, frozen=True):
         return self.room + CAPTION_GAP + self.text.height
 
     def place(self, corner: complex) -> list[Item]:
-        """Return picture and caption; the picture stands in the middle of its room."""
+        """Return picture and caption; the picture is centred in its area."""
         drop = (self.room - self.view.height) / 2
         at = corner + (self.width - self.view.width) / 2 - 1j * drop
         under = corner + (self.width - self.text.width) / 2 - 1j * (self.room + CAPTION_GAP)

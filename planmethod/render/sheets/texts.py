@@ -17,7 +17,7 @@ from planmethod.render.sheets.views import shown_position
 from planmethod.solved.solution import Solution
 
 NARROW = 0.7
-"""Part of the usual width that a text may be set to where that has more room."""
+"""Part of the usual width for a narrower layout of a text."""
 
 
 def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -27,7 +27,7 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 
 
 def stated(facts: Sequence[GivenFact], asked: str, manner: Manner, *more: str) -> Block:
-    """Return "Дано" with its facts, what is asked, and further paragraphs: narrower, too."""
+    """Return "Дано" with its facts, the task, and further paragraphs, in two widths."""
     height, column = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     told = unbroken(fact.text for fact in facts)
     texts = [manner.words.note.given.format(given=told), asked, *more]
@@ -54,7 +54,7 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 
 
 def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the formulas with the read segments; of many positions those of one."""
+    """Return the formulas with the read segments, of one position only."""
     kind = manner.entry.of
     assert kind is not None
     index = shown_position(solution, indices, manner)
@@ -71,7 +71,7 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
 
 
 def text_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return a text of the composition's own."""
+    """Return a text of the composition itself."""
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     lines: list[Block] = [paragraph(manner.entry.text, height, width=width)]
     if manner.entry.title:

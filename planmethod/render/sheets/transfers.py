@@ -21,7 +21,7 @@ from planmethod.solved.transfers import transfers_of
 
 
 def formulas_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the formulas of what a plan gives; of many positions those of one."""
+    """Return the transfer functions' formulas from a plan, of one position only."""
     kind, transfers, said = manner.entry.of, transfers_of(solution), manner.words.sheets
     assert kind is not None
     if transfers is None:
@@ -45,7 +45,7 @@ def formulas_block(solution: Solution, indices: Sequence[int], manner: Manner) -
 
 
 def transfer_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the table by positions; of one alone what is exact, what is read, and its error."""
+    """Return the table by positions; of a single one exact and read values with errors."""
     transfers, words = transfers_of(solution), manner.words
     if transfers is None:
         return Column([])

@@ -41,16 +41,16 @@ SIDE = 0.5
 """Side of a hodograph as a part of the width of a text."""
 
 MOST = 150.0
-"""Side up to which a hodograph of a project keeps the scale of its plans, mm."""
+"""Largest side of a hodograph of a project at the scale of its plans, mm."""
 
 SMALL = 0.6
 """Share of `MOST` below which it is drawn larger than the plans, at a scale of its own."""
 
-_NARROW = 0.05  # a hodograph that is narrower than so much of its length is a straight line
+_NARROW = 0.05  # width over length below which a hodograph counts as a straight line
 
 
 def turn_statement(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return "Дано", "Определить" and what is found of the turn."""
+    """Return "Дано", "Определить" and the facts found for the turn."""
     words = manner.words
     facts = given(solution.problem, words, [float(turn_of(solution).zero)])
     found = "; ".join(turn_facts(turn_of(solution), words)) + "."
@@ -79,20 +79,20 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
 
 
 def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return plans of the positions that the block names.
+    """Return the plans of the positions that the block names.
 
-    Without them those of as many as there is room for, evenly from 0 on; of two, those of either
-    stroke: after a sixth and two thirds of a turn.
+    Default: of as many as fit, evenly from 0 on; or of two, one of either stroke: after a sixth and
+    two thirds of a turn.
     """
     kind, words = manner.entry.of, manner.words
     assert kind is not None
-    every = len(solution.positions) // solution.repeated  # the second turn is as the first
+    every = len(solution.positions) // solution.repeated  # the second turn repeats the first
     two = dict.fromkeys((round(every / 6), round(2 * every / 3) % every))
     count = manner.extras.plans
     even = range(0, every, -(-every // count)) if count else two
     chosen = manner.entry.positions or tuple(even)
     pictures = plan_grid(solution, kind, chosen, words, in_row=manner.entry.per_row)
-    if not count:  # the usual way alone: they grow, and are not to push the others aside
+    if not count:  # the usual layout only: they grow, and must not displace the others
         pictures = pictures[:1]
     names, scale = words.sheets["views"][kind.value], solution.scales[kind]
     title = manner.entry.title or names[len(chosen) > 1]
@@ -111,9 +111,9 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
 
 
 def hodograph_point(turn: Turn) -> str | None:
-    """Return the point whose hodograph is shown: a centre of mass that does not move straight.
+    """Return the point of the hodograph: a centre of mass not moving in a straight line.
 
-    Else a named point that does not; None where all of them move along lines.
+    Otherwise another such point; None if all of them move along lines.
     """
     bodies, drive = turn.unit.problem.bodies, turn.unit.problem.drive.link
     own = [p for link in bodies if link not in (FRAME, drive) for p in bodies[link].points]
@@ -177,8 +177,9 @@ def _hodograph_of(solution: Solution, kind: PlanKind) -> tuple[str, Complexes, C
 def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
     """Return the hodograph of velocities or accelerations that fills a square, its side in mm.
 
-    One of a project has the scale of the plans, as a plan of all positions about one pole, unless
-    it is larger than `MOST` or small beside it then: it fills that square, whatever the side.
+    In a project it has the scale of the plans, as a plan of all positions about one pole, unless it
+    would be larger than `MOST` or much smaller: then it fills a square of that side, whatever
+    ``side`` is.
     """
     point, curve, ends = _hodograph_of(solution, kind)
     there = np.concatenate([[0j], curve[np.isfinite(curve)], ends[np.isfinite(ends)]])
@@ -198,7 +199,7 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
 def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the hodograph of velocities or accelerations of a point about one pole.
 
-    It may be larger: the packer takes what fills the paper.
+    It may be larger: the packer takes the size that fills the paper.
     """
     kind, words = manner.entry.of, manner.words
     assert kind is not None
@@ -228,13 +229,13 @@ def _table(columns: Columns, lead: int, title: str, manner: Manner) -> Block:
 
 
 def turn_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the table of the turn by positions; without diagrams the results of all of them."""
+    """Return the table of the turn by positions."""
     diagrams = diagrams_of(solution)
     return _table(cycle_columns(diagrams, manner.words), 2, manner.words.cycle.table, manner)
 
 
 def deviations_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return how far the diagrams are off by every way."""
+    """Return the deviations of the diagrams by every method."""
     diagrams = diagrams_of(solution)
     columns = deviation_columns(diagrams, manner.words)
     return _table(columns, 2, deviations_title(solution, manner.words), manner)

@@ -1,4 +1,4 @@
-"""Views of a sheet (виды): a picture with its name and scale, and what is measured on it."""
+"""Views of a sheet (виды): a picture with its name and scale, and its measured segments."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ from planmethod.solved.enlarging import least_shown
 from planmethod.solved.solution import Solution
 
 POINT = 1e-6
-"""What is shorter on a plan, mm, is the rounding of a mechanism that rests."""
+"""Length on a plan, mm, below which a segment is a rounding error of a mechanism at rest."""
 
 NO_VIEWS: Mapping[int, complex] = MappingProxyType({})
 
 LARGER = (1.0, 1.5, 2.2)
-"""So many times as large a polar diagram stands where there is room."""
+"""Enlargements of a polar diagram where there is space."""
 
 
 class PlanViewed(Viewed, frozen=True):
@@ -75,8 +75,8 @@ def plan_spans(
 ) -> list[Span]:
     """Return the measured segments of a plan whose pole lies at ``pole`` on the sheet.
 
-    A vector that is nothing beside the plan is zero by nature and no segment. ``views`` are the
-    middles of the enlarged views by the numbers of their knots: what they show is measured there.
+    A vector negligible against the plan is zero by nature and is not a segment. ``views`` are the
+    middles of the enlarged views by the numbers of their knots: their segments are measured there.
     """
     plan = solution.construction.plan(kind)
     at = plan_places(solution, kind, index, by_hand=by_hand)
@@ -95,7 +95,7 @@ def plan_spans(
     for ends, vector in named.items():
         knot = shown.get(ends)
         if alone and knot is None and abs(at[vector.head] - at[vector.tail]) < least:
-            continue  # told to be nothing
+            continue  # listed as zero
         times, middle = (1.0, pole) if knot is None else (knot.times, views[knot.number])
         start, end = (
             middle + (at[point] - (0j if knot is None else knot.centre)) * times
@@ -109,7 +109,7 @@ def plan_spans(
 
 
 def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
-    """Return the scheme in one position; that of several is made by `sheets.several`."""
+    """Return the scheme in one position; `sheets.several` makes that of several."""
     (index,) = indices
     picture = scheme_picture(
         solution,
@@ -124,10 +124,10 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
 
 
 def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return a plan with what is enlarged of it; those of several are made by `sheets.several`.
+    """Return a plan with its enlarged views; `sheets.several` makes those of several positions.
 
-    It is drawn as it comes out with the ruler, so that what the calculation says is what a ruler
-    finds; with error ellipses, which lie around the exact points, it is exact.
+    It is drawn with the readings of the ruler, so that a ruler finds the numbers of the
+    calculation; with error ellipses, which are around the exact points, it is exact.
     """
     kind = manner.entry.of
     assert kind is not None
@@ -142,7 +142,7 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Blo
 def plans_viewed(
     solution: Solution, pictures: Sequence[Block], indices: Sequence[int], manner: Manner
 ) -> Block:
-    """Return the plans of some positions, in one of several ways, under their name."""
+    """Return the plans of some positions, in several layouts, under their name."""
     kind = manner.entry.of
     assert kind is not None
     blocks = [with_scale(solution, kind, picture, manner, indices) for picture in pictures]
@@ -163,7 +163,7 @@ def plan_with_knots(
     errors: bool = False,
     traces: Shown = False,
 ) -> list[Block]:
-    """Return a plan with what is enlarged of it, in all ways: what takes the least room first."""
+    """Return a plan with its enlarged views, in all layouts, the smallest first."""
     knots, by_hand = solution.knots_of(kind, index), not errors
     letters = tuple(knot_letter(knot, words) for knot in knots)
     picture = plan_picture(
@@ -187,7 +187,7 @@ def plan_with_knots(
 
 
 def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
-    """Return the position that stands for all: the asked or calculated one, else the clearest."""
+    """Return the representative position: the requested or calculated one, else the clearest."""
     for asked in (manner.entry.position, solution.problem.calculated):
         if asked is not None and asked in indices:
             return asked
@@ -204,7 +204,7 @@ def with_scale(
 ) -> Column:
     """Return a picture of the ``drawn`` positions with its name and scale.
 
-    ``more`` is said under the scale.
+    ``more`` are lines under the scale.
     """
     words = manner.words
     one, many = words.sheets["views"][kind.value]
@@ -216,14 +216,14 @@ def with_scale(
         )
     said += more
     if manner.extras.errors:
-        of_scheme = kind is PlanKind.POSITION  # which has them around one position
+        of_scheme = kind is PlanKind.POSITION  # which has ellipses in one position only
         shown = (shown_position(solution, drawn, manner),) if of_scheme else drawn
         said += ellipse_inscription(solution, kind, shown, words)
     return named(picture, title, said, manner)
 
 
 def at_scales(ways: Iterable[Viewed]) -> Block:
-    """Return a view that may stand at several scales, the usual one first."""
+    """Return a view with layouts at several scales, the usual one first."""
     found: dict[Scale | None, Viewed] = {}
     for way in ways:
         found.setdefault(way.scale, way)
@@ -231,7 +231,7 @@ def at_scales(ways: Iterable[Viewed]) -> Block:
 
 
 def named(picture: Block, title: str, said: Iterable[str | Block], manner: Manner) -> Column:
-    """Return a picture under its name and what is said of it, lines of text mostly (GOST 2.316)."""
+    """Return a picture under its name and notes, mostly lines of text (GOST 2.316)."""
     height = manner.text(manner.sizes.text)
     lines: list[Block] = [Line(typeset(title, manner.title))]
     lines += [Line(typeset(one, height)) if isinstance(one, str) else one for one in said]

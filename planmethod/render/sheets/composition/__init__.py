@@ -1,1 +1,1 @@
-"""How the files of compositions (компоновка) are read; the records are in `sheets.model`."""
+"""Reading of composition files (компоновка); the records are in `sheets.model`."""

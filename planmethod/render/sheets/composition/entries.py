@@ -29,7 +29,7 @@ ALWAYS = ("kind", "group", "sheet", "droppable")
 """Keys of every block; the others are those of its kind."""
 
 GROUP = ("arrange",)
-"""Keys of a group: no group can be called so."""
+"""Keys of a group, which cannot be names of groups."""
 
 BLOCK_LIMIT = 60
 ON_SHEET_LIMIT = 16
@@ -47,7 +47,7 @@ COLUMNS = {"v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}
 
 
 def read_entries(faults: Faults, value: object) -> tuple[Entry, ...]:
-    """Read ``[[blocks]]``: every block, and the order they stand in."""
+    """Read ``[[blocks]]``: every block, and their order."""
     example = 'Give the blocks: [[blocks]] kind = "scheme".'
     if value is None:
         faults.add("blocks", "missing", example)
@@ -73,7 +73,7 @@ def read_entries(faults: Faults, value: object) -> tuple[Entry, ...]:
 
 
 def _read_block(faults: Faults, path: str, table: Table, sheet: int) -> Entry | None:
-    """Read a block; it stands on the ``sheet`` of the one before unless it names another."""
+    """Read a block; it is on the ``sheet`` of the previous one unless it names another."""
     if "kind" not in table:
         faults.add(f"{path}.kind", "missing", say("The kinds are {}.", ", ".join(BLOCKS)))
         return None
@@ -170,7 +170,7 @@ _READERS: Mapping[str, Callable[[Faults, str, object], object]] = {
 
 
 def _check_order(faults: Faults, entries: list[tuple[int, Entry]]) -> None:
-    """Note sheets that go back, and groups that are taken up again."""
+    """Note sheets out of order, and groups that are resumed."""
     last, before = 1, Entry("")
     closed: set[tuple[int, tuple[str, ...]]] = set()
     for k, entry in entries:

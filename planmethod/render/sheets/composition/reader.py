@@ -1,4 +1,4 @@
-"""Composition files (файлы компоновки): read with all faults at once, as problem files are."""
+"""Composition files (файлы компоновки): read with all faults at once, like problem files."""
 
 from __future__ import annotations
 
@@ -62,12 +62,12 @@ def shipped(name: str, lang: str = LANGUAGES[0]) -> Composition:
 
 
 def composition(asked: str | Path, lang: str = LANGUAGES[0]) -> Composition:
-    """Return the composition called so: a shipped one by its name in a language, else a file.
+    """Return a composition: a shipped one by its name in a language, else a file.
 
     Raises
     ------
     CompositionError
-        With every fault of the file: path, what was expected, what came, the next action.
+        With every fault of the file: path, expected and actual value, the next action.
     """
     if str(asked) in SHIPPED:
         return shipped(str(asked), lang)
@@ -85,7 +85,7 @@ def composition(asked: str | Path, lang: str = LANGUAGES[0]) -> Composition:
 
 
 def read_composition(text: str, *, name: str) -> Composition:
-    """Read a composition from a text; ``name`` is what messages call it.
+    """Read a composition from a text; ``name`` is its name in messages.
 
     Raises
     ------
@@ -153,7 +153,7 @@ def _read_per_sheet(faults: Faults, value: object) -> tuple[int, ...]:
 
 
 def _read_sizes(faults: Faults, value: object, *, whole: bool) -> dict[str, Sizes]:
-    """Read the sizes by format; what is left out is as in the first shipped composition."""
+    """Read the sizes by format; defaults are those of the first shipped composition."""
     sizes = {} if whole else dict(shipped(SHIPPED[0]).sizes)
     table = read_table(faults, "sizes", value, "A2 = { text = 5 }") or {}
     for name, asked in read_keys(faults, "sizes", table, BASIC).items():
@@ -199,7 +199,7 @@ def _read_sheets(faults: Faults, value: object, numbers: set[int]) -> dict[int, 
 def _read_groups(
     faults: Faults, given: Table, blocks: tuple[Entry, ...]
 ) -> dict[tuple[str, ...], Arrange]:
-    """Read how groups are arranged: tables within tables, as the names of groups are."""
+    """Read the arrangement of groups: tables nested like the names of groups."""
     arranged: dict[tuple[str, ...], Arrange] = {}
     paths = {entry.group[:depth] for entry in blocks for depth in range(1, GROUP_DEPTH + 1)}
 

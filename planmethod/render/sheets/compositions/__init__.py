@@ -1,7 +1,7 @@
 """Shipped compositions (готовые компоновки): their names and texts, one TOML file each.
 
-Where the files have words, names of places stand, ``$homework_title``: the words are those of a
-language, `Language.layouts`.
+The files have placeholders for words, ``$homework_title``, which come from a language,
+`Language.layouts`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ SHIPPED = (
     "project-forces",
     "graphs",
 )
-"""Compositions that come with the program; the first three are taken when none is asked for."""
+"""Compositions that come with the program; the first three are the defaults."""
 
 
 def shipped_text(name: str, lang: str = LANGUAGES[0]) -> str:
@@ -48,7 +48,7 @@ def shipped_text(name: str, lang: str = LANGUAGES[0]) -> str:
 
 
 def about(name: str, lang: str = LANGUAGES[0]) -> str:
-    """Return what a shipped composition says of itself."""
+    """Return the description of a shipped composition."""
     import tomllib
 
     return str(tomllib.loads(shipped_text(name, lang)).get("about", ""))

@@ -1,4 +1,4 @@
-"""Specimen sheets (листы образцов): what the drawing is made of, shown at working size.
+"""Specimen sheets (листы образцов): the elements of drawings at working size.
 
 A specimen is a function that takes the fields of the title block and a language and returns a
 framed sheet; to add one, add a line to `SPECIMENS`.

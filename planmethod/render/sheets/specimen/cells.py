@@ -1,4 +1,4 @@
-"""Cells of a specimen sheet (клетки листа образцов): a picture, its name, where it is from."""
+"""Cells of a specimen sheet (клетки листа образцов): a picture, its name, its source."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NUMBER, NAME, CLAUSE = 2.5, 3.5, 2.5
 """Heights of the letters of a cell, mm."""
 
 EDGE = 3.0
-"""Between the lines of a cell and what is in it, mm."""
+"""White between the lines of a cell and its contents, mm."""
 
 
 class Clause(NamedTuple):
@@ -48,15 +48,15 @@ class SymbolCell(Struct, frozen=True):
     Attributes
     ----------
     name : str
-        Of what it shows in ``cells`` of a language's ``specimens``.
+        Key of its name in ``cells`` of a language's ``specimens``.
     clause : Clause or None
-        The clause of the standard that it stands for; None of what is the practice of the course.
+        The clause of the standard that it illustrates; None for practice of the course.
     items : tuple of Item
-        The symbol in its own coordinates, mm, as it is drawn on a scheme.
+        The symbol in its own coordinates, mm, as drawn on a scheme.
     labels : tuple of Label
-        Its letters; they find places about it.
+        Its letters, placed around it.
     size : str
-        What its name says in millimetres.
+        Size in its name, mm.
     """
 
     name: str
@@ -80,7 +80,7 @@ def drawn_cell(cell: SymbolCell, number: int, box: Bounds, words: Words) -> list
     """Return a cell in its box: number, picture in the middle, name and clause below it."""
     left, low, right, high = box
     middle, inner = (left + right) / 2, right - left - 2 * EDGE
-    # Base lines are those of the grid, whatever the letters hang below them.
+    # Base lines are those of the grid, regardless of descenders.
     base = low + EDGE + 0.3 * CLAUSE
     name = words["cells"][cell.name].format(size=cell.size)
     clause = words.course if cell.clause is None else cell.clause.told(words)

@@ -44,14 +44,14 @@ class Measured(Struct, frozen=True):
 
 
 def measured(lettering: OutlineLettering) -> list[Measured]:
-    """Return the proportions of a lettering as its outlines have them (размеры шрифта)."""
+    """Return the proportions of a lettering measured on its outlines (размеры шрифта)."""
     kind = lettering.style.proportions
 
     def ink(text: str) -> tuple[float, float, float, float]:
         return lettering.ink(text, 1.0)
 
     def wide(text: str) -> float:
-        # What slanted letters lean is no part of their width.
+        # The lean of slanted letters is not part of their width.
         left, low, right, high = ink(text)
         return right - left - lettering.style.lean * (high - low - lettering.line)
 

@@ -1,7 +1,7 @@
 """Specimen of the lines (линии чертежа, GOST 2.303), format A3.
 
-Every line is drawn with its own pen; what is written of its strokes is measured on what the pen
-leaves on the paper.
+Every line is drawn with its own pen; the lengths of its strokes are measured on its marks on the
+paper.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ TYPES: tuple[LineType, ...] = (
 
 
 def said(value: float, say: Notation) -> str:
-    """Return a length as it is written on the sheet: one place."""
+    """Return the text of a length with one decimal."""
     return say.number(f"{round(value, 1):g}")
 
 
@@ -82,7 +82,7 @@ def sample(kind: LineType, start: complex) -> list[Item]:
 
 
 def measured(items: Sequence[Item], say: Notation) -> str:
-    """Return stroke and gap of a dashed sample, read from what its pen leaves; a dash if none."""
+    """Return stroke and gap of a dashed sample, measured on its items; a dash if none."""
     (line,) = (item for item in items if isinstance(item, Stroke))
     pieces = stroke_lines(line)
     if len(pieces) < 2:
@@ -155,7 +155,7 @@ def _table(corner: complex, words: Language) -> list[Item]:
 
 
 def _width(pen: Pen, say: Notation) -> str:
-    """Return the width of a pen, and the part of s that it is where it is less."""
+    """Return the width of a pen, marked (s) for a main line."""
     width = PENS[pen].width
     return f"{said(width, say)} (s)" if width == S else said(width, say)
 
@@ -164,7 +164,7 @@ def _width(pen: Pen, say: Notation) -> str:
 
 
 def rule_cells(say: Notation) -> list[SymbolCell]:
-    """Return how lines meet, begin and end, each rule with its picture."""
+    """Return the rules for crossings and ends of lines, each with its picture."""
     return [*_crossings(say), *_dashed(), *_meanings()]
 
 

@@ -41,7 +41,7 @@ def symbols_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
 
 
 def _sizes(corner: complex, inner: Bounds, words: Language) -> list[Item]:
-    """Return the sizes of the symbols, in the room that the grid leaves over the title block."""
+    """Return the sizes of the symbols, in the space that the grid leaves above the title block."""
     left = corner.real + 4 * WIDTH + 8.0
     high = corner.imag - 4 * HEIGHT - 7.0
 
