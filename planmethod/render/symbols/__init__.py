@@ -4,7 +4,7 @@ Places are mm of paper, directions are complex numbers of any length (or degrees
 is called an angle). ``factor`` scales a symbol for a small sheet. Where symbols and links overlap
 the order matters: sliders first, links over them, joints last, whose white insides cover the lines.
 
-Here is what schemes and plans are drawn with; wheels, cams and axes have modules of their own:
+These are the symbols of schemes and plans; wheels, cams and axes have modules of their own:
 `gears`, `cams`, `axes`.
 """
 

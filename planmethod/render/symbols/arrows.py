@@ -1,4 +1,4 @@
-"""Arrows (стрелки): of one shape, whatever their length; vectors, senses of rotation, drives."""
+"""Arrows (стрелки) of one shape for all lengths: vectors, senses of rotation, drives."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ def vector_arrow(
 ) -> list[Item]:
     """Return a vector of a plan: a line that ends in an arrowhead (вектор).
 
-    The line stops inside the head, so that its square end does not blunt the tip. A vector
-    shorter than two heads gets a smaller head; nothing is drawn below 0.3 mm.
+    The line stops inside the head, so that its square end does not blunt the tip. A vector shorter
+    than two heads gets a smaller head; one below 0.3 mm is not drawn.
     """
     span = abs(head - tail)
     if span < 0.3:
@@ -78,9 +78,9 @@ def turn_arrow(
     sense : int
         +1 counter-clockwise, -1 clockwise; 0 draws nothing.
     middle : float, degrees
-        Where on the circle the middle of the arrow is.
+        Angle of the middle of the arrow on the circle.
     sweep : float, degrees
-        How much of the circle it takes.
+        Angle that it covers.
     """
     if sense == 0:
         return []
@@ -104,7 +104,7 @@ def turn_sign(centre: complex, size: float, sense: int, *, tag: str = "") -> lis
     """Return the small sign of a sense of rotation for a table (знак направления вращения).
 
     ``size`` is the diameter, mm; +1 counter-clockwise, -1 clockwise. Most of a circle that ends on
-    top with a head: open on the left and on the right, so that the two are told apart from afar.
+    top with a head: open on the left or on the right, so that the two are distinct from afar.
     """
     middle = 315.0 if sense > 0 else 225.0
     return turn_arrow(

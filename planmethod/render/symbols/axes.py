@@ -1,4 +1,4 @@
-"""Axes and breaks (осевые, центровые линии и линии обрыва): lines whose dashes meet as they should.
+"""Axes and breaks (осевые, центровые линии и линии обрыва): lines whose dashes meet correctly.
 
 GOST 2.303: a dash-dot line begins, ends and is crossed with a stroke, and the centre lines of a
 circle below 12 mm are solid thin lines.
@@ -18,16 +18,16 @@ SMALL_CIRCLE = 12.0
 """Diameter below which centre lines are solid (GOST 2.303), mm."""
 
 _BEYOND = (3.0, 2.5, 3.5, 2.0, 4.0, 4.5, 5.0)
-"""How far centre lines go beyond their circle, mm, the best first: 2 to 5 [mem]."""
+"""Extensions of centre lines beyond their circle, mm, the best first: 2 to 5 [mem]."""
 
-_SURE = 1.0  # mm: how far a crossing is from the ends of its stroke
+_SURE = 1.0  # mm: least distance of a crossing from the ends of its stroke
 
 
 def axis_line(start: complex, end: complex, *through: complex, tag: str = "") -> list[Item]:
     """Return a dash-dot line that others cross at ``through`` in a stroke (осевая линия).
 
     Where the pattern has a gap in one of these places, the line is drawn in parts that begin and
-    end there. What is too short for two strokes is solid and thin.
+    end there. A line too short for two strokes is solid and thin.
     """
     length = abs(end - start)
     if not _shows(length):
@@ -43,7 +43,7 @@ def axis_line(start: complex, end: complex, *through: complex, tag: str = "") ->
 
 
 def _shows(length: float) -> bool:
-    """Tell whether a dash-dot line is long enough to look like one."""
+    """Return whether a dash-dot line is long enough to look like one."""
     dashes = PENS[Pen.AXIS].dashes
     assert dashes is not None
     return len(dash_spans(length, dashes)) > 1
@@ -64,8 +64,8 @@ def centre_lines(
 ) -> list[Item]:
     """Return the lines that cross in the centre of a circle (центровые линии).
 
-    They go 2 to 5 mm beyond it, as far as lets them cross by strokes; those of a circle below
-    12 mm are solid, and so are those of a circle too small for two dash-dot halves.
+    They extend 2 to 5 mm beyond it, so that they cross by strokes; those of a circle below 12 mm
+    are solid, and so are those of a circle too small for two dash-dot halves.
     """
     items: list[Item] = []
     over = next((x for x in _BEYOND if _in_a_stroke(2 * (radius + x), radius + x)), None)
@@ -101,7 +101,7 @@ def pitch_circle(
 def wavy_line(start: complex, end: complex, *, wave: float = 6.0, tag: str = "") -> list[Item]:
     """Return a line of break drawn by hand (волнистая линия); ``wave`` is its length, mm.
 
-    The waves are not all alike: the hand is imitated, always in the same way.
+    The waves differ to imitate a hand, always in the same way.
     """
     length, along = abs(end - start), unit(end - start)
     count = max(1, round(length / wave))

@@ -13,7 +13,7 @@ ROLLER = 3.2
 
 
 RISE = 1.6
-"""How far the rise of a cam goes on either side of its nose, radians."""
+"""Angle of the rise of a cam on either side of its nose, radians."""
 
 
 def cam_radius(angle: float, *, base: float, lift: float) -> float:
@@ -42,7 +42,7 @@ def roller(at: complex) -> list[Item]:
 
 
 def rest_on_cam(centre: complex, way: complex, *, base: float, lift: float, nose: float) -> complex:
-    """Return where a roller's centre rests on a cam as it comes down along ``way``, mm.
+    """Return the place of a roller's centre that rests on a cam, descending along ``way``, mm.
 
     The follower's line goes through the cam's centre; the roller touches the outline without
     running into it.

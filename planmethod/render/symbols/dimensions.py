@@ -1,4 +1,4 @@
-"""Dimensions (размеры): lengths along a line and angles, as GOST 2.307 has them."""
+"""Dimensions (размеры) by GOST 2.307: lengths along a line and angles."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ def dimension(
 ) -> list[Item]:
     """Return a linear dimension: extension lines, the dimension line and its arrowheads.
 
-    ``out`` is from what is dimensioned to the dimension line, mm; the extension lines begin
-    ``gap`` mm from their places.
+    ``out`` is the vector from the dimensioned places to the dimension line, mm; the extension lines
+    begin ``gap`` mm from the places.
     """
     along, away = unit(end - start), unit(out)
     is_wide = abs(end - start) >= 3 * _HEAD
@@ -40,7 +40,7 @@ def angle_dimension(
 ) -> list[Item]:
     """Return the dimension of an angle: an arc with arrowheads, from ``low`` to ``high`` radians.
 
-    The sides of the angle are there already. An arc that has no room for them has no arrowheads.
+    The sides of the angle are already drawn. An arc too short for arrowheads has none.
     """
     items: list[Item] = [Arc(centre, radius, low, high, Pen.THIN, tag)]
     if (high - low) * radius >= 3 * _HEAD:

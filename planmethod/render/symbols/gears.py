@@ -106,8 +106,8 @@ def wheel_profile(
     ways : tuple of int
         Which halves are drawn: +1 above the axis, -1 below it.
     loose : bool
-        The wheel turns on its shaft: a hub of two cross-bars with the shaft between them (колесо
-        на подшипнике). Otherwise it is fixed to it.
+        The wheel rotates on its shaft: a hub of two cross-bars with the shaft between them (колесо
+        на подшипнике). Otherwise it is fixed to the shaft.
     bore : float, mm
         Half the width of the hollow shaft that its disc begins on.
     """
@@ -164,8 +164,8 @@ def carrier_profile(pin: complex, centre: complex, *, reach: float, tag: str = "
     """Return a carrier from the side: the planet's pin and an arm down to the axis (водило).
 
     ``pin`` is the middle of the planet, ``centre`` the point of the main axis below it; the arm
-    stands ``reach`` mm beside the planet (negative: on its left). The shaft goes on from the foot
-    of the arm: a `link` of the caller.
+    stands ``reach`` mm beside the planet (negative: on its left). The shaft continues from the foot
+    of the arm as a `link` of the caller.
     """
     along = unit(pin - centre) * (-1j if ((pin - centre) / 1j).real >= 0 else 1j)
     short = along * (SIZES.teeth / 2 + 1.5) * (1 if reach > 0 else -1)

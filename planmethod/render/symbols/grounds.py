@@ -24,10 +24,8 @@ def ground_line(
     side : int
         +1: hatching on the left of the way from ``start`` to ``end``; -1: on the right.
 
-    Notes
-    -----
-    The strokes are at 45° to the line and lean to the right of the paper wherever they can, stand
-    a fixed step apart and are clipped at the ends of the line; both ends look alike::
+    Notes ----- The strokes are at 45° to the line and lean to the right of the paper if possible,
+    have a fixed step and are clipped at the ends of the line; both ends look alike::
 
         ___________________
          / / / / / / / / /
@@ -40,7 +38,7 @@ def ground_line(
         start, along = end, -along
     step = SIZES.hatch_step * factor
     depth = SIZES.hatch_stroke * factor * sin(pi / 4)
-    # A stroke goes from s on the line back to s - depth; s may lie beyond the end by as much.
+    # A stroke goes from s on the line back to s - depth; s may exceed the end by as much.
     count = max(1, int((length - depth) / step + 1e-9) + 1)
     first = (length + depth - (count - 1) * step) / 2
     for k in range(count):
@@ -52,7 +50,7 @@ def ground_line(
 
 
 def _leaning(direction: complex) -> float:
-    """Return how near a direction, either way, is to 45° to the right."""
+    """Return a measure of how close a direction, either way, is to 45° to the right."""
     return abs((unit(direction) * (1 - 1j)).real)
 
 
@@ -76,9 +74,9 @@ def fixed_pivots(
 ) -> list[Item]:
     """Return pivots side by side on one hatched base (опоры на общем основании).
 
-    The base lies under the lowest pivot, as deep as under one alone; the feet of two supports do
-    not meet, so supports that stand near each other are narrower. With ``joints=False`` the
-    circles are left to the caller, who draws them over the links.
+    The base is as far below the lowest pivot as below a single one; the feet of two supports do not
+    touch, so supports close to each other are narrower. With ``joints=False`` the caller draws the
+    circles over the links.
     """
     down = unit(direction)
     along = down * 1j
@@ -100,7 +98,7 @@ def fixed_pivots(
 def foot_of(places: Iterable[complex], *, direction: complex = -1j, factor: float = 1.0) -> float:
     """Return half the width of the supports of pivots on one base, mm.
 
-    It is that of a support alone where there is room, or leaves 1 mm between two feet.
+    It is that of a single support if there is space, or leaves 1 mm between two feet.
     """
     along = unit(direction) * 1j
     ways = sorted((p * along.conjugate()).real for p in places)
@@ -129,7 +127,7 @@ def guide_line(
     angle : float, degrees
         Direction of the guide.
     before, after : float, mm
-        How far the line goes from the pin against and along the direction (not scaled).
+        Extent of the line from the pin against and along the direction (not scaled).
     side : int
         Side of the pin on which the line lies: +1 left of the direction, -1 right.
     offset : float, mm

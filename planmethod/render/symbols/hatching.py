@@ -1,6 +1,6 @@
-"""Hatching (штриховка): of areas, and of what may not be run over by it.
+"""Hatching (штриховка): hatched areas, and items that clip it.
 
-Hatch strokes of the frame have the tag `GROUND`: where a link passes before them they give way.
+Hatch strokes of the frame have the tag `GROUND`: they are clipped around links.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ GROUND = "ground"
 """Tag of the hatching of the frame."""
 
 WHITE = 0.8
-"""Between a hatch stroke and the edge of what it gives way to, mm."""
+"""White between a hatch stroke and the item that clips it, mm."""
 
-_LEAST = 1.2  # mm: what is left of a hatch stroke and shorter is dust
+_LEAST = 1.2  # mm: shorter remainders of a hatch stroke are not drawn
 
 
 def hatch(
@@ -38,8 +38,8 @@ def hatch(
     """Return thin hatching at 45° clipped by a polygon (штриховка).
 
     ``step`` is the distance between the lines, mm. They lie on one lattice for the whole sheet, so
-    that areas side by side hatch alike. ``keep_off`` are items that the hatching gives way to:
-    joints, letters' grounds, links.
+    that areas side by side hatch alike. ``keep_off`` are items that clip the hatching: joints,
+    letters' grounds, links.
     """
     from shapely import MultiLineString, Polygon
 
@@ -58,10 +58,10 @@ def hatch(
 
 
 def taken_by(items: Iterable[Item]) -> BaseGeometry | None:
-    """Return the ground that items take with `WHITE` around, or None without any.
+    """Return the area of items with `WHITE` around, or None if empty.
 
-    Lines take the width of their pens, a circle that is drawn around its own white all that is
-    inside it. Letters are not looked at.
+    Lines have the width of their pens; a circle around its own white includes its inside. Letters
+    are ignored.
     """
     from shapely import LineString, Point, Polygon, union_all
 
@@ -82,9 +82,9 @@ def taken_by(items: Iterable[Item]) -> BaseGeometry | None:
 
 
 def clipped(items: Iterable[Item], taken: BaseGeometry) -> list[Item]:
-    """Return the items, their hatch strokes cut off where the ground is taken.
+    """Return the items, their hatch strokes clipped by an area.
 
-    A stroke may come out in several pieces; what is left of it below 1.2 mm is not drawn.
+    A stroke may become several pieces; pieces below 1.2 mm are not drawn.
     """
     from shapely import LineString, prepare
 
@@ -103,7 +103,7 @@ def clipped(items: Iterable[Item], taken: BaseGeometry) -> list[Item]:
 
 
 def before_links(items: Sequence[Item]) -> list[Item]:
-    """Return the items of a scheme, the hatching of its frame cut off around its links.
+    """Return the items of a scheme, the hatching of its frame clipped around its links.
 
     Links are the main lines tagged ``link ...``; the frame's hatching is tagged `GROUND`.
     """

@@ -22,8 +22,7 @@ def rigid_corner(
 ) -> list[Item]:
     """Return the mark of a rigid joint: a filled triangle in the angle (жёсткое соединение).
 
-    ``first`` and ``second`` are points of the two arms; nothing is drawn where the arms are in
-    one line, for then nothing is to be told apart.
+    ``first`` and ``second`` are points of the two arms; arms in one line need no mark.
     """
     one, two = unit(first - vertex), unit(second - vertex)
     if abs((one.conjugate() * two).imag) < sin(radians(4)):
@@ -52,8 +51,8 @@ def stiff_triangle(
 ) -> list[Item]:
     """Return a link with three or more points: its outline, rigid (трёхпарное звено).
 
-    The corners carry joints, so the stiffness is shown by the closed outline, by thin hatching
-    when ``hatched``, or by the marks of rigid corners when ``marked``.
+    The corners carry joints, so the rigidity is shown by the closed outline, by thin hatching if
+    ``hatched``, or by the marks of rigid corners if ``marked``.
     """
     items: list[Item] = []
     if hatched:
@@ -66,7 +65,7 @@ def stiff_triangle(
 
 
 def crank(pivot: complex, pin: complex, *, path: bool = False, tag: str = "") -> list[Item]:
-    """Return a crank: a link that turns fully about a pivot of the frame (кривошип).
+    """Return a crank: a link that rotates fully about a pivot of the frame (кривошип).
 
     ``path`` adds the circle of its pin, a thin line.
     """
@@ -79,8 +78,8 @@ def rocker(
 ) -> list[Item]:
     """Return a rocker: a link that swings about a pivot of the frame (коромысло).
 
-    ``swing`` says how far it goes clockwise and counter-clockwise of the shown position, degrees:
-    the arc of its pin is a thin line, the dead positions are dash-dot lines with two dots.
+    ``swing`` is its range clockwise and counter-clockwise of the shown position, degrees: the arc
+    of its pin is a thin line, the dead positions are dash-dot lines with two dots.
     """
     items: list[Item] = []
     if any(swing):

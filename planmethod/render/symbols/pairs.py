@@ -18,8 +18,8 @@ def revolute(
 ) -> list[Item]:
     """Return a revolute pair: a circle, white inside (вращательная пара).
 
-    ``count`` is the number of pairs in the place, one less than that of the links: a joint of
-    three links (двойной шарнир) has one thin ring about it, and one more for each further link.
+    ``count`` is the number of pairs there, one less than the number of links: a joint of three
+    links (двойной шарнир) has one thin ring about it, and one more for each further link.
     """
     radius = SIZES.joint / 2 * factor
     rings = [radius + SIZES.ring * factor * k for k in range(count - 1, 0, -1)]
@@ -50,7 +50,7 @@ def revolute_on(
     along : complex
         Direction of the link.
     side : int
-        Where the half-circle is: +1 left of the direction, -1 right.
+        Side of the half-circle: +1 left of the direction, -1 right.
     tag : str
         Tag of the piece of the link that is drawn again.
     """
@@ -86,14 +86,14 @@ def mobile_slider(
 
     ``2c``: the round sleeve on a round rod, about whose line it also turns (цилиндрическая пара);
     ``3pl``: a plate between two planes, which are seen edge-on (плоскостная пара); any other is a
-    slider. ``ground``: it stands on the frame, whose line is the second plane.
+    slider. ``ground``: it is on the frame, whose line is the second plane.
     """
     turn = cmath.exp(1j * radians(angle))
     half, tall = SIZES.slider_length / 2 * factor, SIZES.slider_width / 2 * factor
     items = slider(at, angle=angle, factor=factor)
     if name == "2c":
         bulge = 0.35 * tall
-        for end in (-1, 1):  # what shows that it is round: the near half of either end's rim
+        for end in (-1, 1):  # the near half of either end's rim shows that it is round
             ring = [
                 at + turn * complex(end * (half - 2.2) + bulge * cmath.cos(t).real,
                                     tall * cmath.sin(t).real)
@@ -131,10 +131,10 @@ def slider(
 
 
 def offset_slider(foot: complex, pin: complex) -> list[Item]:
-    """Return a slider whose pin stands off its level axis (ползун с внеосным шарниром).
+    """Return a slider whose pin is off its horizontal axis (ползун с внеосным шарниром).
 
-    ``foot`` is the middle of the slider on its axis, ``pin`` the joint, mm; the arm between them
-    is rigid, one piece with the slider.
+    ``foot`` is the middle of the slider on its axis, ``pin`` the joint, mm; the arm between them is
+    rigid with the slider.
     """
     return [*slider(foot), Stroke((foot, pin)), *revolute(pin)]
 

@@ -1,4 +1,4 @@
-"""Sizes of the symbols, and the directions they are placed by."""
+"""Sizes of the symbols, and helpers for their directions."""
 
 from __future__ import annotations
 
