@@ -1,4 +1,4 @@
-"""Sketch of a problem file: the scheme alone, with what is missing marked on it (эскиз схемы)."""
+"""Sketch of a problem file: the scheme alone, with missing parts marked (эскиз схемы)."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import Turn, turn_of
 
 BOX = (180.0, 130.0)
-"""Room that the scheme shall fill, mm."""
+"""Size of the scheme, mm."""
 
 VIEWS = Views.alone(BOX)
-"""The same for whoever chooses the scale."""
+"""Size of the scheme as views, for the choice of the scale."""
 
 WAYS_BOX = (110.0, 85.0)
-"""Room of one of several assemblies, mm."""
+"""Size of one of several assemblies, mm."""
 
 WAYS = Views.alone(WAYS_BOX)
 
@@ -52,30 +52,30 @@ HEIGHT, SMALL, WIDTH, EDGE = 5.0, 3.5, 190.0, 6.0
 """Heights of letters, width of the text and white round all, mm."""
 
 _MOST_TIMES = 6.0
-"""So many times larger than its box a scheme may be at the scale of the file."""
+"""Largest ratio of a scheme at the scale of the file to its box."""
 
 _MISSING = 3
-"""Points at which the number of a link that is not drawn stands."""
+"""Number of points with the number of a link that is not drawn."""
 
-_SAME = 1e-2  # degrees, or m: a position that is shown is the one that was asked
+_SAME = 1e-2  # degrees, or m: the shown position is the requested one
 _HALF = 60  # of a drawn arc, degrees
 _OUT = 6.0  # of the arc of possible positions beyond the crank's pin, mm
 
 
 class _Marks(Struct):
-    """What is drawn over the scheme."""
+    """Items drawn over the scheme, and their labels."""
 
     items: list[Item] = field(default_factory=list)
     labels: list[Label] = field(default_factory=list)
 
 
 def sketch(part: MechanismPart, title: str, words: Language, said: Sequence[str]) -> Drawing:
-    """Return the sketch of a part of a mechanism, as large as what is on it.
+    """Return the sketch of a part of a mechanism, as large as its contents.
 
     Parameters
     ----------
     title : str
-        Of the problem.
+        Title of the problem.
     said : sequence of str
         Text about the file under the scheme, plain text, a paragraph each.
     """
@@ -95,20 +95,20 @@ def sketch(part: MechanismPart, title: str, words: Language, said: Sequence[str]
 
 
 def _fits(solution: Solution) -> bool:
-    """Tell whether a sketch at the scale of the file is one that can be looked at."""
+    """Return whether a sketch at the scale of the file is small enough to view."""
     left, low, right, high = extent(solution, range(len(solution.positions)))
     return max(right - left, high - low) <= _MOST_TIMES * BOX[0]
 
 
 def assigned(solution: Solution) -> Drawing:
-    """Return the scheme with its loads as an assignment has it: without what is asked."""
+    """Return the scheme of an assignment: with its loads, without the requested results."""
     marks = _Marks()
     _mark_loads(marks, solution)
     return _set("", [_marked(solution, marks, given=True)])
 
 
 def _marked(solution: Solution, marks: _Marks, *, given: bool = False) -> Picture:
-    """Return the scheme and what is drawn over it, all letters placed at once."""
+    """Return the scheme and the items over it, all letters placed together."""
     added, several = (tuple(marks.items), tuple(marks.labels)), range(len(solution.positions))
     if len(several) == 1:
         return scheme_picture(solution, 0, given=given, added=added)
@@ -116,7 +116,7 @@ def _marked(solution: Solution, marks: _Marks, *, given: bool = False) -> Pictur
 
 
 def notice(text: str) -> Drawing:
-    """Return a text alone: what stands in place of a picture that cannot be drawn."""
+    """Return a text alone, in place of a picture that cannot be drawn."""
     return _set("", [paragraph(escape(line), SMALL, WIDTH) for line in text.splitlines()])
 
 
@@ -201,7 +201,7 @@ def _at(solution: Solution, name: str) -> complex:
 
 
 def _mark_missing(marks: _Marks, part: MechanismPart, places: Mapping[str, complex]) -> None:
-    """Put the numbers of links that are not drawn at those of their points that are."""
+    """Put the numbers of links that are not drawn at their drawn points."""
     for link, points in (part.links or {}).items():
         for point in [one for one in points if one in places][:_MISSING]:
             text = typeset(f"{link}?", HEIGHT)
@@ -216,7 +216,7 @@ def _mark_missing(marks: _Marks, part: MechanismPart, places: Mapping[str, compl
 
 
 def _mark_arcs(marks: _Marks, solution: Solution, failure: Failure) -> None:
-    """Draw the arcs that do not meet, where the position that does not exist is shown."""
+    """Draw the arcs that do not intersect, if the shown position is the impossible one."""
     shown = abs(float(solution.positions[0]) - failure.place.value) < _SAME
     if not shown or failure.cause not in (Cause.ARCS, Cause.ARC):
         return
@@ -247,7 +247,7 @@ def _mark_loads(marks: _Marks, solution: Solution) -> None:
         found = [
             one for link in problem.mechanism.links for one in external(solution, dynamics, link)
         ]
-    except ProblemError:  # known in the positions of the file only, some of which are not there
+    except ProblemError:  # known only in the positions of the file, some of which are absent
         return
     forces, couples = [], []
     for one in found:
@@ -272,17 +272,17 @@ def _bars(solution: Solution) -> Iterator[tuple[str, str]]:
 
 
 def _turn(solution: Solution) -> Turn | None:
-    """Return the turn of a crank that moves something."""
+    """Return the turn of a crank that moves other links."""
     if not solution.problem.drive.is_crank or not solution.structure.groups:
         return None
     try:
         return turn_of(solution)
-    except ProblemError:  # nothing of it can be an output
+    except ProblemError:  # none of its links can be an output
         return None
 
 
 def _mark_range(marks: _Marks, turn: Turn, words: Language) -> None:
-    """Draw the arc of the positions between which the mechanism assembles."""
+    """Draw the arc of the positions in which the mechanism can be assembled."""
     solution, limits = turn.solution, turn.range
     drive = solution.problem.drive
     if limits is None or drive.pivot is None:
