@@ -40,6 +40,47 @@ def test_thickness_and_space_make_the_pitch(name: str) -> None:
     assert lengths - {"size c"} == {"size s_{1}", "size e_{1}", "size p", "size h"}
 
 
+@pytest.mark.parametrize("name", FILES)
+def test_the_dimension_of_the_tooth_has_metal_between_its_ends_and_that_of_the_space_has_none(
+    name: str,
+) -> None:
+    """Of wheel 1, by the flanks and tips that are drawn: how far the metal goes each way."""
+    view = view_of(name)
+    items, labels = mesh_dimensions(view, 5.0)
+    drawn = meshing_picture(view, language("en"), 5.0, items, labels).items
+    centre, tooth = view.centre(0), view.solved.teeth[0]
+    named = {label.name.removeprefix("size "): label for label in labels}
+    tips = [one for one in drawn if isinstance(one, Arc) and abs(one.centre - centre) < 1e-9
+            and one.radius == pytest.approx(tooth.size("d_a") / 2 * view.scale)
+            and one.tag not in ("circle", "dimension")]  # fmt: skip
+    assert len(tips) > 2
+    arcs = [one for one in items if isinstance(one, Arc)]
+    for letters, is_metal in (("s_{1}", True), ("e_{1}", False)):
+        at = named[letters].anchor
+        (arc,) = (
+            one for one in arcs
+            if abs(abs(at - centre) - one.radius) < 1e-6
+            and abs(at - centre - one.radius * np.exp(0.5j * (one.start + one.end))) < 1e-6
+        )  # fmt: skip
+        middle = np.exp(0.5j * (arc.start + arc.end))
+        off = [np.angle(np.exp(0.5j * (one.start + one.end)) / middle) for one in tips]
+        pitch = 2 * pi / tooth.z
+        assert min(map(abs, off)) == pytest.approx(0.0 if is_metal else pitch / 2, abs=0.01 * pitch)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_height_of_the_tooth_runs_from_the_tips_of_wheel_2_to_its_roots(name: str) -> None:
+    view = view_of(name)
+    items, labels = mesh_dimensions(view, 5.0)
+    (middle,) = (label.anchor for label in labels if label.name == "size h")
+    lines = [one.points for one in items if isinstance(one, Stroke) and len(one.points) == 2]
+    start, end = min(lines, key=lambda line: abs(sum(line) / 2 - middle))
+    radii = sorted(abs(place - view.centre(1)) / view.scale for place in (start, end))
+    sizes = [abs(view.solved.teeth[1].size(of)) / 2 for of in ("d_a", "d_f")]
+    assert radii == pytest.approx(sorted(sizes))
+    assert abs(end - start) / view.scale == pytest.approx(abs(sizes[1] - sizes[0]))
+
+
 def test_the_clearance_is_told_where_it_shows() -> None:
     named = [{one.name for one in mesh_dimensions(view_of(name), 5.0)[1]} for name in FILES]
     assert ["size c" in names for names in named] == [True, False]  # of the ring it is 0.05 mm
@@ -115,6 +156,32 @@ def test_the_radius_of_the_rack_ends_on_its_tip(name: str) -> None:
     assert outline.distance(Point(start.real, start.imag)) == pytest.approx(
         size * view.scale, abs=0.02
     )
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_dimension_of_the_rack_is_as_long_as_its_letters_say(name: str) -> None:
+    cutting = SolvedMeshing(load(path_of(name))).cuttings[0]
+    assert cutting is not None
+    view = cutting_view(cutting, 400.0, 300.0)
+    items = cutting_picture(view, language("en"), 5.0).items
+    lines = [one.points for one in items if isinstance(one, Stroke) and one.tag == "dimension"]
+    said = {}
+    for text in (one for one in items if isinstance(one, Text) and " = " in one.label):
+        letters, _, number = text.label.partition(" = ")
+        said[letters] = (float(number.replace("−", "-")), text.at)
+    assert {"p", "c", "h_{1}"} <= {*said}
+    for letters in ("p", "c", "h_{1}", "x_{1}·m"):
+        if letters in said:
+            value, at = said[letters]
+            near = [line for line in lines if len(line) == 2 and abs(sum(line) / 2 - at) < 45.0]
+            lengths = [abs(end - start) / view.scale for start, end in near]
+            tails = [length - 10.0 / view.scale for length in lengths]  # arrowheads from outside
+            nearest = min((*lengths, *tails), key=lambda length: abs(length - abs(value)))
+            assert nearest == pytest.approx(abs(value), abs=6e-4), letters
+    arcs = [one for one in items if isinstance(one, Arc) and one.tag == "dimension"]
+    radius = cutting.tooth.size("d") / 2
+    swept = sorted(sweep(one) * radius for one in arcs)
+    assert swept == pytest.approx(sorted(said[of][0] for of in ("s_{1}", "e_{1}")), abs=1e-3)
 
 
 def test_a_base_radius_is_named_where_it_is_drawn(tmp_path: Path) -> None:

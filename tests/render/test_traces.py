@@ -74,6 +74,34 @@ def test_directions_go_on_through_a_point_and_right_angles_are_right(name: str) 
     assert corners or name == "linkages/ex1"
 
 
+@pytest.mark.parametrize("name", SIX)
+def test_every_trace_goes_on_beyond_the_head_of_its_vector_and_not_back_over_it(name: str) -> None:
+    """One of no vector goes as far to both sides of the point."""
+    solution, beyond = Solution(problem_of(name)), 0
+    for kind in PLANS:
+        at = plan_places(solution, kind, 0)
+        (plan,) = (one for one in solution.construction.plans if one.kind is kind)
+        for item in plan_traces(solution, kind, 0, at, True)[0]:
+            if not isinstance(item, Stroke) or len(item.points) != 2:
+                continue
+            start, end = item.points
+            spans = [
+                (at[v.tail], at[v.head]) for v in plan.vectors if v.head in at and v.tail in at
+            ]
+            rests = [head for tail, head in spans if abs(head - tail) < 1e-6]
+            if any(abs((start + end) / 2 - head) < 1e-6 for head in rests):
+                continue
+            ahead = [
+                ((end - head) / (head - tail)).real > 0.0
+                for tail, head in spans
+                if abs(head - start) < 1e-6 < abs(head - tail)
+                and abs(((end - head) / (head - tail)).imag) < 1e-6
+            ]
+            assert ahead and all(ahead), (start, end)
+            beyond += 1
+    assert beyond or name == "linkages/ex1"
+
+
 def test_traces_are_those_of_one_position_unless_they_are_asked_or_forbidden() -> None:
     problem = problem_of("levers/six-link")
     one, many = Solution(problem), Solution(problem, positions=[150.0, 170.0])

@@ -401,3 +401,54 @@ def test_what_does_not_go_round_is_not_told_another_turn() -> None:
     with pytest.raises(PositionError) as told:
         verify(Solution(loads(text, name="short"), positions=np.arange(12) * 30.0))
     assert told.value.failure.instead is None
+
+
+TWO_DYADS = """title = "Six-bar of two dyads on one pin"
+[frame]
+A = [0, 0]
+D = [3, 0]
+F = [0, 4]
+[links.1]
+points = ["A", "B"]
+AB = 1
+[links.2]
+points = ["B", "C"]
+BC = 2.5
+[links.3]
+points = ["C", "D"]
+CD = {CD}
+[links.4]
+points = ["B", "E"]
+BE = 2.6
+[links.5]
+points = ["E", "F"]
+EF = {EF}
+[driver]
+link = "1"
+phi = 40
+omega = 10
+[assembly]
+C = "above D"
+E = "right of F"
+[cycle]
+output = "3"
+"""
+
+
+@pytest.mark.parametrize(
+    ("sides", "links", "at"),
+    [
+        # B is 2 to 4 from D, farthest at 180°, and 3 to 5 from F, farthest at 270°.
+        ({"CD": 2.5, "EF": 2.42}, ("4", "5"), 270.0),  # 2.6 + 2.42 is just over 5
+        ({"CD": 1.52, "EF": 4.0}, ("2", "3"), 180.0),  # 2.5 + 1.52 is just over 4
+        ({"CD": 4.48, "EF": 4.0}, ("2", "3"), 0.0),  # 4.48 - 2.5 is just under 2
+    ],
+)
+def test_the_tightest_group_is_the_dyad_that_is_nearest_to_one_line(
+    sides: dict[str, float], links: tuple[str, ...], at: float
+) -> None:
+    problem = loads(TWO_DYADS.format(**sides), name="two-dyads")
+    found = turn_of(Solution(problem)).tightest
+    assert found is not None
+    assert found[0] == links
+    assert (found[1] - at + 180.0) % 360.0 - 180.0 == pytest.approx(0.0, abs=1.5)
