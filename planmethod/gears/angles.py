@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 Reals = npt.NDArray[np.float64]
 Both: TypeAlias = tuple[Reals | float, Reals | float]
-"""What two wheels have."""
+"""A value for each of two wheels."""
 
 _ROUNDS = 40
 

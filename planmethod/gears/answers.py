@@ -1,4 +1,4 @@
-"""Values of what is asked of a solved train (значения искомых величин)."""
+"""Values of the requested quantities of a solved train (значения искомых величин)."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Answer(Struct, frozen=True):
 
 
 def answer(motion: TrainMotion, name: str) -> Answer:
-    """Return the value of what is asked."""
+    """Return the value of a requested quantity."""
     asked = parse(name, tuple(motion.train.body_of))
     plain = {
         "W": motion.structure.mobility,
@@ -59,7 +59,7 @@ def answer(motion: TrainMotion, name: str) -> Answer:
 
 
 def named(motion: TrainMotion) -> list[str]:
-    """Return the names of the speeds of all bodies, and of what is asked."""
+    """Return the names of the speeds of all bodies, and of the requested quantities."""
     train = motion.train
     racks = (train.body_of[x] in train.racks for x in train.numbers)
     letters = ("v" if is_rack else train.unit for is_rack in racks)
@@ -204,7 +204,7 @@ def efficiency(motion: TrainMotion, output: str | None = None) -> Fraction | Non
 
 
 def _goes_forward(motion: TrainMotion, mesh: Mesh, force: Fraction) -> bool:
-    """Whether power goes from the first wheel of a mesh to the second, seen from the carrier."""
+    """Return whether power flows from the first wheel of a mesh to the second, on the carrier."""
     row = mesh_row(motion.train, motion.roles, motion.axes, mesh)
     one = motion.train.ends(mesh)[0]
     speed = motion.speed(one, motion.train.carrier(mesh))

@@ -1,8 +1,8 @@
-"""The side view of a train before it is drawn: what stands where along the axes (компоновка схемы).
+"""Layout of the side view of a train along its axes, before it is drawn (компоновка схемы).
 
-From left to right stand stations: wheels in mesh one above another, the webs of wheels with inner
-teeth, the arms of carriers. Their best order is looked for: bodies on one axis must not stand in
-each other's way, few shafts are hollow, no shaft runs through a wheel (`Arrangement.cost`).
+The stations from left to right are wheels in mesh one above another, webs of internal gears and
+arms of carriers. The search finds their best order: bodies on one axis must not block each other,
+few shafts are hollow, and no shaft passes through a wheel (`Arrangement.cost`).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from msgspec.structs import replace
 
 from planmethod.gears.scheme import EPS, Across, Rim, SchemeData
 
-# What an arrangement costs
+# Costs of an arrangement
 _IMPOSSIBLE = 100.0  # two bodies of one axis in each other's way
 _CROSSED = 30.0  # a shaft runs through a wheel, a web or an arm
 _HOLLOW = 3.0  # a body about another one's shaft
@@ -27,7 +27,7 @@ _BACK = 0.3  # a pair of columns in another order than in the file
 
 
 class AxisPart(Enum):
-    """What stands at a station (что на месте)."""
+    """The part at a station (что на месте)."""
 
     RIMS = "rims"
     WEB = "web"
@@ -50,7 +50,7 @@ class Station(Struct, frozen=True):
 
 
 class Stub(Struct, frozen=True):
-    """Where a body comes out to the frame: a bearing, or the ground of a fixed one (опора).
+    """Place where a body meets the frame: a bearing, or the ground of a fixed body (опора).
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ class Stub(Struct, frozen=True):
 
 
 class Arrangement(Struct, frozen=True, dict=True):
-    """Stations in an order, and what follows from it (расстановка).
+    """Ordered stations, and the layout that follows from their order (расстановка).
 
     Attributes
     ----------
@@ -125,7 +125,7 @@ class Arrangement(Struct, frozen=True, dict=True):
 
     @cached_property
     def stubs(self) -> Mapping[str, Stub]:
-        """Where each body that turns about a fixed axis comes out to the frame."""
+        """Bearing or ground of each body that turns about a fixed axis."""
         train, found = self.scheme.motion.train, {}
         last = len(self.stations) - 1
         free = [gap for gap in range(-1, last + 1) if gap not in self.blocked]
@@ -145,7 +145,7 @@ class Arrangement(Struct, frozen=True, dict=True):
         return found
 
     def _far(self, body: str, gap: int) -> float:
-        """Return how bad it is for a body to come out in a gap: other bodies stand in its way."""
+        """Return the cost of a stub of a body in a gap: other bodies block its way."""
         low, high = self.at[body][0], self.at[body][-1]
         start, end = min(low, gap + 0.5), max(high, gap + 0.5)
         passed = sum(
@@ -157,7 +157,7 @@ class Arrangement(Struct, frozen=True, dict=True):
 
     @cached_property
     def reach(self) -> Mapping[str, tuple[float, float]]:
-        """From where to where a body's shaft goes, in stations."""
+        """Both ends of each body's shaft, in stations."""
         found = {}
         for body, numbers in self.at.items():
             ends: list[float] = list(numbers)
@@ -172,13 +172,13 @@ class Arrangement(Struct, frozen=True, dict=True):
         return [other for other in same if self._is_about(body, other)]
 
     def _is_about(self, body: str, other: str) -> bool:
-        """Whether a body can turn about the shaft of another one."""
+        """Return whether a body can turn about the shaft of another one."""
         low, high = self.reach[body]
         a, b = self.reach[other]
         return a < low and high < b and not any(low <= k <= high for k in self.at[other])
 
     def verticals(self) -> Iterator[tuple[int, float, float, str]]:
-        """Yield what stands across the axes: station, from what height to what, body."""
+        """Yield the parts perpendicular to the axes: station, lower and upper height, body."""
         for number, station in enumerate(self.stations):
             match station.part:
                 case AxisPart.ARM:
@@ -203,7 +203,7 @@ class Arrangement(Struct, frozen=True, dict=True):
         return [self.scheme.heights[b] for b, c in self.scheme.over.items() if c == carrier]
 
     def crosses(self, number: int, low: float, high: float, body: str) -> Iterator[str]:
-        """Yield the bodies whose shafts run through what stands across the axes somewhere."""
+        """Yield the bodies whose shafts pass through a part perpendicular to the axes."""
         for other, (a, b) in self.reach.items():
             inside = low + EPS < self.scheme.heights[other] < high - EPS
             carried = self.scheme.over.get(other) == body
@@ -212,7 +212,7 @@ class Arrangement(Struct, frozen=True, dict=True):
 
     @cached_property
     def cost(self) -> float:
-        """What is to be least."""
+        """Cost that the search minimizes."""
         cost = 0.0
         for one, other in combinations(self.reach, 2):
             (a, b), (c, d) = self.reach[one], self.reach[other]
@@ -245,7 +245,7 @@ class ColumnOrder(Struct, frozen=True):
     turns: tuple[int, ...] = ()
 
     def stations(self, scheme: SchemeData) -> tuple[Station, ...]:
-        """Return what stands from left to right."""
+        """Return the stations from left to right."""
         stations: list[Station] = []
         for column in self.order:
             if column >= len(scheme.columns):
@@ -307,7 +307,7 @@ def _columns_of(scheme: SchemeData, carrier: str) -> list[int]:
 
 
 def best_order(scheme: SchemeData) -> ColumnOrder:
-    """Look for the best order of the stations: from several orders on, one change after another."""
+    """Return the best order of the stations, by local search from several initial orders."""
     train, columns = scheme.motion.train, scheme.columns
     webs = tuple(
         (number, rim.label, -1)

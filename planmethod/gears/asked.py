@@ -1,4 +1,4 @@
-"""What is asked of a train: U_1_5, U_1_4^H, n_5, W and the like (искомые величины)."""
+"""Requested quantities of a train: U_1_5, U_1_4^H, n_5, W and so on (искомые величины)."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ COUNTS = {"U": 2, "n": 1, "omega": 1, "z": 1, "r": 1, "v": 1, "a_w": 2, "k": 1, 
 """Quantities and how many labels each takes; ``k`` is the largest number of satellites."""
 
 RELATIVE = ("U", "n", "omega")
-"""Those that can be taken relative to a carrier."""
+"""Quantities that can be taken relative to a carrier."""
 
 
 _GREEK = {"omega": "ω", "eta": "η"}
 
 
 class SoughtQuantityError(ValueError):
-    """What is asked cannot be understood; the message says why."""
+    """The name of a requested quantity cannot be parsed; the message says why."""
 
 
 class SoughtQuantity(Struct, frozen=True):
@@ -36,7 +36,7 @@ class SoughtQuantity(Struct, frozen=True):
 
     @property
     def symbol(self) -> Rich:
-        """Its symbol: ``U^{(H)}_{14}``, ``n_{5}``, ``ω_{2}``."""
+        """Symbol: ``U^{(H)}_{14}``, ``n_{5}``, ``ω_{2}``."""
         letter = _GREEK.get(self.kind, self.kind)
         if not self.labels:
             return letter

@@ -1,4 +1,4 @@
-"""What sources print of trains, beside the exact values and those of the pictures (сверка)."""
+"""Printed values of trains compared with the exact values and the velocity diagrams (сверка)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the axes stand, and the teeth that coaxiality tells (оси, условие соосности)."""
+"""Positions of the axes, and the teeth that coaxiality determines (оси, условие соосности)."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ MOST_CHOSEN = 10
 HINT = "Check the teeth, and which wheels share an axis."
 
 CLOSE = Fraction(2, 100)
-"""Modules by which ways by shifted wheels may differ and be coaxial: shifts are rounded."""
+"""Modules by which paths over shifted wheels may differ and be coaxial: shifts are rounded."""
 
 NEAR = Fraction(1, 4)
-"""Modules by which they may differ and be one train still: a small shift more cures it."""
+"""Modules by which they may differ and a small additional shift still makes them coaxial."""
 
 ALPHA = math.radians(20)
 """Pressure angle of the standard rack, rad."""
@@ -80,7 +80,7 @@ def find_axes(train: Train, roles: Roles) -> tuple[TrainDimensions | None, list[
     """Find the heights of the axes and the unknown teeth.
 
     Unknown sizes and heights follow from one linear equation for each mesh; central wheels and
-    their carrier share an axis, and where nothing else is told, a train comes back to the main
+    their carrier share an axis, and unless the file states otherwise, a train returns to the main
     axis as soon as it can.
     """
     lines = _find_lines(train, roles)
@@ -188,12 +188,12 @@ def _place(
 
 
 def is_shifted(train: Train) -> bool:
-    """Whether a wheel of a train is cut with a shift."""
+    """Return whether a wheel of a train is cut with a shift."""
     return train.toothed and any(wheel.shift for wheel in train.wheels.values())
 
 
 def cannot_mesh(axes: TrainDimensions, mesh: Mesh) -> bool:
-    """Whether wheels with shifts cannot come as near as they would have to."""
+    """Return whether wheels with shifts cannot come as close as the centre distance requires."""
     one, other = axes.radii[mesh.first], axes.radii[mesh.second]
     plain = one + other if mesh.kind is MeshKind.EXTERNAL else abs(one - other)
     return mesh.name in axes.shifted and axes.apart[mesh.name] == plain
@@ -207,7 +207,7 @@ def _radius(train: Train, label: str) -> Fraction | None:
 def _distance(train: Train, mesh: Mesh) -> Fraction | None:
     """Return the distance of the axes of a mesh, with the shifts; None while teeth are unknown.
 
-    Wheels that cannot come so near to each other stand as without shifts.
+    Wheels that cannot come that close to each other are placed as if they had no shifts.
     """
     one, other = (_radius(train, label) for label in (mesh.first, mesh.second))
     if one is None or other is None:
@@ -253,7 +253,7 @@ def shift_for(train: Train, mesh: Mesh, distance: Fraction) -> tuple[str, float]
 
 
 def _beside(train: Train, lines: _Lines, body: str) -> set[str]:
-    """Axes of the stages before the main axis: they are drawn below it."""
+    """Return the axes of the stages before the main axis: they are drawn below it."""
     if lines.line[body] == lines.main:
         return set()
     found = {lines.line[body]}
@@ -270,7 +270,7 @@ def _beside(train: Train, lines: _Lines, body: str) -> set[str]:
 
 
 _OF_COAXIALITY = ("gears.wheels", "gears.unknown")
-"""What faults of coaxiality are about."""
+"""Keys to which faults of coaxiality refer."""
 
 # Equations ---------------------------------------------------------------------------------------
 
@@ -300,7 +300,7 @@ def _solve(
         fault = _judge(train, found, unknown)
         if fault is None:
             axes = _axes(train, lines, found, meshes)
-            if unknown and is_shifted(train):  # teeth are told by pitch circles, axes by shifts
+            if unknown and is_shifted(train):  # pitch circles determine teeth, shifts axes
                 wheels = {x: replace(w, size=axes.sizes[x]) for x, w in train.wheels.items()}
                 return _solve(replace(train, wheels=wheels, unknown=()), lines, meshes)
             fault = _positive(train, axes, meshes)
@@ -396,10 +396,10 @@ def _brought_together(
     rows: list[tuple[Mesh, Row[tuple[str, str]]]],
     train: Train,
 ) -> list[Row[tuple[str, str]]]:
-    """Return equations of heights in which ways that come as good as together do so exactly.
+    """Return equations of heights in which paths that nearly meet at an axis meet exactly.
 
-    Shifts are rounded, so that two ways of shifted wheels to one axis differ by a little. The first
-    tells the height: the meshes without shifts, then those in the order of the file.
+    Shifts are rounded, so two paths over shifted wheels to one axis differ slightly. The first
+    path determines the height: meshes without shifts, then the others in file order.
     """
     done = [row for mesh, row in rows if not _pair(train, mesh)[2]]
     left = [row for mesh, row in rows if _pair(train, mesh)[2]]
@@ -471,7 +471,7 @@ def _axes(
 
 
 def _positive(train: Train, axes: TrainDimensions, meshes: Sequence[Mesh]) -> Fault | None:
-    """Check the distances again with the sizes found: a ring is larger than what runs in it."""
+    """Check the distances again with the sizes found: a ring is larger than its mating wheel."""
     for mesh in meshes:
         one, other = axes.sizes[mesh.first], axes.sizes[mesh.second]
         first, second = train.ends(mesh)

@@ -27,13 +27,13 @@ BORDER = 1e-11
 def choose(wanted: Wanted, *, first: int | None = None) -> Chosen:
     """Try every combination of teeth within the bounds.
 
-    Of two rows, z_1, z_2 and z_2' run through their bounds and coaxiality gives z_3; every
-    combination is looked at, so that no set is missed.
+    For two rows, z_1, z_2 and z_2' run through their bounds and coaxiality gives z_3; every
+    combination is tried, so that no set is missed.
 
     Parameters
     ----------
     first : int, optional
-        How many sets are returned; all of them without it.
+        Number of sets to return. Default: all.
     """
     looked, blocks = 0, []
     for z_1, second, rim in _grids(wanted):
@@ -135,7 +135,7 @@ def _sign(scheme: TrainScheme) -> int:
 
 
 def _near(wanted: Wanted, held: Reals) -> Mask:
-    """Return where U is within its bounds, or so near to one that fractions must tell."""
+    """Return where U is within its bounds, or so close to one that fractions must decide."""
     ends = [wanted.ratio * (1 + share) for share in (-wanted.within, wanted.within)]
     if wanted.scheme.asked == "U_H_1":
         ends = [1 / end for end in ends]
@@ -147,7 +147,7 @@ def _near(wanted: Wanted, held: Reals) -> Mask:
 
 
 def _error(wanted: Wanted, upper: Ints, lower: Ints) -> tuple[Reals, Mask]:
-    """Return the share by which U is off, and where it is too near to the bound for floats."""
+    """Return the relative error of U, and where it is too close to the bound for floats."""
     above, below = _sign(wanted.scheme) * upper, lower
     if wanted.scheme.carried:
         above = below - above
@@ -165,7 +165,7 @@ def _meshes(kind: MeshKind, one: Ints, other: Ints) -> Mask:
     """Return where standard teeth of two wheels neither interfere nor cut each other.
 
     The tip of the larger wheel stays short of where the line of action touches the base circle of
-    the smaller. Of a ring and a wheel, the ring is ``one`` or ``other``, whichever is larger.
+    the smaller. If one of them is a ring, it is the larger of ``one`` and ``other``.
     """
     small, large = np.minimum(one, other), np.maximum(one, other)
     if kind is MeshKind.INTERNAL:
@@ -179,7 +179,7 @@ def _meshes(kind: MeshKind, one: Ints, other: Ints) -> Mask:
 def _turn_together(
     wanted: Wanted, first: Ints, rows: tuple[Ints, Ints, Ints], distance: Ints
 ) -> Mask:
-    """Return where k satellites go in, and their tips, one module high, do not touch."""
+    """Return where k planets can be assembled and their tips, one module high, do not touch."""
     z_2, rim, z_3 = rows
     (p, q), k = wanted.rows, wanted.satellites
     whole = np.abs(first * rim - _sign(wanted.scheme) * z_2 * z_3) // np.gcd(z_2, rim)

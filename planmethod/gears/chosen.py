@@ -14,7 +14,7 @@ from planmethod.note.wording import Language, language
 
 
 def chosen_document(chosen: Chosen, words: Language) -> Iterator[Node]:
-    """Yield what was asked, the bounds, how many combinations were tried, and the sets."""
+    """Yield the requirements, the bounds, the number of combinations tried, and the sets."""
     say, wanted, number = words.teeth, chosen.wanted, words.say.given
     scheme = wanted.scheme
     carried = say.satellites.format(k=wanted.satellites) if scheme.carried else ""
@@ -62,7 +62,7 @@ def chosen_document(chosen: Chosen, words: Language) -> Iterator[Node]:
 
 
 def chosen_record(chosen: Chosen) -> dict[str, Any]:
-    """Return what JSON says of a choice: what was asked, bounds, counts, the sets."""
+    """Return the JSON record of a selection: requirements, bounds, counts, sets."""
     wanted = chosen.wanted
     return {
         "schema": 1,
@@ -119,7 +119,7 @@ def problem_text(chosen: Chosen, number: int, lang: str) -> str:
 
 
 def _design(wanted: Wanted) -> list[str]:
-    """Return what was asked, so that the sheet compares variants; nothing of what it cannot."""
+    """Return the requirements from which the sheet compares variants; none if it cannot."""
     if not wanted.scheme.carried or len(set(wanted.rows)) != 1:
         return []
     k = wanted.satellites

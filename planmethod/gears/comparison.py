@@ -1,4 +1,4 @@
-"""Variants of a planetary train compared by size and satellites (сравнение вариантов)."""
+"""Variants of a planetary train compared by size and number of planets (сравнение вариантов)."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from planmethod.problem.tables import PlanetaryTask
 
 
 class PlanetaryVariant(Struct, frozen=True):
-    """A set of teeth for a number of satellites (вариант).
+    """A set of teeth for a number of planets (вариант).
 
     Attributes
     ----------
     satellites : int
     place : int
-        Its place among all sets for as many satellites, from 1, the smallest first.
+        Its rank among all sets for that number of planets, from 1, the smallest first.
     chosen : TeethSet
     is_own : bool
         It is the train of the file.
@@ -37,16 +37,16 @@ class PlanetaryVariant(Struct, frozen=True):
 
 
 class PlanetaryComparison(Struct, frozen=True):
-    """What the train of a file is compared with (сравнение).
+    """Comparison of the train of a file with other variants (сравнение).
 
     Attributes
     ----------
     found : mapping of int to int
-        How many sets there are for each number of satellites.
+        Number of sets for each number of planets.
     own : TeethSet
         The train of the file.
     satellites : int
-        Its satellites: as the file says, else the most that go in.
+        Number of its planets: from the file, else the largest that can be assembled.
     """
 
     scheme: TrainScheme
@@ -60,7 +60,7 @@ class PlanetaryComparison(Struct, frozen=True):
 
     @property
     def place(self) -> PlanetaryVariant | None:
-        """The train of the file among the variants; None where it does not meet what is asked."""
+        """The train of the file among the variants; None if it does not meet the requirements."""
         return next((one for one in self.variants if one.is_own), None)
 
     def diameter(self, one: TeethSet) -> float | None:
@@ -104,7 +104,7 @@ def _scheme_of(train: Train, carrier: str) -> tuple[TrainScheme, tuple[str, ...]
 
 
 def compare(problem: GearProblem, motion: TrainMotion) -> PlanetaryComparison | None:
-    """Return the variants for every number of satellites; None where nothing is to be compared.
+    """Return the variants for every number of planets; None if the file asks for no comparison.
 
     Raises
     ------

@@ -36,11 +36,11 @@ class Condition(Struct, frozen=True):
     ----------
     name : str
         ``coaxiality``, ``assembly``, ``neighbourhood``, ``undercutting``, ``interference``,
-        ``satellites``: words are under it.
+        ``satellites``: key of its sentence.
     facts : mapping
-        What its sentence names.
+        Values that its sentence names.
     said : str
-        What its sentence is under where that is not its name.
+        Key of its sentence where it differs from the name.
     """
 
     name: str
@@ -65,7 +65,7 @@ def sentence(condition: Condition, words: Language) -> str:
 
 
 def judgement(condition: Condition, words: Language) -> str:
-    """Return a condition in words, and whether it holds where the words do not say so."""
+    """Return a condition in words, with the verdict unless the words imply it."""
     told = sentence(condition, words)
     if condition.holds and condition.name == "satellites":
         return told
@@ -118,14 +118,14 @@ def _arms(motion: TrainMotion) -> Iterator[Condition]:
 
 
 def _meshes_of(motion: TrainMotion, way: Terms) -> list[Mesh]:
-    """Return the meshes that a way of terms goes by, two terms each."""
+    """Return the meshes along a path of terms, two terms each."""
     by = {frozenset((mesh.first, mesh.second)): mesh for mesh in motion.train.meshes}
     return [by[frozenset((one, other))] for (_, one), (_, other) in zip(way[::2], way[1::2],
                                                                       strict=True)]  # fmt: skip
 
 
 def _coaxial_shifted(motion: TrainMotion, axis: str, ways: tuple[Terms, Terms]) -> Condition:
-    """Judge two ways of which shifted wheels are on one: their distances of axes are compared."""
+    """Check two paths, one over shifted wheels, by comparing their centre distances."""
     train, axes = motion.train, motion.axes
     per = Fraction(1, 2) if train.module is None else train.unit_m * 1000
     heights, sums = [], []
@@ -156,9 +156,9 @@ def _places(value: Fraction) -> str:
 
 
 def coaxial_ways(motion: TrainMotion) -> Iterator[tuple[str, Fraction, tuple[Terms, Terms]]]:
-    """Yield each mesh that comes back to an axis already reached: the axis, its height, both ways.
+    """Yield each mesh that returns to an axis already reached: the axis, its height, both paths.
 
-    The sums of sizes along both ways are the same.
+    The sums of sizes along both paths are the same.
     """
     train, axes = motion.train, motion.axes
     left = [
@@ -309,7 +309,7 @@ def _assembles(whole: Fraction, count: int) -> bool:
 
 
 def _apart(size: Fraction, distance: Fraction, count: int) -> bool:
-    """Neighbouring satellites do not touch with their tips."""
+    """Return whether the tips of neighbouring planets do not touch."""
     return count == 1 or math.sin(math.pi / count) > float(size / distance)
 
 
@@ -317,7 +317,7 @@ def _apart(size: Fraction, distance: Fraction, count: int) -> bool:
 
 
 def ring_room(small: Any) -> tuple[Any, Any]:
-    """Return the lower and the upper part of the least teeth of a ring around a standard wheel.
+    """Return denominator and numerator of the least teeth of a ring around a standard wheel.
 
     z₃ ≥ (z₂² sin²α − 4)/(2 z₂ sin²α − 4): the tip of the ring stays short of where the line of
     action touches the base circle of the wheel. Where the lower part is not positive, with up to

@@ -1,9 +1,9 @@
-"""The pictures of velocities as one construction, and what is read off it (построение картин).
+"""The velocity diagrams as one construction, and the values read from it (построение картин).
 
 The axis of contact points, ``yy``, is vertical, velocities are laid off to the right of it. The
 velocity of a body is a straight line over it; a body's line is drawn as soon as two of its points
 are known, and gives all its other points. Rays parallel to the lines, from the pole to a level line
-at the pole distance, cut off segments as long as the bodies are quick.
+at the pole distance, cut off segments proportional to the speeds of the bodies.
 """
 
 from __future__ import annotations
@@ -35,18 +35,18 @@ NEAR = 1e-6
 """Difference of the construction from the mesh equations that is a fault, not rounding."""
 
 FEET, POLE = PointName("o'"), PointName("p")
-"""Foot of the main axis on ``yy``, and the pole of the rays: they may stand anywhere."""
+"""Foot of the main axis on ``yy``, and the pole of the rays: both may be placed anywhere."""
 
 FOOT = PointName("o")
-"""Under the pole, on the level line: from there the segments of the rays are read."""
+"""Point below the pole on the level line, from which the segments of the rays are read."""
 
 
 class PictureError(PlanMethodError):
-    """The pictures contradict the mesh equations: a fault of the program (самопроверка)."""
+    """The diagrams contradict the mesh equations: an internal error (самопроверка)."""
 
 
 class DrawnPoint(Struct, frozen=True):
-    """A point of the picture of linear velocities (точка картины).
+    """A point of the linear velocity diagram (точка картины).
 
     Attributes
     ----------
@@ -56,10 +56,10 @@ class DrawnPoint(Struct, frozen=True):
     foot, end : PointName
         Its place on ``yy``, and the end of its velocity.
     bodies : tuple of str
-        Those that have this velocity there.
+        Bodies that have this velocity there.
     height, speed : Fraction, mm
     laid, read : NumberName or None
-        Its segment as it is laid off, or as it is read; None of both where it is nothing.
+        Its segment as laid off, or as read; both None where it is zero.
     """
 
     contact: ContactPoint
@@ -74,14 +74,14 @@ class DrawnPoint(Struct, frozen=True):
 
 
 class Found(Struct, frozen=True):
-    """A quantity that is read off the pictures (снятая величина).
+    """A quantity measured on the diagrams (снятая величина).
 
     Attributes
     ----------
     name : str
-        As it is asked for: ``n_5``, ``U_1_5^H``.
+        Requested name: ``n_5``, ``U_1_5^H``.
     exact : Fraction or float
-        A float where it is no fraction: 1/s of rev/min.
+        A float where it is not a fraction: 1/s from rev/min.
     read : NumberName
     rays : tuple of str
         Bodies whose rays it is computed from.
@@ -94,19 +94,19 @@ class Found(Struct, frozen=True):
 
 
 class GearDrawing(Struct, frozen=True):
-    """Both pictures as steps (построение).
+    """Both diagrams as steps (построение).
 
     Attributes
     ----------
     data : mapping
         Lengths in mm, angles in degrees, scales; exact.
     starts : tuple of str
-        Bodies whose speed is laid off; ``calculated`` are those of them that are no inputs while
-        all inputs together would not close the picture.
+        Bodies whose speed is laid off; ``calculated`` are those of them that are not inputs while
+        all inputs together would not determine the diagram.
     lines, rays : mapping
         By body: its line, the end of its ray.
     segments : mapping
-        By body: its segment on the line of the rays, as it is read.
+        By body: its segment on the line of the rays, as read.
     mu : NumberName
         Scale of the rays: given, or computed from the ray of an input.
     """
@@ -125,7 +125,7 @@ class GearDrawing(Struct, frozen=True):
     found: tuple[Found, ...]
 
     def label(self, body: str) -> str:
-        """Return what a line of a body is called: all the numbers of the body."""
+        """Return the name of a body's line: all the numbers of the body."""
         train = self.motion.train
         return ", ".join(label for label in train.numbers if train.body_of[label] == body)
 
@@ -215,7 +215,7 @@ def _knots(drawn: GearDrawing, exact: Trace, least: float) -> tuple[Knot, ...]:
 
 
 def construct(motion: TrainMotion, picture: VelocityPictures) -> GearDrawing:
-    """Return the construction of the pictures of a train."""
+    """Return the construction of the velocity diagrams of a train."""
     return _Drawing(motion, picture).construction()
 
 
@@ -294,9 +294,9 @@ class _Drawing:
     def _known_at(
         self, body: str, ends: Collection[ContactPoint]
     ) -> dict[Fraction, ContactPoint | None]:
-        """Return at what heights the velocity of a body is known, and by which contact.
+        """Return the heights at which the velocity of a body is known, each with its contact.
 
-        None stands for its own axis, where that is fixed.
+        None represents its own axis, where that is fixed.
         """
         known: dict[Fraction, ContactPoint | None] = {}
         if self.over[body] is None:
@@ -307,7 +307,7 @@ class _Drawing:
         return known
 
     def _is_at_rest(self, point: ContactPoint, lines: Collection[str]) -> bool:
-        """Whether a point belongs to a fixed body, or to a fixed axis."""
+        """Return whether a point belongs to a fixed body, or to a fixed axis."""
         _, bodies = self.points[point]
         fixed = self.motion.train.fixed
         return any(body in fixed and body in lines for body in bodies) or (
@@ -398,7 +398,7 @@ class _Drawing:
         return self.feet[height]
 
     def _spot(self, name: ContactPoint) -> DrawnPoint:
-        """Read a segment of the picture of linear velocities."""
+        """Read a segment of the linear velocity diagram."""
         (height, bodies), end = self.points[name], self.ends[name]
         foot, letter, read = self.feet[height], self._letter(name), None
         laid = self.laid.get(name)

@@ -40,14 +40,14 @@ class Stage(Struct, frozen=True):
     one, other : str
         Bodies: the ratio is that of the first to the second.
     labels : (str, str)
-        What the ratio is called by.
+        Labels that name the ratio.
     ratio : Fraction
     tops, bottoms : tuple of str
         Wheels whose teeth are multiplied and divided; none of a set.
     carrier : str or None
         The carrier that is held while the ratio is taken.
     told : tuple of DerivedLine
-        How it is derived, line by line; empty for a mesh.
+        Derivation, line by line; empty for a mesh.
     """
 
     one: str
@@ -66,12 +66,12 @@ class Stage(Struct, frozen=True):
 
 
 def derivation(motion: TrainMotion, words: Language) -> list[DerivedLine]:
-    """Return how the ratios and speeds that are asked for are derived, line by line.
+    """Return the derivation of the requested ratios and speeds, line by line.
 
     Raises
     ------
     PlanMethodError
-        A derived value is not the one that the mesh equations give: a mistake of ours.
+        A derived value differs from the one that the mesh equations give: an internal error.
     """
     known = tuple(motion.train.body_of)
     asked = [parse(name, known) for name in dict.fromkeys(motion.train.ask)]
@@ -91,7 +91,7 @@ def by_speeds(motion: TrainMotion, asked: SoughtQuantity, words: Language) -> Ri
 
 
 class _Derivation:
-    """Derives one quantity after another; what was told once is not told again."""
+    """Derives one quantity after another; a line written once is not repeated."""
 
     def __init__(self, motion: TrainMotion, words: Language) -> None:
         self.motion, self.train, self.words = motion, motion.train, words
@@ -110,7 +110,7 @@ class _Derivation:
         self._close()
         self.speeds = dict(self.train.inputs) | dict.fromkeys(fixed, Fraction(0))
 
-    # What is known by itself ----------------------------------------------------------------------
+    # Ratios known by themselves -------------------------------------------------------------------
 
     def _both(self, mesh: Mesh, carrier: str | None) -> Iterator[Stage]:
         """Yield the ratio of a mesh, seen from its carrier, in both directions."""
@@ -226,7 +226,7 @@ class _Derivation:
             ]
         return []
 
-    # Telling --------------------------------------------------------------------------------------
+    # Writing --------------------------------------------------------------------------------------
 
     def ratio(self, asked: SoughtQuantity) -> Iterator[DerivedLine]:
         """Yield the derivation of a ratio; letters and value alone where no stages lead to it."""
@@ -363,14 +363,14 @@ class _Derivation:
     # Speeds ---------------------------------------------------------------------------------------
 
     def speed(self, label: str) -> Iterator[DerivedLine]:
-        """Yield how a speed is found: by a ratio to one that is known, else by Willis."""
+        """Yield the derivation of a speed: by a ratio to a known one, else by Willis."""
         body = self.train.body_of[label]
         if body in self.speeds or body in self.train.racks or body in self.motion.roles.across:
             return
         yield from self._once(self._found(label, body, 2 * len(self.train.bodies)))
 
     def _found(self, label: str, body: str, depth: int) -> Iterator[DerivedLine]:
-        """Yield how a speed is found; of satellites as the textbook does, by Willis first."""
+        """Yield the derivation of a speed; for planets as in the textbook, by Willis first."""
         ways = [self._by_ratio, self._by_willis]
         if any(body in around for around in self.motion.roles.satellites.values()):
             ways.reverse()
@@ -437,7 +437,7 @@ class _Derivation:
     def _wheel(self, label: str, body: str, carrier: str, other: str) -> Iterator[DerivedLine]:
         """Yield the speed of a wheel on a carrier by those of the carrier and another wheel.
 
-        The ratio is that which was asked for, where it was; else that to the other wheel.
+        The ratio is the requested one, if any; else that to the other wheel.
         """
         stages, known = self._carried(carrier), tuple(self.train.body_of)
         asked = [parse(name, known).symbol for name in self.train.ask]

@@ -33,9 +33,9 @@ class TrainOutput(Geared, frozen=True, kw_only=True):
     train: Train
 
     def given(self, words: Language) -> list[GivenFact]:
-        """Return the facts of a statement that the train is given by, and which body of it drives.
+        """Return the given facts of the train, and which of its bodies drives the crank.
 
-        Wheels have numbers as links have: speeds, and what is fixed, are told to be of the train.
+        Wheels are numbered like links, so speeds and fixed bodies are said to be the train's.
         """
         sheet, letter = words.gears["sheet"], "n" if self.train.unit == "n" else "ω"
         wheels = {

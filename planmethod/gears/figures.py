@@ -1,4 +1,4 @@
-"""Numbers of a train as students are asked for them, and their usual mistakes (величины и ошибки).
+"""Quantities of a train that students compute, and their usual mistakes (величины и ошибки).
 
 A mistake is the same system of mesh equations with some of them written wrongly.
 """
@@ -32,7 +32,7 @@ Rows = list[dict[str, Fraction]]
 
 
 class TrainFigures:
-    """All that can be asked of a train; see `planmethod.problem.figures.Figures`."""
+    """All quantities of a train that can be asked; see `planmethod.problem.figures.Figures`."""
 
     count = 1
 
@@ -61,7 +61,7 @@ class TrainFigures:
         return AnswerValue(own, found.unit, found.value, turns=kind in SPEEDS, whole=kind in COUNTS)
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
-        """Return the segment of a speed on the picture, mm, and one sigma of what is read."""
+        """Return the segment of a speed on the diagram, mm, and one sigma of its reading."""
         picture = draw(self.motion)
         if picture is None:
             return None
@@ -128,7 +128,7 @@ class TrainFigures:
                 yield "G4", f"{label}, {twin}", rows_of(train, roles, axes)
 
     def _held(self, carrier: str) -> Rows:
-        """Return the equations of him who takes U^H for U: the carrier has the ring's place."""
+        """Return the equations with the carrier in the ring's place, as if U^H were U."""
         train, roles = self.motion.train, self.motion.roles
         still = next((body for body in roles.central[carrier] if body in train.fixed), None)
         found = []
@@ -140,7 +140,7 @@ class TrainFigures:
         return found
 
     def _moved(self, rows: Rows) -> TrainMotion | None:
-        """Return the motion that other equations give; None where they give none."""
+        """Return the motion from other equations; None where they determine none."""
         found = speeds_by(self.motion.train, rows)
         if found.free or not found.consistent:
             return None
@@ -203,4 +203,4 @@ def _value(motion: TrainMotion, name: str, position: int) -> float | None:
 
 
 asked_of = TrainFigures
-"""What such a kind of problem is asked by."""
+"""The class that computes answers to this kind of problem."""

@@ -89,7 +89,7 @@ class GearTrains(ProblemKind["GearProblem"]):
         return audited(problem, ruler)
 
     def given(self, problem: GearProblem, words: Language) -> list[GivenFact]:
-        """Return what is given, one fact each; the file can be written again of their data."""
+        """Return the given facts; the file can be rebuilt from their data."""
         from planmethod.gears.motion import solve_motion
         from planmethod.gears.told import given
 
@@ -102,7 +102,7 @@ class GearTrains(ProblemKind["GearProblem"]):
         return scheme_alone(problem)
 
     def figures(self, problem: GearProblem) -> Figures:
-        """Return what students can be asked for."""
+        """Return the quantities that students can be asked for."""
         from planmethod.gears.figures import asked_of
 
         return asked_of(problem)

@@ -1,4 +1,4 @@
-"""Linear equations in fractions: reduced rows, rank, what is determined (система уравнений)."""
+"""Linear equations in fractions: reduced rows, rank, determined unknowns (система уравнений)."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ Row = tuple[Mapping[N, Fraction], Fraction]
 
 
 class LinearSolution(Struct, Generic[N], frozen=True):
-    """What equations say of their unknowns.
+    """Solution of a system of linear equations.
 
     Attributes
     ----------
     values : mapping
         The unknowns that are determined.
     free : tuple
-        Those that are not.
+        The unknowns that are not.
     rank : int
     consistent : bool
         The equations do not contradict each other.

@@ -1,8 +1,8 @@
-"""The page of a gear train that turns: view along the axes, pictures of velocities, turned angles.
+"""The page of a turning gear train: view along the axes, velocity diagrams, angles of rotation.
 
-Speeds are constant, so the page has of every body the degrees that it turns by for one of the
-input. Teeth are drawn where their numbers are known; those of satellites stand as they would be
-assembled from the first central wheel on, so that a set that cannot be assembled is seen as one.
+Speeds are constant, so the page stores for every body its degrees per degree of the input. Teeth
+are drawn where their numbers are known; those of planets are placed as if assembled from the first
+central wheel on, so that an impossible set shows as one.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class _TrainPage:
         self.canvas.open(Drawing(0.0, 0.0))
 
     def _refuse(self) -> None:
-        """Refuse what does not turn about parallel axes in mesh, or goes round what goes round."""
+        """Reject trains without parallel meshing axes, and planets carried by planets."""
         kinds = {mesh.kind for mesh in self.train.meshes}
         odd = kinds - {MeshKind.EXTERNAL, MeshKind.INTERNAL}
         scheme = SchemeData(self.motion, 1.0)
@@ -106,7 +106,7 @@ class _TrainPage:
 
     @cached_property
     def input(self) -> str:
-        """The body whose turning the slider tells: the first input that turns."""
+        """The body whose rotation the slider sets: the first input that turns."""
         turning = [body for body, speed in self.train.inputs.items() if speed]
         return turning[0] if turning else max(self.motion.speeds, key=self._speed)
 
@@ -114,11 +114,11 @@ class _TrainPage:
         return abs(float(self.motion.speeds[body]))
 
     def ratio(self, body: str) -> float:
-        """Degrees that a body turns by for one of the input."""
+        """Return the rotation of a body per degree of the input."""
         return float(self.motion.speeds[body] / self.motion.speeds[self.input])
 
     def _carried(self, body: str, start: float = 0.0) -> dict[str, float]:
-        """Return where the axis of a body is: how far from which height, and how it goes round."""
+        """Return the place of a body's axis: its distance, from which height, and its rotation."""
         heights, carrier = self.scheme.heights, self.scheme.over.get(body)
         if carrier is None:
             return {"base": -heights[body], "far": 0.0, "start": 0.0, "carried": 0.0}
@@ -139,7 +139,7 @@ class _TrainPage:
 
     @cached_property
     def phases(self) -> Mapping[str, float]:
-        """Where a tooth of each wheel stands, degrees from its own axis, so that they mesh."""
+        """Angle of a tooth of each wheel, degrees from its own axis, so that they mesh."""
         rims = {rim.label: rim for rim in self._rims(self.scheme)}
         found: dict[str, float] = {}
         left = [
@@ -166,7 +166,7 @@ class _TrainPage:
         return at + 180.0 - (0.5 - share) * own
 
     def assembled(self, carrier: str, turned: float) -> Mapping[str, float]:
-        """Return by what wheels of a set turn that goes round, its first central wheel held.
+        """Return the rotation of wheels of a planetary set with its first central wheel fixed.
 
         Parameters
         ----------
@@ -299,13 +299,13 @@ class _TrainPage:
         return self.canvas.parts(text.at(at - complex(text.width / 2, 0.35 * LETTER)))
 
     def _pictures(self) -> Iterator[tuple[str, Picture]]:
-        """Yield the pictures of linear and of angular velocities, as they are drawn exactly."""
+        """Yield the linear and the angular velocity diagram, drawn exactly."""
         mu_l = Fraction(repr(float(self.train.unit_m) / self.scheme.mm))  # as high as the wheels
         picture = draw(self.motion, PictureSettings(mu_l=mu_l))
         if picture is None:
             return
         drawn, said = construct(self.motion, picture), self.words.gears["sheet"]
-        # What is too short for a ruler the page does not enlarge: the reader can.
+        # The page does not enlarge segments too short for a ruler: the reader can.
         seen = replace(read(drawn, PROFILES["cad"]), knots=())
         yield said["linear"], lettered(*linear(drawn, seen, LETTER))
         yield said["angular"], angular(drawn, seen, LETTER)

@@ -28,7 +28,7 @@ def fraction(number: float) -> Fraction:
 
 
 class TrainDraft(Struct):
-    """What is read so far of a train (черновик)."""
+    """The parts of a train read so far (черновик)."""
 
     module: Fraction | None
     modules: dict[str, Fraction] = field(default_factory=dict)
@@ -41,7 +41,7 @@ class TrainDraft(Struct):
     toothed: bool = True
 
     def labels(self) -> tuple[str, ...]:
-        """All names that stand for a body: wheels, numbers of them, racks, carriers, others."""
+        """Return all names of bodies: wheels, their numbers, racks, carriers, others."""
         numbers = [wheel.number for wheel in self.wheels.values()]
         return tuple(
             dict.fromkeys(
@@ -92,7 +92,7 @@ def read_labels(faults: Faults, path: str, value: object, limit: int) -> tuple[s
 
 
 def carried_by(value: object, bodies: object = None) -> frozenset[str]:
-    """Return the labels of carriers that mesh with none, by ``meshes``, and by ``bodies``."""
+    """Return the labels of carriers without a mesh, from ``meshes`` and ``bodies``."""
     silent = Faults()
     tables = [one for one in value if isinstance(one, dict)] if isinstance(value, list) else []
     wheels = [x for one in tables if isinstance(one.get("of"), list) for x in one["of"]]
@@ -188,7 +188,7 @@ def _read_axis(faults: Faults, path: str, value: object) -> tuple[float, float, 
 
 
 def read_meshes(faults: Faults, value: object, draft: TrainDraft) -> tuple[Mesh, ...]:
-    """Read ``meshes``: pairs of wheels with what kind they are and who carries their axes."""
+    """Read ``meshes``: pairs of wheels, each with its kind and the carrier of its axes."""
     example = '{ of = [1, 2], kind = "external" }'
     if not isinstance(value, list) or not 1 <= len(value) <= WHEEL_LIMIT:
         told = say("expected 1 to {} meshes, got {}", WHEEL_LIMIT, fields.show(value))
@@ -272,9 +272,9 @@ def _share_modules(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) ->
 
 
 def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) -> None:
-    """Check the radii beside teeth: of two wheels, only a belt's need not make whole teeth.
+    """Check the radii beside teeth: only those of belt wheels need not make whole teeth.
 
-    A radius of a wheel with teeth stands for their number; that of a pulley is a radius.
+    A radius of a wheel with teeth determines their number; that of a pulley is a radius.
     """
     toothed: set[str] = set()
     for mesh in meshes:

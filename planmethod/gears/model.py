@@ -14,7 +14,7 @@ from planmethod.problem.tables import PlanetaryTask
 
 
 class MeshKind(Enum):
-    """How two wheels drive each other (вид передачи)."""
+    """Type of drive between two wheels (вид передачи)."""
 
     EXTERNAL = "external"
     INTERNAL = "internal"
@@ -27,7 +27,7 @@ class MeshKind(Enum):
 
 
 FLEXIBLE = (MeshKind.BELT, MeshKind.CROSSED, MeshKind.CHAIN)
-"""Those that couple wheels at any distance, which may have radii beside wheels with teeth."""
+"""Drives between wheels at any distance, which may have radii beside wheels with teeth."""
 
 PARALLEL = (MeshKind.EXTERNAL, MeshKind.INTERNAL)
 """Meshes whose axes are parallel and at a distance that the wheels give."""
@@ -44,11 +44,11 @@ class GearRim(Struct, frozen=True):
     ----------
     size : Fraction or None
         Number of teeth, or the radius in half modules (in metres where no wheel has teeth); None
-        where coaxiality is to tell it.
+        where coaxiality determines it.
     shift : Fraction
         Shift x of the rack that cuts it, in modules.
     axis : tuple of float or None
-        Of a bevel wheel: direction of its axis from the apex towards the wheel.
+        Direction of a bevel wheel's axis from the apex towards the wheel.
     plain : bool
         A pulley or a sprocket given by its radius beside wheels with teeth.
     module : Fraction or None, m
@@ -97,13 +97,13 @@ class Mesh(Struct, frozen=True):
 
 
 class PictureSettings(Struct, frozen=True):
-    """Scales of the pictures of velocities (масштабы картин скоростей).
+    """Scales of the velocity diagrams (масштабы картин скоростей).
 
     Attributes
     ----------
     mu_l : Fraction, m/mm
     longest_mm : Fraction, mm
-        No segment of the picture of linear velocities is longer.
+        Longest segment of the linear velocity diagram.
     pole_mm : Fraction or None, mm
         Distance of the pole of the rays; None where round scales set it, near to ``near_mm``.
     """
@@ -130,15 +130,15 @@ class Train(Struct, frozen=True):
     unit : str
         ``n`` for rev/min, ``omega`` for 1/s.
     module : Fraction or None, m
-        Of all wheels that have none of their own; the unit of sizes and heights is half of it.
+        Module of all wheels that have none of their own; half of it is the unit of sizes.
     listed : tuple of str
         Wheels, and carriers whose radius is given, in file order.
     arms : mapping
-        Radii of carriers by label, m: how far the axes of their satellites are.
+        Radii of carriers by label, m: distances of the axes of their planets.
     toothed : bool
         Sizes are teeth (or half modules), not metres.
     satellites : mapping
-        Number of satellites on a carrier, by carrier.
+        Number of planets on a carrier, by carrier.
     """
 
     wheels: Mapping[str, GearRim]
@@ -164,14 +164,14 @@ class Train(Struct, frozen=True):
 
     @property
     def unit_m(self) -> Fraction:
-        """Metres of a unit of size; without a module, that of 2 mm stands for any."""
+        """Metres per unit of size; a missing module is taken as 2 mm."""
         if not self.toothed:
             return Fraction(1)
         return Fraction(1, HALF_MODULES) if self.module is None else self.module / 2
 
     @property
     def rate(self) -> float:
-        """What a unit of the inputs is, 1/s."""
+        """Unit of the inputs, 1/s."""
         return math.pi / 30 if self.unit == "n" else 1.0
 
     @property
@@ -186,7 +186,7 @@ class Train(Struct, frozen=True):
 
     @property
     def factor(self) -> float:
-        """What a unit of the inputs is in the other one."""
+        """Unit of the inputs, expressed in the other one."""
         return math.pi / 30 if self.unit == "n" else 30 / math.pi
 
     @property
@@ -195,7 +195,7 @@ class Train(Struct, frozen=True):
         return tuple(dict.fromkeys(label.rstrip("'") for label in self.body_of))
 
     def counted(self, label: str) -> bool:
-        """Whether the size of a wheel is a number of teeth."""
+        """Return whether the size of a wheel is a number of teeth."""
         return self.toothed and not self.wheels[label].plain
 
     def module_of(self, label: str) -> Fraction | None:
@@ -204,7 +204,7 @@ class Train(Struct, frozen=True):
         return None if wheel.plain else wheel.module or self.module
 
     def share(self, label: str) -> Fraction:
-        """Return the module of a wheel by that of the train, which half modules are counted in."""
+        """Return the module of a wheel over that of the train, in which half modules count."""
         module = self.module_of(label)
         return Fraction(1) if module is None or self.module is None else module / self.module
 

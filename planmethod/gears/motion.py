@@ -18,7 +18,7 @@ from planmethod.languages import say
 
 
 class TrainKind(Enum):
-    """What a train is called (вид зубчатого механизма)."""
+    """Type of a gear train (вид зубчатого механизма)."""
 
     ORDINARY = "ordinary"
     PLANETARY = "planetary"
@@ -75,19 +75,19 @@ class TrainMotion(Struct, frozen=True):
     speeds: Mapping[str, Fraction]
 
     def speed(self, label: str, carrier: str | None = None) -> Fraction:
-        """Speed of a label's body, or relative to a carrier."""
+        """Return the speed of a label's body, or its speed relative to a carrier."""
         body = self.train.body_of[label]
         if carrier is None or body in self.roles.across:
             return self.speeds[body]
         return self.speeds[body] - self.speeds[self.train.body_of[carrier]]
 
     def has_sign(self, one: str, other: str) -> bool:
-        """Whether the ratio of two bodies has a sign: their angular velocities are parallel.
+        """Return whether the ratio of two bodies has a sign: angular velocities are parallel.
 
-        Axes are parallel along meshes of parallel axes, belts and chains, and where they are one.
+        Axes are parallel along meshes of parallel axes, belts and chains, and where they coincide.
         A bevel mesh turns by a right angle; two of them lead back to the main direction, that of
-        the plane in which a scheme is drawn, in which senses are told. What a worm does is not
-        known: its wheel's axis crosses its own, in any direction.
+        the plane in which a scheme is drawn and senses are given. The effect of a worm is unknown:
+        its wheel's axis crosses its own, in any direction.
         """
         levels = _levels(self)
         first, second = (levels[self.train.body_of[label]] for label in (one, other))
@@ -128,7 +128,7 @@ def _levels(motion: TrainMotion) -> dict[str, tuple[int, int, int]]:
 
 
 def analyse(problem: GearProblem) -> tuple[Roles, TrainDimensions, Mobility]:
-    """Find roles, axes and mobility of a train; its inputs are not looked at.
+    """Find roles, axes and mobility of a train, without regard to its inputs.
 
     Raises
     ------
@@ -188,7 +188,7 @@ def speeds_by(train: Train, rows: Sequence[Mapping[str, Fraction]]) -> LinearSol
 
 
 def mesh_row(train: Train, roles: Roles, axes: TrainDimensions, mesh: Mesh) -> dict[str, Fraction]:
-    """Coefficients of the speeds in the equation of a mesh, seen from its carrier.
+    """Return the coefficients of the speeds in the equation of a mesh, seen from its carrier.
 
     ``(w_a - w_c) z_a + (w_b - w_c) z_b = 0`` for an external mesh.
     """
@@ -221,7 +221,7 @@ def _loose(train: Train, rows: Iterable[Mapping[str, Fraction]]) -> list[Row[str
 
 
 def _kind(train: Train, roles: Roles, mobility: int) -> TrainKind:
-    """Tell the kind as the textbook does: a fixed central wheel, W, what is closed."""
+    """Return the kind as in the textbook, by fixed central wheels, W and closing meshes."""
     turning = [carrier for carrier in train.carriers if carrier not in train.fixed]
     if not turning:
         return TrainKind.ORDINARY

@@ -1,4 +1,4 @@
-"""Pictures of velocities: contact points and rays, exactly (картины скоростей).
+"""Velocity diagrams: contact points and rays, exact (картины скоростей).
 
 Heights are from the main axis upwards, segments are positive to the right: v_x = -omega y. The ray
 of a body is parallel to its line, at the pole distance from which segments of speeds are read.
@@ -34,12 +34,12 @@ class ContactPoint(Struct, frozen=True):
 
     @property
     def name(self) -> str:
-        """Its name in JSON: ``pitch 1-2``."""
+        """Name in JSON: ``pitch 1-2``."""
         return f"{self.kind.value} {self.of}"
 
 
 class PicturePoint(Struct, frozen=True):
-    """A point of the picture of linear velocities (точка картины): its height and segment, mm."""
+    """A point of the linear velocity diagram (точка картины): its height and segment, mm."""
 
     at: ContactPoint
     height_mm: Fraction
@@ -47,7 +47,7 @@ class PicturePoint(Struct, frozen=True):
 
 
 class VelocityPictures(Struct, frozen=True):
-    """Both pictures (картины линейных и угловых скоростей).
+    """Both velocity diagrams (картины линейных и угловых скоростей).
 
     Attributes
     ----------
@@ -85,12 +85,12 @@ class VelocityPictures(Struct, frozen=True):
 
     @property
     def turn_per_mm(self) -> Fraction:
-        """Speed of a body, in the unit of the inputs, that a millimetre of its ray stands for."""
+        """Speed of a body, in the unit of the inputs, per millimetre of its ray."""
         return self.speed_per_mm / (self.mu_l * self.pole_mm)
 
 
 def draw(motion: TrainMotion, settings: PictureSettings | None = None) -> VelocityPictures | None:
-    """Return the pictures; None where axes are not parallel at known distances, or all stand.
+    """Return the diagrams; None if axes are not parallel at known distances, or nothing moves.
 
     ``settings`` are other scales than the file's.
     """
@@ -147,8 +147,8 @@ def _round_speed(train: Train, least: Fraction) -> Fraction:
 def _round_pole(train: Train, per_mm: Fraction, near: Fraction) -> Fraction:
     """Return the pole distance at which the scale of the rays is round, mm.
 
-    ``per_mm`` is what a millimetre of a ray stands for at a pole distance of one. The scale is
-    round in the unit of the speeds, and as near as can be to that of a distance.
+    ``per_mm`` is the speed per millimetre of a ray at a pole distance of one. The scale is
+    round in the unit of the speeds, and as close as possible to that of the distance ``near``.
     """
     wanted = float(per_mm / near)
     round_ones = (series_near(wanted, up=up) for up in (True, False))
@@ -157,7 +157,7 @@ def _round_pole(train: Train, per_mm: Fraction, near: Fraction) -> Fraction:
 
 
 def _at(motion: TrainMotion, body: str, height: Fraction) -> Fraction:
-    """Speed to the right of a body's point at a height of the line of centres."""
+    """Return the speed to the right of a body's point at a height of the line of centres."""
     centre = motion.axes.heights[body]
     return _of_axis(motion, body) - motion.speeds[body] * (height - centre)
 
@@ -173,7 +173,7 @@ def carrier_of(motion: TrainMotion, body: str) -> str | None:
 
 
 def _of_axis(motion: TrainMotion, body: str) -> Fraction:
-    """Speed to the right of a body's axis: that of its carrier there."""
+    """Return the speed to the right of a body's axis: that of its carrier there."""
     heights, carrier = motion.axes.heights, carrier_of(motion, body)
     if carrier is None:
         return Fraction(0)

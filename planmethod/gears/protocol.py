@@ -1,4 +1,4 @@
-"""The construction of the pictures told step by step (протокол построения картин)."""
+"""The construction of the velocity diagrams step by step (протокол построения картин)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from planmethod.note.wording import Language, Words
 
 
 def protocol_document(problem: GearProblem, words: Language, profile: Profile) -> Iterator[Node]:
-    """Yield what is given, the calculation, the construction of the pictures, and what is read.
+    """Yield the given data, the calculation, the construction of the diagrams, and readings.
 
     Raises
     ------
@@ -66,7 +66,7 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
 
 
 def _pictures(drawn: GearDrawing, words: Language) -> Iterator[Node]:
-    """Yield the steps that draw both pictures."""
+    """Yield the steps that draw both diagrams."""
     narrator = PictureNarrator(drawn, words)
     say: Words = words.gears["sheet"]
     yield Chapter(say.pictures)
@@ -85,7 +85,7 @@ def _pictures(drawn: GearDrawing, words: Language) -> Iterator[Node]:
 
 
 class PictureNarrator(StepNarrator):
-    """Tells the picture of linear velocities; level lines are told where they are used."""
+    """Narrates the linear velocity diagram; level lines are described where they are used."""
 
     def __init__(self, drawn: GearDrawing, words: Language) -> None:
         self.drawn, self.notation = drawn, words.say
@@ -94,7 +94,7 @@ class PictureNarrator(StepNarrator):
         self._ends = {spot.end: spot for spot in drawn.spots}
 
     def lay_off(self, step: steps.LayOff) -> list[Rich]:
-        """Tell a velocity, or the place of a point on the axis of contact points."""
+        """Describe a velocity, or the place of a point on the axis of contact points."""
         spot = self._ends.get(step.out)
         if spot is not None and spot.laid == step.length:
             return self._start(spot)
@@ -105,20 +105,20 @@ class PictureNarrator(StepNarrator):
         return [self.say["foot"].format(point=step.out, what=what, height=shown)]
 
     def line(self, step: Line) -> list[Rich]:
-        """Tell the line of a body."""
+        """Describe the line of a body."""
         if not isinstance(step, steps.Join):
             return []
         body = self._bodies[step.out]
         return [self.say["line"].format(one=step.tail, other=step.head, body=body)]
 
     def meet(self, step: steps.MeetLines) -> list[Rich]:
-        """Tell a velocity that the line of a body gives."""
+        """Describe a velocity that the line of a body gives."""
         spot = self._ends[step.out]
         facts = {"foot": spot.foot, "point": step.out, "what": self._what(spot, "of ")}
         return [self.say["meet"].format(body=self._bodies[step.second], **facts)]
 
     def _what(self, spot: DrawnPoint, case: str = "") -> Rich:
-        """Return what a point of the picture is; ``of `` is what something is of."""
+        """Return the phrase for a point of the diagram; ``of `` selects the genitive."""
         key = "pitch" if spot.contact.kind is ContactKind.PITCH else "own"
         return self.say[case + key].format(name=spot.contact.of)
 
@@ -147,7 +147,7 @@ class PictureNarrator(StepNarrator):
 def _readings(
     drawn: GearDrawing, seen: GearReading, profile: Profile, words: Language
 ) -> Iterator[Node]:
-    """Yield the segments as they are read, and what is computed from them."""
+    """Yield the segments as read, and the values computed from them."""
     notation, train = words.say, drawn.motion.train
     say: Words = words.gears["sheet"]
     yield Chapter(say["steps"]["readings"])

@@ -115,7 +115,7 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     design = _read_design(faults, given["design"]) if "design" in given else None
     ask = _read_ask(faults, given.get("ask", []), known)
     if any(mesh.eta is not None for mesh in meshes) and "eta" not in ask:
-        ask = (*ask, "eta")  # what is given is used, or it is told why it is not
+        ask = (*ask, "eta")  # use the given efficiencies, or report why not
     if len(faults) != before:
         return None
     speeds: dict[str, Fraction] = {}
@@ -223,7 +223,7 @@ def _read_inputs(
 
 
 def _read_satellites(faults: Faults, value: object, draft: TrainDraft) -> dict[str, int]:
-    """Read the number of satellites: of every carrier alike, or by carrier."""
+    """Read the number of planets: one for every carrier, or by carrier."""
     carriers = tuple(draft.carriers)
     if not isinstance(value, Mapping):
         count = fields.read_whole(faults, "gears.satellites", value, 1, 100)
@@ -286,7 +286,7 @@ def _fault_of(text: str, known: tuple[str, ...]) -> str:
 
 
 def _scene(train: Train | None) -> Plain:
-    """Return what answers may name; anything where the train is faulty itself."""
+    """Return the names that answers may use; any name where the train is faulty itself."""
     if train is None:
         return Plain(lambda name: "", lambda name: False, _NAMES)
     known = tuple(train.body_of)
@@ -294,7 +294,7 @@ def _scene(train: Train | None) -> Plain:
 
 
 def _read_published(faults: Faults, value: object, train: Train | None) -> tuple[Published, ...]:
-    """Read what the source prints; ``what`` is a name that can be asked."""
+    """Read the values that the source prints; ``what`` is a name that can be requested."""
 
     def check(path: str, what: str, name: str) -> str:
         if train is not None:

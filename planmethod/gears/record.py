@@ -1,4 +1,4 @@
-"""What JSON says of a train (запись для JSON)."""
+"""JSON record of a train (запись для JSON)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What bodies are in a train: central wheels, satellites; the senses of bevel wheels (роли)."""
+"""Roles of bodies in a train: central wheels, planets; the senses of bevel wheels (роли)."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ Vector = tuple[float, float, float]
 
 
 class Roles(Struct, frozen=True):
-    """Who turns about what (роли звеньев).
+    """Roles of the bodies of a train (роли звеньев).
 
     Attributes
     ----------
     central, satellites : mapping
-        Central wheels and satellites, by carrier.
+        Central wheels and planets, by carrier.
     senses : mapping
-        Of a bevel mesh: +1 where both wheels turn in the positive senses of their axes, else -1.
+        By bevel mesh: +1 where both wheels turn in the positive senses of their axes, else -1.
     across : frozenset of str
-        Bodies whose axis is not parallel to the main one: speeds of them are relative to their
-        carrier, about the own axis.
+        Bodies whose axis is not parallel to the main one: their speeds are relative to their
+        carrier, about their own axis.
     """
 
     central: Mapping[str, tuple[str, ...]]
@@ -35,11 +35,11 @@ class Roles(Struct, frozen=True):
 
 
 def find_roles(train: Train) -> tuple[Roles, list[Fault]]:
-    """Tell central wheels from satellites, and give bevel wheels their senses.
+    """Distinguish central wheels from planets, and give bevel wheels their senses.
 
     A wheel that meshes on a carrier is central if it is fixed, is an input, is coupled to something
-    else (another carrier, a mesh of the frame), is a ring, is told to be coaxial with a central
-    body, or meshes only once there; the others are satellites.
+    else (another carrier, a mesh of the frame), is a ring, is stated to be coaxial with a central
+    body, or meshes only once there; the others are planets.
     """
     faults: list[Fault] = []
     central: dict[str, tuple[str, ...]] = {}
@@ -80,7 +80,7 @@ def _split(train: Train, carrier: str) -> tuple[list[str], list[str]]:
 
 
 def _is_between(train: Train, own: list[Mesh], body: str, sure: set[str]) -> bool:
-    """Whether a body meshes with several that can only be central: then it is a satellite."""
+    """Return whether a body meshes with several central bodies only: then it is a planet."""
     ends = [train.ends(mesh) for mesh in own]
     mates = {b for both in ends if body in both for b in both} - {body}
     once = {b for b in mates if sum(b in both for both in ends) == 1}
@@ -88,7 +88,7 @@ def _is_between(train: Train, own: list[Mesh], body: str, sure: set[str]) -> boo
 
 
 def _ring(train: Train, mesh: Mesh) -> str | None:
-    """Body of the wheel with internal teeth, where its size is known."""
+    """Return the body of the wheel with internal teeth, where its size is known."""
     if mesh.kind is not MeshKind.INTERNAL:
         return None
     one, other = (train.wheels[label].size for label in (mesh.first, mesh.second))
@@ -149,7 +149,7 @@ def _is_across(
     across: Mapping[str, bool],
     around: set[str],
 ) -> bool:
-    """Whether the first wheel of a bevel mesh is the one across the main axis."""
+    """Return whether the first wheel of a bevel mesh is transverse to the main axis."""
     ends = train.ends(mesh)
     axes = [train.wheels[label].axis for label in (mesh.first, mesh.second)]
     for body, axis, flip in zip(ends, axes, (False, True), strict=True):

@@ -1,4 +1,4 @@
-"""What the scheme of a train shows: wheels in columns, axes at their heights (данные схемы)."""
+"""Content of the scheme of a train: wheels in columns, axes at their heights (данные схемы)."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ class Rim(Struct, frozen=True):
     ----------
     centre, radius : float, mm
     ways : tuple of int
-        On which sides of its axis it meshes there: +1 above.
+        Sides of its axis on which it meshes there: +1 above.
     reaches : tuple of float, mm
-        How far it reaches on each of them, where shifts make that different from ``radius``.
+        Its extent on each of them, where shifts make that different from ``radius``.
     """
 
     label: str
@@ -46,27 +46,27 @@ class Rim(Struct, frozen=True):
     reaches: tuple[float, ...] = ()
 
     def reach(self, way: int) -> float:
-        """Return how far it reaches on a side of its axis, mm."""
+        """Return its extent on a side of its axis, mm."""
         return dict(zip(self.ways, self.reaches, strict=False)).get(way, self.radius)
 
     def spans(self) -> Iterator[tuple[float, float]]:
-        """Yield the heights that its halves take; of a ring nothing but its rim."""
+        """Yield the height ranges of its halves; for a ring only its rim."""
         for way in self.ways:
             far = self.centre + way * self.reach(way)
             yield (far, far) if self.ring else (min(self.centre, far), max(self.centre, far))
 
 
 class Cone(Struct, frozen=True):
-    """A bevel mesh of a wheel across (коническое зацепление).
+    """A bevel mesh of a transverse wheel (коническое зацепление).
 
     Attributes
     ----------
     rim : Rim
         The wheel on the level axis.
     label : str
-        That of the wheel across, ``radius`` its radius, mm.
+        Label of the transverse wheel, ``radius`` its radius, mm.
     side : int
-        On which side of the apex the level wheel stands: -1 left.
+        Side of the apex with the level wheel: -1 left.
     """
 
     rim: Rim
@@ -76,7 +76,7 @@ class Cone(Struct, frozen=True):
 
 
 class Across(Struct, frozen=True):
-    """A body whose axis stands across the others, in the paper (поперечное звено)."""
+    """A body whose axis is perpendicular to the others, in the paper (поперечное звено)."""
 
     body: str
     carrier: str | None
@@ -89,11 +89,11 @@ class Worm(Struct, frozen=True):
     Attributes
     ----------
     rim : Rim
-        What stands on a level axis.
+        The part on a level axis.
     label : str
         The other one, seen along its axis; ``radius`` is its radius, mm.
     is_level : bool
-        The worm is what stands level.
+        Whether the worm is the level part.
     """
 
     rim: Rim
@@ -110,7 +110,7 @@ class SchemeData(Struct, frozen=True, dict=True):
 
     @cached_property
     def heights(self) -> Mapping[str, float]:
-        """Heights of the level axes; where the train does not tell them, as the drawing likes."""
+        """Heights of the level axes; chosen for the drawing if the train does not fix them."""
         train, axes = self.motion.train, self.motion.axes
         line = axes.axis_of
         known = {line[body]: float(height) * self.mm for body, height in axes.heights.items()}
@@ -126,7 +126,7 @@ class SchemeData(Struct, frozen=True, dict=True):
         return {body: known[line[body]] for body in level if line[body] in known}
 
     def _new_line(self, mesh: Mesh, known: Mapping[str, float]) -> tuple[str, float] | None:
-        """Return the axis that a mesh tells the height of, and the height."""
+        """Return the axis whose height a mesh determines, and the height."""
         line, across = self.motion.axes.axis_of, self.motion.roles.across
         ends = list(self.motion.train.ends(mesh))
         if mesh.kind is MeshKind.BEVEL:  # over the other level wheels of the body across
@@ -185,7 +185,7 @@ class SchemeData(Struct, frozen=True, dict=True):
         return found
 
     def _cones(self, turned: str) -> Iterator[tuple[str, Mesh, float]]:
-        """Yield the level bodies that a body across meshes with, and their radii."""
+        """Yield the level bodies that a transverse body meshes with, and their radii."""
         train = self.motion.train
         for mesh in train.meshes:
             if mesh.kind is MeshKind.BEVEL and turned in train.ends(mesh):
@@ -195,7 +195,7 @@ class SchemeData(Struct, frozen=True, dict=True):
 
     @cached_property
     def across(self) -> tuple[Across, ...]:
-        """Bodies across, with their bevel meshes."""
+        """Transverse bodies, with their bevel meshes."""
         found = []
         for turned in sorted(self.motion.roles.across):
             cones, carrier = [], None
@@ -228,7 +228,7 @@ class SchemeData(Struct, frozen=True, dict=True):
         return tuple(found)
 
     def _is_last(self, label: str) -> bool:
-        """Whether a body meshes only once."""
+        """Return whether a body meshes only once."""
         train = self.motion.train
         return sum(train.body_of[label] in train.ends(mesh) for mesh in train.meshes) == 1
 
@@ -263,7 +263,7 @@ class SchemeData(Struct, frozen=True, dict=True):
 
     @cached_property
     def beside(self) -> Mapping[str, frozenset[str]]:
-        """Of every body, the others on its axis."""
+        """By body, the other bodies on its axis."""
         levels = {body: round(height, 6) for body, height in self.heights.items()}
         return {
             body: frozenset(b for b, level in levels.items() if level == own and b != body)
@@ -274,7 +274,7 @@ class SchemeData(Struct, frozen=True, dict=True):
     def columns(self) -> tuple[tuple[Rim, ...], ...]:
         """Wheels by the columns that they mesh in.
 
-        A wheel stands in a further column where it would lie on another one in the first.
+        A wheel is placed in a further column where it would overlap another one in the first.
         """
         columns: list[dict[str, Rim]] = []
         for rims in self._meshing():
@@ -326,7 +326,7 @@ def _joined(before: Rim | None, rim: Rim) -> Rim:
 
 
 def _fits(column: Mapping[str, Rim], *rims: Rim) -> bool:
-    """Whether wheels can stand in a column, none over another."""
+    """Return whether wheels fit in a column without overlap."""
     if any(column[rim.label].ring != rim.ring for rim in rims if rim.label in column):
         return False  # one wheel has teeth inside and outside
     whole = {**column, **{rim.label: _joined(column.get(rim.label), rim) for rim in rims}}

@@ -1,4 +1,4 @@
-"""Sheet of a train: both views of the scheme, both pictures, formulas, tables (лист передачи)."""
+"""Sheet of a train: both views of the scheme, both diagrams, formulas, tables (лист передачи)."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ from planmethod.render.sheets.composer import (
 )
 
 TARGETS = (210.0, 165.0, 130.0, 105.0, 85.0, 65.0)
-"""Heights of the scheme, mm, that scales of the sheet's own aim at."""
+"""Target heights of the scheme, mm, for scales that the sheet chooses."""
 
 LEAST_TARGET, MOST_A3 = 85.0, 130.0
 """The least of these where a larger paper can be taken, the most on A3, mm."""
@@ -70,7 +70,7 @@ LEAST, MOST = 75.0, 260.0
 """Heights of the scheme, mm, between which the scale of the file is kept."""
 
 WIDEST = 170.0
-"""Width of the picture of angular velocities above which a scale of the sheet's own shrinks it."""
+"""Width of the angular velocity diagram above which the sheet chooses a coarser scale, mm."""
 
 MOST_FRONT = 130.0
 """Height of the view along the axes, mm, where it has a coarser scale than the side view."""
@@ -85,7 +85,7 @@ SHARES = (1.2, 2.2, 1.1, 1.1, 0.7, 0.8)
 """Widths of the columns of the results, in parts."""
 
 GAP = 12.0
-"""White between the side view and the picture beside it, mm."""
+"""Space between the side view and the diagram beside it, mm."""
 
 
 def drawings(
@@ -104,7 +104,7 @@ def drawings(
     fields : mapping
         Texts of the title block that outrank the file's.
     profile : Profile
-        Who draws and reads the pictures.
+        Drafting accuracy of the diagrams.
     before, total : int
         Sheets of the set before this one, and of the whole set.
 
@@ -160,7 +160,7 @@ def _misfit(strategy: _Train) -> Misfit:
 def pictures(
     motion: TrainMotion, profile: Profile, words: Language, sizes: Sizes
 ) -> tuple[Block, Block | None]:
-    """Return the side view with the picture of linear velocities, and that of angular ones."""
+    """Return the side view with the linear velocity diagram, and the angular one."""
     settings = motion.train.picture
     scheme = SchemeData(motion, float(motion.train.unit_m / settings.mu_l))
     order = None if scheme.undrawn else best_order(scheme)
@@ -169,7 +169,7 @@ def pictures(
 
 
 class _Train(Struct, frozen=True):
-    """How the sheet of a train is searched for: by the scale of the side view."""
+    """Search for the layout of the sheet of a train, by the scale of the side view."""
 
     problem: GearProblem
     motion: TrainMotion
@@ -240,7 +240,7 @@ USUAL = Sizes(5.0, 5.0, 3.5, STAMP_WIDTH)
 """Sizes of letters and tables."""
 
 DENSE = Sizes(3.5, 3.5, 2.5, STAMP_WIDTH, row=5.5)
-"""Where the format was asked for and nothing larger fits."""
+"""Sizes where the format was specified and larger ones do not fit."""
 
 
 class _Picture(Viewed, frozen=True):
@@ -255,7 +255,7 @@ class _Picture(Viewed, frozen=True):
 
 
 class _Rays(Viewed, frozen=True):
-    """The picture of angular velocities with what is enlarged of it."""
+    """The angular velocity diagram with its detail views."""
 
     drawn: GearDrawing
     seen: GearReading
@@ -272,7 +272,7 @@ class _Rays(Viewed, frozen=True):
 
 
 class _Strip(_Picture, frozen=True):
-    """The side view, and beside it the picture of linear velocities, which is measured."""
+    """The side view, and beside it the measured linear velocity diagram."""
 
     beside: Scale
     at: float  # where it begins, mm from the left
@@ -301,7 +301,7 @@ class _Sheet(Struct, frozen=True):
     compared: PlanetaryComparison | None = None
 
     def orders(self) -> Iterator[tuple[Packed, ...]]:
-        """Yield the blocks in orders of reading; the last stands on the title block."""
+        """Yield the blocks in orders of reading; the last is placed on the title block."""
         picture = draw(self.motion, self.settings)
         drawn = None if picture is None else construct(self.motion, picture)
         seen = None if drawn is None else read(drawn, self.profile)
@@ -326,7 +326,7 @@ class _Sheet(Struct, frozen=True):
             yield (strip, rays, *views[1:], *texts, last)
 
     def pictures(self) -> tuple[Block, Block | None]:
-        """Return the side view with what stands beside it, and the angular velocities."""
+        """Return the side view with the linear velocity diagram, and the angular one."""
         picture = draw(self.motion, self.settings)
         drawn = None if picture is None else construct(self.motion, picture)
         seen = None if drawn is None else read(drawn, self.profile)
@@ -348,7 +348,7 @@ class _Sheet(Struct, frozen=True):
     def _strip(
         self, scheme: SchemeData, drawn: GearDrawing | None, seen: GearReading | None
     ) -> Block:
-        """Return the side view and, at the same heights, the picture of linear velocities."""
+        """Return the side view and, at the same heights, the linear velocity diagram."""
         say: Words = self.words.gears["sheet"]
         if scheme.undrawn:
             kinds = ", ".join(say["kinds"][kind] for kind in scheme.undrawn)
@@ -409,7 +409,7 @@ class _Sheet(Struct, frozen=True):
             yield self._titled(view, title, "position", Scale("mu_l", mu_l, "m"), scales)
 
     def _satellites(self) -> Mapping[str, int]:
-        """Return how many satellites each carrier has: of the file, else as they are compared."""
+        """Return the number of planets of each carrier: from the file, else as compared."""
         train = self.motion.train
         common = (
             {} if self.compared is None else dict.fromkeys(train.carriers, self.compared.satellites)
@@ -459,7 +459,7 @@ class _Sheet(Struct, frozen=True):
     # Texts ---------------------------------------------------------------------------------------
 
     def _told(self, width: float) -> Block:
-        """Return what is given and the calculation."""
+        """Return the given data and the calculation."""
         facts = unbroken(fact.text for fact in given(self.motion, self.words))
         text = self.words.note.given.format(given=facts)
         blocks: list[Block] = [paragraph(text, self.sizes.text, width)]

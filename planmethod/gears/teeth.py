@@ -1,6 +1,6 @@
-"""Schemes of trains whose teeth are chosen, what is wanted of them, and sets of teeth.
+"""Schemes of trains whose teeth are chosen, their specifications, and sets of teeth.
 
-Apart from the search, which needs NumPy: a train that is solved has none.
+Separate from the search, which needs NumPy: solving a train does not.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ class TrainScheme(Struct, frozen=True):
     ----------
     name : str
     kinds : tuple of MeshKind
-        Of the meshes 1-2 and 2'-3; of one mesh alone that one.
+        Kinds of the meshes 1-2 and 2'-3, or of the only mesh.
     single : bool
         The second wheel has one rim.
     carried : bool
@@ -62,16 +62,16 @@ SCHEMES = (
 
 
 class Wanted(Struct, frozen=True):
-    """What is asked (техническое задание).
+    """Specification of the teeth to be chosen (техническое задание).
 
     Attributes
     ----------
     ratio : Fraction
         U, with its sign.
     within : Fraction
-        Allowed share of U, both ways; below 1.
+        Allowed relative error of U, both ways; below 1.
     satellites : int
-        Number of satellites k.
+        Number of planets k.
     least, most, ring_most : int
         Bounds of the teeth; the last of wheels with internal teeth.
     modules : tuple of Fraction, mm, or None
@@ -103,7 +103,7 @@ class TeethSet(Struct, frozen=True):
     teeth : tuple of int
         By `TrainScheme.wheels`.
     ratio, error : Fraction
-        U, and by what share it differs from the asked one.
+        U, and its relative difference from the requested one.
     size : Fraction
         Diameter of the pitch circles together, in modules of the first row.
     """
@@ -115,14 +115,14 @@ class TeethSet(Struct, frozen=True):
 
 
 class Chosen(Struct, frozen=True):
-    """What a search has found (результат подбора).
+    """Result of a search for teeth (результат подбора).
 
     Attributes
     ----------
     looked_at, found : int
         Combinations of teeth tried, and sets among them.
     sets : tuple of TeethSet
-        The first of them: the smallest first, of equal ones that with the nearer U.
+        The first of them, by size, those of equal size by the error of U.
     """
 
     wanted: Wanted

@@ -1,4 +1,4 @@
-"""What is found of a train: structure, equations, speeds, pictures (документы)."""
+"""Documents on a solved train: structure, equations, speeds, velocity diagrams (документы)."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ from planmethod.note.wording import Language
 
 
 def solved_document(problem: GearProblem, words: Language) -> Iterator[Node]:
-    """Yield structure, equations, speeds, what is asked, conditions, pictures, printed values.
+    """Yield structure, equations, speeds, requested values, conditions, diagrams, printed values.
 
     Raises
     ------
@@ -87,7 +87,7 @@ def solved_document(problem: GearProblem, words: Language) -> Iterator[Node]:
 
 
 def compared_sentences(compared: PlanetaryComparison, words: Language) -> Iterator[Rich]:
-    """Yield what is asked, how many sets there are, and where the train of the file stands."""
+    """Yield the requirements, the number of sets, and the rank of the train of the file."""
     say, task, number = words.teeth["compared"], compared.task, words.say.given
     scheme: str = words.teeth["schemes"][compared.scheme.name]
     yield say["asked"].format(
@@ -173,7 +173,7 @@ def _structure(
 
 
 def kind_of(found: Mobility, words: Language) -> Rich:
-    """Return which kind of train it is."""
+    """Return the sentence on the kind of train."""
     return words.gears.kind.format(kind=words.gears["kinds"][found.kind.value])
 
 
@@ -213,7 +213,7 @@ def equation_of(motion: TrainMotion, mesh: Mesh) -> tuple[str, str]:
         return f"({train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}})"
 
     sign = MINUS if row[other] > 0 else ""
-    # Pulleys are told by their radii in millimetres.
+    # Pulleys are given by their radii in millimetres.
     per = Fraction(1) if train.counted(mesh.first) or not train.toothed else train.unit_m * 1000
     size = "" if mesh.kind is MeshKind.RACK else f"·{fraction_text(abs(row[other]) * per)}"
     left = f"{speed(mesh.first, one)}·{fraction_text(row[one] * per)}"
@@ -280,7 +280,7 @@ def _speeds(motion: TrainMotion, words: Language) -> Iterator[Node]:
 
 
 def _is_carried(motion: TrainMotion, body: str) -> bool:
-    """Whether a body meshes on a carrier."""
+    """Return whether a body meshes on a carrier."""
     train = motion.train
     return any(train.carrier(m) is not None and body in train.ends(m) for m in train.meshes)
 
@@ -380,7 +380,7 @@ def tabular(motion: TrainMotion) -> tuple[Turns, ...]:
     Raises
     ------
     PlanMethodError
-        A sum is not the speed that the mesh equations give: a mistake of ours.
+        A sum differs from the speed that the mesh equations give: an internal error.
     """
     return tuple(
         _table(motion, carrier)
@@ -420,7 +420,7 @@ def _table(motion: TrainMotion, carrier: str) -> Turns:
 
 
 def _follow(motion: TrainMotion, carrier: str, held: dict[str, Fraction]) -> None:
-    """Carry the turning on through each mesh that has one end turned already."""
+    """Propagate the rotation through each mesh that has one end known already."""
     train = motion.train
     for mesh in train.meshes:
         if train.carrier(mesh) != carrier:

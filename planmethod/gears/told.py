@@ -1,4 +1,4 @@
-"""What sheet and protocol say of a train, as rich text: given, calculation, results (тексты)."""
+"""Texts of sheet and protocol on a train, as rich text: given, calculation, results (тексты)."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ def indexed(text: str) -> str:
 
 
 def given(motion: TrainMotion, words: Language, *, found: bool = True) -> list[GivenFact]:
-    """Return what is given of a train: of it alone the train can be built again (дано).
+    """Return the given facts of a train, sufficient to rebuild it (дано).
 
-    ``found``: with the teeth that coaxiality gives. What is fixed comes last.
+    ``found``: include the teeth that coaxiality gives. Fixed bodies come last.
     """
     facts = [
         *_sizes(motion, words, found=found),
@@ -90,7 +90,7 @@ def _sizes(motion: TrainMotion, words: Language, *, found: bool) -> Iterator[Giv
 
 
 def _meshes(train: Train, words: Language) -> Iterator[GivenFact]:
-    """Yield which wheels mesh, how, on which carrier; hands of worms and efficiencies."""
+    """Yield the meshes with their kinds and carriers; hands of worms and efficiencies."""
     told, rows = words.gears["sheet"], dict[tuple[str, str], dict[int, Mesh]]()
     for k, mesh in enumerate(train.meshes):
         kind = mesh.kind.value
@@ -114,7 +114,7 @@ def _meshes(train: Train, words: Language) -> Iterator[GivenFact]:
 
 
 def _bodies(train: Train, words: Language) -> Iterator[GivenFact]:
-    """Yield what turns together and about one axis, numbers of satellites, the output."""
+    """Yield labels of one body and of one axis, numbers of planets, the output."""
     told = words.gears["sheet"]
     carriers = {mesh.carrier for mesh in train.meshes}
     wheels = {wheel.number for wheel in train.wheels.values()}
@@ -164,7 +164,7 @@ def _modules(train: Train, words: Language) -> Iterator[GivenFact]:
 
 
 def calculation(motion: TrainMotion, words: Language, notation: str | None = None) -> list[str]:
-    """Return kind, mobility, equations of the meshes with their ratios, what is derived."""
+    """Return kind, mobility, equations of the meshes with their ratios, derivations."""
     train, found = motion.train, motion.structure
     lines = [kind_of(found, words), mobility(found, words, notation)]
     for mesh in train.meshes:
@@ -177,7 +177,7 @@ def calculation(motion: TrainMotion, words: Language, notation: str | None = Non
 
 
 def ratios(motion: TrainMotion, words: Language) -> Iterator[DerivedLine]:
-    """Yield how ratios and speeds that are asked for are derived, and why some have no value."""
+    """Yield derivations of the requested ratios and speeds, and why some have no value."""
     yield from derivation(motion, words)
     yield from by_velocities(motion, words)
     say, known = words.gears, tuple(motion.train.body_of)

@@ -1,6 +1,6 @@
 """The speeds of a train by the velocities of its contact points (метод мгновенных скоростей).
 
-Of trains that are given by radii: magnitudes in m/s and cm/s, where they point is said beside them.
+For trains given by radii: magnitudes in m/s and cm/s, with their direction in words.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ POINTS = "ABCDEFGKLMNPQRSTUVW"
 
 
 class _Point(Struct, frozen=True):
-    """A point of contact or of an axis: its letter, height in m, and who has its velocity."""
+    """A point of contact or of an axis: its letter, height in m, and bodies with its velocity."""
 
     letter: Rich
     height: Fraction
@@ -32,12 +32,12 @@ class _Point(Struct, frozen=True):
 
 
 def by_velocities(motion: TrainMotion, words: Language) -> list[DerivedLine]:
-    """Return the method step by step; nothing where teeth are given, or there is no picture.
+    """Return the method step by step; none where teeth are given, or there is no diagram.
 
     Raises
     ------
     PlanMethodError
-        A speed is not the one that the mesh equations give: a mistake of ours.
+        A speed differs from the one that the mesh equations give: an internal error.
     """
     train, picture = motion.train, draw(motion)
     if train.toothed or train.unit != "omega" or picture is None:
@@ -73,7 +73,7 @@ class _Velocities:
         }
 
     def steps(self) -> Iterator[DerivedLine]:
-        """Yield the steps; it ends when nothing more follows."""
+        """Yield the steps, until none follows."""
         while True:
             told = next(self._next(), None)
             if told is None:
@@ -90,7 +90,7 @@ class _Velocities:
                 yield from self._speed(body)
 
     def _velocity(self, point: _Point, body: str) -> Iterator[DerivedLine]:
-        """Tell the velocity of a point of a body whose speed is known."""
+        """Derive the velocity of a point of a body whose speed is known."""
         speed, symbol = self.speeds[body], f"v_{{{point.letter}}}"
         omega, size = f"ω_{{{body}}}", self._number(abs(speed))
         if body in self.axes:
@@ -114,7 +114,7 @@ class _Velocities:
         yield DerivedLine(f"{symbol} = {' = '.join(sides)} = {self._metres(value)}")
 
     def _speed(self, body: str) -> Iterator[DerivedLine]:
-        """Tell the speed of a body two of whose points are known, its fixed axis one of them."""
+        """Derive the speed of a body from two known points, one of them its fixed axis."""
         known = [p for p in self._of(body) if p.letter in self.velocities]
         if body in self.axes and known:
             point = known[0]

@@ -1,1 +1,1 @@
-"""What is drawn of gear trains: the scheme, pictures of velocities, the sheet (чертежи)."""
+"""Drawings of gear trains: the scheme, velocity diagrams, the sheet (чертежи)."""

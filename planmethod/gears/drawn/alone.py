@@ -1,4 +1,4 @@
-"""The side view alone, without pictures of velocities, as an assignment has it (схема передачи)."""
+"""The side view without velocity diagrams, as in an assignment (схема передачи)."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.pictures.lettered import lettered
 
 HEIGHT, LETTERS, EDGE = 110.0, 5.0, 6.0
-"""Height that the scheme shall have, height of its letters, white round it, mm."""
+"""Target height of the scheme, height of its letters, margin around it, mm."""
 
 
 def scheme_alone(problem: GearProblem) -> Drawing | None:
-    """Return the side view of a train, as large as what is on it; None where none can be drawn."""
+    """Return the side view of a train, cropped to its content; None where none can be drawn."""
     motion = solve_motion(problem)
     unit = float(motion.train.unit_m)
     whole = SchemeData(motion, unit / float(motion.train.picture.mu_l))

@@ -1,6 +1,6 @@
-"""What stands beside the side view: view along the axes (вид вдоль оси), pictures of velocities.
+"""Pictures beside the side view: the view along the axes (вид вдоль оси), velocity diagrams.
 
-The view has pitch circles to scale and senses of rotation; the pictures are those of linear and of
+The view has pitch circles to scale and senses of rotation; the diagrams are those of linear and
 angular velocities as they are drawn and read (картины линейных и угловых скоростей).
 """
 
@@ -42,19 +42,19 @@ SWEEP = 14.0
 """Length of such an arrow, mm."""
 
 RACK_BEYOND = 8.0
-"""How far a rack goes beyond its wheel, mm."""
+"""Overhang of a rack beyond its wheel, mm."""
 
 _ANGLES = (205.0, 330.0, 155.0, 25.0, 240.0, 300.0, 180.0, 0.0)
-"""Where the arrows stand, degrees, one wheel after another: off the line of centres."""
+"""Angles of the arrows, degrees, one wheel after another: off the line of centres."""
 
 _ASIDE = (30.0, -30.0, 60.0, -60.0, 90.0, -90.0, 120.0, -120.0, 150.0)
-"""How far from its first place a letter of a circle may go, degrees."""
+"""Angles by which the letter of a circle may move from its first place, degrees."""
 
 
 def front(scheme: SchemeData, height: float, satellites: Mapping[str, int]) -> Picture:
     """Return the view along the axes; letters are ``height`` mm high.
 
-    ``satellites`` says how many sets stand on a carrier, evenly around the main axis; one else.
+    ``satellites`` is the number of evenly spaced sets on each carrier. Default: one.
     """
     items: list[Item] = []
     labels: list[Label] = []
@@ -76,7 +76,7 @@ def front(scheme: SchemeData, height: float, satellites: Mapping[str, int]) -> P
         items += link(*ends, tag=f"link {carrier}")
         places = [ends[0] + share * (ends[1] - ends[0]) for share in (0.5, 0.75, 0.25)]
         free = (p for p in places if min(abs(p.imag - y) for y in levels) > 2.0 * height)
-        at = next(free, places[0])  # no letter of an arm stands at the axis of a wheel
+        at = next(free, places[0])  # keep the letter of an arm off the axis of a wheel
         labels.append(
             Label(typeset(carrier, height), at, prefer=1, gap=1.2,
                   name=f"front {carrier} {body}", manner=BUSY)
@@ -180,20 +180,20 @@ def _sense(scheme: SchemeData, rim: Rim, angle: float) -> list[Item]:
 
 
 BEYOND = 8.0
-"""How far the axis of contact points goes beyond them, mm."""
+"""Overhang of the axis of contact points beyond them, mm."""
 
 SEGMENT = VectorKind.ABSOLUTE.value
 """Tag of the measured segments on the sheet: the vectors of a plan."""
 
 RAYS_POLE = "pole of rays"
-"""Tag of the pole of the picture of angular velocities."""
+"""Tag of the pole of the angular velocity diagram."""
 
 NOTHING = 0.05
-"""Segments below this are nothing, mm."""
+"""Length below which a segment is taken as zero, mm."""
 
 
 def linear(drawn: GearDrawing, seen: GearReading, height: float) -> tuple[list[Item], list[Label]]:
-    """Return the picture of linear velocities, the foot of the main axis at the origin."""
+    """Return the linear velocity diagram, the foot of the main axis at the origin."""
     feet = {spot.foot: seen.point(spot.foot) for spot in drawn.spots} | {FEET: 0j}
     levels = [at.imag for at in feet.values()]
     low, high = min(levels) - BEYOND, max(levels) + BEYOND
@@ -237,7 +237,7 @@ def lines(drawn: GearDrawing, seen: GearReading) -> dict[str, tuple[complex, com
 
 
 def linear_spans(drawn: GearDrawing, seen: GearReading, origin: complex) -> Iterator[Span]:
-    """Yield the measured segments of a picture whose main axis lies at ``origin`` on the sheet."""
+    """Yield the measured segments of a diagram whose main axis is at ``origin`` on the sheet."""
     for spot in drawn.spots:
         foot, end = seen.point(spot.foot), seen.point(spot.end)
         if abs(end - foot) > NOTHING:
@@ -247,9 +247,9 @@ def linear_spans(drawn: GearDrawing, seen: GearReading, origin: complex) -> Iter
 def angular(
     drawn: GearDrawing, seen: GearReading, height: float, knots: Sequence[str] = ()
 ) -> Picture:
-    """Return the picture of angular velocities, its pole at the origin.
+    """Return the angular velocity diagram, its pole at the origin.
 
-    ``knots`` are the letters of what is enlarged of it.
+    ``knots`` are the letters of its detail views.
     """
     foot = -1j * float(drawn.picture.pole_mm)
     ends = {body: seen.point(end) for body, end in drawn.rays.items()}
@@ -285,12 +285,12 @@ def angular(
 
 
 def _ray_places(drawn: GearDrawing, seen: GearReading) -> dict[PointName, complex]:
-    """Return where the points of the picture of angular velocities lie, mm from its pole."""
+    """Return the places of the points of the angular velocity diagram, mm from its pole."""
     return {name: seen.point(name) for name in (FOOT, *drawn.rays.values())}
 
 
 def enlarged_rays(drawn: GearDrawing, seen: GearReading, knot: Knot, height: float) -> Picture:
-    """Return the short segments of rays as they are enlarged, the view's middle at the origin."""
+    """Return a detail view of the short segments of rays, its centre at the origin."""
     at, tag = _ray_places(drawn, seen), f"{ENLARGED} {knot.number}"
     radius, places = radius_of(knot, at), placed_in(knot, at)
     pole, foot = -knot.centre * knot.times, places[FOOT]
@@ -315,9 +315,9 @@ def enlarged_rays(drawn: GearDrawing, seen: GearReading, knot: Knot, height: flo
 def angular_spans(
     drawn: GearDrawing, seen: GearReading, pole: complex, views: Sequence[complex]
 ) -> Iterator[Span]:
-    """Yield the measured segments of a picture whose pole lies at ``pole`` on the sheet.
+    """Yield the measured segments of a diagram whose pole is at ``pole`` on the sheet.
 
-    ``views`` are the middles of its enlarged views: what they show is measured there.
+    ``views`` are the centres of its detail views: the segments shown there are measured there.
     """
     read_on = drawn.read_on(seen.knots)
     for body, end in drawn.rays.items():

@@ -39,7 +39,7 @@ STEP, NEAR = 14.0, 10.0
 """Between two columns; between a column and its own web or arm, mm."""
 
 SLOT = 13.0
-"""Room of a bearing along the axis, mm."""
+"""Space of a bearing along the axis, mm."""
 
 WALL = 1.7
 """From a shaft to the hollow one about it, mm."""
@@ -97,14 +97,14 @@ class SideView(Struct, frozen=True, dict=True):
 
     @cached_property
     def places(self) -> tuple[float, ...]:
-        """Where the stations stand, mm."""
+        """Positions of the stations along the axes, mm."""
         places = [0.0]
         for gap in range(len(self.arrangement.stations) - 1):
             places.append(places[-1] + self._room(gap))
         return tuple(places)
 
     def _slot(self, stub: Stub) -> float:
-        """Return where the bearing of a stub stands, mm."""
+        """Return the position of the bearing of a stub, mm."""
         axes = self._gaps[stub.gap]
         own = next(stubs for _, stubs in axes if stub in stubs)
         room = self._room(stub.gap)
@@ -179,7 +179,7 @@ class SideView(Struct, frozen=True, dict=True):
         if station.across is not None:
             yield from self._across(station.across, x)
         if self._is_conic(number):
-            return  # drawn with what it meshes with
+            return  # drawn with its mate
         if station.part is AxisPart.ARM:
             yield from self._arm(station.body, x)
         elif station.part is AxisPart.WEB:
@@ -214,7 +214,7 @@ class SideView(Struct, frozen=True, dict=True):
         return column >= len(self.arrangement.scheme.columns)
 
     def _across(self, across: Across, x: float) -> Iterator[Item]:
-        """Yield a body across, and the level bevel wheels that it meshes with."""
+        """Yield a transverse body, and the level bevel wheels that it meshes with."""
         column = next(s for s in self.arrangement.stations if s.across == across).column
         tag, levels = f"link {across.body}", []
         for station, at in zip(self.arrangement.stations, self.places, strict=True):

@@ -24,7 +24,7 @@ _SAME = 1e-9  # difference of equal specific slidings
 
 
 class LimitKind(Enum):
-    """What a limit keeps from (вид ограничения)."""
+    """The fault that a limit prevents (вид ограничения)."""
 
     UNDERCUT = "undercut"
     TIP = "tip"
@@ -54,7 +54,7 @@ class BlockingLimit(Struct, frozen=True):
     hard: bool = False
 
     def value(self, pair: Pair) -> Reals:
-        """Return what is compared with the limit: x, s_a/m, ε_α, ρ_p, d_a/m."""
+        """Return the value compared with the limit: x, s_a/m, ε_α, ρ_p, d_a/m."""
         match self.kind:
             case LimitKind.UNDERCUT:
                 return np.asarray(pair.x[self.wheel])
@@ -106,11 +106,11 @@ def limits(tip: float, overlap: float, *, internal: bool = False) -> tuple[Block
 
 
 BASES = tuple(BlockingLimit(LimitKind.BASE, k, hard=True) for k in (0, 1))
-"""Beyond them a tooth has no involute: they bound the contour, and no pair that is ever asked."""
+"""Limits beyond which a tooth has no involute: they bound the contour, not a real pair."""
 
 
 def is_kept(pair: Pair, asked: tuple[BlockingLimit, ...]) -> Reals:
-    """Tell where all of some limits are kept."""
+    """Return where all of some limits are met."""
     with np.errstate(all="ignore"):
         return np.asarray(np.all([one.margin(pair) >= 0 for one in asked], axis=0))
 
@@ -118,7 +118,7 @@ def is_kept(pair: Pair, asked: tuple[BlockingLimit, ...]) -> Reals:
 def tried(total: float | None, side: int = 1) -> Reals:
     """Return all shifts that are compared, shape (2, ...).
 
-    Of a certain sum where it is given; with ``side`` -1 that is of the difference x₂ − x₁.
+    With ``total``, only those of that sum; with ``side`` -1, of that difference x₂ − x₁.
     """
     row = np.round(np.arange(round(LOW / STEP), round(HIGH / STEP) + 1) * STEP, 9)
     return np.stack([row, total - side * row] if total is not None else np.meshgrid(row, row))
@@ -132,9 +132,9 @@ def choose(
 ) -> tuple[float, float] | None:
     """Return the shifts that keep all limits and are the best for an aim.
 
-    All multiples of `STEP` from `LOW` to `HIGH` are compared, so that nothing is missed: of the
-    greater specific sliding at the lower points the least wins, or the greatest contact ratio. For
-    equal sliding x₁ is a multiple and x₂ follows from it.
+    All multiples of `STEP` from `LOW` to `HIGH` are compared, so that nothing is missed. The best
+    shifts have the least maximum of specific sliding at the lower points, or the greatest contact
+    ratio. For equal sliding x₁ is a multiple and x₂ follows from it.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """Picture of the cutting of a wheel by a rack (картина станочного зацепления).
 
 The machine pitch point P₀ is the origin, the wheel is below it and the rack above, its tooth to the
-right of P₀ with a flank through it. In the space to the left the rack stands as it stood before and
-after, seen from the wheel: flank and fillet are what these positions leave. Millimetres of paper.
+right of P₀ with a flank through it. The space to the left shows earlier and later positions of the
+rack relative to the wheel: flank and fillet are their envelope. Millimetres of paper.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _MERGED = 0.6  # mm: nearer lines are one
 
 
 class CuttingView(Struct, frozen=True):
-    """How the picture lies on the paper; ``scale`` is millimetres of paper for one."""
+    """Placement of the picture on the paper; ``scale`` is millimetres of paper for one."""
 
     cutting: RackCutting
     scale: float
@@ -199,7 +199,7 @@ def _circles(view: CuttingView) -> Iterator[Item]:
 
 
 def _shown(view: CuttingView) -> float:
-    """Return how far below P₀ the point N is; 0 where it is too far to be shown."""
+    """Return the distance of the point N below P₀; 0 where it is too far to be shown."""
     depth = -view.of_line(0.0).imag
     return depth if depth < 1.2 * (view.size("d_a") - view.size("d_f")) else 0.0
 
@@ -241,7 +241,7 @@ def _cut_point(view: CuttingView) -> complex | None:
 def _dimensions(
     view: CuttingView, words: Language, letter: float
 ) -> Iterator[tuple[list[Item], Label]]:
-    """Yield dimensions with what is written at them: p, h, c, x·m, s, e."""
+    """Yield dimensions with their labels: p, h, c, x·m, s, e."""
     cutting, scale = view.cutting, view.scale
     rack, tooth = cutting.tooth.pair.rack, cutting.tooth
     x, number = cutting.displacement / cutting.m, tooth.wheel + 1
@@ -280,7 +280,7 @@ def _dimensions(
         drawn, middle = _arc_dimension(view, start, end)
         away = unit(view.centre - middle)
         yield drawn, Label(typeset(text, letter), middle, prefer=away, name=text, manner=BUSY)
-    if not tooth.pair.beta:  # across the axis of a helical wheel the tip is no arc
+    if not tooth.pair.beta:  # the tip of a helical wheel's rack is not an arc
         text = told("ρ_{f}", rack.rho * cutting.m)
         drawn, centre = _tip_radius(view)
         yield drawn, Label(typeset(text, letter), centre, prefer=1 + 1j, name=text, manner=BUSY)

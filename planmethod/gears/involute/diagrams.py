@@ -33,7 +33,7 @@ LOW, HIGH = -4.0, 4.0
 """Shifts between which the contour is drawn."""
 
 _COARSE, _FINE = 321, 161  # rows of the grids that the region and the curves are found on
-_NECK = 1.5  # steps of the grid: half the width of what does not join two regions
+_NECK = 1.5  # grid steps: half the width of a neck that does not join two regions
 _DENSER = 6  # times as many points as where a curve crosses the grid
 _SERIES = (1.0, 2.0, 2.5, 4.0, 5.0, 8.0)  # mm for a unit of the shifts, times a power of ten
 _LETTERS = 30.0  # mm: room that the letters around a diagram take
@@ -75,7 +75,7 @@ def working(solved: SolvedMeshing, window: Window) -> Polygon:
     least[[0, -1], :] = least[:, [0, -1]] = -1.0  # so that its outlines are closed
     step = (window.right - window.left) / _COARSE
     outlines = [Polygon(line) for line in _zero_lines(grid, least) if len(line) > 3]
-    # Parts that only meet in a corner are told apart by making all narrower and wider again.
+    # Shrinking and expanding all parts separates those that only meet in a corner.
     narrow = union_all(outlines).buffer(-_NECK * step)
     largest = max(getattr(narrow, "geoms", [narrow]), key=lambda part: float(part.area))
     return largest.buffer((_NECK + 0.6) * step, join_style="mitre")
@@ -165,7 +165,7 @@ def _joined(part: Reals, bounds: list[Reals], step: float) -> Reals:
 
 
 class Contour(Struct, frozen=True):
-    """Blocking contour of a pair: what is drawn of the plane, and the curves in it."""
+    """Blocking contour of a pair: the drawn part of the plane, and the curves in it."""
 
     solved: SolvedMeshing
     window: Window
@@ -319,7 +319,7 @@ def sliding_scale(solved: SolvedMeshing, width: float) -> float:
 
 
 def sliding_per_mm(solved: SolvedMeshing, height: float) -> float:
-    """Return the scale of specific sliding of a diagram so many mm high, 1/mm."""
+    """Return the scale of specific sliding of a diagram of given height in mm, 1/mm."""
     return series_near((1.0 - _floor(solved)) / (height - _LETTERS), up=True)
 
 

@@ -1,6 +1,6 @@
 """Quantities of a pair: names, symbols, units, formulas with their numbers (формулы).
 
-Those of a spur pair with external teeth; beside them what is another one of an internal pair and of
+The formulas are those of an external spur pair, with replacements for an internal pair and for
 helical wheels.
 """
 
@@ -31,7 +31,7 @@ class Unit(Enum):
 
     @property
     def in_record(self) -> str:
-        """What a record calls it; empty of a number without a unit."""
+        """Name of the unit in a record; empty for a number without a unit."""
         return "deg" if self is Unit.DEGREE else self.value[0]
 
 
@@ -41,14 +41,14 @@ class GearSize(Struct, frozen=True):
     Attributes
     ----------
     key : str
-        Its name in JSON; that of `Pair` where it stands there.
+        Its name in JSON; that of `Pair` if it has one there.
     symbol : str
         Rich text; ``#`` stands for the number of the wheel.
     formula, numbers : str
-        What it is computed by: in letters, and the same with fields for numbers. ``#`` is the
-        wheel, ``@`` the other one. A quantity without them is not derived in the protocol.
+        Its formula in letters, and the same with fields for numbers. ``#`` is the wheel, ``@``
+        the other one. A quantity without a formula is not derived in the protocol.
     in_table : bool
-        It stands in the table of the sheet.
+        Whether it is in the table of the sheet.
     """
 
     key: str
@@ -60,7 +60,7 @@ class GearSize(Struct, frozen=True):
 
     @property
     def symbols(self) -> Rich | list[Rich]:
-        """Its symbol; those of both wheels where each has its own."""
+        """Symbol; one for each wheel where they differ."""
         both = [self.symbol.replace("#", wheel) for wheel in ("1", "2")]
         return both if "#" in self.symbol else self.symbol
 
@@ -371,7 +371,7 @@ _OF_WIDTH = (
         "epsilon_gamma", "ε_{γ}", Unit.NONE, "ε_{α} + ε_{β}", "{epsilon_alpha} + {epsilon_beta}"
     ),
 )
-"""What helical wheels have beside; the last ones where the width is known."""
+"""Additional quantities of helical wheels whose width is known."""
 
 
 def sizes_of(problem: MeshingProblem) -> tuple[list[GearSize], list[GearSize], list[GearSize]]:

@@ -1,4 +1,4 @@
-"""How the rack cuts a wheel: its outline, where it stands, what it leaves (нарезание рейкой).
+"""Cutting of a wheel by a rack: its outline, its positions, the resulting tooth (нарезание рейкой).
 
 Places of the rack are seen from the centre of the wheel, the real axis through the machine pitch
 point P₀ outwards: the real part is the distance, the imaginary one along the rack. Millimetres.

@@ -62,7 +62,7 @@ class Meshings(ProblemKind["MeshingProblem"]):
         return drawings(problem, fields=fields, profile=profile, before=before, total=total)
 
     def given(self, problem: MeshingProblem, words: Language) -> list[GivenFact]:
-        """Return what is given, one fact each; the file can be written again of their data."""
+        """Return the given facts; the file can be rebuilt from their data."""
         from planmethod.gears.involute.quantities import SolvedMeshing
         from planmethod.gears.involute.text import given
 

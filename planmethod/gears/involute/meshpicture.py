@@ -31,7 +31,7 @@ CURVE = "profile"
 """Tag of flanks and fillets, with the number of the wheel."""
 
 HIGH, LEAST = 50.0, 32.0
-"""Height that a tooth shall have at most, and below which the centres are rather left out, mm."""
+"""Largest height of a tooth, and the height below which the centres are left out, mm."""
 
 SCALES = (
     *(1 / k for k in (1000, 800, 500, 400, 200, 100, 75, 50, 40, 25, 20, 15, 10, 5, 4, 2.5, 2)),
@@ -49,15 +49,15 @@ _OVER = 14.0  # mm: circles and lines go on beyond the teeth
 
 
 class MeshView(Struct, frozen=True):
-    """How the picture lies on the paper (масштаб картины).
+    """Placement of the picture on the paper (масштаб картины).
 
     Attributes
     ----------
     scale : float
         Millimetres of paper for one of the wheels.
     reach : (float, float), mm
-        How far below and above P the centres are drawn: nearer than they are where the line of
-        centres is broken.
+        Distances of the centres below and above P as drawn: shortened where the line of centres
+        is broken.
     """
 
     solved: SolvedMeshing
@@ -75,7 +75,7 @@ class MeshView(Struct, frozen=True):
         return self.up(wheel) * self.radii[wheel]
 
     def is_broken(self, wheel: int) -> bool:
-        """Whether the line to the centre of a wheel is broken."""
+        """Return whether the line to the centre of a wheel is broken."""
         return self.reach[wheel] < self.radii[wheel] - 1e-9
 
     def drawn_centre(self, wheel: int) -> complex:
@@ -111,7 +111,7 @@ class MeshView(Struct, frozen=True):
 
     @property
     def half_width(self) -> float:
-        """How far the teeth reach to the left and right of P, mm."""
+        """Extent of the teeth to the left and right of P, mm."""
         wide = 0.0
         for wheel, tooth in enumerate(self.solved.teeth):
             corners = [abs(tooth.size("d_f")) / 2 * np.exp(-1j * pi / tooth.z)]

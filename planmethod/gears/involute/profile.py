@@ -68,7 +68,7 @@ class Tooth(Struct, frozen=True, dict=True):
         -----
         The normal at the point of contact goes through the pitch point, the rolling of the rack's
         line on the pitch circle turning about it. A point of the rounded tip at the depth D below
-        that line stands there D·tan θ·cos β beside the pitch point: in the transverse section the
+        that line is then D·tan θ·cos β beside the pitch point: in the transverse section the
         rack is wider by 1/cos β.
         """
         if self.side < 0:
@@ -84,10 +84,10 @@ class Tooth(Struct, frozen=True, dict=True):
         return np.asarray(place * np.exp(-1j * (turned + pi / self.z)))
 
     def _fillet_of_cutter(self, chi: Reals) -> Points:
-        """Return the way of the corner of the cutter's tip in the ring.
+        """Return the path of the corner of the cutter's tip in the ring.
 
         ``chi`` is the angle between the line of centres and the corner, seen from the cutter's
-        axis: 0 at the root circle. The cutter's tooth stands in the space at −π/z where the corner
+        axis: 0 at the root circle. The cutter's tooth is in the space at −π/z where the corner
         has half of the angle of its tip.
         """
         pair, z = self.pair, self.pair.cutter
@@ -98,12 +98,12 @@ class Tooth(Struct, frozen=True, dict=True):
 
     @cached_property
     def _crossing(self) -> tuple[float, float]:
-        """Where the fillet of an undercut tooth meets its involute: θ, and the radius there, mm.
+        """Point where the fillet of an undercut tooth meets its involute: θ, and its radius, mm.
 
-        With θ the fillet moves away from the centre all the way. Where it passes the base circle
-        it lies within the tooth; where it ends, at the other branch of the involute beyond N, it
-        lies outside. In between it crosses the involute. Everything is reckoned from that end,
-        from which a trace of undercut is no farther than the square of its ρ_l.
+        As θ grows, the fillet moves away from the centre. Where it passes the base circle it is
+        inside the tooth; at its end, on the other branch of the involute beyond N, it is outside.
+        In between it crosses the involute. Everything is measured from that end, from which a
+        trace of undercut is no farther than the square of its ρ_l.
         """
         last, radius, base = self._last, self.size("d") / 2, self.size("d_b") / 2
         m, narrow = self.pair.m, cos(self.pair.beta)
@@ -132,12 +132,12 @@ class Tooth(Struct, frozen=True, dict=True):
 
     @property
     def _last(self) -> float:
-        """Where the rounded tip of the rack ends at its straight flank, rad."""
+        """Angle at which the rounded tip of the rack ends at its straight flank, rad."""
         return pi / 2 - self.pair.rack.alpha
 
     @cached_property
     def theta(self) -> float:
-        """Where the fillet ends at the involute, rad: before π/2 − α where it cuts it off."""
+        """Angle at which the fillet ends at the involute, rad: below π/2 − α with undercut."""
         if self.side < 0:
             return self.pair.alpha_a0 - float(self.pair.alpha_w0)
         return self._crossing[0] if self.is_cut else self._last
@@ -157,12 +157,12 @@ class Tooth(Struct, frozen=True, dict=True):
 
     @property
     def is_cut(self) -> bool:
-        """Whether the fillet cuts off a part of the involute (подрезание)."""
+        """True if the fillet cuts off a part of the involute (подрезание)."""
         return self.side > 0 and self.size("rho_l") < 0
 
     @property
     def stands(self) -> bool:
-        """Whether anything is left of the tooth: both fillets do not meet in it."""
+        """True if a tooth remains: its two fillets do not meet."""
         angles = np.angle(self.fillet(np.linspace(0.0, self.theta, 200)))
         return bool(np.all(angles < 0) and self.rho_low < self.rho_high)
 
@@ -192,7 +192,7 @@ def _lag(roll: float) -> float:
 
 
 def halved(holds: Callable[[float], bool], low: float, high: float) -> float:
-    """Return where something ceases to hold between two bounds."""
+    """Return the point between two bounds at which a condition ceases to hold."""
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
         low, high = (middle, high) if holds(middle) else (low, middle)
@@ -205,7 +205,7 @@ class LineOfAction(Struct, frozen=True):
     Attributes
     ----------
     start, end : float
-        Where contact begins and ends: the tips reach as far, and undercut has left an involute.
+        Begin and end of contact: limited by the tips, and by undercut.
     """
 
     start: float

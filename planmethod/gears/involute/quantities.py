@@ -20,11 +20,11 @@ from planmethod.note.wording import Language
 
 _SIGNED = ("x_sum", "a", "a_w", "y", "delta_y")
 _SIGNED_2 = ("z", "x", "d", "d_b", "d_w", "d_a", "d_f", "rho_a", "rho_p", "rho_l", "rho_low")
-"""What is negative in `Pair` of an internal pair, and of its wheel 2."""
+"""Quantities that are negative in `Pair` for an internal pair, and for its wheel 2."""
 
 
 _ANGLES = ("alpha_w", "alpha_a", "beta", "alpha_t", "beta_b")
-"""What `Pair` has in radians."""
+"""Quantities that `Pair` has in radians."""
 
 
 class Told(Struct, frozen=True):
@@ -34,7 +34,7 @@ class Told(Struct, frozen=True):
     values: tuple[float, ...]
 
     def shown(self, say: Notation) -> list[str]:
-        """Return the values as they are written, a dash for what does not exist."""
+        """Return the values as text, a dash for a value that does not exist."""
         places = self.quantity.unit.places
         return [
             say.number(f"{value + 0.0:.{places}f}") if np.isfinite(value) else "—"
@@ -158,9 +158,9 @@ class SolvedMeshing:
                     yield q.key, f"{put(q.symbol)} = {letters} = {numbers} = {shown}{unit}"
 
     def judged(self) -> Iterator[tuple[BlockingLimit, float, float]]:
-        """Yield every limit with what is compared with it, and its bound.
+        """Yield every limit with the value compared with it, and its bound.
 
-        The contact ratio is that of the teeth as they are cut. Radii of a ring are negative.
+        The contact ratio is that of the teeth as cut. Radii of a ring are negative.
         """
         for one in self.limits:
             if not (one.hard and one.kind in (LimitKind.TIP, LimitKind.OVERLAP)):
@@ -170,13 +170,13 @@ class SolvedMeshing:
                 yield one, value, float(one.bound(self.pair))
 
     def shown(self, limit: BlockingLimit, value: float, bound: float) -> tuple[float, float]:
-        """Return what is compared as the standard has it: radii of a ring are positive."""
+        """Return value and bound with the signs of the standard: radii of a ring are positive."""
         if limit.kind is LimitKind.INTERFERENCE and limit.wheel == 1:
             return self.pair.side * value, self.pair.side * bound
         return value, bound
 
     def sentences(self, words: Language) -> list[tuple[BlockingLimit, bool, str]]:
-        """Return every limit: whether it is kept, and what is said of it, rich text."""
+        """Return every limit, whether it is met, and its sentence as rich text."""
         say, found = words.meshing, []
         for one, value, bound in self.judged():
             number = "" if one.wheel is None else str(one.wheel + 1)

@@ -26,7 +26,7 @@ TOP = ("title", "source", "units", "stamp", "sheet", "variants", "meshing")
 """Tables of the file that a meshing may have."""
 
 AIMS = tuple(aim.value for aim in ShiftAim)
-"""Words in place of the shifts: by what they are chosen within the blocking limits."""
+"""Words in place of the shifts: criteria of their choice within the blocking limits."""
 
 CUTTER = 20
 """Teeth of the pinion cutter where the file does not say."""
@@ -62,7 +62,7 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
 
 
 def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
-    """Return the fields of a problem that stand in its table."""
+    """Return the fields of a problem from its table."""
     own: dict[str, OwnReader] = {"z": _read_teeth, "a_w": _read_size, "b": _read_size}
     found = read_flat(faults, "meshing", body, MeshingTable, own, example=MESHING_EXAMPLE)
     x = _read_shifts(faults, body)
@@ -162,7 +162,7 @@ def _cutter(faults: Faults, given: MeshingTable) -> int | None:
 
 
 def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float] | None:
-    """Read ``x``; None where the limits are to choose, or the distance of the axes tells."""
+    """Read ``x``; None where the limits or the centre distance determine the shifts."""
     alone = [key for key in ("x1", "x2") if key in given]
     value = given.get("x")
     if isinstance(value, list):
@@ -196,7 +196,7 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
 def _settle(
     faults: Faults, pair: Pair, given: MeshingTable, aim: ShiftAim
 ) -> tuple[float, float] | None:
-    """Return the shifts: as given, from the distance of the axes, or chosen."""
+    """Return the shifts: as given, from the centre distance, or chosen."""
     if given.x is not None:
         return given.x
     tip, overlap, a_w = given.s_a_min, given.epsilon_min, given.a_w
@@ -225,7 +225,7 @@ def _settle(
 
 
 def _why_none(pair: Pair, total: float | None, tip: float, overlap: float) -> tuple[str, str]:
-    """Say which limit the others leave no room for."""
+    """Return which limit contradicts the others, and a hint."""
     with np.errstate(all="ignore"):
         every = pair.shifted(tried(total, pair.side))
         asked = limits(tip, overlap, internal=bool(pair.cutter))
@@ -244,7 +244,7 @@ def _why_none(pair: Pair, total: float | None, tip: float, overlap: float) -> tu
 
 
 def _check_teeth(faults: Faults, pair: Pair) -> None:
-    """Note what keeps the wheels from being cut or from meshing."""
+    """Report faults that keep the wheels from being cut or from meshing."""
     total = float(pair.x_sum)
     if not float(pair.inv_alpha_w) >= 0:
         least = abs(sum(pair.z)) * float(involute(pair.alpha_t)) / (2 * np.tan(pair.rack.alpha))

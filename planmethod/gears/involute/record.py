@@ -1,4 +1,4 @@
-"""What JSON says of a pair of wheels (запись для JSON)."""
+"""JSON record of a pair of wheels (запись для JSON)."""
 
 from __future__ import annotations
 

@@ -74,7 +74,7 @@ def drawings(
     Raises
     ------
     LayoutError
-        When all this has no room on the paper that is asked for.
+        All this does not fit the requested paper.
     """
     words = language(problem.sheet.lang or LANGUAGES[0])
     furniture = Furniture.of(problem.sheet, before=before, total=total)
@@ -93,7 +93,7 @@ def drawings(
 
 
 class _Meshing(Struct, frozen=True):
-    """How the sheet of a mesh is searched for: by smaller letters and views."""
+    """Search for the layout of the sheet of a mesh, with ever smaller letters and views."""
 
     solved: SolvedMeshing
     words: Language
@@ -163,7 +163,7 @@ def _scale(value: float, say: Notation) -> str:
 
 
 def _checks(solved: SolvedMeshing, words: Language, title: float, text: float) -> Iterator[Block]:
-    """Yield what is given and what the limits say, in letters of a height, mm."""
+    """Yield the given data and the verdicts of the limits, in letters of a height, mm."""
     say = words.meshing
     yield paragraph(given_text(given(solved, words), words), text, TEXT_WIDTH)
     yield heading(say.checked, title, width=TEXT_WIDTH)

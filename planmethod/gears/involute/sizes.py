@@ -70,7 +70,7 @@ class Rack(Struct, frozen=True):
 
 
 class ShiftAim(Enum):
-    """What shifts are chosen for among those that keep the limits (критерий выбора смещений)."""
+    """Criterion for choosing shifts among those that meet the limits (критерий выбора смещений)."""
 
     BLOCKING = "blocking"  # the least of the greater specific sliding
     SLIDING = "equal-sliding"  # the same for both wheels, and the least such
@@ -103,7 +103,7 @@ class MeshingProblem(KindProblem, frozen=True, kw_only=True):
     overlap : float
         Least contact ratio.
     alone : int or None
-        Wheel whose shift the file gives beside the distance of the axes: 0 or 1.
+        Wheel whose shift the file gives beside the centre distance: 0 or 1.
     """
 
     z: tuple[int, int]
@@ -121,7 +121,7 @@ class MeshingProblem(KindProblem, frozen=True, kw_only=True):
 
     @property
     def chosen(self) -> bool:
-        """Whether the shifts were chosen, not given."""
+        """True if the shifts were chosen, not given."""
         return self.aim is not None
 
 

@@ -1,4 +1,4 @@
-"""A pair of wheels for the reader: what is given, sizes, limits (данные, размеры, проверки)."""
+"""Texts on a pair of wheels: given data, sizes, limits (данные, размеры, проверки)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from planmethod.note.wording import Language
 
 
 def solved_document(problem: MeshingProblem, words: Language) -> Iterator[Node]:
-    """Yield what is given, the sizes of the pair and of the wheels, and the limits."""
+    """Yield the given data, the sizes of the pair and of the wheels, and the limits."""
     solved, say = SolvedMeshing(problem), words.meshing
     pair, wheels, contact = solved.told()
     yield from head(solved, words)
@@ -58,7 +58,7 @@ def cutting(solved: SolvedMeshing, words: Language) -> Iterator[Rich]:
 
 
 def head(solved: SolvedMeshing, words: Language) -> Iterator[Node]:
-    """Yield the title and what is given."""
+    """Yield the title and the given data."""
     title = escape(solved.problem.title or solved.problem.name)
     yield Title(words.meshing.title.format(title=title))
     facts = given(solved, words)
@@ -69,12 +69,12 @@ def head(solved: SolvedMeshing, words: Language) -> Iterator[Node]:
 
 
 def given_text(facts: Sequence[GivenFact], words: Language) -> Rich:
-    """Return what is given in one line; how the shifts are given has a sentence of its own."""
+    """Return the given data in one line, without the shifts, which have their own sentence."""
     return words.note.given.format(given="; ".join(fact.text for fact in facts[:-1]))
 
 
 def given(solved: SolvedMeshing, words: Language) -> list[GivenFact]:
-    """Return what is given: of it alone the wheels can be cut again; the shifts come last."""
+    """Return the given facts, sufficient to cut the wheels again; the shifts come last."""
     problem, say, units = solved.problem, words.say, words.meshing["units"]
     rack = problem.rack
     z1, z2 = problem.z
@@ -109,7 +109,7 @@ def given(solved: SolvedMeshing, words: Language) -> list[GivenFact]:
 
 
 def shifts(solved: SolvedMeshing, words: Language) -> Rich:
-    """Return which shifts there are, and whether they were chosen."""
+    """Return the sentence on the shifts, and whether they were chosen."""
     key = "given" if solved.problem.aim is None else solved.problem.aim.value
     sentence: str = words.meshing["shifts"][key]
     return sentence.format(**_bare(solved, words))
@@ -121,7 +121,7 @@ def _bare(solved: SolvedMeshing, words: Language) -> dict[str, str]:
 
 
 def quality(solved: SolvedMeshing, words: Language) -> Iterator[Rich]:
-    """Yield what the limits say, and what undercut takes away."""
+    """Yield the verdicts of the limits, and the effect of undercut."""
     say = words.meshing
     for _, holds, text in solved.sentences(words):
         yield f"{text}: {say['holds']['yes' if holds else 'no']}"
@@ -148,6 +148,6 @@ def _row(one: Told, words: Language) -> tuple[Rich, ...]:
     say, quantity = words.meshing, one.quantity
     has_unit = quantity.unit in (Unit.MM, Unit.DEGREE)
     unit = f", {say['units'][quantity.unit.value[0]]}" if has_unit else ""
-    # Of both wheels without a number.
+    # For both wheels, without a number.
     symbol = quantity.symbol.replace("#", "").replace("_{}", "")
     return escape(say["names"][quantity.key] + unit), symbol, *one.shown(words.say)
