@@ -317,13 +317,6 @@ def test_the_house_is_as_the_linter_holds_it() -> None:
     rows = first_cells("CONTRIBUTING.md", r"`((?:benchmarks|planmethod)/[\w./]*)`")
     said = [row.rstrip("/").removesuffix(".py").replace("/", ".") for row in rows]
     assert said == contracts[0]["layers"]
-    floors = {one["containers"][0]: one["layers"] for one in contracts if "containers" in one}
-    for folder in ("note", "render"):
-        (told,) = re.findall(
-            rf"(?m)^\| `planmethod/{folder}/` .*From above: (.*?) \|", text_of("CONTRIBUTING.md")
-        )
-        listed = [floor.replace("`", "").replace(", ", " | ") for floor in told.split(" · ")]
-        assert listed == floors[f"planmethod.{folder}"]
 
 
 # Records -----------------------------------------------------------------------------------------
