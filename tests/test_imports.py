@@ -1,4 +1,4 @@
-"""Nothing is imported that a command does not use; each in a fresh process."""
+"""How much a command imports, each in a fresh process: it starts quickly."""
 
 from __future__ import annotations
 
@@ -6,149 +6,58 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
+from cases import each
 from worked import PROBLEMS, path_of
 
-EX3 = str(path_of("linkages/ex3"))
-MESHING = str(PROBLEMS / "meshing/z12-30.toml")
-TRAIN = str(PROBLEMS / "gears/gears-ex2.toml")
-SIX_LINK = str(path_of("levers/six-link"))
+EX3 = path_of("linkages/ex3")
+TRAIN = PROBLEMS / "gears/gears-ex2.toml"
 
-ALL = "numpy", "shapely", "svgwrite", "reportlab", "matplotlib", "mpmath", "ezdxf", "scipy"
-FONTS = ("fontTools",)
-"""The subset of the font is made without the library that made the font."""
-FORCES = {
-    "planmethod.solved.forces.statics",
-    "planmethod.plans.forces.dyads",
-    "planmethod.render.forces.cut",
-    "planmethod.note.narrate.forces.statement",
-}
+HEAVY = {
+    "ezdxf", "fontTools", "matplotlib", "mpmath", "numpy", "openpyxl", "reportlab", "scipy",
+    "shapely", "svgwrite",
+}  # fmt: skip
+"""Libraries that take long to import."""
 
 
-def imported(folder: Path, *commands: tuple[str, ...]) -> set[str]:
-    """Return the modules there are after commands in one process."""
-    program = (
-        "import sys\n"
-        "from planmethod.cli import cli\n"
-        f"for args in {commands!r}:\n"
-        "    try:\n"
-        "        cli(args)\n"
-        "    except SystemExit as done:\n"
-        "        assert not done.code, done.code\n"
-        "print('\\nMODULES', *sys.modules)\n"
-    )
-    return run(folder, program)
-
-
-def run(folder: Path, program: str) -> set[str]:
+def imported(folder: Path, *words: str) -> set[str]:
+    """Return the modules that Python imports."""
     done = subprocess.run(
-        [sys.executable, "-X", "utf8", "-c", program],
+        [sys.executable, "-X", "utf8", "-X", "importtime", *words],
         capture_output=True,
         encoding="utf-8",
         cwd=folder,
         timeout=120,
     )
-    assert done.returncode == 0, done.stderr
-    return set(done.stdout.rpartition("MODULES")[2].split())
+    lines = done.stderr.splitlines()
+    assert not done.returncode, [line for line in lines if "import time:" not in line]
+    return {line.rpartition("|")[2].strip() for line in lines if line.startswith("import time:")}
 
 
 def test_the_package_alone_imports_nothing(tmp_path: Path) -> None:
-    modules = run(tmp_path, "import sys, planmethod; print('MODULES', *sys.modules)")
+    modules = imported(tmp_path, "-c", "import planmethod")
     assert "planmethod" in modules
-    assert modules.isdisjoint({*ALL, *FONTS, "click"})
+    assert modules.isdisjoint({*HEAVY, "click"})
 
 
-def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
-    return (("sheet", name, *args),)
-
-
-@pytest.mark.parametrize(
-    ("commands", "needs", "spares"),
+@each(
+    "command, most, heavy",
     [
-        (
-            drawing(EX3, "--format", "pdf"),
-            {"numpy", "shapely", "reportlab"},
-            {"matplotlib", "mpmath", "ezdxf", "svgwrite", "scipy", "fontTools"},
-        ),
-        (
-            drawing(EX3, "--format", "png", "--dpi", "30"),
-            {"numpy", "shapely", "matplotlib"},
-            {"mpmath", "ezdxf", "svgwrite", "reportlab", "scipy"},
-        ),
-        (
-            drawing(EX3, "--format", "dxf"),
-            {"numpy", "shapely", "ezdxf"},
-            {"matplotlib", "mpmath", "svgwrite", "reportlab", "scipy", "PIL"},
-        ),
-        (
-            drawing(SIX_LINK, "--format", "svg", "-o", "."),
-            {"numpy", "shapely", "svgwrite"},
-            {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL", *FORCES}
-            | {"csv", "difflib"},
-        ),
-        (
-            (("--help",),),
-            {"click"},
-            {*ALL, *FONTS, "fractions", "hashlib", "importlib.metadata", "logging"}
-            | {"multiprocessing", "planmethod.problem.model"},
-        ),
-        # json: a message is looked up, and there is none
-        ((("solve", EX3, "--lang", "ru"),), {"numpy"}, {*FORCES, "fractions", "json"}),
-        (drawing(SIX_LINK, "--format", "svg", "--layout", "forces"), FORCES, {"matplotlib"}),
-        (
-            (("live", EX3), ("animate", EX3, "--format", "svg", "--frames", "8")),
-            {"numpy", "svgwrite"},
-            {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL"},
-        ),
-        ((("lint", EX3),), {"numpy", "shapely"}, {*ALL, *FONTS} - {"numpy", "shapely"}),
-        (
-            (
-                ("solve", EX3),
-                ("solve", EX3, "--json"),
-                ("solve", EX3, "--csv"),
-                ("solve", EX3, "--npz", "ex3.npz"),
-                ("solve", EX3, "--ask", "v_E"),
-                ("protocol", EX3),
-                ("synthesize", "slotted", "--K_v", "1.22", "--centres", "1.08"),
-                ("solve", MESHING),
-                ("protocol", MESHING),
-                ("teeth", "--U", "6.5"),
-            ),
-            {"numpy"},
-            {*ALL, *FONTS} - {"numpy"},
-        ),
-        ((("structure", EX3, "--json"),), set(), {*ALL, *FONTS} - {"numpy"}),
-        ((("solve", TRAIN, "--json"),), set(), {*ALL, *FONTS}),
-        (
-            (
-                ("structure", EX3, "--no-drawing"),
-                ("new", "four-bar"),
-                ("new", "levers-13", "--variant", "Б"),
-                ("tasks", "--search", "кулиса"),
-                ("layouts",),
-                ("--help",),
-                ("sheet", "--help"),
-            ),
-            set(),
-            {*ALL, *FONTS},
-        ),
+        ("--help", 10, set()),
+        ("solve --help", 15, set()),
+        ("new four-bar", 60, set()),
+        (f"solve {TRAIN} --json", 90, set()),
+        (f"solve {EX3}", 145, {"numpy"}),
+        (f"protocol {EX3}", 175, {"numpy"}),
+        (f"check --key {EX3}", 320, {"numpy", "openpyxl", "reportlab", "shapely"}),
+        (f"sheet {EX3} --format svg", 235, {"numpy", "shapely", "svgwrite"}),
+        (f"sheet {EX3} --format pdf", 235, {"numpy", "shapely", "reportlab"}),
     ],
-    ids=lambda value: " ".join(value[0]).replace(str(PROBLEMS), "") if type(value) is tuple else "",
 )
-def test_commands_import_what_they_use(
-    tmp_path: Path, commands: tuple[tuple[str, ...], ...], needs: set[str], spares: set[str]
+def test_a_command_imports_no_more_than_it_needs(
+    tmp_path: Path, command: str, most: int, heavy: set[str]
 ) -> None:
-    """Forces, too, are imported by their sheet alone."""
-    modules = imported(tmp_path, *commands)
-    assert needs <= modules
-    assert modules & spares == set()
-
-
-def test_a_table_of_results_reads_the_words_of_no_other_subject(tmp_path: Path) -> None:
-    program = (
-        "from planmethod.cli import cli\n"
-        "from planmethod.note.wording import language\n"
-        f"cli(['solve', {EX3!r}, '--lang', 'ru'], standalone_mode=False)\n"
-        "print('\\nMODULES', *vars(language('ru')))\n"
-    )
-    assert run(tmp_path, program) == {"lang", "say", "note"}
+    """Imports that few runs need stand in functions; so many modules of the package load."""
+    modules = imported(tmp_path, "-m", "planmethod", *command.split())
+    ours = [name for name in modules if name.partition(".")[0] == "planmethod"]
+    assert modules & HEAVY == heavy
+    assert len(ours) <= most, f"{command}: {len(ours)} modules"
