@@ -1,4 +1,4 @@
-"""Columns of the records of many positions: what is asked is asked once."""
+"""Helpers that build the columns of records of many positions from arrays."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from planmethod.solved.reading import Complexes, Flags, Reals
 
 
 def listed(values: Reals | Sequence[float]) -> list[float | None]:
-    """Return numbers for a record, without a negative zero; None for what is none."""
+    """Return numbers for a record, without a negative zero; None for NaN and infinity."""
     numbers = np.asarray(values) + 0.0
     found: Column = numbers.tolist()
     for index in (~np.isfinite(numbers)).nonzero()[0].tolist():
@@ -42,7 +42,7 @@ def sizes(vectors: Complexes) -> Column:
 
 
 def named(flags: Mapping[str, Flags], count: int) -> list[list[str]]:
-    """Return the names of what is flagged in each position."""
+    """Return the names that are flagged in each position."""
     found: list[list[str]] = [[] for _ in range(count)]
     for name, flag in flags.items():
         for index in flag.nonzero()[0].tolist():

@@ -1,4 +1,4 @@
-"""A number that a drawing gives, beside the exact one: how far off it is, and how that is written.
+"""A number from a drawing beside the exact one: its error, and how the error is written.
 
 Every table and sentence that sets one number beside another is made of this (сравнение).
 """
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
     from planmethod.solved.errors.spread import Errors
 
 NONE = "—"
-"""What stands in the place of a number that is none."""
+"""Placeholder for a missing number."""
 
 MOST_OFF = 100.0
-"""A reading that is further off than so many per cent is none: the segment is too short."""
+"""Error in per cent from which a reading is meaningless: the segment is too short."""
 
 
 DRAWN = "*"
@@ -30,7 +30,7 @@ DRAWN = "*"
 def marked(errors: Errors, label: str, index: int) -> tuple[float, str]:
     """Return a quantity's sigma in one position and its mark, `DRAWN` or nothing.
 
-    What the drawing does not give, as the ω of a link that does not turn, has no error.
+    A quantity that the drawing does not give, as the ω of a translating link, has no error.
     """
     spread = errors.spreads.get(label)
     if spread is None:
@@ -39,12 +39,12 @@ def marked(errors: Errors, label: str, index: int) -> tuple[float, str]:
 
 
 def sense_of(value: float) -> int:
-    """Return 1 counterclockwise, -1 clockwise, 0 of nothing (направление)."""
+    """Return 1 counterclockwise, -1 clockwise, 0 for zero (направление)."""
     return (value > 0) - (value < 0)
 
 
 def percent_text(percent: float | None, decimals: int = 1, most: float = inf) -> str:
-    """Return per cent as plain text; a dash of none, and of what is `most` or more.
+    """Return per cent as plain text; a dash for None, and for `most` or more.
 
     >>> percent_text(-0.04), percent_text(None), percent_text(-1.255, 2), percent_text(240.0)
     ('0.0', '—', '-1.25', '240.0')
@@ -55,20 +55,20 @@ def percent_text(percent: float | None, decimals: int = 1, most: float = inf) ->
 
 
 class ComparedNumber(Struct, frozen=True):
-    """A number found in some way, beside the one that it is judged by (сравниваемое число).
+    """A number beside the reference that it is compared with (сравниваемое число).
 
-    Usually what is read on a drawing, beside the exact value; also the lever beside the force
-    plans, or what a source prints. All are of one unit.
+    Usually a reading from a drawing beside the exact value; also a result of the lever beside that
+    of the force plans, or a printed value. Both are in one unit.
 
     Attributes
     ----------
     exact, read : float
     sigma : float
-        One sigma of ``read``; 0 of what is given, which nothing was drawn of.
+        One sigma of ``read``; 0 for a given value, which was not drawn.
     mark : str
         The mark of a sigma that was found by random draws.
     nothing : float
-        The size up to which ``exact`` is nothing that a reading could be off from in per cent.
+        The size up to which ``exact`` counts as zero, without an error in per cent.
     """
 
     exact: float
@@ -79,15 +79,15 @@ class ComparedNumber(Struct, frozen=True):
 
     @property
     def off(self) -> float:
-        """Δ: how far the reading is off, read less exact."""
+        """Δ: error of the reading, read minus exact."""
         return self.read - self.exact
 
     @property
     def percent(self) -> float | None:
         """Δ in per cent of the exact value, with the sign that the two numbers give.
 
-        Less than zero is a reading that is too small, clockwise as well as counterclockwise. None
-        where the exact value is nothing, or one of the two is no number.
+        It is negative for a reading that is too small, clockwise as well as counterclockwise. None
+        where the exact value is zero, or one of the two is not finite.
         """
         if not abs(self.exact) > self.nothing:
             return None
@@ -96,7 +96,7 @@ class ComparedNumber(Struct, frozen=True):
 
     @property
     def size_off(self) -> float:
-        """Δ between the sizes, where a sense stands beside each: of the exact one's sense."""
+        """Δ between magnitudes that have their senses beside them, positive along the exact one."""
         return -self.off if self.exact < 0 else self.off
 
     @property
@@ -106,7 +106,7 @@ class ComparedNumber(Struct, frozen=True):
 
     @property
     def expected(self) -> float | None:
-        """Sigma in per cent of the exact value; None where that is nothing."""
+        """Sigma in per cent of the exact value; None where that is zero."""
         return 100.0 * self.sigma / abs(self.exact) if self.exact else None
 
     @property
@@ -114,7 +114,7 @@ class ComparedNumber(Struct, frozen=True):
         """The size of Δ, in sigmas."""
         return abs(self.off) / self.sigma if self.sigma else 0.0
 
-    # How it is written, as plain text ---------------------------------------------------------
+    # Plain text -------------------------------------------------------------------------------
 
     @property
     def read_text(self) -> str:

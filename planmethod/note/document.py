@@ -1,4 +1,4 @@
-"""A document: what a person reads, as data (документ).
+"""A document for a reader, as data (документ).
 
 Every kind of problem makes documents of these nodes; the writers of `planmethod.note.writers`, the
 blocks of sheets and the pages of checking print them. Nothing here knows of pens, of line widths
@@ -64,7 +64,7 @@ class Contents(Struct, frozen=True):
 
 
 class PageBreak(Struct, frozen=True):
-    """What follows begins on a new page (разрыв страницы)."""
+    """A page break: the next node begins on a new page (разрыв страницы)."""
 
 
 class StructuralHeading(Struct, frozen=True):
@@ -105,14 +105,14 @@ class Caption(Struct, frozen=True):
 
 
 class GivenFact(Struct, frozen=True):
-    """What is given (данное): its text, and what of a problem file it stands for.
+    """A given fact (данное): its text, and the keys of the problem file that it states.
 
     Attributes
     ----------
     text : Rich
     data : mapping of str to object
-        Dotted keys of the problem file with what they have in the text: m, degrees, SI units, words
-        of the file. Of all that is given the problem can be built again (`tests/rebuilt.py`).
+        Dotted keys of the problem file with their values in the text: m, degrees, SI units, words
+        of the file. The problem can be rebuilt from all its facts (`tests/rebuilt.py`).
     """
 
     text: Rich
@@ -129,7 +129,7 @@ class Paragraph(Struct, frozen=True):
 class Item(Struct, frozen=True):
     """One of several short statements that follow one another, a line each (пункт).
 
-    ``label``: what stands before it in a column of its own, as its share of the whole.
+    ``label``: text before it in a column of its own, such as its share of the total.
     """
 
     text: Rich
@@ -179,8 +179,8 @@ class Term(Struct, frozen=True):
 class Equation(Struct, frozen=True):
     """A vector equation (векторное уравнение): sums of terms on both sides of the sign ``=``.
 
-    ``right`` is empty where the sum of the left side is nothing; ``name`` is what such a sum is
-    called, for writers that put it before the sum.
+    ``right`` is empty where the sum of the left side is zero; ``name`` is the name of such a sum,
+    for writers that put it before the sum.
     """
 
     left: tuple[Term, ...]
@@ -204,15 +204,15 @@ class Table(Struct, frozen=True):
     head : tuple of Rich
     rows : tuple of tuple of Rich
     names : int
-        Columns from the left that name what stands in the row; the others are numbers.
+        Number of columns from the left that name the row; the others are numbers.
     repeated : int
-        Leading columns that stand again before the rest of a table that is cut for its width; 0: it
-        is not cut.
+        Leading columns that are repeated before the rest of a table that is cut for its width; 0:
+        it is not cut.
     right : tuple of int
         Columns of numbers among those that name.
     tones : tuple of str
-        What a row says, where it is one of a few kinds: the word of a verdict; a writer may give
-        the cell of column ``toned`` a ground by it.
+        Kind of each row, such as the word of a verdict; a writer may colour the cell of column
+        ``toned`` by it.
     name : Rich
         Where there is one, the table has a number: ``Таблица 1 – name`` above it.
     key : str
@@ -240,7 +240,7 @@ class Table(Struct, frozen=True):
 
 
 class DrawableView(Protocol):
-    """What can be drawn wherever a document is written (вид)."""
+    """A view that every writer of documents can draw (вид)."""
 
     @property
     def size(self) -> tuple[float, float]:
@@ -256,7 +256,7 @@ class DrawableView(Protocol):
         ...
 
     def png(self, dpi: float) -> bytes:
-        """Return a PNG file with so many dots to the inch."""
+        """Return a PNG file of the given resolution, dots per inch."""
         ...
 
 
@@ -280,7 +280,7 @@ class References(Struct, frozen=True):
 
 
 class Note(Struct, frozen=True):
-    """A remark to what stands above (примечание)."""
+    """A remark on the node above (примечание)."""
 
     text: Rich
 
@@ -397,7 +397,7 @@ def lines_of(page: TitlePage, words: Mapping[str, Any]) -> Iterator[Rich]:
 
 
 def referred(written: Document) -> Document:
-    r"""Return a document with the numbers of what its texts refer to: ``\ref{key}``.
+    r"""Return a document with its references ``\ref{key}`` replaced by numbers.
 
     Writers do that before they write. A text names the kind itself: ``на рисунке \ref{scheme}``,
     ``по формуле (\ref{speed})``.
@@ -452,13 +452,13 @@ def table_of_columns(columns: Iterable[Sequence[Rich]], *, repeated: int) -> Tab
 def table_of_quantities(
     columns: Iterable[tuple[Rich, Rich, Sequence[Rich]]], *, repeated: int
 ) -> Table:
-    """Return a table of columns of head, unit and cells: the unit stands in the head."""
+    """Return a table of columns of head, unit and cells, with the unit in the head."""
     headed = ((f"{head}, {unit}" if unit else head, *cells) for head, unit, cells in columns)
     return table_of_columns(headed, repeated=repeated)
 
 
 def step_of(lines: Sequence[Rich], *, continues: bool = False) -> Iterator[Step]:
-    """Yield a step of lines; none where there is no line."""
+    """Yield a step of the lines, if there are any."""
     if lines:
         yield Step(tuple(lines), continues)
 

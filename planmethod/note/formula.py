@@ -9,7 +9,7 @@ The markup is small and reads like the textbook::
     \frac{v}{l}     fraction: built up where there is room, ``v/l`` in a line
     \sqrt{x}        root: ``√(x)`` in a line
 
-Any other text stands for itself, Russian included. A literal ``_``, ``^``, ``{``, ``}`` or
+Any other text represents itself, Russian included. A literal ``_``, ``^``, ``{``, ``}`` or
 backslash is written with a backslash before it (``\_``); `escape` does that for text from outside.
 """
 
@@ -40,7 +40,7 @@ class Letters(Struct, frozen=True):
 
 
 class Index(Struct, frozen=True):
-    """Indices of what stands before (индексы).
+    """Indices of the preceding sign (индексы).
 
     ``is_power``: whether the one above was written last, as in ``ω_{3}^{2}``: in a line it follows.
     """
@@ -51,7 +51,7 @@ class Index(Struct, frozen=True):
 
 
 class Overline(Struct, frozen=True):
-    """What has a line above it (черта сверху)."""
+    """Nodes with a line above them (черта сверху)."""
 
     body: tuple[Node, ...]
 
@@ -163,7 +163,7 @@ def _commanded(markup: str, command: re.Match[str]) -> tuple[Node, int]:
 
 
 def _index_body(markup: str, i: int) -> tuple[tuple[Node, ...], int]:
-    """Read what follows the ``_`` or ``^`` at ``i``; return it and the place after it."""
+    """Read the index after the ``_`` or ``^`` at ``i``; return it and the place after it."""
     following = markup[i + 1 : i + 2]
     if following == "{":
         body, end = _parse(markup, i + 2, closing=True)
@@ -203,7 +203,7 @@ def _fault(markup: str, i: int, what: str) -> LayoutError:
 def inline(nodes: Iterable[Node]) -> tuple[Node, ...]:
     """Return a formula in one line: ``a/b`` for a fraction, ``√(a)`` for a root.
 
-    Brackets stand exactly where the value would be another without them.
+    Brackets are set only where the value would change without them.
     """
     found: list[Node] = []
 
@@ -271,8 +271,8 @@ def written(nodes: Iterable[Node]) -> Rich:
 def sides(nodes: Iterable[Node]) -> Iterator[tuple[str, tuple[Node, ...]]]:
     """Yield the sides of a chain of equalities, each with the sign before it (цепочка равенств).
 
-    The first has none. What stands in brackets, in a fraction or in an index is not divided; blanks
-    beside the signs are dropped.
+    The first has none. Brackets, fractions and indices are not divided; blanks beside the signs
+    are dropped.
     """
     depth, sign, side = 0, "", list[Node]()
     for node in nodes:
@@ -305,13 +305,13 @@ def _bracketed(nodes: tuple[Node, ...], needed: bool) -> tuple[Node, ...]:
 
 
 def _is_sum(nodes: tuple[Node, ...]) -> bool:
-    """Tell whether a formula is a sum, or a fraction itself."""
+    """Return whether a formula is a sum, or a fraction itself."""
     alone = len(nodes) == 1 and isinstance(nodes[0], Fraction)
     return alone or any(sign in _SUMS for sign in _outside(nodes)[1:])
 
 
 def _is_product(nodes: tuple[Node, ...]) -> bool:
-    """Tell whether a formula has several factors; a number with its power of ten is one."""
+    """Return whether a formula has several factors; a number with its power of ten is one."""
     if any(isinstance(node, Fraction) for node in nodes):
         return True
     signs = re.sub(r"·10(?=\^)", "", _outside(nodes))
@@ -319,7 +319,7 @@ def _is_product(nodes: tuple[Node, ...]) -> bool:
 
 
 def _outside(nodes: tuple[Node, ...]) -> str:
-    """Return the letters outside all brackets and bars; ``^`` and ``_`` stand for indices."""
+    """Return the letters outside all brackets and bars; ``^`` and ``_`` replace indices."""
     depth, outside = 0, ""
     for node in nodes:
         match node:

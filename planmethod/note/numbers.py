@@ -13,11 +13,11 @@ MINUS = "−"
 
 
 NOTHING = 1e-12
-"""What is smaller is the rounding of a zero, where nothing says how small numbers are."""
+"""Default size below which a number is a rounded zero."""
 
 
 def significant(value: float, digits: int = 4, *, nothing: float = NOTHING) -> str:
-    """Return a number with a decimal point and so many significant digits, without an exponent.
+    """Return a number with a decimal point and ``digits`` significant digits, without an exponent.
 
     Very large and very small numbers, which would need a row of zeros, keep an ``e``. A value
     smaller than ``nothing`` is 0.
@@ -36,9 +36,9 @@ def significant(value: float, digits: int = 4, *, nothing: float = NOTHING) -> s
 
 
 def half_up(value: float, decimals: int) -> float:
-    """Return a value rounded to so many decimals, a half away from zero.
+    """Return a value rounded to a number of decimals, a half away from zero.
 
-    What is a half but for the rounding of binary numbers is taken for one: 147.15 gives 147.2.
+    A value that is a half but for binary rounding counts as a half: 147.15 gives 147.2.
     """
     return round(value * (1.0 + _HALF), decimals)
 
@@ -50,9 +50,9 @@ _HALF = 4e-15
 def trimmed(value: float, digits: int | None = None, *, nothing: float = NOTHING) -> str:
     """Return a given number as the problem writes it: no more digits than it has.
 
-    Without ``digits``: all that it has, to eight; four of a number that has more, zeros among
-    them, and two decimals at least, as angles have. One in a hundred numbers of sixteen digits
-    is one of ten within its rounding, one in ten thousand one of eight.
+    Default for ``digits``: all that it has, to eight; for a number that has more, four, zeros
+    among them, and at least two decimals, as angles have. One in a hundred numbers of sixteen
+    digits is one of ten within its rounding, one in ten thousand one of eight.
     """
     text = significant(value, digits or 6, nothing=nothing)
     if digits is None and math.isfinite(value):
@@ -101,9 +101,9 @@ class Notation(Struct, frozen=True, eq=False):
     units : mapping
         Letters of the units, by those of SI: ``N``, ``N·m``, ``mm``.
     symbols : mapping
-        Letters of what the plans name by its role: the balancing moment.
+        Letters of quantities that the plans name by their role: the balancing moment.
     degrees : str
-        Degrees in the head of a table, where the sign alone is none.
+        Degrees in the head of a table, where the bare sign is unusual.
     """
 
     decimal: str
@@ -134,7 +134,7 @@ class Notation(Struct, frozen=True, eq=False):
         return self.number(trimmed(value, nothing=nothing))
 
     def turned(self, degrees: float) -> str:
-        """Return an angle of a crank within a turn, two decimals at most: everywhere alike."""
+        """Return an angle of a crank within a turn, with at most two decimals, as everywhere."""
         return self.given(round(degrees % 360.0, 2) % 360.0)
 
     def found(self, value: float) -> str:
@@ -142,13 +142,13 @@ class Notation(Struct, frozen=True, eq=False):
         return self.number(significant(value))
 
     def short(self, value: float, digits: int = 5) -> str:
-        """Return a number that goes on into a formula, no more than so many digits."""
+        """Return a number for use in a formula, with at most ``digits`` digits."""
         return self.number(trimmed(value, digits))
 
     def ruled(self, value: float) -> str:
         """Return a length that a ruler has measured, mm; of a finer ruler with more digits.
 
-        What no ruler has measured, as it is laid off, has four digits as any computed number.
+        A length not measured with a ruler, but laid off, has four digits as any computed number.
         """
         for decimals in (1, 2):
             text = f"{value:.{decimals}f}"
@@ -176,17 +176,17 @@ def plain(value: SupportsFloat) -> float:
 
 
 def finite_or_none(value: SupportsFloat) -> float | None:
-    """Return a float for a record; None (null) for what a drawing cannot tell."""
+    """Return a float for a record; None (null) for a value that a drawing cannot give."""
     return plain(value) if math.isfinite(value) else None
 
 
 def is_nothing(value: float, peak: float) -> bool:
-    """Tell whether a value is nothing beside the largest of its kind: no plan could show it."""
+    """Return whether a value is negligible beside the largest of its kind: no plan shows it."""
     return abs(value) <= 1e-5 * abs(peak)
 
 
 def is_noise(value: float, peak: float) -> bool:
-    """Tell whether a value of a table is rounding beside the largest of its kind: a zero.
+    """Return whether a value of a table is a rounded zero beside the largest of its kind.
 
     A small value is a result as well: near a dead position others are a million times larger.
     """
@@ -196,8 +196,8 @@ def is_noise(value: float, peak: float) -> bool:
 def alike(values: Sequence[float], digits: int = 4) -> list[str]:
     """Return the numbers of one column with a common number of decimals.
 
-    The largest has so many significant digits; zeros are a plain 0. Where that would leave small
-    values without digits of their own, each number keeps its own decimals.
+    The largest has ``digits`` significant digits; zeros are a plain 0. Where that would leave
+    small values without significant digits, each number keeps its own decimals.
     """
     sizes = sorted(abs(value) for value in values if value and math.isfinite(value))
     largest = sizes[-1] if sizes else 0.0
@@ -209,7 +209,7 @@ def alike(values: Sequence[float], digits: int = 4) -> list[str]:
 
 
 def to_decimals(value: float, decimals: int, digits: int = 4) -> str:
-    """Return a number with so many decimals; without any, with so many digits at most.
+    """Return a number with a number of decimals; for none, with at most ``digits`` digits.
 
     >>> to_decimals(147.15, 1), to_decimals(85.2, 0), to_decimals(233333.3, 0)
     ('147.2', '85', '233300')

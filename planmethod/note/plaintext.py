@@ -82,5 +82,5 @@ def given(value: float, words: Words, digits: int | None = None) -> str:
 
 
 def fixed(value: float, words: Words, places: int = 2) -> str:
-    """Return a number with so many digits after the decimal sign."""
+    """Return a number with ``places`` digits after the decimal sign."""
     return spoken(f"{value + 0.0:.{places}f}", words)

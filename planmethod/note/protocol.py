@@ -1,4 +1,4 @@
-"""Protocol of a construction: its program in words, as a student's note tells it (протокол)."""
+"""Protocol of a construction: its program in words, as in a student's note (протокол)."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ from planmethod.solved.transfers import transfers_of
 
 
 def document_of(solution: Solution, *, lang: str = "ru", position: int = 0) -> Document:
-    """Tell the construction of a position step by step (протокол построения).
+    """Describe the construction of a position step by step (протокол построения).
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ class _Protocol:
         yield given_paragraph(facts, self.language)
 
     def _given(self) -> list[GivenFact]:
-        """Return what the file gives for this position, masses and loads where forces follow."""
+        """Return the given facts of this position, with masses and loads where forces follow."""
         if self.solution.problem.dynamics is None:
             position = float(self.solution.positions[self.index])
             return given_facts(self.solution.problem, self.language, [position])
@@ -253,7 +253,7 @@ class _Protocol:
         return [self.words.constant_speed.format(symbol=symbol, link=drive.link)]
 
     def _known_turning(self, section: Section) -> list[str]:
-        """Return how the group's links turn when that is known before its plan is drawn."""
+        """Return the rotation of the group's links if it is known before their plan is drawn."""
         if section.group is None:
             return []
         lines, omega = [], self.names.kin.omega

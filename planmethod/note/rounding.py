@@ -17,7 +17,7 @@ def _place(sigma: float) -> int:
 
 
 def _plain(sigma: float) -> bool:
-    """Tell whether an error is written without a power of ten."""
+    """Return whether an error is written without a power of ten."""
     return math.isfinite(sigma) and 1e-6 <= sigma < 1e6
 
 

@@ -8,21 +8,21 @@ from typing import Any, TypeAlias
 from msgspec import Struct
 
 Column: TypeAlias = list[Any]
-"""What a record says in every position."""
+"""Values of a record in every position."""
 
 
 class Records(Struct, frozen=True):
-    """Records of many positions, kept column by column: who reads them puts them together.
+    """Records of many positions, kept column by column and materialized when read.
 
     Attributes
     ----------
     names : tuple of str or None
-        Of the columns; None if the record is a list.
+        Names of the columns; None if the record is a list.
     columns : sequence of Column or Records
     count : int
         Positions.
     some : mapping of int to dict
-        What only the records of some positions have besides, by their numbers.
+        Additional data of the records of some positions, by their numbers.
     """
 
     names: tuple[str, ...] | None
@@ -51,7 +51,7 @@ def rows(
     count: int = 0,
     some: Mapping[int, dict[str, Any]] | None = None,
 ) -> Records:
-    """Return columns as a record for each position; ``count`` of them where there is no column."""
+    """Return columns as a record for each position; ``count`` records without any column."""
     count = max(count, *map(len, columns.values())) if columns else count
     return Records(tuple(columns), tuple(columns.values()), count, some or {})
 
@@ -62,7 +62,7 @@ def together(columns: Sequence[Column | Records], count: int) -> Records:
 
 
 def plain_of(value: Any) -> Any:
-    """Return what holds records as plain data."""
+    """Return a value with its records as plain data."""
     if isinstance(value, dict):
         return {key: plain_of(one) for key, one in value.items()}
     return value.plain() if isinstance(value, Records) else value

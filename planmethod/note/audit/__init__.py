@@ -1,1 +1,1 @@
-"""What sources print beside the exact and the read value (проверка источников)."""
+"""Printed values of sources compared with exact and read values (проверка источников)."""

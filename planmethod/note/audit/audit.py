@@ -26,10 +26,10 @@ from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
 DRAFTING_MM = 1.0
-"""How far a careful drawing may be off, mm of the plan (точность построения)."""
+"""Error allowed for a careful drawing, mm of the plan (точность построения)."""
 
 RULER_MM = 0.5
-"""Ruler step when none is asked for, mm."""
+"""Default ruler step, mm."""
 
 SYMBOLS = {kind: FACTS[kind].scale for kind in MOTION}
 
@@ -41,7 +41,7 @@ UNITS = {
     for unit, symbol in (("m", "mu_l"), ("m/s", "mu_v"), ("m/s²", "mu_a"))
     for written in (words["units"][unit], words["units"][unit].replace("²", "^2"))
 }
-"""Of which plan a scale ``per_mm`` is, by the unit of its value, in any language."""
+"""Plan to which a scale ``per_mm`` belongs, by the unit of its value, in any language."""
 
 NEWTONS, METRES, RADIANS = (
     tuple(words["units"][unit] for words in _WORDS) for unit in ("N", "m", "rad")
@@ -49,9 +49,9 @@ NEWTONS, METRES, RADIANS = (
 
 
 class AuditVerdict(Enum):
-    """How a printed value stands to the exact one (заключение)."""
+    """Verdict on a printed value beside the exact one (заключение)."""
 
-    AGREES = "agrees"  # the exact value rounds to what is printed
+    AGREES = "agrees"  # the exact value rounds to the printed one
     DRAWN = "drawn"  # no further off than a drawing may be
     DIFFERS = "differs"
     ABSENT = "absent"  # nothing to compare with
@@ -82,7 +82,7 @@ class Audited(Struct, frozen=True):
         if self.exact is None:
             return None
         difference = self.published.value - self.exact
-        # Binary noise of a value that is right to the last digit is no difference.
+        # Binary noise of a value that is right to the last digit is not a difference.
         return 0.0 if abs(difference) <= 1e-12 * abs(self.exact) else difference
 
     @property
@@ -102,7 +102,7 @@ class Audited(Struct, frozen=True):
 
     @property
     def verdict(self) -> AuditVerdict:
-        """Judge the value: first by its digits, then by what a drawing can give."""
+        """Verdict on the value: first by its digits, then by the accuracy of a drawing."""
         if self.difference is None:
             return AuditVerdict.ABSENT
         if abs(self.difference) <= half_digit(self.published.value) * (1 + 1e-9):
@@ -136,10 +136,10 @@ def half_digit(value: float) -> float:
 
 
 def source_scales(problem: Problem) -> Scales:
-    """Return the scales of the source's own drawing; None where the source tells none.
+    """Return the scales of the source's own drawing; None where the source gives none.
 
-    Those of ``[scales]``, else what the printed values say of their plans: ``per_mm`` beside
-    metres is mu_l, beside m/s mu_v, beside m/s² mu_a.
+    They come from ``[scales]``, else from the printed values: ``per_mm`` beside metres is mu_l,
+    beside m/s mu_v, beside m/s² mu_a.
     """
     told: dict[str, float] = {}
     for value in problem.published:
@@ -213,7 +213,7 @@ def _unit(at: SelectorValues, selector: Selector, value: Published) -> float:
 
 
 def _is_true(value: Published) -> bool:
-    """Whether the source prints a length of the drawing in its true size."""
+    """Return whether the source prints a length of the drawing in its true size."""
     return value.unit in METRES
 
 
@@ -259,7 +259,7 @@ def _position(value: Published, count: int) -> int:
 
 
 def _nearest_turn(degrees: float) -> float:
-    """Return an angle's difference without whole turns, which a protractor does not tell."""
+    """Return an angle's difference without full turns, which a protractor does not show."""
     return degrees - 360.0 * round(degrees / 360.0)
 
 
@@ -366,7 +366,7 @@ class AuditDocument:
         return NONE if value is None else spoken(significant(value, digits), self.words)
 
     def _hundredths(self, value: float | None) -> str:
-        # Rounded first: what rounds to nothing has no minus.
+        # Rounded first: a value that rounds to zero has no minus.
         return NONE if value is None else fixed(round(value, 2), self.words)
 
 
@@ -376,7 +376,7 @@ def name(problem: KindProblem) -> str:
 
 
 def _plain(text: str) -> str:
-    """Return a stranger's text in one line, without the signs that Markdown acts upon."""
+    """Return an untrusted text in one line, with the special characters of Markdown escaped."""
     return re.sub(r"([\\`*|<>\[\]#])", r"\\\1", " ".join(text.split()))
 
 

@@ -1,4 +1,4 @@
-"""What a source prints of a machine and its flywheel, as it should be (проверка маховика)."""
+"""Correct values for those a source prints of a machine and its flywheel (проверка маховика)."""
 
 from __future__ import annotations
 

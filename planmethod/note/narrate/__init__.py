@@ -1,1 +1,1 @@
-"""Sentences, equations and formulas that tell a construction (рассказ)."""
+"""Sentences, equations and formulas that describe a construction (рассказ)."""

@@ -21,7 +21,7 @@ _Column: TypeAlias = tuple[str, str, list[str]]
 
 
 class BalancingTeller:
-    """Tells the balancing of a solution in a language."""
+    """Narrates the balancing of a solution in a language."""
 
     def __init__(self, solution: Solution, words: Language) -> None:
         self.balancing: Balancing = balancing_of(solution)

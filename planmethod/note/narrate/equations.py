@@ -31,7 +31,7 @@ def direction_note(names: Names, direction: Direction | None) -> str:
 
 
 Directed: TypeAlias = Callable[[Direction | None], Rich]
-"""How a direction is written: `letters.direction_text`, or `direction_note` of some names."""
+"""Function that writes a direction: `letters.direction_text`, or `direction_note` of names."""
 
 
 def equation_of(equation: VectorEquation, directed: Directed) -> Equation:

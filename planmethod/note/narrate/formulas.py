@@ -20,7 +20,7 @@ SHORTEST_MM = 1e-9
 class Formulas:
     """Values of one position, as the hand has them, and formulas with them (расчётные формулы).
 
-    Magnitudes are written without signs: a sense is told in words beside them.
+    Magnitudes are written without signs: words beside them give the sense.
     """
 
     def __init__(self, solution: Solution, names: Names, index: int) -> None:
@@ -45,7 +45,7 @@ class Formulas:
         return float(self.solution.positions[self.index])
 
     def readable(self, name: Name) -> bool:
-        """Tell whether the hand has a value: not where it divides by what the ruler reads as 0."""
+        """Return whether the hand has a value: not where it divides by a reading of 0."""
         return bool(self.solution.by_hand.has(name)[self.index])
 
     def place(self, point: PointName) -> complex:
@@ -83,7 +83,7 @@ class Formulas:
     ) -> tuple[str, str]:
         """Return a product of powers in symbols and in numbers, a fraction where there is one.
 
-        ``called`` is another symbol for the factor that is no scale.
+        ``called`` is another symbol for the factor that is not a scale.
         """
         factors = []
         for name, power in powers:
@@ -121,14 +121,14 @@ class Formulas:
     def laid(self, step: Compute, segment: str, kind: PlanKind, vector: Vector | None) -> list[str]:
         """Return how a length to be laid off on a plan is computed: the quantity, then the length.
 
-        On a sheet the quantity, if it is not given, tells both.
+        On a sheet, a quantity that is not given covers both.
 
         Parameters
         ----------
         step : Compute
             The length: a quantity over the scale.
         segment : str
-            What the length is called, as ``(pb)``.
+            Name of the length, as ``(pb)``.
         """
         (value, _), (scale, _) = step.powers
         length, mu = abs(self.number(step.out)), self.per_mm(kind)
@@ -159,7 +159,7 @@ class Formulas:
         return self.formula(symbol, product, value, unit, told)
 
     def _read_on(self, step: Compute) -> str:
-        """Return on which enlarged view a quantity's segment is read; empty of other segments."""
+        """Return the detail view on which a quantity's segment is read; empty for others."""
         read_on = self.solution.read_on(self.index)
         knot = next((read_on[name] for name, _ in step.powers if name in read_on), None)
         if knot is None:
@@ -168,15 +168,15 @@ class Formulas:
 
 
 def view_name(knot: Knot, words: Language) -> str:
-    """Return what an enlarged view is called: ``А (10:1)``."""
+    """Return the name of a detail view: ``А (10:1)``."""
     ratio = words.say.short(knot.times)
     return words.sheets.enlarged.format(letter=knot_letter(knot, words), ratio=ratio)
 
 
 def knot_letter(knot: Knot, words: Language) -> str:
-    """Return the letter of an enlarged view, none that looks like that of a point.
+    """Return the letter of a detail view, none that looks like that of a point.
 
-    Where the letters are too few they begin anew with a number: ``Б1``.
+    Where the letters are too few they start again with a number: ``Б1``.
     """
     every: tuple[str, ...] = words.sheets["knots"]
     letters = [one for one in every if fold(one) not in knot.initials] or every

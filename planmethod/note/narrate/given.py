@@ -1,4 +1,4 @@
-"""The statement of a problem in symbols: what is given, what to find (Дано, Определить)."""
+"""The statement of a problem in symbols: given data and unknowns (Дано, Определить)."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def _unbroken(fact: Rich) -> Rich:
 
 
 def given_paragraph(facts: Sequence[GivenFact], words: Language) -> Paragraph:
-    """Return what is given as one paragraph, which keeps what its facts stand for (дано)."""
+    """Return the given facts as one paragraph, which keeps the keys of its facts (дано)."""
     told = unbroken(fact.text for fact in facts)
     return Paragraph(words.note.given.format(given=told), facts=tuple(facts))
 
@@ -80,10 +80,10 @@ def given_paragraph(facts: Sequence[GivenFact], words: Language) -> Paragraph:
 def given(
     problem: Problem, words: Language, positions: Sequence[float] | None = None
 ) -> list[GivenFact]:
-    """Return what is given: with the scheme of `drawn` the mechanism can be built of it again.
+    """Return the given facts; with the scheme of `drawn` the mechanism can be rebuilt from them.
 
-    Each fact has the keys of the problem file that it stands for, with their values (`GivenFact`).
-    ``positions`` are the driver's, degrees (m for a slider); the file's when absent.
+    Each fact has the keys of the problem file that it states, with their values (`GivenFact`).
+    ``positions`` are the driver's, degrees (m for a slider). Default: the file's.
     """
     drive, text = problem.drive, As(problem, words)
     asked = drive.positions if positions is None else tuple(positions)
@@ -168,9 +168,9 @@ def turns_symbol(problem: Problem, words: Language) -> Rich:
 
 
 def drawn(problem: Problem, words: Language) -> GivenFact:
-    """Return in words what the scheme shows: links with their points, what slides on what.
+    """Return the scheme in words: links with their points, sliders with their guides.
 
-    Where no scheme stands beside what is given, this tells it.
+    It replaces the scheme where none is beside the given data.
     """
     note, told = words.note, []
     data: dict[str, object] = {"driver.link": problem.drive.link}
@@ -191,7 +191,7 @@ def drawn(problem: Problem, words: Language) -> GivenFact:
 
 
 class As:
-    """How a file gives its numbers: its arithmetic, its unit of lengths (как дано)."""
+    """Numbers as a file gives them: in its arithmetic and its unit of lengths (как дано)."""
 
     def __init__(self, problem: Problem, words: Language) -> None:
         self.problem, self.words, self.say = problem, words, words.say
@@ -213,7 +213,7 @@ class As:
         return self.number(value * UNITS[unit], unit, path)
 
     def size(self, value: float, path: str = "") -> str:
-        """Return how long something is whose sense words tell."""
+        """Return the magnitude of a length whose sense is given in words."""
         return self.metres(value, path) if value >= 0 else self.metres(-value)
 
 
@@ -242,7 +242,7 @@ MOST_UNEVEN = 36
 
 
 def _position(text: As, asked: Sequence[float]) -> GivenFact:
-    """Return the position: as the output tells it, where the asked ones are those of the file."""
+    """Return the position: by the output, where the requested ones are those of the file."""
     drive = text.problem.drive
     of = [k for k, position in enumerate(drive.positions) if position in asked]
     if drive.posed is not None and len(of) == len(asked):
@@ -278,7 +278,7 @@ def _told_positions(text: As, asked: Sequence[float]) -> str:
 
 
 def _own_axes(text: As) -> Iterator[GivenFact]:
-    """Yield from which line the angle of a crank counts, or which way its slider's place does."""
+    """Yield the line from which the crank's angle is measured, or the axis of its slider."""
     problem, note = text.problem, text.words.note
     drive = problem.drive
     posed, body = drive.posed, problem.bodies[drive.link]
@@ -307,7 +307,7 @@ def _own_axes(text: As) -> Iterator[GivenFact]:
 
 
 def _way(angle: float) -> str:
-    """Return which way a directed line runs, a key of words: right, up, left or down."""
+    """Return the direction of a line as a key of words: right, up, left or down."""
     x, y = rotation(angle).real, rotation(angle).imag
     if y == 0:
         return "right" if x > 0 else "left"
@@ -315,7 +315,7 @@ def _way(angle: float) -> str:
 
 
 def _arc(link: str, name: str, metres: float, text: As) -> GivenFact:
-    """Return a stone in a circular slot."""
+    """Return the fact on a sliding block in a circular slot."""
     problem = text.problem
     body, path = problem.bodies[link], _path(link, "slides.radius")
     said = text.words.note.given_arc.format(
@@ -344,14 +344,14 @@ def _numbered(text: As, asked: Sequence[float]) -> str:
 
 
 def of_turn(problem: Problem, position: float, angle: str, words: Language) -> str:
-    """Return an angle of the crank with the positions it is at, which tell the turn of two.
+    """Return an angle of the crank with its position numbers, which distinguish two turns.
 
     Parameters
     ----------
     position : float, degrees
-        Of the driver, as it goes on over both turns.
+        Position of the driver, continuous over both turns.
     angle : str
-        How it is written.
+        The angle as text.
     """
     place, count = problem.counted(position), len(problem.numbered)
     if place is None:
@@ -364,7 +364,7 @@ def of_turn(problem: Problem, position: float, angle: str, words: Language) -> s
 
 
 def _posed(posed: Posed, of: Sequence[int], text: As) -> GivenFact:
-    """Return how the output tells some of the positions, and which of several is meant."""
+    """Return how the output determines positions, and which of several is meant."""
     note, values = text.words.note, [posed.values[k] for k in of]
     root: int | str = posed.number or ""
     way = ""
@@ -500,9 +500,9 @@ def _lifted(drive: Drive, led: Lifted, text: As, asked: Sequence[float]) -> list
 
 
 def told_beside(guide: str, problem: Problem) -> Slide | None:
-    """Return the one slide of a guide, where it runs beside the point that the guide is laid to.
+    """Return the only slide of a guide, if it is offset from the point that locates the guide.
 
-    Then the guide is told, and drawn, where the slider runs; else where the file has it.
+    The guide is then described, and drawn, where the slider runs; else where the file has it.
     """
     if problem.guides[guide][0] is None:
         return None
@@ -522,7 +522,7 @@ def _guides(text: As) -> Iterator[GivenFact]:
         elif through is None:
             yield from _guide(guide, base, angle, text)
         if told_beside(guide, problem) is not None:
-            continue  # the guide is told where the slider runs
+            continue  # the guide is described where the slider runs
         for slide in on:
             if slide.offset:
                 name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
@@ -538,7 +538,7 @@ def _offset(slide: Slide, name: str, way: str, text: As) -> GivenFact:
 
 
 def _aside(slide: Slide) -> str:
-    """Return which way of a guide of the frame the pin is, a key of words."""
+    """Return on which side of a guide of the frame the pin is, a key of words."""
     return _way(slide.angle + (90.0 if slide.offset > 0 else -90.0))
 
 
@@ -563,13 +563,13 @@ def _through_point(guide: str, through: str, text: As) -> Iterator[GivenFact]:
 
 
 def _course(angle: float, path: str, text: As) -> tuple[str, str]:
-    """Return how a line runs: level, upright, or at an angle that is written, a key of words."""
+    """Return the inclination of a line as a key of words (level, upright, angled), and its text."""
     key = {0.0: "level", 90.0: "upright"}.get(angle, "angled")
     return key, text.number(angle, "deg", f"{path}.angle")
 
 
 def _third_points(link: str, body: Body, text: As) -> Iterator[GivenFact]:
-    """Yield how a link's further points are given, where lengths of its do not tell it."""
+    """Yield how a link's further points are given, where its lengths do not determine them."""
     note = text.words.note
     named = {name for of, name, _ in text.problem.lengths if of == link}
     lying: dict[str, tuple[list[str], dict[str, object]]] = {}
@@ -667,7 +667,7 @@ def _turn(link: str, problem: Problem) -> float | None:
 
 
 def _own_way(link: str, text: As) -> str:
-    """Return what the own axis of a link without letters for it is called: its slide's line."""
+    """Return the name of a link's axis that has no letters: that of its slide's line."""
     problem = text.problem
     slides = [s for s in problem.slides.values() if link in (s.slider, s.host)]
     slide = min(slides, key=lambda s: s.slider != link)
@@ -684,7 +684,7 @@ def _line(start: str, end: str) -> str:
 
 
 def _carried(slide: Slide, text: As) -> Iterator[GivenFact]:
-    """Yield how the line lies on the link, or on the frame, that something slides along."""
+    """Yield the position of a slide's line on its link, or on the frame."""
     problem, note = text.problem, text.words.note
     host, path = problem.bodies[slide.host], _path(slide.slider, "slides")
     pin, beside = (
@@ -763,11 +763,11 @@ _RULES = {
     Where.TOWARDS: "towards {}",
     Where.AWAY: "away from {}",
 }
-"""How the file has each rule that is a phrase."""
+"""Phrases of the file for the rules that have one."""
 
 
 def _with_joint(problem: Problem, rule: Rule) -> Rule:
-    """Return a rule with the joint from which it tells the way, where it tells one."""
+    """Return a rule with the joint from which it measures a direction, where it does."""
     groups = analyse(problem.mechanism).groups if rule.where in (Where.TOWARDS, Where.AWAY) else ()
     for group in groups:
         if any(rule.point in problem.bodies[link].points for link in group.links):
@@ -776,7 +776,7 @@ def _with_joint(problem: Problem, rule: Rule) -> Rule:
 
 
 def _assembled(text: As, asked: Sequence[float]) -> Iterator[GivenFact]:
-    """Yield which of two ways each group closes, and in which position that is meant."""
+    """Yield the assembly of each group, and the position to which it refers."""
     problem, rules = text.problem, text.words.note["given_rules"]
     for rule in map(partial(_with_joint, problem), problem.assembly):
         path = f"assembly.{segment(rule.point)}"
@@ -843,9 +843,9 @@ def _guide(name: str, base: complex, angle: float, text: As) -> Iterator[GivenFa
 
 
 def asked_points(solution: Solution) -> list[str]:
-    """Return the moving points whose velocity and acceleration the sheet tells.
+    """Return the moving points whose velocity and acceleration the sheet reports.
 
-    Points of a link that does not turn move alike: the first stands for them all.
+    Points of a translating link move alike: the first represents them all.
     """
     velocity = solution.construction.kinematics.velocity
     seen: set[object] = {velocity.pole}
@@ -860,7 +860,7 @@ def asked_points(solution: Solution) -> list[str]:
 def asked_links(solution: Solution) -> list[str]:
     """Return the links whose angular velocity is not given and not zero by nature.
 
-    That of a link which a cam's follower swings is given in one position, in several it is told.
+    That of a link driven by a cam's follower is given in one position, in several it is reported.
     """
     kin, drive = solution.construction.kinematics, solution.problem.drive
     given = "" if drive.followed is not None and len(solution.positions) > 1 else drive.link
@@ -870,9 +870,9 @@ def asked_links(solution: Solution) -> list[str]:
 
 
 def told(solution: Solution, *kinds: QuantityKind) -> list[Quantity]:
-    """Return the quantities of the motion that a sheet tells, kind by kind.
+    """Return the quantities of the motion that a sheet reports, kind by kind.
 
-    Of points and links those of `asked_points` and `asked_links`.
+    Points and links are those of `asked_points` and `asked_links`.
     """
     still = {*solution.points} - {*asked_points(solution)}
     driven = {*solution.links} - {*asked_links(solution)}
@@ -886,7 +886,7 @@ def told(solution: Solution, *kinds: QuantityKind) -> list[Quantity]:
 
 
 def wanted(solution: Solution) -> str:
-    """Return what is to be found, as one line of symbols."""
+    """Return the unknowns as one line of symbols."""
     return ", ".join(quantity.symbol for quantity in told(solution, *MOTION_KINDS))
 
 

@@ -1,4 +1,4 @@
-"""The text of a machine and its flywheel: what is given, how it is found (расчёт маховика)."""
+"""The text on a machine and its flywheel: given data and calculation (расчёт маховика)."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _Column: TypeAlias = tuple[str, str, list[str]]
 
 
 class MachineTeller:
-    """Tells a machine and the choice of its flywheel in a language (рассказ о маховике).
+    """Narrates a machine and the choice of its flywheel in a language (рассказ о маховике).
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ class MachineTeller:
     # Given and wanted ------------------------------------------------------------------------
 
     def given(self) -> list[GivenFact]:
-        """Return what is given; the machine goes through all positions, none is."""
+        """Return the given facts, without a position: the machine goes through all of them."""
         machine, problem = self.flywheel.machine, self.flywheel.problem
         assert problem.dynamics is not None
         _, *lines = given(problem, self.words, [self.flywheel.turn.start_deg])
@@ -107,7 +107,7 @@ class MachineTeller:
 
     @property
     def delta(self) -> str:
-        """The irregularity that is asked for, as a fraction of one where it is such."""
+        """Required coefficient of speed fluctuation, as ``1/n`` if n is an integer."""
         delta = self.flywheel.machine.delta
         inverse = 1.0 / delta
         if abs(inverse - round(inverse)) < 1e-9 * inverse:
@@ -115,7 +115,7 @@ class MachineTeller:
         return self.say.given(delta)
 
     def wanted(self) -> str:
-        """Return what is to be found."""
+        """Return the unknowns."""
         return self.said.wanted.format(flywheel=self.letter("flywheel"))
 
     # Construction ----------------------------------------------------------------------------
@@ -460,7 +460,7 @@ ROWS = 13
 
 
 def asks_run_up(tell: MachineTeller) -> bool:
-    """Whether the file has a motor or a brake."""
+    """Return whether the file has a motor or a brake."""
     machine = tell.flywheel.machine
     return machine.motor is not None or machine.brake is not None
 
@@ -551,7 +551,7 @@ def _driven(run: RunUp, tell: MachineTeller) -> list[str]:
 
 
 def courses(tell: MachineTeller) -> list[tuple[str, TimeCourse]]:
-    """Return what there is of run-up and stop, with its title."""
+    """Return run-up and stop, as far as they exist, with their titles."""
     run, found = run_up_of(tell.flywheel), []
     if run.machine.motor is not None and run.failure is None:
         found.append((tell.said.run_up_table, run.run_up))

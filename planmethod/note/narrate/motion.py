@@ -35,7 +35,7 @@ COLLINEAR = 1e-9
 
 
 class MotionNarrator:
-    """Tells the steps that lay vectors off and read them."""
+    """Narrates the steps that lay vectors off and read them."""
 
     def __init__(self, solution: Solution, names: Names, say: Formulas) -> None:
         self.solution, self.names, self.say, self.words = solution, names, say, names.words
@@ -56,12 +56,12 @@ class MotionNarrator:
         return self.names.axis(found.base), found.angle
 
     def coincide(self, point: PointName) -> str:
-        """Return in brackets the further points that a plan point stands for."""
+        """Return in brackets the further points that a plan point represents."""
         others = self.names.others(point)
         return self.words.meet_coincide.format(points=", ".join(others)) if others else ""
 
     def lay_off(self, step: LayOff) -> list[str]:
-        """Tell a vector laid off from what is known of it."""
+        """Describe the laying off of a vector from its known data."""
         names, words = self.names, self.words
         vector, point = names.vector(step.origin, step.out), names.point(step.out)
         segment, length = names.segment(step.origin, step.out), abs(self.say.number(step.length))
@@ -142,7 +142,7 @@ class MotionNarrator:
         return self.words.ccw if value > 0 else self.words.cw
 
     def compute(self, step: Compute) -> list[str]:
-        """Tell a number that is a result; one that is laid off is told there.
+        """Describe a number that is a result; one that is laid off is described there.
 
         A reading is a formula of a list; another value is a sentence.
         """
@@ -153,14 +153,14 @@ class MotionNarrator:
         return formulas if self.is_reading(step) else [f"{formula}." for formula in formulas]
 
     def is_reading(self, step: Step) -> bool:
-        """Tell whether a step is the value of a segment that is read for it alone."""
+        """Return whether a step is the value of a segment that is read for it alone."""
         if not (isinstance(step, Compute) and self.is_value(step)):
             return False
         return not isinstance(self.names.step[step.powers[1][0]], MeasureAlong)
 
     @cached_property
     def _results(self) -> dict[NumberName, Quantity]:
-        """Quantities that follow from others and are no segments, by their numbers."""
+        """Quantities that follow from others and are not segments, by their numbers."""
         drawn = {*self._values, *self._epsilons, *self.kin.omega.values()}
         steps = self.solution.construction.program.steps
         drawn |= {step.length for step in steps if isinstance(step, LayOff)}
@@ -174,7 +174,7 @@ class MotionNarrator:
         return self.say.formula(quantity.symbol, sides, value, quantity.kind.unit, more)
 
     def _turned(self, step: Compute) -> PlanKind | None:
-        """Return the plan by which a step is how a link turns; None of other steps."""
+        """Return the plan that gives a step as the rate of a link; None for other steps."""
         return next((kind for kind in RATES if step.out in self.kin.rates(kind).values()), None)
 
     def found(self, step: Compute) -> list[str]:
@@ -187,9 +187,9 @@ class MotionNarrator:
         return [self._turning_formula(step), *alike]
 
     def value(self, step: Compute) -> list[str]:
-        """Return the formula of what a segment stands for by its length, or of what follows.
+        """Return the formula of the quantity that a segment's length represents, or of a result.
 
-        None of other steps.
+        Empty for other steps.
         """
         if step.out in self._results:
             return [self._result(step, self._results[step.out])]
@@ -210,7 +210,7 @@ class MotionNarrator:
         return [text]
 
     def is_value(self, step: Compute) -> bool:
-        """Tell whether a step is what a segment of a plan stands for, by its length."""
+        """Return whether a step is the quantity that a plan segment's length represents."""
         return step.out in self._values and step.powers[0][0] in SCALE_KIND
 
     def _along(self, relative: Relative) -> NumberName | None:
@@ -255,7 +255,7 @@ class MotionNarrator:
         return [(other, f"{letter}_{{{other}}}") for other in others]
 
     def similar(self, step: Similar) -> list[str]:
-        """Tell a point found by similarity."""
+        """Describe a point found by similarity."""
         names, words = self.names, self.words
         point, coincide = names.point(step.out), self.coincide(step.out)
         b, c = names.point(step.plan_b), names.point(step.plan_c)

@@ -1,4 +1,4 @@
-"""What a reader calls the points, lines and numbers of a construction."""
+"""Names of the points, lines and numbers of a construction for the reader."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Names:
     """Names for the reader, of one solution in one language, as rich text (обозначения).
 
     Points of the plans are called by their letters, points of the mechanism by their own names,
-    the feet of offsets by a prime, numbers by their symbols, lines by what they are parallel to.
+    the feet of offsets by a prime, numbers by their symbols, lines by their parallels.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ class Names:
         return re.sub(_DIGITS, r"_{\g<0>}", name) if self.on_sheet else name
 
     def _own(self, name: PointName, text: str) -> str:
-        """Return the name of an auxiliary point, with as many primes as keep it apart."""
+        """Return the name of an auxiliary point, with primes that make it unique."""
         if name not in self._auxiliary:
             while text in self._auxiliary.values() or text in self.solution.points:
                 text += "′"
@@ -139,10 +139,10 @@ class Names:
     # Lines -----------------------------------------------------------------------------------
 
     def axis(self, text: str) -> str:
-        """Return a line of a link as the reader calls it.
+        """Return the reader's name of a line of a link.
 
-        Its letters stand in the order in which its length was given (CB becomes BC); a line that
-        is told by one point and an angle is called the guide of its link.
+        Its letters are in the order in which its length was given (CB becomes BC); a line that
+        is given by one point and an angle is called the guide of its link.
         """
         if text in self._slots:
             link = self._slots[text]
@@ -150,7 +150,7 @@ class Names:
         return self._given.get(text, text)
 
     def base(self, direction: Direction) -> str:
-        """Return the line that a direction is told by as the reader calls it."""
+        """Return the reader's name of the line that defines a direction."""
         if direction.relation is Relation.ANGLED:
             return "".join(direction.points)
         return self.axis(direction.guide or "".join(direction.points))
@@ -274,7 +274,7 @@ class Names:
                 return f"{letter}_{{{index}}}" if index else letter
 
     def is_inverse_scale(self) -> bool:
-        """Tell whether scales are written as millimetres per unit."""
+        """Return whether scales are written as millimetres per unit."""
         return self.solution.problem.scales.convention is Convention.MM_PER_UNIT
 
     # Vectors ---------------------------------------------------------------------------------

@@ -1,8 +1,8 @@
 """Sentences of the steps of a construction: the one match over the union of steps (рассказчик).
 
-A kind of problem has a narrator of its own, which tells what it draws in its own way. What is
-drawn with compasses and ruler alike in every construction is told here, by what the kind calls its
-points, lines and numbers (`Naming`).
+Each kind of problem has its own narrator, which describes its drawing in its own way. Steps that
+are drawn with compasses and ruler alike in every construction are described here, with the names
+that the kind gives its points, lines and numbers (`Naming`).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Reading: TypeAlias = steps.Measure | steps.MeasureAlong
 
 
 class Naming(Protocol):
-    """What the parts of a construction are called, and what the hand has of them (обозначения)."""
+    """Names of the parts of a construction, and their values read by hand (обозначения)."""
 
     def point(self, name: PointName) -> Rich:
         """Return the letter of a point."""
@@ -48,10 +48,10 @@ class Naming(Protocol):
 
 
 class StepNarrator:
-    """Tells steps: each kind of problem tells its own, and says nothing where another one does."""
+    """Narrates steps; a step that another step describes gives no lines."""
 
     def tell(self, step: Step) -> list[Rich]:
-        """Return the sentences and formulas that tell a step; none when another step tells it."""
+        """Return sentences and formulas of a step; none if another step describes it."""
         match step:
             case steps.Given():
                 return self.given(step)
@@ -80,63 +80,63 @@ class StepNarrator:
             case steps.Compute():
                 return self.compute(step)
             case steps.Carry() | steps.MeasureArm() | steps.Total():
-                return []  # of force plans, told with their forces; sums, with what they are for
+                return []  # of force plans, described with their forces; sums, with their results
             case _:
                 assert_never(step)
 
     def given(self, step: steps.Given) -> list[Rich]:
-        """Tell a given point."""
+        """Describe a given point."""
         return []
 
     def line(self, step: Line) -> list[Rich]:
-        """Tell a line: most are told by the points that are found on them."""
+        """Describe a line: most are described by the points found on them."""
         return []
 
     def lay_off(self, step: steps.LayOff) -> list[Rich]:
-        """Tell a length that is laid off."""
+        """Describe a length that is laid off."""
         return []
 
     def meet(self, step: steps.MeetLines) -> list[Rich]:
-        """Tell the meeting of two lines."""
+        """Describe the intersection of two lines."""
         return []
 
     def arc_and_line(self, step: steps.MeetLineCircle) -> list[Rich]:
-        """Tell the meeting of an arc and a line."""
+        """Describe the intersection of an arc and a line."""
         return []
 
     def two_arcs(self, step: steps.MeetCircles) -> list[Rich]:
-        """Tell the meeting of two arcs."""
+        """Describe the intersection of two arcs."""
         return []
 
     def touch(self, step: steps.Touch) -> list[Rich]:
-        """Tell a tangent."""
+        """Describe a tangent."""
         return []
 
     def hold(self, step: steps.Hold) -> list[Rich]:
-        """Tell how a link is held by three legs."""
+        """Describe how three legs determine the pose of a link."""
         return []
 
     def similar(self, step: steps.Similar) -> list[Rich]:
-        """Tell a point found by similarity."""
+        """Describe a point found by similarity."""
         return []
 
     def measure(self, step: Reading) -> list[Rich]:
-        """Tell a segment that is measured."""
+        """Describe a measured segment."""
         return []
 
     def compute(self, step: steps.Compute) -> list[Rich]:
-        """Tell what is computed."""
+        """Describe a computed number."""
         return []
 
 
 class BoardNarrator(StepNarrator):
-    """Tells what is drawn with compasses and ruler alike in every construction."""
+    """Narrates steps drawn with compasses and ruler alike in every construction."""
 
     def __init__(self, naming: Naming, words: Words) -> None:
         self.naming, self.words = naming, words
 
     def meet(self, step: steps.MeetLines) -> list[Rich]:
-        """Tell the meeting of two lines."""
+        """Describe the intersection of two lines."""
         return [
             self.words.meet.format(
                 first=self.naming.line(step.first),
@@ -151,7 +151,7 @@ class BoardNarrator(StepNarrator):
         return ""
 
     def arc_and_line(self, step: steps.MeetLineCircle) -> list[Rich]:
-        """Tell the meeting of an arc and a line."""
+        """Describe the intersection of an arc and a line."""
         words, naming = self.words, self.naming
         course = naming.course(step.line) * step.way.value * self._sign(step.branch)
         if abs(course.real) >= abs(course.imag):
@@ -169,7 +169,7 @@ class BoardNarrator(StepNarrator):
         ]
 
     def two_arcs(self, step: steps.MeetCircles) -> list[Rich]:
-        """Tell the meeting of two arcs."""
+        """Describe the intersection of two arcs."""
         naming = self.naming
         return [
             self.words.two_arcs.format(
@@ -183,7 +183,7 @@ class BoardNarrator(StepNarrator):
         ]
 
     def touch(self, step: steps.Touch) -> list[Rich]:
-        """Tell a tangent."""
+        """Describe a tangent."""
         naming = self.naming
         return [
             self.words.touch.format(
@@ -196,7 +196,7 @@ class BoardNarrator(StepNarrator):
         ]
 
     def measure(self, step: Reading) -> list[Rich]:
-        """Tell a segment that is measured."""
+        """Describe a measured segment."""
         return [
             self.measured(step).format(
                 segment=self.naming.segment(step.tail, step.head),
@@ -206,7 +206,7 @@ class BoardNarrator(StepNarrator):
         ]
 
     def measured(self, step: Reading) -> str:
-        """Return the sentence that tells a reading."""
+        """Return the sentence for a reading."""
         return self.words.measure
 
     def _sign(self, branch: NumberName | None) -> float:

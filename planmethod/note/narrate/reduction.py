@@ -1,4 +1,4 @@
-"""What is reduced to the crank, term by term: moments and energies by positions (приведение)."""
+"""Reduction to the crank, term by term: moments and energies by positions (приведение)."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from planmethod.solved.reading import Complexes, Reals
 
 _Column: TypeAlias = tuple[str, str, list[str]]
 
-_STILL = 1e-9  # share of the largest value of a column that is rounding of nothing
+_STILL = 1e-9  # share of the largest value of a column below which a value is rounded zero
 
 
 class ReducedTerm(Struct, frozen=True):
@@ -52,7 +52,7 @@ class ReducedTerm(Struct, frozen=True):
 
 
 class ReductionTeller:
-    """Tells how the loads and masses of a machine are reduced to its crank."""
+    """Narrates the reduction of the loads and masses of a machine to its crank."""
 
     def __init__(self, tell: MachineTeller) -> None:
         self.tell, self.say, self.flywheel = tell, tell.say, tell.flywheel
@@ -160,7 +160,7 @@ class ReductionTeller:
         for term in self.terms:
             factors = [term.name, self._speed(term)]
             factors += [] if term.point is None else [f"cos {self._angle(term)}"]
-            # What resists has a negative power, and counts as positive.
+            # A resisting load has a negative power, and counts as positive.
             minus = (term.counted > 0) is (self.flywheel.sign > 0)
             sign = MINUS if minus else "+"
             text += f" {sign} {'·'.join(factors)}" if text or minus else "·".join(factors)
@@ -171,7 +171,7 @@ class ReductionTeller:
     # Energies --------------------------------------------------------------------------------
 
     def energies(self) -> dict[str, Reals]:
-        """Return the kinetic energies by link, J, that of what is on the crank with its own."""
+        """Return the kinetic energies by link, J, the crank's including the parts on it."""
         half = self.problem.drive.rate**2 / 2.0
         found = {link: half * share for link, share in self.flywheel.rows.parts.links.items()}
         crank, own = self.problem.drive.link, self.flywheel.machine.crank_inertia
@@ -212,5 +212,5 @@ class ReductionTeller:
 
 
 def _plain(name: str) -> str:
-    """Return a letter as it stands in an index: ``G3`` of ``G_{3}``."""
+    """Return a letter as used in an index: ``G3`` of ``G_{3}``."""
     return name.replace("_{", "").replace("^{", "").replace("}", "")

@@ -27,7 +27,7 @@ COORDINATES = (DimensionKind.ALONG, DimensionKind.ACROSS)
 
 
 class PositionNarrator:
-    """Tells the steps that draw the mechanism."""
+    """Narrates the steps that draw the mechanism."""
 
     def __init__(self, names: Names, say: Formulas) -> None:
         self.names, self.say, self.words = names, say, names.words
@@ -36,7 +36,7 @@ class PositionNarrator:
         self._dimensions, self._feet = draft.dimensions, draft.feet
 
     def guide(self, step: steps.AtAngle, guide: str) -> str:
-        """Tell a guide of the frame."""
+        """Describe a guide of the frame."""
         angle = given(self.names.value_of(step.angle), self.words)
         if step.through not in self.names.guides:
             point = self.names.point(step.through)
@@ -46,7 +46,7 @@ class PositionNarrator:
         return self.words.draw_guide_at.format(x=x, y=y, angle=angle, guide=guide)
 
     def lay_off(self, step: steps.LayOff) -> list[str]:
-        """Tell a length laid off on the drawing."""
+        """Describe a length laid off on the drawing."""
         out, origin, along, length = step.out, step.origin, step.along, step.length
         names, words = self.names, self.words
         point, value = names.point(out), self.say.number(length)
@@ -80,7 +80,7 @@ class PositionNarrator:
         return [text]
 
     def hold(self, step: steps.Hold) -> list[str]:
-        """Tell how a base link is found: without one leg it moves, and that leg tells where to."""
+        """Describe how a base link is found: it moves without one leg, which then fixes it."""
         names, words, construction = self.names, self.words, self.names.construction
         base = link_of_axis(step)
         group = construction.structure.group_of(base)
@@ -124,7 +124,7 @@ class PositionNarrator:
         return told
 
     def _leg(self, leg: steps.Leg, base: str, place: str) -> str:
-        """Return what a leg asks of a base link."""
+        """Return the condition that a leg imposes on a base link."""
         names, words = self.names, self.words
         if leg.line is not None:
             return words.hold_line.format(point=names.point(PointName(place)))
@@ -180,19 +180,19 @@ class PositionNarrator:
         return words.at_angle.format(angle=given(abs(angle), words), base=base), side
 
     def _is_distance(self, name: NumberName, ends: tuple[PointName, PointName]) -> bool:
-        """Tell whether a coordinate of a point is its distance from another: no foot is between."""
+        """Return whether a coordinate of a point is its distance from another, without a foot."""
         dimension, names = self._dimensions.get(name), self.names
         between = any(end in self._feet or end in names.guides for end in ends)
         return dimension is not None and dimension.kind in COORDINATES and not between
 
     def _is_coordinate(self, name: NumberName) -> bool:
-        """Tell whether a length has no ends to be called by: an offset or a coordinate."""
+        """Return whether a length has no ends to name it: an offset or a coordinate."""
         dimension = self._dimensions.get(name)
         return dimension is not None and dimension.kind is not DimensionKind.LENGTH
 
 
 class LinkageNaming:
-    """What is drawn of a linkage, as `planmethod.note.narrate.narrator.Naming` has it."""
+    """Names of a linkage's drawing, a `planmethod.note.narrate.narrator.Naming`."""
 
     def __init__(self, names: Names, say: Formulas, drawing: PositionNarrator) -> None:
         self._names = names
@@ -211,11 +211,11 @@ class LinkageNaming:
 
 
 class Narrator(BoardNarrator):
-    """Tells the steps of one position in order (рассказчик).
+    """Narrates the steps of one position in order (рассказчик).
 
     A step's lines are formulas and sentences. Numbers that are only laid off are computed where
-    they are laid off, and lines that only carry a length are named there: their own steps say
-    nothing. ``say`` is how formulas are written, where it is not the usual way.
+    they are laid off, and lines that only carry a length are named there: their own steps give no
+    lines. ``say`` writes formulas, where not in the usual way.
     """
 
     def __init__(
@@ -240,30 +240,30 @@ class Narrator(BoardNarrator):
         }
 
     def is_reading(self, step: Step) -> bool:
-        """Tell whether a step is the value of a segment that is read for it alone."""
+        """Return whether a step is the value of a segment that is read for it alone."""
         return self.motion.is_reading(step)
 
     def tell(self, step: Step) -> list[str]:
-        """Return the lines that tell a step; none when another step tells it."""
+        """Return the lines of a step; none if another step describes it."""
         if not self.say.readable(step.out) and not self.is_reading(step):
             return self._unreadable(step)
         return super().tell(step)
 
     def lay_off(self, step: steps.LayOff) -> list[str]:
-        """Tell a vector of a plan, or a length of the drawing."""
+        """Describe a vector of a plan, or a length of the drawing."""
         on_plan = step.out in self.names.letters
         return self.motion.lay_off(step) if on_plan else self.drawing.lay_off(step)
 
     def similar(self, step: steps.Similar) -> list[str]:
-        """Tell a point of a plan found by similarity."""
+        """Describe a point of a plan found by similarity."""
         return self.motion.similar(step)
 
     def hold(self, step: steps.Hold) -> list[str]:
-        """Tell how a base link is found, and which other assemblies there are."""
+        """Describe how a base link is found, and the other assemblies."""
         return self.drawing.hold(step)
 
     def meet(self, step: steps.MeetLines) -> list[str]:
-        """Tell the meeting of two lines; of the special point, what it is for."""
+        """Describe the intersection of two lines; for the special point, its purpose."""
         told = super().meet(step)
         for base, special in self.names.construction.draft.special.items():
             if special.point == step.out:
@@ -272,7 +272,7 @@ class Narrator(BoardNarrator):
         return told
 
     def compute(self, step: steps.Compute) -> list[str]:
-        """Tell what is computed."""
+        """Describe a computed number."""
         return self.motion.compute(step)
 
     def coincide(self, point: PointName) -> str:
@@ -280,11 +280,11 @@ class Narrator(BoardNarrator):
         return self.motion.coincide(point)
 
     def measure(self, step: Reading) -> list[str]:
-        """Tell a segment that is measured, unless what follows from it tells it."""
+        """Describe a measured segment, unless its result does."""
         return [] if step.out in self._told_later else super().measure(step)
 
     def measured(self, step: Reading) -> str:
-        """Return the sentence that tells a reading."""
+        """Return the sentence for a reading."""
         on_plan = step.tail in self.names.letters
         return self.words.measure if on_plan else self.words.measure_drawing
 
@@ -304,7 +304,7 @@ class Narrator(BoardNarrator):
                 return []
 
     def _unreadable(self, step: Step) -> list[str]:
-        """Tell a step that divides by what the ruler reads as 0; none of those that follow."""
+        """Describe a step that divides by a reading of 0; not the steps that follow from it."""
         if not self._can(step):
             return []
         if isinstance(step, steps.Compute):
@@ -312,17 +312,17 @@ class Narrator(BoardNarrator):
             zero = ", ".join(self.names.symbol(n) for n in below if self.say.number(n) == 0)
             said = {"symbol": self.names.symbol(step.out), "divisor": zero}
         else:
-            assert isinstance(step, steps.Similar), step  # no other step divides by what is read
+            assert isinstance(step, steps.Similar), step  # no other step divides by a reading
             divisor = self.names.segment(step.link_b, step.link_c)
             said = {"symbol": self.names.point(step.out), "divisor": divisor}
         return [self.words.unreadable.format(**said)]
 
     def _can(self, step: Step) -> bool:
-        """Tell whether the hand has all that a step uses."""
+        """Return whether the hand has all values that a step uses."""
         return all(self.say.readable(name) for name, _ in operands(step))
 
     def undrawn(self, told: Iterable[Step]) -> list[str]:
-        """Return which points of a plan cannot be drawn, for what they hang on is not readable."""
+        """Return the points of a plan that cannot be drawn, as they depend on unreadable values."""
         points = [
             self.names.point(PointName(step.out))
             for step in told
@@ -331,7 +331,7 @@ class Narrator(BoardNarrator):
         return [self.words.unreadable_points.format(points=", ".join(points))] if points else []
 
     def line(self, step: Line) -> list[str]:
-        """Tell a guide of the frame, or a line on which two points are found."""
+        """Describe a guide of the frame, or a line on which two points are found."""
         words, names = self.words, self.names
         guide = names.guide(step.out)
         if guide is not None and isinstance(step, steps.AtAngle):

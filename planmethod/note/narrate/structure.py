@@ -18,7 +18,7 @@ from planmethod.solved.aligned.schemes import AlignedGroup, AlignedScheme, Movab
 NBSP = "\u00a0"
 
 MOST_TOLD = 8
-"""Most schemes of a group that the text tells beside the best."""
+"""Largest number of schemes of a group that the text gives beside the best."""
 
 
 def structure_document(
@@ -84,8 +84,8 @@ def pair_table(
 ) -> Table:
     """Return the table of kinematic pairs (кинематические пары).
 
-    ``aligned``: with what each pair is in its first scheme. ``lettered``: with the letter of each
-    kind, by which `group_caption` calls it.
+    ``aligned``: with the kind of each pair in its first scheme. ``lettered``: with the letter of
+    each kind, by which `group_caption` calls it.
     """
     scheme = aligned.schemes[0] if aligned is not None and aligned.schemes else None
     kinds = {kind: words.structure["pair_kinds"][kind.value] for kind in PairKind}
@@ -187,7 +187,7 @@ def spatial_sum(n: int, pairs_of: Mapping[int, int], notation: str | None) -> tu
     n : int
         Moving links.
     pairs_of : mapping of int to int
-        How many pairs have so many mobilities.
+        Number of pairs by their mobility.
     notation : str or None
         Where it is ``p5 p4``, pairs are numbered by their constraints, else by their mobilities.
     """
@@ -302,7 +302,7 @@ def _told_pair(mechanism: Mechanism, pair: MovablePair) -> tuple[Rich, Rich]:
 
 
 def aligned_group(mechanism: Mechanism, group: AlignedGroup, words: Language) -> Iterator[Rich]:
-    """Yield the best scheme of a group, the others, and what is right by count alone."""
+    """Yield the best scheme of a group, the others, and those correct by count alone."""
     said = words.structure
     best, *others = group.schemes
     counts = [sum(int(name[0]) == k for name in best.classes) for k in range(1, 6)]
@@ -362,7 +362,7 @@ def group_caption(group: AssurGroup, words: Language) -> list[Rich]:
 
 
 def _counts(drivers: int, n: int, p: int) -> list[Rich]:
-    """Return own mobility W and redundant constraints q of a part, with so many drivers."""
+    """Return own mobility W and redundant constraints q of a part, for a number of drivers."""
     w, q = 3 * n - 2 * p, drivers - (6 * n - 5 * p)
     lines = (f"W = 3·{n} − 2·{p} = {signed(w)}", f"q = {drivers} − (6·{n} − 5·{p}) = {signed(q)}")
     return [line.replace(" ", NBSP) for line in lines]

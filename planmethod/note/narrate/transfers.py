@@ -1,4 +1,4 @@
-"""Transfer functions told with the segments that give them (передаточные функции)."""
+"""Text on transfer functions, with the segments that give them (передаточные функции)."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def even_letter(names: Names, point: str) -> Rich:
 
 
 class TransferNarrator:
-    """Tells the transfer functions of one position.
+    """Narrates the transfer functions of one position.
 
     Parameters
     ----------
@@ -44,11 +44,11 @@ class TransferNarrator:
         self._own = {NumberName(q.name): q for q in transfers.quantities}
 
     def formulas(self, plan: PlanKind, *, senses: bool = True) -> list[Rich]:
-        """Return the formulas of what a plan gives, with senses of turning or without."""
+        """Return the formulas of the quantities from a plan, with senses of turning or without."""
         return [self._formula(some, senses=senses) for some in self._alike(plan)]
 
     def senses(self, plan: PlanKind) -> list[Rich]:
-        """Return which way the links turn that a plan tells: ``u_21 – against link 1``."""
+        """Return the senses of turning of links from a plan: ``u_21 – against link 1``."""
         told = []
         for quantities in self._alike(plan):
             sense = self._sense(quantities[0])
@@ -57,7 +57,7 @@ class TransferNarrator:
         return told
 
     def _alike(self, plan: PlanKind) -> list[list[Quantity]]:
-        """Return what a plan gives; what is alike by nature together."""
+        """Return the quantities from a plan, always equal ones together."""
         kin, found = self.transfers.steps.kin, dict[object, list[Quantity]]()
         motion = kin.velocity if plan is PlanKind.VELOCITY else kin.acceleration
         for quantity in self.transfers.some(*ORDERS[plan]):
@@ -106,7 +106,7 @@ class TransferNarrator:
         return read, exact
 
     def _meant(self, quantity: Quantity) -> Rich:
-        """Return what a transfer function is a quotient of, v_C/ω_1; of one with ε₁ nothing."""
+        """Return the quotient that defines a transfer function, v_C/ω_1; empty with ε₁."""
         omega, of = f"ω_{{{self.crank}}}", quantity.of
         even = self.transfers.steps.even
         if quantity.kind is QuantityKind.TRANSFER:
@@ -142,7 +142,7 @@ class TransferNarrator:
         return f"({names.pole(PlanKind.ACCELERATION)}{end})", value
 
     def _turned(self, quantity: Quantity) -> tuple[str, ...]:
-        """Return ε_q of a crank with ε₁: what is left of a link's ε over the square of ω₁."""
+        """Return ε_q with an accelerated crank: the rest of a link's ε over the square of ω₁."""
         kin, say = self.transfers.steps.kin, self.say.notation
         link, crank = quantity.of, self.crank
         omega = kin.omega[crank]
@@ -158,7 +158,7 @@ class TransferNarrator:
         return letters, fraction(f"{lead}{texts[-2]}·{texts[-1]}", square)
 
     def carried(self) -> list[Rich]:
-        """Tell how the part of the crank's ε is taken off the plan of accelerations, if it has any.
+        """Return how the part of the crank's ε, if any, is subtracted on the acceleration plan.
 
         A formula without its full stop, and a sentence.
         """

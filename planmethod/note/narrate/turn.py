@@ -17,7 +17,7 @@ NO_ANGLE = 1e-6
 
 
 def degrees(value: float, words: Language) -> str:
-    """Return an angle of the crank as it is told, two decimals."""
+    """Return an angle of the crank as text with two decimals."""
     return with_unit(words.say.number(f"{value + 0.0:.2f}"), "°")
 
 
@@ -75,7 +75,7 @@ def working_fact(turn: Turn, words: Language) -> str:
 
 
 def turn_facts(turn: Turn, words: Language) -> list[str]:
-    """Return what is found of a turn, one fact each, as rich text."""
+    """Return the results of a cycle, one fact each, as rich text."""
     said, say, output = words.cycle, words.say, turn.output
     unit = say.units[output.unit]
 
@@ -83,7 +83,7 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
         return degrees(value, words) if unit == "°" else with_unit(say.found(value), unit)
 
     def place(phi: float) -> str:
-        # Of a full turn as the table beside has it; within a range as its limits are.
+        # In a full turn as in the table beside it; within a range like its limits.
         return degrees(phi if turn.range else round(phi % turn.period, 2) % turn.period, words)
 
     facts = [said["output"][output.unit].format(name=output_name(output), link=output.link)]
@@ -189,7 +189,7 @@ def _flat(*names: str) -> str:
 
 
 def extreme_steps(turn: Turn, made: ExtremesConstruction | None, words: Language) -> list[str]:
-    """Return how the extreme positions are constructed, and what is read of them."""
+    """Return how the extreme positions are constructed, and their readings."""
     said, say = words.cycle, words.say
     if made is None:
         return [said.no_construction] if turn.ends is not None else []

@@ -1,4 +1,4 @@
-"""Legend of a record: letters and unit of what its names stand for (обозначения записи)."""
+"""Legend of a record: letters and units of its names (обозначения записи)."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ from planmethod.solved.machine.sizes import adopted, size_of
 
 
 def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
-    """Return what is known of a machine as plain data, SI, full precision.
+    """Return the data of a machine as plain data, SI, full precision.
 
     Moments are positive where they resist; speeds and the derivative of the inertia are along the
     turning of the crank. A flywheel that is not needed is null, and ``reason`` says so.

@@ -31,7 +31,7 @@ FIRST_DAY = (1980, 1, 1, 0, 0, 0)
 
 
 class SolvedArrays(Struct, frozen=True):
-    """Results of few positions, all of which exist: rows of what many problems have together.
+    """Results of few positions, all of which exist: rows of a table shared by many problems.
 
     ``columns`` are those of a sweep by name, the driver's positions the first; ``rows`` its own.
     """

@@ -38,8 +38,8 @@ from planmethod.solved.turn.turn import Extreme, NoNumber, Turn, turn_of
 def analogue_records(solution: Solution) -> Records:
     """Return the transfer functions of every point and link, for every position of a solution.
 
-    Of a point ``x1``, ``y1`` (m per radian of the crank) and ``x2``, ``y2`` (m per radian²); of a
-    link ``1`` and ``2`` (of its angle, radians). Of a driving slider per metre of its way.
+    A point has ``x1``, ``y1`` (m per radian of the crank) and ``x2``, ``y2`` (m per radian²); a
+    link has ``1`` and ``2`` (of its angle, radians). For a driving slider, per metre of its path.
     """
     points, links = analogues(solution)
     told: dict[str, dict[str, Column]] = {
@@ -58,11 +58,11 @@ def analogue_records(solution: Solution) -> Records:
 
 
 def cycle_record(solution: Solution) -> dict[str, Any]:
-    """Return what is told of the turn of a crank as plain data, SI, degrees of the crank.
+    """Return the results of the crank's cycle as plain data, SI, degrees of the crank.
 
-    ``value`` and ``stroke`` are m, or degrees of a link. What does not exist is None, and
-    ``reasons`` says why. Diagrams are millimetres; of the path, and of what is exact, the first
-    position stands at the end again.
+    ``value`` and ``stroke`` are m, or degrees of a link. A value that does not exist is None, and
+    ``reasons`` says why. Diagrams are in millimetres; the path and exact values repeat the first
+    position at the end.
     """
     turn, diagrams = turn_of(solution), diagrams_of(solution)
     reasons: dict[str, NoNumber | None] = {}
@@ -148,7 +148,7 @@ def _diagrams(diagrams: Diagrams) -> dict[str, Any]:
 
 
 def _graphs(turn: Turn) -> dict[str, Any]:
-    """Return what ``[cycle] graphs`` asks for in the positions of the cycle, SI and degrees."""
+    """Return the quantities of ``[cycle] graphs`` in the positions of the cycle, SI and degrees."""
     return {
         one.label: listed(values_over(turn, one, turn.positions))
         for one in quantities_over(turn, turn.task.graphs)
@@ -172,7 +172,7 @@ SCHEMA = 1
 """Version of the record's shape."""
 
 LONG = {QuantityKind.CORIOLIS: "a_coriolis", QuantityKind.RELATIVE: "a_rel"}
-"""Names in the record of what is asked for by a shorter one."""
+"""Names in the record of kinds that are requested by a shorter one."""
 
 
 def structure_record(structure: Structure, mechanism: Mechanism) -> dict[str, Any]:
@@ -208,7 +208,7 @@ def _vector(prefix: str, values: Complexes) -> dict[str, Column]:
 
 
 def _segments(solution: Solution, kind: PlanKind) -> Records:
-    """Return what is told of the segments of a plan."""
+    """Return the records of the segments of a plan."""
     spreads = drafting_of(solution).spreads
     return rows(
         {
@@ -226,7 +226,7 @@ def _segments(solution: Solution, kind: PlanKind) -> Records:
 
 
 def _hand(solution: Solution) -> Records:
-    """Return what follows from the read segments and the sigmas."""
+    """Return the results of the read segments, and the sigmas."""
     spreads, count = drafting_of(solution).spreads, len(solution.positions)
 
     def told(quantities: list[Quantity]) -> dict[str, Column]:
@@ -380,7 +380,7 @@ def _columns(solution: Solution) -> dict[str, Column | Records]:
 
 
 def _whole(solution: Solution, positions: Records | list[Any]) -> dict[str, Any]:
-    """Return the record of a solution with what it says of each position."""
+    """Return the record of a solution with the records of its positions."""
     machine = {}
     if solution.problem.machine is not None:
         from planmethod.note.records.machine import machine_record
@@ -460,7 +460,7 @@ def batch_records(batch: Batch) -> Iterator[dict[str, Any]]:
 
 
 def finite(value: Any) -> bool:
-    """Tell whether every number of a record is finite."""
+    """Return whether every number of a record is finite."""
     if isinstance(value, dict):
         return all(finite(v) for v in value.values())
     if isinstance(value, list):

@@ -47,7 +47,7 @@ class SpreadsheetRows(Struct, frozen=True):
     blocks: Callable[[], Iterator[Rows]]
 
     def held(self) -> SpreadsheetRows:
-        """Return the table with its rows made, which can travel to another process."""
+        """Return the table with its rows computed, which can be sent to another process."""
         return replace(self, blocks=partial(iter, list(self.blocks())))
 
 
@@ -107,7 +107,7 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
 
     For each reaction, on link 2 from link 1, ``F.B.2-1.x, F.B.2-1.y, F.B.2-1`` (its size) and
     ``F.B.2-1.read`` (with the ruler), in a prismatic pair ``M.B.2-1`` (about the pin,
-    counter-clockwise positive); what balances the driver, ``driving.moment`` or ``driving.force``;
+    counter-clockwise positive); the balancing load, ``driving.moment`` or ``driving.force``;
     the same by the lever, ``lever.moment`` or ``lever.force``, where the driver moves; both with
     ``.read``.
 
@@ -116,7 +116,7 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     AssemblyError
         Where a force plan does not close.
     ProblemError
-        A load is known in the positions of the file only, and others are asked.
+        A load is known only in the positions of the file, and others are requested.
     """
     from planmethod.solved.errors.forces import drawn_forces, size_label  # few files have any
     from planmethod.solved.forces.quantities import force_row, moment_row
@@ -219,7 +219,7 @@ def large_table(
 
 
 def swept_table(swept: GappedSweep, *, partial: bool) -> SpreadsheetRows:
-    """Return the rows of a sweep: ``position``, ``phi_deg`` or ``s``, and what was asked."""
+    """Return the rows of a sweep: ``position``, ``phi_deg`` or ``s``, requested quantities."""
 
     def made() -> Iterator[Rows]:
         for part in swept.parts():
@@ -260,14 +260,14 @@ def _rows(part: slice, positions: Reals, cells: list[list[Any]], gaps: Gaps | No
 def csv_text(
     tables: Sequence[SpreadsheetRows], *, done: Callable[[int], None] = lambda rows: None
 ) -> Iterator[str]:
-    """Yield tables as CSV, part by part; of several each row tells its problem and variant.
+    """Yield tables as CSV, part by part; with several, each row names its problem and variant.
 
     A table with other columns than the one before it begins with a header of its own.
 
     Parameters
     ----------
     done : callable
-        Is told the number of rows of every part.
+        Called with the number of rows of every part.
     """
     several, before = len(tables) > 1, None
     for table in tables:

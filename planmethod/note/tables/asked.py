@@ -15,7 +15,7 @@ from planmethod.solved.many.gaps import GappedSweep
 
 
 def asked_document(swept: GappedSweep, words: Language) -> Document:
-    """Return the asked results as a table, a row for each position, four digits."""
+    """Return the requested results as a table, a row for each position, four digits."""
     return Document.of(_asked(swept, words.note))
 
 

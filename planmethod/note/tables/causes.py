@@ -1,4 +1,4 @@
-"""What the drafting error of a result comes from, in words (источники погрешности)."""
+"""Sources of the drafting error of a result, in words (источники погрешности)."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MOST = 3
 
 
 class Causes:
-    """Tells which strokes of a drawing the error of a result comes from.
+    """Finds and names the strokes of a drawing that cause the error of a result.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ class Causes:
     def _worst(self, index: int) -> tuple[Quantity, float, float] | None:
         """Return the result with the largest error for its size, its value and sigma.
 
-        What is lost in its error, or found by random draws, has no causes of first order.
+        A value lost in its error, or found by random draws, has no causes of first order.
         """
         known = []
         for quantity in told(self.solution, *MOTION_KINDS):

@@ -93,9 +93,9 @@ def _in_bearings(statics: Statics, joint: JointForce) -> dict[str, Records]:
 
 
 def _drawn(drawn: DrawnForces, joint: JointForce, still: Flags) -> dict[str, Column]:
-    """Return what the ruler gives of a reaction, and the drafting errors of what is told of it.
+    """Return the readings of a reaction, and the drafting errors of its reported values.
 
-    Of one that is ``still``, being nothing, there is no direction.
+    Where it is ``still``, being negligible, it has no direction.
     """
     size, moment = size_label(joint), moment_label(joint)
     prismatic, none = moment in drawn.items, [0.0] * len(still)
@@ -112,7 +112,7 @@ def _drawn(drawn: DrawnForces, joint: JointForce, still: Flags) -> dict[str, Col
 
 
 def _reaction_records(statics: Statics, number: int) -> Records:
-    """Return a reaction in every position; what is told of its guide comes last."""
+    """Return a reaction in every position; the data of its guide come last."""
     joint, drawn = statics.reactions[number], drawn_forces(statics)
     still = _still(statics, joint)
     angle = np.where(still, np.nan, np.degrees(np.angle(joint.force)) % 360.0)
@@ -136,7 +136,7 @@ def _reaction_records(statics: Statics, number: int) -> Records:
 
 
 def _still(statics: Statics, joint: JointForce) -> Flags:
-    """Tell where a reaction is nothing beside the largest force, and has no direction."""
+    """Return where a reaction is negligible beside the largest force, and has no direction."""
     return np.asarray(np.abs(joint.force) <= VANISHING * statics.largest_forces)
 
 
@@ -265,12 +265,12 @@ def _distance(solution: Solution, number: int, index: int, words: Words) -> str:
 
 
 def rubbed(problem: Problem) -> bool:
-    """Tell whether the pairs have friction."""
+    """Return whether the pairs have friction."""
     return problem.dynamics is not None and problem.dynamics.friction is not None
 
 
 def push_way(problem: Problem, words: Words) -> str:
-    """Return how the force at a point of the crank that balances it is directed."""
+    """Return the direction of the balancing force at a point of the crank."""
     pushed, pivot = problem.drive.pushed, problem.drive.pivot
     assert pushed is not None and pivot is not None
     if pushed.angle is None:
@@ -279,7 +279,7 @@ def push_way(problem: Problem, words: Words) -> str:
 
 
 def driven_by(problem: Problem, words: Words) -> Iterator[Rich]:
-    """Yield what drives the mechanism where something else tells its position."""
+    """Yield which load drives the mechanism where something else determines its position."""
     drive = problem.drive
     pushed, link = drive.pushed, problem.mechanism.called(drive.link)
     if drive.followed is not None:
@@ -295,14 +295,14 @@ def driven_by(problem: Problem, words: Words) -> Iterator[Rich]:
 
 
 def resultant_notes(solution: Solution, words: Words, index: int | None = None) -> Iterator[Rich]:
-    """Yield where forces of inertia act that stand for couples, too, and which do not."""
+    """Yield where inertia forces act that also replace couples, and which ones do not."""
     statics = statics_of(solution)
     yield from shift_lines(statics, words, index)
     yield from kept_lines(statics, words)
 
 
 def _edge_notes(solution: Solution, words: Words, index: int) -> Iterator[Rich]:
-    """Yield what is to be known of the guides whose sliders bear at their edges."""
+    """Yield notes on the guides whose sliders bear at their edges."""
     for contact in statics_of(solution).contacts.values():
         edges = contact.edges(index)
         if not edges:

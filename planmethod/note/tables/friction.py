@@ -31,8 +31,8 @@ def friction_records(solution: Solution) -> Records:
 
     ``pairs`` are all of them, with the whole reaction, that along a guide with it, and its
     friction, ``once`` corrected and ``converged``: friction in one pair changes the reactions of
-    the others, whose own is nothing (``f`` 0).
-    ``change`` is how far the first are from the second, as a part of them.
+    the others, which may have none of their own (``f`` 0).
+    ``change`` is the relative difference of the first from the second.
     """
     friction, count = friction_of(solution), len(solution.positions)
     quantity = solution.problem.drive.balancing.quantity
@@ -107,13 +107,13 @@ def friction_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
 
 
 def teller(solution: Solution, words: Language, index: int) -> FrictionTeller:
-    """Return what tells the friction of a position."""
+    """Return the narrator of the friction of a position."""
     say = Formulas(solution, Names(solution, words.note), index)
     return FrictionTeller(ForceContext(force_reading(solution, index), say))
 
 
 def friction_tables(solution: Solution, words: Language, index: int) -> Iterator[Node]:
-    """Yield the table of the pairs with friction of one position, and what follows from it."""
+    """Yield the table of the pairs with friction of one position, and its results."""
     tell = teller(solution, words, index)
     yield Caption(words.friction.table)
     yield tell.table()

@@ -20,7 +20,7 @@ from planmethod.solved.solution import Solution
 
 
 def machine_teller(solution: Solution, words: Language) -> MachineTeller:
-    """Return who tells the machine of a solution."""
+    """Return the narrator of the machine of a solution."""
     return MachineTeller(drawing_of(flywheel_of(solution), solution.profile), words)
 
 

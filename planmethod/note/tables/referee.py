@@ -1,4 +1,4 @@
-"""What the referee says of a solution, for the terminal and for the record (приговор арбитра)."""
+"""High-precision check of a solution, for the terminal and for the record (приговор арбитра)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from planmethod.solved.solution import Solution
 
 
 def judged(solution: Solution, digits: int) -> list[Refereed]:
-    """Return every position of a solution before the referee: what moves, each result once."""
+    """Return the referee's verdicts on every position: on moving parts, each result once."""
     fixed = solution.problem.bodies[FRAME].points
     found = examine(solution.problem, [float(p) for p in solution.positions], digits=digits)
 
@@ -61,18 +61,18 @@ def _row(verdict: AccuracyVerdict, words: Words) -> list[str]:
 
 
 def _parts(verdict: AccuracyVerdict) -> tuple[Any, Any]:
-    """Return the coordinates of what the referee found; None for the second of a number."""
+    """Return the coordinates of the referee's value; None for the second of a number."""
     value = verdict.value
     return value.real, None if verdict.kind.is_number else value.imag
 
 
 def referee_record(solution: Solution, digits: int) -> list[dict[str, Any]]:
-    """Return for each position what the referee finds, as plain data.
+    """Return the referee's findings for each position, as plain data.
 
-    ``bound`` is that of the relative error of the motion that the user is told, ``forces_bound``
-    that of the forces, where there are loads. Values are text, to all the referee's digits; ``x``
-    and ``y`` of a direction are its cosine and sine. ``error`` is that of float64, SI; ``kappa``
-    null where the value is zero; ``multiple`` is the error in units of κ·u.
+    ``bound`` is the reported bound of the relative error of the motion, ``forces_bound`` that of
+    the forces, where there are loads. Values are text, to all the referee's digits; ``x`` and ``y``
+    of a direction are its cosine and sine. ``error`` is that of float64, SI; ``kappa`` null where
+    the value is zero; ``multiple`` is the error in units of κ·u.
     """
     return [
         {

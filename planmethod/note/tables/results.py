@@ -189,14 +189,14 @@ def _points(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[li
 
 
 def _found(solution: Solution, quantity: Quantity, i: int, sigmas: Sigmas) -> list[str]:
-    """Return a quantity in one position: exact, as the hand finds it, and its error."""
+    """Return a quantity in one position: exact, as read by hand, and its error."""
     exact, read = solution.exact(quantity)[i], solution.read_off(quantity.label)[i]
     told = [found(float(value), sigmas.words) for value in (exact, read)]
     return [*told, *sigmas.cell(quantity.label, i)]
 
 
 def _place(solution: Solution, metres: float, words: Words) -> str:
-    """Return a coordinate; far from the origin with the digits that tell points apart."""
+    """Return a coordinate; far from the origin with enough digits to distinguish points."""
     draft = solution.construction.draft
     if draft.origin == 0:
         return found(metres, words)

@@ -26,16 +26,16 @@ if TYPE_CHECKING:
 
 
 class Series(Struct, frozen=True):
-    """A quantity over positions (ряд значений); readings and errors are found when asked for.
+    """A quantity over positions (ряд значений); readings and errors are computed on demand.
 
     Attributes
     ----------
     quantity : Quantity
     exact : array of float, shape (n,), SI
     peak : float
-        The largest size among those that it is shown with; beside it rounding is a zero.
+        The largest magnitude among those shown with it; rounding noise beside it is zero.
     signed : bool
-        Its sign stands before the number; else that of a turning stands beside its size.
+        Its sign is written before the number; else the sense of turning beside its magnitude.
     """
 
     quantity: Quantity
@@ -47,7 +47,7 @@ class Series(Struct, frozen=True):
 
     @property
     def turns(self) -> bool:
-        """Its sign is a sense, shown beside its size."""
+        """True if its sign is a sense, shown beside its magnitude."""
         return self.quantity.kind.is_number and not self.signed
 
     def error(self, index: int) -> tuple[float, str]:
@@ -57,20 +57,20 @@ class Series(Struct, frozen=True):
     def compared(self, index: int, *, lost: bool = False) -> ComparedNumber:
         """Return the quantity in a position, compared.
 
-        With ``lost`` an exact value that is lost in its error is nothing to be off from.
+        With ``lost``, an exact value that is lost in its error has no error in per cent.
         """
         sigma, mark = self.error(index)
         read, nothing = float(self.reads()[index]), sigma if lost else 0.0
         return ComparedNumber(float(self.exact[index]), read, sigma, mark, nothing)
 
     def measured(self, index: int) -> ComparedNumber:
-        """Return the quantity in a position, compared without its error; rounding is nothing."""
+        """Return the quantity in a position, compared without its sigma; rounding counts as 0."""
         exact = float(self.exact[index])
         nothing = abs(exact) if is_noise(exact, self.peak) else 0.0
         return ComparedNumber(exact, float(self.reads()[index]), nothing=nothing)
 
     def shown(self, values: Reals, indices: Iterable[int]) -> list[float]:
-        """Return values as a table has them: what is rounding beside the largest is 0."""
+        """Return values as a table has them: rounding noise beside the largest is 0."""
         some = (float(values[i]) for i in indices)
         return [0.0 if is_noise(value, self.peak) else value for value in some]
 
@@ -79,12 +79,12 @@ class Series(Struct, frozen=True):
         return alike([value if self.signed else abs(value) for value in values])
 
     def sense(self, value: float) -> int | None:
-        """Return the sense that stands beside a value; None where there is none."""
+        """Return the sense to write beside a value; None where there is none."""
         return sense_of(value) if self.turns else None
 
 
 def motion_series(solution: Solution, *kinds: QuantityKind) -> list[Series]:
-    """Return what is told of the motion, kind by kind."""
+    """Return the reported quantities of the motion, kind by kind."""
     from planmethod.solved.errors.motion import drafting_of
 
     peaks = {kind: solution_peak(solution, kind) for kind in kinds if solution.quantities(kind)}

@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 
 class Sigmas:
-    """Cells of the drafting errors, none where they are not asked for.
+    """Cells of the drafting errors, none where they are not requested.
 
     Attributes
     ----------
     drawn : bool
-        Some cell that was made has the mark of a sigma found by random draws.
+        Whether a cell has the mark of a sigma found by random draws.
     """
 
     def __init__(self, solution: Solution, words: Words, *, asked: bool = True) -> None:
@@ -33,8 +33,8 @@ class Sigmas:
     def cell(self, label: str | None, index: int, errors: Errors | None = None) -> list[str]:
         """Return the error of a quantity as a row of one cell, or of none.
 
-        ``errors`` are those that have it, the kinematic ones when absent. What is told by a dash
-        and has no label has one for its error, too.
+        ``errors`` contain it. Default: the kinematic errors. A quantity without a label, shown by
+        a dash, also has a dash for its error.
         """
         if not self.asked:
             return []
@@ -56,7 +56,7 @@ class Sigmas:
     ) -> Table:
         """Return a table with the errors behind the columns ``after``: their cells are in the rows.
 
-        The digits of the errors stand under each other.
+        The digits of the errors are aligned.
         """
         if not self.asked:
             return table_of(head, rows, names=names)

@@ -1,9 +1,9 @@
-"""All words that a person reads: a folder for each language, a catalogue for each subject (фразы).
+"""All texts for readers: a folder for each language, a catalogue for each subject (фразы).
 
 The catalogues are TOML, their sentences templates of `str.format` with named places. Keys and
 places are the same in every language; `tests/note/test_wording.py` compares them, and looks for
-the keys that the code names. The messages that `planmethod.languages.say` says by their English
-sentence stand in the folder ``messages`` of the other languages.
+the keys that the code names. The messages that `planmethod.languages.say` translates by their
+English sentence are in the folder ``messages`` of the other languages.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from planmethod.note.numbers import Notation, raised
 
 
 class UnknownLanguageError(PlanMethodError):
-    """A language was asked for that nobody speaks here (неизвестный язык)."""
+    """The requested language has no catalogues (неизвестный язык)."""
 
     exit_code = ExitCode.USAGE
 
@@ -36,7 +36,7 @@ class Words(dict[str, Any]):
 
 
 class Language:
-    """A language, handed down to all that write in it (язык).
+    """A language, passed to all code that writes in it (язык).
 
     The catalogue of a subject is read when it is first used.
 
@@ -45,18 +45,18 @@ class Language:
     lang : str
         Its name, that of its folder.
     note : Words
-        Protocol and tables; with what `say` is made of.
+        Protocol and tables; with the data of `say`.
     forces, friction : Words
         The force analysis, without friction and with it.
     sheets, structure, frame : Words
         Sheets of the plans, the structural sheet, frame and title block.
     control : Words
-        The norm control.
+        The drawing-standards check.
     specimens, audit : Words
     check, form : Words
-        The checking of works; the form to fill in, and what cannot be read in works.
+        The checking of submissions; the form to fill in, and unreadable parts of submissions.
     point, cycle, machine, synthesis : Words
-        The moving point, the turn of a crank, a machine and its flywheel, syntheses.
+        The moving point, the cycle of a crank, a machine and its flywheel, syntheses.
     gears, teeth, meshing : Words
         Gear trains, the choice of their teeth, two wheels in mesh.
     cam : Words
@@ -68,11 +68,11 @@ class Language:
     project : Words
         The course project.
     document, report : Words
-        What a note puts around its figures, tables and names; the explanatory note itself.
+        Words of a note around its figures, tables and names; the explanatory note itself.
     studio : Words
         The page of the studio.
     layouts, families, tasks : Words
-        Of the shipped layouts by the places of their files, the families of ready problem files,
+        The shipped layouts by the places of their files, the families of ready problem files,
         the list of shipped tasks.
     """
 
@@ -119,7 +119,7 @@ class Language:
             degrees=said["degrees"],
         )
 
-    if not TYPE_CHECKING:  # what is not declared above is no subject
+    if not TYPE_CHECKING:  # a name not declared above is not a subject
 
         def __getattr__(self, subject: str) -> Words:
             """Read the catalogue of a subject."""

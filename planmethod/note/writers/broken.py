@@ -25,7 +25,7 @@ _SUMS = re.compile(r" ([+−]) ")
 
 
 def ems(nodes: Iterable[Node]) -> float:
-    """Return about how wide a formula is, in heights of its font."""
+    """Return the approximate width of a formula, in heights of its font."""
     return sum(map(_ems, nodes))
 
 
@@ -46,7 +46,7 @@ def _ems(node: Node) -> float:
 
 
 def chain_of(nodes: Iterable[Node], room: float) -> Iterator[tuple[str, tuple[Node, ...]]]:
-    """Yield the parts of a formula that may stand on lines of their own, each with its sign.
+    """Yield the parts of a formula that may be on lines of their own, each with its sign.
 
     The parts are the sides of its equalities. A side that is wider than ``room`` (in heights of the
     font) is cut into the terms of its sums; a term that still is, is written in one line, without

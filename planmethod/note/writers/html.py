@@ -73,7 +73,7 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
         [
             f'<!DOCTYPE html>\n<html lang="{lang}"><head><meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            # What is shown comes from files of strangers: nothing of it may load or run anything.
+            # The content comes from untrusted files: none of it may load or run anything.
             '<meta http-equiv="Content-Security-Policy" '
             "content=\"default-src 'none'; style-src 'unsafe-inline'\">",
             f"<title>{html.escape(clean(title))}</title><style>{STYLE}{style}</style></head><body>",

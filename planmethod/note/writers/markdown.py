@@ -22,7 +22,7 @@ from planmethod.note.writers.sentences import pieces, units_of, with_levels
 from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
 
 _SPECIAL = r"[\\`*_$<>|\[\]]|^[#+-](?=\s)|^\d+[.)](?=\s)"
-"""What a text would be something else by, its last sign: emphasis, a link, an entry of a list."""
+"""Text that Markdown would treat as markup, by its last sign: emphasis, a link, a list entry."""
 
 _SIGNS = {
     "−": "-", "·": r"\cdot ", "×": r"\times ", "±": r"\pm ", "≤": r"\le ", "≥": r"\ge ",
@@ -51,7 +51,7 @@ def markdown_document(written: Document, words: Language) -> str:
     Raises
     ------
     LayoutError
-        A formula is not written properly, or a text refers to what is not there.
+        A formula is malformed, or a text refers to a missing key.
     """
     return "\n".join(_Writer(words).lines(document.referred(written)))
 
@@ -161,7 +161,7 @@ def _joined(nodes: Iterable[document.Node]) -> Iterator[document.Node]:
 
 
 def _broken(lines: Sequence[str], lead: str = "") -> list[str]:
-    """Return lines that stay lines where they are shown; ``lead`` stands before the first."""
+    """Return lines that stay separate when rendered; ``lead`` is put before the first."""
     return f"\\\n{' ' * len(lead)}".join([lead + lines[0], *lines[1:]]).split("\n")
 
 
@@ -180,7 +180,7 @@ def latex(nodes: Iterable[Node]) -> str:
 
 
 def _whole(nodes: Iterable[Node]) -> Iterator[Node]:
-    """Yield the nodes, letters that follow one another as one: a sign has its blanks."""
+    """Yield the nodes with adjacent letters merged: a sign has its blanks."""
     for is_letters, run in groupby(with_levels(nodes), lambda node: isinstance(node, Letters)):
         if is_letters:
             yield Letters("".join(node.text for node in run if isinstance(node, Letters)))

@@ -1,10 +1,10 @@
 """Formulas as equations of Word: Office Math made of the tree (формулы Word).
 
-What a run of letters is follows from its letters: Latin and Greek ones are symbols, italic; digits,
-names of functions, units and Russian are upright. Brackets that have their pair are delimiters,
-which grow with what is in them. A sign that lacks a side, as where a formula is cut, is text: a
-program that sets it as a sign would show a box for the side. An index without a letter before it
-stands at a letter without width, for the same reason.
+Runs of letters are set by their content: Latin and Greek ones are symbols, italic; digits, names
+of functions, units and Russian are upright. Brackets that have their pair are delimiters, which
+grow with their content. A sign that lacks a side, as where a formula is cut, is text: a program
+that sets it as a sign would show a box for the side. An index without a letter before it is put
+on a letter of zero width, for the same reason.
 """
 
 from __future__ import annotations
@@ -47,12 +47,12 @@ def equation(nodes: Iterable[Node]) -> Element:
 
 
 def paragraph(*formulas: Element, side: str = "center") -> Element:
-    """Return formulas that stand on a line of their own, an ``m:oMathPara``."""
+    """Return formulas on a line of their own, an ``m:oMathPara``."""
     return M.oMathPara(M.oMathParaPr(M.jc({f"{{{MATH}}}val": side})), *formulas)
 
 
 def elements(nodes: Iterable[Node]) -> list[Element]:
-    """Return what stands in an equation, in order."""
+    """Return the elements of an equation, in order."""
     return _sequence(list(tokens_of(nodes)))
 
 
@@ -136,7 +136,7 @@ def _indexed(base: Element, index: Index) -> Element:
 
 
 def _base(last: Element) -> tuple[Element, Element | None]:
-    """Return the letter that an index stands at, and what of its run is before it."""
+    """Return the letter that carries an index, and the part of its run before it."""
     text = last.find(f"{{{MATH}}}t")
     style = last.find(f"{{{MATH}}}rPr/{{{MATH}}}sty")
     is_symbol = style is not None and style.get(f"{{{MATH}}}val") == "i"
@@ -146,12 +146,12 @@ def _base(last: Element) -> tuple[Element, Element | None]:
 
 
 def bar(body: Sequence[Element], place: str) -> Element:
-    """Return what has a line above or below it (``place`` is ``top`` or ``bot``)."""
+    """Return elements with a line above or below them (``place`` is ``top`` or ``bot``)."""
     return M.bar(M.barPr(M.pos({f"{{{MATH}}}val": place})), M.e(*body))
 
 
 def _is_tall(inside: Sequence[Element]) -> bool:
-    """Tell whether something is higher than brackets of one line; bars are always delimiters."""
+    """Return whether elements are higher than brackets of one line; bars are always delimiters."""
     return not inside or any(
         element.tag == f"{{{MATH}}}f" or element.find(f".//{{{MATH}}}f") is not None
         for element in inside
@@ -159,7 +159,7 @@ def _is_tall(inside: Sequence[Element]) -> bool:
 
 
 def delimited(opened: str, closed: str, inside: Sequence[Element]) -> Element:
-    """Return what stands between two delimiters that grow with it."""
+    """Return elements between two delimiters that grow with them."""
     value = f"{{{MATH}}}val"
     return M.d(M.dPr(M.begChr({value: opened}), M.endChr({value: closed})), M.e(*inside))
 
@@ -181,9 +181,9 @@ def _fonts(name: str) -> Element:
 
 
 class Addend(Struct, frozen=True):
-    """What stands between two signs of a vector equation, the first of them before it (слагаемое).
+    """A term of a vector equation with the sign before it (слагаемое).
 
-    ``low`` stands below it: a direction, or nothing; ``width`` in heights of the font.
+    ``low`` is placed below it: a direction, or nothing; ``width`` in heights of the font.
     """
 
     sign: str
@@ -196,7 +196,7 @@ def vector_equations(equations: Sequence[Equation], room: float = inf) -> Elemen
     """Return vector equations as one formula: a system where there are several.
 
     One that is wider than ``room`` (in heights of the font) is cut at its signs, and the sign
-    stands again on the next line.
+    is repeated on the next line.
     """
     lines = [list(line) for one in equations for line in _lines(list(_addends(one)), room)]
     if len(lines) == 1:
@@ -237,9 +237,9 @@ def _lines(addends: Sequence[Addend], room: float) -> Iterator[list[Element]]:
 
 
 def _cells(line: Sequence[Addend], end: str) -> Iterator[tuple[list[Element], list[Element]]]:
-    """Yield what stands side by side, each with what stands below it: a direction or nothing.
+    """Yield the cells of a line, each with the cell below it: a direction or nothing.
 
-    A term that has a direction stands alone, so that it is in the middle above it.
+    A term that has a direction has its own cell, so that it is centred above it.
     """
     found: list[Element] = []
     for addend in line:

@@ -89,7 +89,7 @@ def pdf_document(
         creator="planmethod",
         subject="",
         invariant=1,
-        initialFontName=font,  # without it a Helvetica that nobody uses stays in the file
+        initialFontName=font,  # without it the file keeps an unused Helvetica
     )
 
     def close_page(canvas: Any, _: Any) -> None:
@@ -276,7 +276,7 @@ class _Row(Flowable):  # type: ignore[misc]
 
 
 def pdf_markup(rich: str, size: float) -> str:
-    """Return rich text as reportlab's paragraphs take it, in letters of so many points."""
+    """Return rich text as markup of reportlab's paragraphs, in letters of a size in points."""
     return marked(inline(parse(clean(rich))), size)
 
 
@@ -314,7 +314,7 @@ def marked(nodes: Iterable[Sign], size: float, italic: str = "") -> str:
 
 
 def parts_of(table: Table, most: int) -> Iterator[Table]:
-    """Yield a table cut into ones of so many columns, about as wide as each other."""
+    """Yield a table cut into tables of at most ``most`` columns, about equally wide."""
     lead = table.repeated
     free = len(table.head) - lead
     if not lead or free + lead <= most:

@@ -14,7 +14,7 @@ from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Ro
 from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
 
 ASCENT, DESCENT, AXIS = 0.68, 0.22, 0.25
-"""Of letters, and where the line of a fraction is, in parts of the size of the font."""
+"""Ascent and descent of letters, height of a fraction line, in parts of the font size."""
 
 SMALL, RISE, DROP = 0.7, 0.42, 0.18
 RULE = 0.045
@@ -42,7 +42,7 @@ class Letter(Struct, frozen=True):
 
 
 class SetFormula(Struct, frozen=True):
-    """What is set, from the left end of its base line, points (набор)."""
+    """A typeset formula, from the left end of its base line, points (набор)."""
 
     width: float
     ascent: float
@@ -63,7 +63,7 @@ class SetFormula(Struct, frozen=True):
 def together(
     parts: Iterable[tuple[float, float, SetFormula]], width: float, rule: float
 ) -> SetFormula:
-    """Return inks at their places as one of a width."""
+    """Return formulas at their places as one formula of a width."""
     letters: list[Letter] = []
     lines: list[tuple[Place, ...]] = []
     ascent = descent = 0.0
@@ -126,7 +126,7 @@ class FormulaSetter:
         return self.row(parts)
 
     def _tall(self, bracket: str, inside: SetFormula) -> SetFormula:
-        """Return a bracket as high as what is in it."""
+        """Return a bracket as high as its content."""
         need = max(inside.ascent - AXIS * self._size, inside.descent + AXIS * self._size)
         share = max(1.0, need / (0.5 * self._size))
         if share < 1.25:
@@ -305,7 +305,7 @@ class FormulaLines(Flowable):  # type: ignore[misc]
 
 
 def draw_ink(canvas: Any, ink: SetFormula) -> None:
-    """Draw what is set, from the origin of the canvas on."""
+    """Draw a typeset formula from the origin of the canvas."""
     for one in ink.letters:
         canvas.setFont(one.font, one.size)
         canvas.drawString(one.x, one.y, one.text)

@@ -65,7 +65,7 @@ LONG = 8.0
 """Width, in heights of the font, from which on a formula in a sentence may be cut."""
 
 ASIDE = 15 * mm
-"""Room of the pages beside the titles that contents list, and of some dots before them."""
+"""Space of page numbers beside the titles in the contents, and of some dots before them."""
 
 LOW = 0.45
 """Share of a page up to which a table is not cut."""
@@ -81,10 +81,10 @@ TIGHT = 0.85
 """Share of their size that the pictures of a chapter get where that saves its nearly empty page."""
 
 AFTER = {"title": "first", "first": "later"}
-"""Which pages follow, by their templates; others go on as they are."""
+"""Templates of the following pages by the current one; other pages repeat theirs."""
 
 CLOSE = [(f"{side}PADDING", (0, 0), (-1, -1), 0) for side in ("LEFT", "RIGHT", "TOP", "BOTTOM")]
-"""Cells without white around what is in them."""
+"""Style of cells without padding."""
 
 
 class PageForms(Protocol):
@@ -96,7 +96,7 @@ class PageForms(Protocol):
         ...
 
     def view(self, page: int, pages: int, *, first: bool) -> document.DrawableView:
-        """Return the frame of a page of so many; ``first`` is that after the title page."""
+        """Return the frame of a page out of a total; ``first``: it follows the title page."""
         ...
 
 
@@ -126,7 +126,7 @@ def pdf_note(
     Raises
     ------
     LayoutError
-        A formula is not written properly, or a text refers to what is not there.
+        A formula is malformed, or a text refers to a missing key.
     """
     written = document.referred(written)
     built = partial(_built, written, words, author, forms)
@@ -171,7 +171,7 @@ def _title(written: Document) -> str:
 
 
 class _Pages(FloatingPages):
-    """Pages with their numbers, in frames where there are any; headings tell where they stand."""
+    """Pages with their numbers, in frames where there are any; headings report their pages."""
 
     def __init__(
         self,
@@ -220,7 +220,7 @@ class _Pages(FloatingPages):
         self.addPageTemplates(templates)
 
     def _allSatisfied(self) -> bool:  # noqa: N802
-        """Whether the contents, and what a frame says of the number of pages, are right."""
+        """Return whether the contents, and the number of pages in a frame, are right."""
         told, self._pages = self._pages, self.page
         return bool(super()._allSatisfied()) and (self._forms is None or told == self.page)
 
@@ -259,14 +259,14 @@ def _template(name: str, foot: float, on_page: Callable[[Any, Any], None]) -> Pa
 
 
 class End(Struct, frozen=True):
-    """How a section ends: how many pages it has, and which share of the last one it fills."""
+    """End of a section: its number of pages, and the filled fraction of the last one."""
 
     count: int
     filled: float
 
     @property
     def is_nearly_empty(self) -> bool:
-        """Whether its last page has a few lines."""
+        """True if its last page has only a few lines."""
         return self.count > 1 and self.filled < NEARLY_EMPTY
 
 
@@ -279,7 +279,7 @@ class _Heading(Paragraph):  # type: ignore[misc]
 
 
 class _Picture(Flowable):  # type: ignore[misc]
-    """A picture in the middle, smaller where there is no room."""
+    """A centred picture, scaled down where space is short."""
 
     def __init__(self, view: document.DrawableView, tallest: float, most: float) -> None:
         super().__init__()
@@ -287,7 +287,7 @@ class _Picture(Flowable):  # type: ignore[misc]
         self._share, self._width = 1.0, 0.0
 
     def wrap(self, width: float, height: float) -> tuple[float, float]:
-        """Return the room that the picture takes, points."""
+        """Return the space that the picture takes, points."""
         wide, high = (side * mm for side in self._view.size)
         self._share = self.at_most * min(self._most, width / wide, self._tallest / high)
         self._width = width
@@ -304,12 +304,12 @@ class _Picture(Flowable):  # type: ignore[misc]
 
 
 class _CutTable(LongTable):  # type: ignore[misc]
-    """A table that says above each further part whose continuation it is."""
+    """A table with a line above each further part that names its continuation."""
 
     again: Callable[[], Paragraph] | None = None
 
     def split(self, width: float, height: float) -> list[Flowable]:
-        """Return the part that has room, and what stands on the next page."""
+        """Return the part that fits, and the rest for the next page."""
         parts = super().split(width, height)
         if len(parts) < 2 or self.again is None:
             return list(parts)
@@ -487,7 +487,7 @@ class _Setter:
             made = self._table(part)
             made.again = partial(self._text, again, style) if again else None
             high = made.wrap(self._width, self._tallest)[1]
-            # No text shall come between the parts of a wide table: they are cut instead.
+            # No text may come between the parts of a wide table: they are cut instead.
             if high < LOW * self._tallest and len(parts) == 1:
                 yield Floating([*above, made, Spacer(0.0, 8.0)])
             else:

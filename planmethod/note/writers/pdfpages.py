@@ -7,11 +7,11 @@ from typing import Any
 from reportlab.platypus import BaseDocTemplate, CondPageBreak, Flowable, KeepTogether, PageBreak
 
 MOST = 12
-"""Paragraphs and formulas that may go before what has no room, at the most."""
+"""Largest number of paragraphs and formulas moved before content that does not fit."""
 
 
 LEAST = 0.78
-"""Share of a picture that it may be shrunk to where no text can go before.
+"""Least scale to which a picture may be shrunk where no text can go before it.
 
 Its letters of 3.2 mm are 2.5 mm high then.
 """
@@ -21,7 +21,7 @@ _SLACK = 0.1  # points that a picture stays off the foot of the page
 
 
 class Floating(KeepTogether):  # type: ignore[misc]
-    """What stands on one page, if need be on the next (то, что не разрывается)."""
+    """Content kept on one page, if need be the next (то, что не разрывается)."""
 
     passed = 0
     """Texts that went before it."""
@@ -31,10 +31,10 @@ class Floating(KeepTogether):  # type: ignore[misc]
 
 
 class FloatingPages(BaseDocTemplate):  # type: ignore[misc]
-    """Pages without room left over: what has no room waits, the text after it goes before.
+    """Pages without gaps: content that does not fit waits, the text after it goes before.
 
-    It waits no longer than to the next heading. A picture that cannot wait is made smaller, if it
-    has room then.
+    It waits at most until the next heading. A picture that cannot wait is made smaller, if it
+    fits then.
     """
 
     def filterFlowables(self, flowables: list[Any]) -> None:  # noqa: N802
@@ -56,21 +56,21 @@ class FloatingPages(BaseDocTemplate):  # type: ignore[misc]
                 self._set(picture, "at_most", share, before=1.0)
 
     def _set(self, one: Any, name: str, value: float, *, before: float) -> None:
-        """Change a number for this run over the pages: the next one begins with what it was."""
+        """Change a number for this run over the pages: the next run starts with the old value."""
         mended = getattr(self, "_multiBuildEdits", None)
         if mended:
             mended((setattr, one, name, before))
         setattr(one, name, value)
 
     def _missing(self, one: Floating) -> float:
-        """Return the height that is missing for something, points; none where it has room."""
+        """Return the missing height for something, points; 0 or less where it fits."""
         one.wrapOn(self.canv, self.frame._aW, 1e6)
         room = self.frame._y - self.frame._y1p
         return 0.0 if self.frame._atTop else float(one._H - room)
 
 
 def _is_text(flowable: Flowable) -> bool:
-    """Tell whether something is text or a formula, no heading, picture, table or break."""
+    """Return whether something is text or a formula, not a heading, picture, table or break."""
     return not isinstance(
         flowable, Floating | KeepTogether | PageBreak | CondPageBreak
     ) and not hasattr(flowable, "level")

@@ -19,10 +19,10 @@ WIDTH = 100
 GAP = "  "
 
 INDENT = " " * 5
-"""What stands before the lines of a step, under its number."""
+"""Indent of the lines of a step, under its number."""
 
 HANGING = " " * 2
-"""What stands before the further lines of an item."""
+"""Indent of the further lines of an item."""
 
 LABEL = 5
 """Columns of the label of an item."""
@@ -48,7 +48,7 @@ class PlainWriter:
         self._unit = rf"(?<=\d) (?=(?:{'|'.join(sorted(units))})(?![^\W\d_]))"
         self._step = 0
         self._dot = "."  # after the number of a heading; the headings of a note have none
-        self._below = ""  # what stands before the items of a caption
+        self._below = ""  # indent of the items of a caption
 
     def lines(self, written: Document) -> list[str]:
         """Return the lines of a document."""
@@ -77,7 +77,7 @@ class PlainWriter:
         return lines
 
     def _stands_apart(self, node: document.Node, before: document.Node | None) -> bool:
-        """Tell whether a blank line stands before a node."""
+        """Return whether a blank line precedes a node."""
         after: tuple[type, ...]
         match node:
             case (
@@ -198,7 +198,7 @@ def width(text: str) -> int:
 
 
 def pad(text: str, columns: int, *, right: bool = False) -> str:
-    """Return a text filled with spaces up to so many columns."""
+    """Return a text padded with spaces to a number of columns."""
     space = " " * max(0, columns - width(text))
     return space + text if right else text + space
 

@@ -1,8 +1,8 @@
-"""What of a sentence is a formula: for writers that set formulas apart from words (формулы текста).
+"""Formulas within sentences, for writers that distinguish formulas from words (формулы текста).
 
 A word with an index, a bar, a fraction or a root, and a sign of equality, belong to a formula;
 numbers, units, signs and short Latin or Greek names beside them belong to the same one, as long as
-a sign stands between, or a number before a unit. Russian words and stops end it.
+a sign joins them, or a number precedes a unit. Russian words and stops end it.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ _FUNCTIONS = frozenset({"sin", "cos", "tg", "ctg", "tan", "inv", "arccos"})
 _SYMBOL = re.compile(
     r"\(?(?![IVX]+\b)(?:[A-Z]{1,3}|[a-z\u0370-\u03ff]{1,2}|x[-–]x|y[-–]y)\d?[′″']*\)?"
 )
-"""Letters of points and segments; Latin numerals are none."""
+"""Letters of points and segments, but not Latin numerals."""
 
 JOINER = "\N{ZERO WIDTH JOINER}"
-"""What Word calls a break without width that is none."""
+"""Sign that forbids a line break, without width: Word's “no-width non break”."""
 
 _RANGE = re.compile(r"(?<=\d)–(?=\d)")
 _PAIR = re.compile(r"(?<=;) (?=[−-]?[\d.,]+\))|(?<=\d\)) (?=[^\W\d_]{1,3}\b)")
@@ -53,7 +53,7 @@ class SentencePart(Struct, frozen=True):
 
     @property
     def text(self) -> str:
-        """Letters of a part that is no formula."""
+        """Letters of a part that is not a formula."""
         return "".join(node.text for node in self.nodes if isinstance(node, Letters))
 
 
@@ -73,8 +73,8 @@ def pieces(
     units : frozenset of str
         Letters of units.
     symbols : bool
-        In a Russian sentence a Latin letter is a formula even where it stands alone, so that the
-        points ``B`` and ``O_{1}`` are set alike.
+        In a Russian sentence a single Latin letter is a formula too, so that the points ``B`` and
+        ``O_{1}`` are set alike.
     """
     nodes = tuple(nodes)
     symbols = symbols and any(_RUSSIAN.search(n.text) for n in nodes if isinstance(n, Letters))
@@ -124,7 +124,7 @@ def pieces(
 
 
 def formula_alone(found: Sequence[SentencePart]) -> tuple[Node, ...]:
-    """Return the formula of a line that has nothing else but a stop; none of another line."""
+    """Return the formula of a line that has only a stop besides; empty for another line."""
     ending = found[1].text.strip() if len(found) == 2 else ""
     if found and found[0].is_formula and (len(found) == 1 or ending in (".", ",", ";")):
         return (*found[0].nodes, *((Letters(ending),) if ending else ()))
@@ -147,7 +147,7 @@ def with_stops(found: Sequence[SentencePart]) -> Iterator[SentencePart]:
 
 
 def leads(node: document.Node, after: document.Node | None) -> bool:
-    """Tell whether the text of a node leads to what follows it, and shall not be left behind."""
+    """Return whether the text of a node introduces the next node, and must stay with it."""
     match node:
         case document.Paragraph(text) | document.Item(text):
             last = text
@@ -226,14 +226,14 @@ def _some(text: str) -> Word:
 
 
 def _is_certain(word: Word) -> bool:
-    """Tell whether a word is part of a formula, whatever stands beside it."""
+    """Return whether a word is part of a formula, whatever its neighbours."""
     return any(not isinstance(node, Letters) for node in word) or any(
         sign in _EQUAL for sign in _letters(word)
     )
 
 
 def _is_part(word: Word, units: frozenset[str]) -> bool:
-    """Tell whether a word may stand in a formula."""
+    """Return whether a word may be part of a formula."""
     text = _letters(word)
     return bool(word) and (
         _is_certain(word)
@@ -249,7 +249,7 @@ def _is_unit(text: str, units: frozenset[str]) -> bool:
 
 
 def _joins(run: Sequence[Word], word: Word, units: frozenset[str]) -> bool:
-    """Tell whether a word goes on with what may be a formula before it."""
+    """Return whether a word continues a possible formula before it."""
     before = next((_letters(one) for one in reversed(run) if not _is_blank(one)), "")
     text = _letters(word)
     if not before or before[-1] in _SIGNS or text[0] in _SIGNS:

@@ -1,7 +1,7 @@
 """Letters of a formula by what they are: numbers, names, signs, brackets (знаки формулы).
 
-What a run of letters is follows from its letters: Latin and Greek ones are symbols, set italic;
-digits, names of functions, units and Russian are upright.
+Runs of letters are set by their content: Latin and Greek ones are symbols, set italic; digits,
+names of functions, units and Russian are upright.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _KEYWORDS = frozenset({"in", "ni", "or", "pi", "mu", "nu", "xi", "Pi", "Xi", "ge
 
 
 class Token(Struct, frozen=True):
-    """Letters of one kind, or a node that is no letters (знак).
+    """Letters of one kind, or a node of another type (знак).
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ def tokens_of(nodes: Iterable[Node]) -> Iterator[Token]:
 
 
 def closing(tokens: Sequence[Token], start: int) -> int | None:
-    """Return where the bracket at ``start`` is closed."""
+    """Return the index of the bracket that closes the one at ``start``."""
     opened, depth = tokens[start].text, 0
     closed = PAIRS.get(opened)
     if closed is None:

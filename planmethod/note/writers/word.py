@@ -103,7 +103,7 @@ def word_document(
     author : str
         For the properties of the file; that of ``stamp`` where it is empty.
     template : Path, optional
-        A file of Word whose page and styles are taken; what it holds is left out.
+        A file of Word whose page and styles are used, without its content.
     frame : bool
         Whether the pages have the frames of GOST 2.104: form 2 on the first one after the title
         page, form 2a on the others.
@@ -115,7 +115,7 @@ def word_document(
     OutputError
         The template cannot be read.
     LayoutError
-        A formula is not written properly, or a text refers to what is not there.
+        A formula is malformed, or a text refers to a missing key.
     """
     fields = dict(stamp or {})
     told = document.referred(written)
@@ -133,7 +133,7 @@ def word_document(
     except Exception as fault:
         if template is None:
             raise
-        made(None)  # what fails with a template and not without it is the fault of the template
+        made(None)  # a failure only with a template is the fault of the template
         raise damaged(template) from fault
 
 
@@ -188,7 +188,7 @@ class _Writer:
         return figure.view.size[1] * self._share(figure) + BELOW
 
     def _share(self, figure: Figure) -> float:
-        """Return how many times larger a figure is shown than it is: it fits a page."""
+        """Return the scale of a figure that fits it to a page, at most 1."""
         width, height = figure.view.size
         section = self._file.sections[-1]
         tall = (section.page_height - section.top_margin - section.bottom_margin) / Mm(1) - 25.0
@@ -280,7 +280,7 @@ class _Writer:
         return made
 
     def _said(self, rich: Rich, *, keep: bool | None = None) -> None:
-        """Put a paragraph of sentences; one that leads to a formula stays with it."""
+        """Add a paragraph of sentences; one that introduces a formula stays with it."""
         made = self._text(rich, "Normal")
         if self._leads if keep is None else keep:
             made.paragraph_format.keep_with_next = True
@@ -308,7 +308,7 @@ class _Writer:
             self._fill(made, f"{number} {title}" if number else title, joined=False)
 
     def _stepped(self, lines: Sequence[Rich], *, continues: bool) -> None:
-        """Put the lines of a step; a line that is a formula alone stands in the middle."""
+        """Add the lines of a step; a line that is a formula alone is centred."""
         self._step += not continues
         alone = [formula_alone(pieces(parse(clean(line)), self._units)) for line in lines]
         for k, line in enumerate(lines):
@@ -346,7 +346,7 @@ class _Writer:
         small_paragraph(self._file.add_paragraph())  # tables one after another would be one
 
     def _grid(self, rows: int, widths: Sequence[float], style: Any = None) -> Any:
-        """Return an empty table whose columns are so many mm wide."""
+        """Return an empty table with columns of given widths, mm."""
         if self._breaks:
             small_paragraph(self._paragraph("Normal"))
         return grid(self._file, rows, widths, style)
@@ -354,7 +354,7 @@ class _Writer:
     # Tables ---------------------------------------------------------------------------------------
 
     def _table(self, table: Table, number: str) -> None:
-        """Put a table; one that is too wide is cut, or stands on a page that lies."""
+        """Add a table; one that is too wide is cut, or put on a landscape page."""
         room, again = self._width, self._say.continued.format(number=number) if number else ""
         size = next(
             (s for s in (TABLE_SIZE, LEAST_SIZE) if sum(needed_widths(table, s)) <= room), None
@@ -374,7 +374,7 @@ class _Writer:
         return str(self._say.table.format(number=number, text=name)) if number else ""
 
     def _turn(self, *, lying: bool) -> None:
-        """Begin a page that lies, or one that stands again."""
+        """Begin a landscape page, or a portrait one again."""
         self._flow.turn()
         section = self._file.add_section(WD_SECTION.NEW_PAGE)
         wide = max(section.page_width, section.page_height)
@@ -386,7 +386,7 @@ class _Writer:
             self._frame.put_later(section)
 
     def _one_table(self, table: Table, name: Rich, size: float, again: Rich) -> None:
-        """Put a table; ``again`` stands above it on each page but the one with its name."""
+        """Add a table; ``again`` is repeated above it on each page but the one with its name."""
         rows = (table.head, *table.rows)
         may_break = bool(again) and (len(rows) > TOGETHER or not name)
         if name:
@@ -472,7 +472,7 @@ class _Writer:
         self._file.sections[-1].footer.is_linked_to_previous = False
 
     def _contents(self) -> None:
-        """Put the field of the contents, with what it will show until it is brought up to date."""
+        """Add the field of the contents, with the text it shows until it is updated."""
         self._text(self._say.contents, "Contents Heading")
         fields = self._paragraph("toc 1")
         for kind in ("begin", 'TOC \\o "1-3" \\h \\z \\u', "separate"):

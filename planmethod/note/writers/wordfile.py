@@ -26,7 +26,7 @@ XML_LIMIT = 200_000
 """Elements and attributes of all parts; the styles that Word makes are five thousand."""
 DEPTH_LIMIT = 200
 UNKNOWN = (18, 19)
-"""What expat says of letters that it does not know, and another parser may."""
+"""Codes of expat for encodings that it does not know, and another parser may."""
 ROOM = 40.0
 """Least width and height of the text on a page, mm."""
 LARGEST_PAGE = 2000.0
@@ -35,16 +35,16 @@ LARGEST_PAGE = 2000.0
 _AFTER_FIELDS = ("w:hdrShapeDefaults", "w:footnotePr", "w:endnotePr", "w:compat", "w:docVars",
                  "w:rsids", "m:mathPr", "w:themeFontLang", "w:clrSchemeMapping", "w:shapeDefaults",
                  "w:decimalSymbol", "w:listSeparator")  # fmt: skip
-"""What of the settings stands after the wish that fields be computed: Word minds the order."""
+"""Settings that must follow ``w:updateFields``: Word requires the order."""
 
 
 def opened(template: Path | None) -> Any:
-    """Return a new file, or the template without what it holds.
+    """Return a new file, or the template without its content.
 
     Raises
     ------
     OutputError
-        The template is not there, is no file of Word, or has too much in it.
+        The template is missing, is not a file of Word, or is too large.
     """
     if template is None:
         return docx.Document()
@@ -72,7 +72,7 @@ def opened(template: Path | None) -> Any:
 
 
 def damaged(template: Path) -> OutputError:
-    """Return what is said of a template that cannot be used."""
+    """Return the error for a template that cannot be used."""
     return OutputError(
         "The template {} is no file of Word, or is damaged. Open it in Word and save it anew "
         "as .docx.",
@@ -81,7 +81,7 @@ def damaged(template: Path) -> OutputError:
 
 
 def _look_through(data: bytes, template: Path) -> None:
-    """Refuse what would unpack to more than a template has, before anything is made of it.
+    """Reject an archive that would unpack to more than a template needs, before it is used.
 
     Raises
     ------
@@ -127,14 +127,14 @@ def _look_through(data: bytes, template: Path) -> None:
             parser.EntityDeclHandler = refuse
             try:
                 with contextlib.suppress(zlib.error):
-                    parser.Parse(archive.read(part), True)  # by pieces a long tag is read anew
-            except ExpatError as error:  # what is no XML, nobody parses
+                    parser.Parse(archive.read(part), True)  # in pieces, a long tag is read again
+            except ExpatError as error:  # other parsers reject non-XML too
                 if error.code in UNKNOWN:
                     raise damaged(template) from error
 
 
 def _has_room(section: Any) -> bool:
-    """Tell whether a page has room for the text."""
+    """Return whether a page has enough space for the text."""
     across = section.page_width, section.left_margin, section.right_margin
     along = section.page_height, section.top_margin, section.bottom_margin
     sides = [[float(one) / Mm(1) for one in side] for side in (across, along)]

@@ -55,7 +55,7 @@ _SHAPE = """<w:r xmlns:w="http://schemas.openxmlformats.org/wordprocessingml/200
 
 
 def fields_of_note(fields: Mapping[str, str], written: Document) -> dict[str, str]:
-    """Return the fields of the title block of a note: its designation, its own name below."""
+    """Return the fields of the title block of a note: its designation, its name below."""
     page = next((n for n in written.nodes if isinstance(n, document.TitlePage)), None)
     if page is None:
         return dict(fields)
@@ -85,7 +85,7 @@ class PageFrame:
             fill(footer)
 
     def put_later(self, section: Any) -> None:
-        """Put form 2a on the pages of a section that goes on."""
+        """Put form 2a on the pages of a continued section."""
         section.different_first_page_header_footer = False
         self._fit(section)
         section.header.is_linked_to_previous = section.footer.is_linked_to_previous = False

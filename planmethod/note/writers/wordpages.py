@@ -1,4 +1,4 @@
-"""About on which page of a document of Word something will stand (номера страниц до Word)."""
+"""Estimate of the pages of a document before Word sets them (номера страниц до Word)."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from planmethod.note.writers.sentences import leads
 from planmethod.note.writers.wordstyles import INDENT, MM_PER_POINT, SIZE
 
 Told: TypeAlias = tuple[tuple[Node, str], Node | None]
-"""A node with its number, and what follows it."""
+"""A node with its number, and the next node."""
 
 MOST = 12
-"""Paragraphs and formulas that may go before a figure that has no room, at the most."""
+"""Largest number of paragraphs and formulas moved before a figure that does not fit."""
 
 _FLOWS = (
     document.Paragraph,
@@ -33,10 +33,10 @@ _FLOWS = (
 def flowing(
     told: Iterable[Told], flow: PageFlow, height: Callable[[Figure], float]
 ) -> Iterator[Told]:
-    """Yield nodes; a figure that has no room on the page lets the text after it go before.
+    """Yield nodes; a figure that does not fit on the page lets the text after it go before.
 
-    It waits until the text has filled the page, and no longer than to what is no text. ``height``
-    tells what a figure takes with its name, mm.
+    It waits until the text has filled the page, or until a node that is not text. ``height`` gives
+    the height of a figure with its name, mm.
     """
     waiting: Told | None = None
     page = passed = 0
@@ -62,7 +62,7 @@ def plain(rich: Rich) -> str:
 
 
 class PageFlow:
-    """Tells about on which page something will stand, until Word has set the pages itself."""
+    """Estimates on which page something will be, until Word has set the pages itself."""
 
     LINE = SIZE * 1.15 * 1.5 * MM_PER_POINT
     """Height of a line, mm."""
@@ -75,23 +75,23 @@ class PageFlow:
         self.page, self._used = self.page + bool(self._used), 0.0
 
     def has(self, height: float) -> bool:
-        """Tell whether so many mm are left of the page, or the page is empty."""
+        """Return whether a height in mm is left on the page, or the page is empty."""
         return not self._used or self._used + height <= self._room
 
     def put(self, height: float) -> None:
-        """Take so many mm for what stands on one page."""
+        """Reserve a height in mm on one page."""
         if self._used + height > self._room:
             self.turn()
         self._used += height
 
     def text(self, rich: Rich, width: float) -> None:
-        """Take room for a paragraph."""
+        """Reserve space for a paragraph."""
         letters = 0.49 * SIZE * MM_PER_POINT * len(plain(rich)) + INDENT
         for line in range(ceil(letters / width)):
             self.put(self.LINE + (4.0 if not line and "\\frac{" in rich else 0.0))
 
     def heading(self) -> None:
-        """Take room for a heading, which stands with what follows."""
+        """Reserve space for a heading, which stays with the next node."""
         if self._used + 3 * self.LINE > self._room:
             self.turn()
         self.put(self.LINE + 5.6)

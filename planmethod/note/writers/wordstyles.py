@@ -64,7 +64,7 @@ class WordStyles:
         return self._known[name]
 
     def put(self, paragraph: Any, name: str) -> None:
-        """Give a paragraph a style, without the search of the library for what it is called."""
+        """Give a paragraph a style, without the library's search by name."""
         paragraph._p.style = self[name].style_id
 
     @property

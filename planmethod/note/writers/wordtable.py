@@ -20,14 +20,14 @@ PAD = 4.0
 """White at the sides of a cell, mm."""
 
 STRIP = 17.0
-"""Height of the row that tells whose continuation a part of a table is, points."""
+"""Height of the row that names the continued table, points."""
 
 TOGETHER = 5
 """Rows, with the head, up to which a table is not cut between pages."""
 
 
 def grid(file: Any, rows: int, widths: Sequence[float], style: Any = None) -> Any:
-    """Return an empty table whose columns are so many mm wide."""
+    """Return an empty table with columns of given widths, mm."""
     table = file.add_table(rows, len(widths))
     if style is not None:
         table.style = style
@@ -47,7 +47,7 @@ def rows_of(table: Any) -> list[list[Any]]:
 
 
 def head_repeats(table: Any) -> None:
-    """Let the head of a table stand again on each page, and no row be cut."""
+    """Repeat the head of a table on each page, and forbid cutting a row."""
     for k, row in enumerate(table._tbl.tr_lst):
         properties = row.get_or_add_trPr()
         properties.append(OxmlElement("w:cantSplit"))
@@ -58,8 +58,7 @@ def head_repeats(table: Any) -> None:
 def strip_above(table: Any) -> _Cell:
     """Put a low row without lines above the head of a table, which repeats as the head does.
 
-    What it says stands at the top of each page of the table, wherever Word cuts it; return its
-    cell.
+    Its text appears at the top of each page of the table, wherever Word cuts it; return its cell.
     """
     columns = len(table._tbl.tblGrid.gridCol_lst)
     row = OxmlElement("w:tr")
@@ -84,9 +83,9 @@ def strip_above(table: Any) -> _Cell:
 
 
 def cover(paragraph: Any, width: float) -> None:
-    """Hide the strip below a paragraph of one point under a white area so many mm wide.
+    """Hide the strip below a paragraph of one point under a white area of a width in mm.
 
-    Where the table begins stands its name instead.
+    The first page of the table has its name instead.
     """
     run = paragraph.add_run()._r
     run.append(
@@ -101,7 +100,7 @@ def cover(paragraph: Any, width: float) -> None:
 
 
 def stays(row: int, rows: int) -> bool:
-    """Tell whether a row stays with the next: no page has the head or a last row alone."""
+    """Return whether a row stays with the next: no page has the head or a last row alone."""
     return row + 1 < rows and (rows <= TOGETHER or row < 2 or row == rows - 2)
 
 
@@ -109,7 +108,7 @@ def stays(row: int, rows: int) -> bool:
 
 
 def needed_widths(table: Table, size: float) -> list[float]:
-    """Return how wide columns must be at least, mm: words are not cut."""
+    """Return the least widths of columns, mm: words are not cut."""
     em, columns = size * MM_PER_POINT, zip(table.head, *table.rows, strict=True)
     return [max(_widest(text, em) for text in column) + PAD for column in columns]
 
@@ -119,12 +118,12 @@ def _widest(rich: Rich, em: float) -> float:
 
 
 def whole_width(rich: Rich, em: float) -> float:
-    """Return about how wide a text is on one line, mm."""
+    """Return the approximate width of a text on one line, mm."""
     return 0.55 * em * len(plain(rich))
 
 
 def shared(needed: Sequence[float], room: float) -> list[float]:
-    """Return widths that fill the room: what is left over is given in proportion."""
+    """Return widths that fill the available width, in proportion to the needed ones."""
     total = sum(needed)
     return [width * room / total for width in needed]
 

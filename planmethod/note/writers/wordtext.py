@@ -1,4 +1,4 @@
-"""What paragraphs of Word are made of: sentences, fields, marks, links (абзацы документа Word)."""
+"""Parts of paragraphs of Word: sentences, fields, marks, links (абзацы документа Word)."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def put_sentence(
 
 @contextmanager
 def marked(paragraph: Any, number: int) -> Iterator[None]:
-    """Put a bookmark of the contents around what is put into a paragraph meanwhile."""
+    """Put a bookmark of the contents around text added to a paragraph meanwhile."""
     start, end = OxmlElement("w:bookmarkStart"), OxmlElement("w:bookmarkEnd")
     for mark in (start, end):
         mark.set(qn("w:id"), str(number))
@@ -55,7 +55,7 @@ def marked(paragraph: Any, number: int) -> Iterator[None]:
 
 
 def put_link(paragraph: Any, number: int) -> Any:
-    """Make what a paragraph has a link to a bookmark; return the run of its page."""
+    """Make the content of a paragraph a link to a bookmark; return the run of its page."""
     link = OxmlElement("w:hyperlink")
     link.set(qn("w:anchor"), _mark_name(number))
     for child in list(paragraph._p):
@@ -77,7 +77,7 @@ def _mark_name(number: int) -> str:
 
 
 def put_field(paragraph: Any, code: str, shown: str) -> Any:
-    """Put a field at the end of a paragraph; return the run of what it shows until computed."""
+    """Put a field at the end of a paragraph; return the run it shows until computed."""
     for kind in ("begin", code, "separate"):
         field_part(paragraph, kind)
     run = paragraph.add_run(shown)

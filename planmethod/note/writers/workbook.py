@@ -100,7 +100,7 @@ def add_bars(
     Parameters
     ----------
     columns : (int, int)
-        Of what stands under the bars, and of their lengths, from 1.
+        Columns of the labels under the bars, and of their lengths, from 1.
     rows : (int, int)
         The head of a table and its last row.
     corner : str
@@ -127,7 +127,7 @@ def add_bars(
 
 
 class _Looks:
-    """Puts values into the cells of a sheet; every look is made once, since that is slow."""
+    """Puts values into the cells of a sheet; every style is made once, since that is slow."""
 
     def __init__(self, sheet: Any) -> None:
         self._sheet = sheet
@@ -176,7 +176,7 @@ class _Looks:
 
 
 def _widen(sheet: Any, header: Sequence[str], rows: Sequence[Sequence[Any]], row: int) -> None:
-    """Give columns the width of what they hold, up to a limit, and rows the height of theirs."""
+    """Fit columns to the width of their content, up to a limit, and rows to their height."""
     from openpyxl.utils import get_column_letter
 
     shown = [[v.value if isinstance(v, Filled) else v for v in values] for values in rows]

@@ -16,7 +16,7 @@ from planmethod.solved.solution import Solution
 def bearing_text(
     solution: Solution, joint: JointForce, shared: BearingTable, force: float, words: Words
 ) -> Rich:
-    """Tell what each bearing takes of a reaction, N, with numbers."""
+    """Return the load of each bearing from a reaction, N, with numbers."""
     called, z = solution.problem.mechanism.called, shared.plane
     (first, second), parts = shared.at, []
     symbol = reaction_symbol(called(joint.on), called(joint.by))
@@ -35,7 +35,7 @@ def bearing_text(
 
 
 def redundant(links: int) -> int:
-    """Return q of a group of so many links whose pairs have one freedom each; of a driver 0.
+    """Return q of a group of n links whose pairs have one freedom each; 0 for a driver.
 
     Across the plane a link has three equations, and a pair three unknowns: the force along the axis
     of its hinge and two moments. A group of n links has 3n/2 pairs.
@@ -44,7 +44,7 @@ def redundant(links: int) -> int:
 
 
 def undetermined(groups: list[AssurGroup], words: Words) -> Rich:
-    """Tell which components of the reactions in the groups follow from no equation of statics."""
+    """Describe the reaction components in the groups that statics leaves undetermined."""
     named = ", ".join("–".join(group.links) for group in groups)
     n = len(groups[0].links)  # dyads: what else is there has no force plans
     template = words.undetermined if len(groups) > 1 else words.undetermined_one

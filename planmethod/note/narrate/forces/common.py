@@ -1,4 +1,4 @@
-"""What the voices of the force analysis share (общее для глав о силах)."""
+"""Common base of the narrators of the force analysis (общее для глав о силах)."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from planmethod.solved.forces.reading import ForceReading
 
 QUARTERS = {0.0: "way_right", 90.0: "way_up", 180.0: "way_left", 270.0: "way_down"}
 STRAIGHT = 1e-6
-"""Degrees by which a way is off the vertical or the horizontal that is told as such."""
+"""Degrees by which a direction may differ from the vertical or horizontal that it is called."""
 
 
 class ForceContext:
-    """What the voices of the force analysis share: a reading, names, a language.
+    """Context shared by the narrators of the force analysis: a reading, names, a language.
 
-    What is given and what a table shows is exact; all else is as the hand has it: arms that it
-    measures with the ruler, forces that it read on one plan and that go on into the next.
+    Given values and those of tables are exact; all others are read by hand: arms measured with the
+    ruler, forces read on one plan and carried over into the next.
     """
 
     def __init__(self, reading: ForceReading, say: Formulas) -> None:
@@ -56,7 +56,7 @@ class ForceContext:
     def scaled(self, text: str, per_mm: float, *, back: bool = False) -> str:
         """Return millimetres times the scale of their drawing, or over it: ``70,0·250``.
 
-        ``back``: what is to be millimetres there.
+        ``back``: convert to millimetres there.
         """
         is_inverse = self.names.is_inverse_scale()
         scale = self.short(1.0 / per_mm if is_inverse else per_mm)
@@ -67,7 +67,7 @@ class ForceContext:
         return self.scaled(text, self.say.per_mm(PlanKind.POSITION))
 
     def way(self, vector: complex) -> str:
-        """Return the way that a vector points."""
+        """Return the phrase for the direction of a vector."""
         angle = float(np.degrees(np.angle(vector))) % 360.0
         for quarter, phrase in QUARTERS.items():
             if abs((angle - quarter + 180.0) % 360.0 - 180.0) < STRAIGHT:
@@ -75,13 +75,13 @@ class ForceContext:
         return self.said.way_angle.format(angle=self.short(angle, 4))
 
     def base(self, edge: Edge) -> str:
-        """Return what the direction of a force is told by: ``BC`` of ``∥ BC``."""
+        """Return the line that defines the direction of a force: ``BC`` of ``∥ BC``."""
         assert edge.direction is not None
         return self.names.base(edge.direction)
 
 
 def balance_equation(balance: Balance, context: ForceContext, directed: Directed) -> Equation:
-    """Return the sum of the forces on a link or a group, without known ones that are nothing."""
+    """Return the sum of the forces on a link or a group, without known ones that are zero."""
     terms = (
         term_of(replace(edge, symbol=context.symbol(edge.symbol)), directed)
         for edge in balance.edges
@@ -91,7 +91,7 @@ def balance_equation(balance: Balance, context: ForceContext, directed: Directed
 
 
 def lettered(reading: ForceReading, words: Language) -> ForceContext:
-    """Return what the voices share where they letter a sheet."""
+    """Return the shared context of the narrators for a sheet."""
     names = Names(reading.solution, words.note, on_sheet=True)
     return ForceContext(reading, Formulas(reading.solution, names, reading.index))
 

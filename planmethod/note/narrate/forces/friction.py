@@ -1,4 +1,4 @@
-"""Friction told: circles and angles, the correction, efficiency, self-locking (трение)."""
+"""Text on friction: circles and angles, the correction, efficiency, self-locking (трение)."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ def headed(head: str) -> str:
 
 
 class FrictionTeller:
-    """Tells the friction of one position.
+    """Narrates the friction of one position.
 
     Parameters
     ----------
     context : ForceContext
-        Of the forces without friction.
+        Context of the forces without friction.
     sizes : bool
-        Tell the size of what balances the driver, as equations beside it have it, as long as all
-        friction leaves it its sense; else it has its sign.
+        Give the magnitude of the balancing force or moment, as equations beside it do, as long as
+        friction does not reverse it; else give it with its sign.
     """
 
     def __init__(self, context: ForceContext, *, sizes: bool = False) -> None:
@@ -66,7 +66,7 @@ class FrictionTeller:
         return f"ρ_{{{index}}} = f'·r = {f}·{radius} = {rho} {self.units['mm']}"
 
     def size(self, pair: Rubbing) -> Rich:
-        """Return the friction of a pair, found of the forces without it."""
+        """Return the friction of a pair, computed from the forces without friction."""
         size = float(self.friction.rub(pair, self.friction.corrected)[self.index])
         symbol, force = self.symbol(pair.symbol), self._force(pair)
         letters, share = (
@@ -80,7 +80,7 @@ class FrictionTeller:
         return f"{symbol} = {letters}·{force} = {numbers} = {self.find(size)} {unit}"
 
     def pair(self, pair: Rubbing) -> Rich:
-        """Tell the sense of the relative motion and what friction does."""
+        """Return the sense of the relative motion and the effect of friction."""
         said, words, i = self.said, self.context.words, self.index
         rate, by = float(pair.rate[i]), pair.by
         sliding = pair.slide is not None
@@ -135,7 +135,7 @@ class FrictionTeller:
         return table_of_columns(self.columns(), repeated=2)
 
     def results(self) -> Iterator[Rich]:
-        """Tell what balances the driver, what of the correction remains, efficiency, locking."""
+        """Return lines on the balancing load, the remaining correction, efficiency, locking."""
         said, friction, i = self.said, self.friction, self.index
         once, jammed = friction.corrected, bool(friction.jammed[i])
         balancing = self.context.reading.balancing
@@ -174,7 +174,7 @@ class FrictionTeller:
             yield said.locks
 
     def turn(self) -> Iterator[Rich]:
-        """Tell the efficiency of the cycle, where it can be moved through."""
+        """Yield the efficiency of the cycle, where the mechanism can move through it."""
         found = turn_efficiency(self.context.solution)
         if found is None:
             return
@@ -200,7 +200,7 @@ class FrictionTeller:
         return f"{pair.on}–{pair.frame if pair.by == FRAME else pair.by}"
 
     def nodes(self) -> Iterator[Paragraph | Formula]:
-        """Yield what a sheet tells beside its pictures."""
+        """Yield the text of a sheet beside its pictures."""
         yield from map(Paragraph, self.results())
         yield from map(Paragraph, self.turn())
 

@@ -23,9 +23,9 @@ from planmethod.solved.forces.statics import Statics
 
 
 class PairText(Struct, frozen=True):
-    """How a couple stands on the lever: in letters, in numbers, and where those come from.
+    """A couple on the lever: in letters, in numbers, and the source of the numbers.
 
-    ``letters`` is ``(bc)/l_{BC}``, ``numbers`` ``73,0/0,3``; ``segment`` tells both lengths, and
+    ``letters`` is ``(bc)/l_{BC}``, ``numbers`` ``73,0/0,3``; ``segment`` gives both lengths, and
     ``length`` is the letter of the second: both are empty where the lever has no segment of the
     link.
     """
@@ -44,9 +44,9 @@ def both_balances(reading: ForceReading) -> tuple[float, float | None]:
 
 
 def compared_balances(statics: Statics, index: int) -> ComparedNumber | None:
-    """Return what the lever gives beside what the force plans give; None where the driver stands.
+    """Return the result of the lever beside that of the force plans; None if the driver is at rest.
 
-    Sigma is that of their difference; not finite where a drawing cannot tell it.
+    Sigma is that of their difference; not finite where a drawing cannot give it.
     """
     drawn = drawn_forces(statics)
     if drawn.balances is None:
@@ -57,7 +57,7 @@ def compared_balances(statics: Statics, index: int) -> ComparedNumber | None:
 
 
 def thrust_lines(context: ForceContext) -> list[str]:
-    """Tell how the force of an actuator is found, which the force plans have for known."""
+    """Return how the force of an actuator is found, which the force plans take as known."""
     statics, said = context.reading.statics, context.said
     thrust = statics.thrust
     if thrust is None:
@@ -92,7 +92,7 @@ def thrust_lines(context: ForceContext) -> list[str]:
 
 
 class LeverNarrator:
-    """Tells the lever of one position, which the driver must not stand in."""
+    """Narrates the lever of one position, in which the driver must not be at rest."""
 
     def __init__(self, context: ForceContext) -> None:
         self.context, self.reading, self.said = context, context.reading, context.said
@@ -145,7 +145,7 @@ class LeverNarrator:
         return first + second if on_link and second + first not in given else second + first
 
     def segments(self) -> list[str]:
-        """Return the segments and lengths by which couples stand on the lever, each once."""
+        """Return the segments and lengths that place couples on the lever, each once."""
         on_links = (*self.lever.couples, *self.lever.shifts)
         told = (self._pair(one).segment for one in on_links)
         return [text for text in dict.fromkeys(told) if text]
@@ -185,7 +185,7 @@ class LeverNarrator:
     # Sentences -------------------------------------------------------------------------------
 
     def items(self) -> Iterator[list[str]]:
-        """Tell the steps."""
+        """Yield the steps."""
         yield [self.said.turned.format(pole=self.names.pole(PlanKind.VELOCITY)), *self.larger()]
         if not self.lever.forces and not self.lever.couples:
             yield [self.said.no_work.format(symbol=self.balancing)]
@@ -207,7 +207,7 @@ class LeverNarrator:
         return [self.said.larger.format(scale=scale)]
 
     def _hung(self) -> list[str]:
-        """Tell which force goes to which point, and which go nowhere."""
+        """Return the point at which each force is applied, and the forces at the pole."""
         motion = self.names.kin.velocity
         at: dict[str, list[str]] = {}
         beside = {force_symbol(one.link): one for one in self.lever.shifts}
@@ -243,7 +243,7 @@ class LeverNarrator:
         return lines + ([self.said.at_pole.format(symbols=", ".join(still))] if still else [])
 
     def _pairs(self) -> Iterator[list[str]]:
-        """Tell how each couple stands on the lever."""
+        """Yield how each couple is applied to the lever."""
         lines = [self._told(one) for one in self.lever.couples]
         hung = {one.symbol for one in self.lever.couples}
         for load in self.reading.statics.board.given:
@@ -290,7 +290,7 @@ class LeverNarrator:
         return f"{self.balancing} = {self._numbers()} = {self.found(abs(value))} {self.unit}"
 
     def _numbers(self) -> str:
-        """Return the sum of the known moments over the arm of what balances them."""
+        """Return the sum of the known moments over the arm of the balancing force."""
         symbol = self.reading.balancing_symbol
         terms, divisor, turn = [], "", 1.0
         for force in self.lever.forces:
@@ -310,13 +310,13 @@ class LeverNarrator:
         return fraction(said or "0", divisor)  # in an extreme position nothing may have a moment
 
     def _compared(self) -> list[str]:
-        """Tell how far lever and force plans are apart, and what a drawing lets expect."""
+        """Return the difference of lever and force plans, and the one expected of a drawing."""
         one, number = (
             compared_balances(self.reading.statics, self.reading.index),
             self.notation.number,
         )
         assert one is not None
-        decimals = len(significant(one.exact).partition(".")[2])  # of what it is the difference
+        decimals = len(significant(one.exact).partition(".")[2])  # those of the compared value
         lines = [
             self.said.compared.format(
                 symbol=self.balancing,

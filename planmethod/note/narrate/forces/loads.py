@@ -28,7 +28,7 @@ class LoadNarrator:
     def formulas(self) -> list[str]:
         """Return the weights and the inertia forces and couples with their formulas.
 
-        A force of inertia that stands for its couple as well has couple and shift beside it.
+        A force of inertia that also replaces its couple has couple and shift beside it.
         """
         lines, index, board = [], self.reading.index, self.reading.statics.board
         for load in board.given:
@@ -49,7 +49,7 @@ class LoadNarrator:
         return self._product(load.applied, made)
 
     def shifted(self, force: GivenLoad, shift: Shift) -> list[str]:
-        """Return the couple that a shifted force of inertia stands for, and the shift."""
+        """Return the couple that a shifted force of inertia replaces, and the shift."""
         size, moment = self.reading.read_load(force), self.reading.read_number(shift.couple)
         metres = self.context.say.per_mm(PlanKind.POSITION) * self.reading.read_number(shift.length)
         letters = f"{shift_symbol(shift.link)} = {fraction(shift.moment.name, force.applied.name)}"
@@ -83,7 +83,7 @@ class LoadNarrator:
         return scale_inscription(self.reading.scale, convention, self.context.notation)
 
     def link(self, link: str) -> list[str]:
-        """Tell the loads of a link."""
+        """Return the text on the loads of a link."""
         lines = list(self._loads(link))
         if not lines:
             return [self.said.unloaded.format(link=link)]
@@ -104,7 +104,7 @@ class LoadNarrator:
         return kind is LoadKind.INERTIA_COUPLE and link in self.reading.statics.board.shifts
 
     def _told(self, load: GivenLoad) -> list[str]:
-        """Tell a load; of a shifted force of inertia, which couple it stands for and where."""
+        """Return the text on a load; for a shifted force of inertia, its couple and place too."""
         one = load.applied
         shift = self.reading.statics.board.shifts.get(one.link)
         if one.kind is not LoadKind.INERTIA or shift is None:
@@ -132,7 +132,7 @@ class LoadNarrator:
         return [turning, laid]
 
     def _none(self, link: str, mass: Mass, kind: LoadKind) -> Iterator[str]:
-        """Tell an inertia force or couple that is none by nature."""
+        """Yield the statement that an inertia force or couple is always zero."""
         if kind is LoadKind.INERTIA and mass.mass:
             yield self.said.inertia_zero.format(symbol=f"Φ_{{{link}}}", point=mass.centre)
         if kind is LoadKind.INERTIA_COUPLE and mass.inertia:
@@ -176,7 +176,7 @@ class LoadNarrator:
         return self.said.couple.format(symbol=symbol, size=size, sense=self.context.sense(couple))
 
     def _resisting(self, load: GivenLoad) -> str:
-        """Tell of a force that it is against the velocity of its point; of others nothing."""
+        """Return the phrase for a force opposed to the velocity of its point; else nothing."""
         dynamics, one = self.context.solution.problem.dynamics, load.applied
         assert dynamics is not None and one.point is not None
         given_so = [other for other in dynamics.loads if other.name == one.name]

@@ -18,24 +18,24 @@ from planmethod.solved.forces.guides import Guided, guide_of
 
 SIDES = ("right", "up", "left", "down")
 CANCELLED = 1e-9
-"""Share of the largest of a position below which known moments are told to cancel."""
+"""Fraction of the largest value of a position below which known moments are said to cancel."""
 
 
 class MomentText(Struct, frozen=True):
-    """An equation of moments told (уравнение моментов).
+    """Text of an equation of moments (уравнение моментов).
 
     Attributes
     ----------
     equation : str
-        In letters, the found one with the sign that it has.
+        In letters, the unknown with its actual sign.
     arms : tuple of str
         ``h_{G2} = 20,5`` each, mm; none where no force has an arm.
     length : str
-        The arm of the found force where it is measured, m; else empty.
+        The arm of the unknown force where it is measured, m; else empty.
     result : str
-        The found force or couple with numbers; empty where it is nothing.
+        The resulting force or couple with numbers; empty where it is zero.
     value : float
-        Moment of the found one as the hand has it, N·m or N times the arm's length; positive
+        Moment of the unknown as read by hand, N·m or N times the arm's length; positive
         counter-clockwise.
     """
 
@@ -47,7 +47,7 @@ class MomentText(Struct, frozen=True):
 
 
 class MomentNarrator:
-    """Tells the equations of moments of one force plan."""
+    """Narrates the equations of moments of one force plan."""
 
     def __init__(self, context: ForceContext, plan: ForcePlan) -> None:
         self.context, self.plan = context, plan
@@ -58,7 +58,7 @@ class MomentNarrator:
     # Equations -------------------------------------------------------------------------------
 
     def told(self, equation: Moments) -> MomentText | None:
-        """Return an equation of moments told; None where there is no couple to be found."""
+        """Return the text of an equation of moments; None where there is no couple to find."""
         reading, edge, couple = self.reading, equation.force, equation.couple
         forces = [
             (self.symbol(known.symbol), reading.read(known), reading.arm(known, equation.about))
@@ -72,7 +72,7 @@ class MomentNarrator:
             if not reading.is_no_couple(known)
         ]
         head = f"ΣM_{{{equation.about}}}"
-        if self.context.names.on_sheet:  # where no sentence tells the links
+        if self.context.names.on_sheet:  # where no sentence names the links
             head = f"Σ_{{{','.join(equation.links)}}}M_{{{point_name(str(equation.about))}}}"
         arm, length, measured = "", "", ""
         if edge is not None:
@@ -115,7 +115,7 @@ class MomentNarrator:
         forces: Sequence[tuple[str, float, float]],
         couples: Sequence[tuple[str, float]],
     ) -> MomentText | None:
-        """Return an equation that finds nothing: what is left of the moments, N·m."""
+        """Return an equation without an unknown: the residual of the moments, N·m."""
         if not forces and not couples:
             return None
         letters = [(a, f"{name}·{arm_symbol(name)}") for name, _, a in forces]
@@ -135,7 +135,7 @@ class MomentNarrator:
     def _arm(self, equation: Moments, edge: Edge) -> tuple[str, str, str]:
         """Return the letters and the length, m, of the arm of a tangential component.
 
-        The third is how it was measured, where no given length tells it.
+        The third is how it was measured, where no given length determines it.
         """
         read, (first, *more) = self.reading.read_product(equation.arm), equation.arm
         metres = self.short(abs(read))
@@ -194,7 +194,7 @@ class MomentNarrator:
         return [*lines, *([f"{told.length};"] if told.length else [])]
 
     def before(self) -> Iterator[list[str]]:
-        """Tell the moments that give a component, or balance a crank: before the plan is drawn."""
+        """Yield the moment equations of a component or a balanced crank, before the plan."""
         for equation in self.plan.moments:
             if equation.force is not None:
                 yield self._component(equation, equation.force)
@@ -238,7 +238,7 @@ class MomentNarrator:
     # Guides ----------------------------------------------------------------------------------
 
     def guides(self) -> Iterator[list[str]]:
-        """Tell the moments of the guides and where their forces act."""
+        """Yield the moments of the guides and the points of action of their forces."""
         for equation in self.plan.moments:
             couple = equation.couple
             if couple is not None and not self._is_balancing(couple):
@@ -267,7 +267,7 @@ class MomentNarrator:
         return [*lines, *([head, *closed(edges)] if edges else [])]
 
     def _side(self, force: Force, moment: float) -> str:
-        """Tell on which side of its joint a force acts."""
+        """Return on which side of its joint a force acts."""
         away = -1j * self.reading.by_hand(force.tail, force.head) * moment
         quarter = round(float(np.degrees(np.angle(away))) / 90.0) % 4
         return str(getattr(self.said, f"side_{SIDES[quarter]}"))

@@ -1,4 +1,4 @@
-"""The sentences of one force plan, told from its steps (план сил)."""
+"""The sentences of one force plan, made from its steps (план сил)."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class ForcePlanNarrator:
         self._drawn: list[Edge] = []
 
     def inscription(self) -> str:
-        """Return the scale of the plan as it stands under it."""
+        """Return the scale of the plan as inscribed under it."""
         convention = self.context.solution.problem.scales.convention
         return scale_inscription(self.scale, convention, self.context.notation)
 
@@ -58,14 +58,14 @@ class ForcePlanNarrator:
 
     @property
     def is_nothing(self) -> bool:
-        """Whether no force and no couple acts on the links."""
+        """True if neither a force nor a couple acts on the links."""
         forces, couples = map(self.reading.is_none, self._edges), self.plan.couples
         return all(forces) and all(map(self.reading.is_no_couple, couples))
 
     # Cut free --------------------------------------------------------------------------------
 
     def freed(self) -> list[str]:
-        """Tell which reactions take the place of the links that were taken away."""
+        """Return the reactions that replace the removed links."""
         said = self.said
         outer = [r for r in self.statics.board.reactions if self._is_outer(r)]
         reactions = ", ".join(self._reaction(reaction) for reaction in outer)
@@ -94,7 +94,7 @@ class ForcePlanNarrator:
 
     @property
     def _pushed(self) -> list[str]:
-        """Where the force of an actuator acts on the links, if it does."""
+        """Points where the force of an actuator acts on the links, if it does."""
         thrust = self.statics.thrust
         if thrust is None:
             return []
@@ -127,7 +127,7 @@ class ForcePlanNarrator:
 
     @property
     def _known(self) -> list[str]:
-        """Which reactions are known from the groups before, with the sign."""
+        """Reactions known from the preceding groups, with their sign."""
         links, told = self.plan.links, []
         for r in self.statics.board.reactions:
             if r.by not in links or r.on in links or self._is_nothing(r):
@@ -139,14 +139,14 @@ class ForcePlanNarrator:
         return [self.said.passed_on.format(reactions=", ".join(told))] if told else []
 
     def _is_nothing(self, reaction: Reaction) -> bool:
-        """Tell whether there is neither force nor moment in a joint."""
+        """Return whether there is neither force nor moment in a joint."""
         at, tail, head = reaction.force.at, reaction.force.tail, reaction.force.head
         return self.reading.is_none(Edge("", reaction.on, at, tail, head)) and self._is_still(
             reaction
         )
 
     def _is_still(self, reaction: Reaction) -> bool:
-        """Tell whether a joint has no moment."""
+        """Return whether a joint has no moment."""
         if reaction.couple is None:
             return True
         return self.reading.is_no_couple(CoupleOn("", reaction.on, reaction.couple))
@@ -165,7 +165,7 @@ class ForcePlanNarrator:
         ]
 
     def steps(self) -> Iterator[list[str]]:
-        """Tell the drawing of the plan and what is read off it."""
+        """Yield the steps of drawing the plan, and the readings."""
         for step in self._steps:
             if isinstance(step, LayOff):
                 edge = self._side(step.origin, step.out)
@@ -197,7 +197,7 @@ class ForcePlanNarrator:
         return f"{symbol} = {numbers} = {size} {self.context.units['N']}"
 
     def _tangential(self, edge: Edge) -> list[str]:
-        """Tell the laying off of a component, or of what balances a crank, that moments found."""
+        """Return how a component or balancing force, known from moments, is laid off."""
         direction = edge.direction
         if direction is not None and direction.relation is Relation.ANGLED:
             return self._lay(edge, self.context.way(self.reading.force(edge)))
@@ -208,7 +208,7 @@ class ForcePlanNarrator:
         return self._lay(edge, template.format(line=self.context.base(edge)))
 
     def _across(self, edge: Edge) -> str:
-        """Return the line that a tangential component is across."""
+        """Return the line that a tangential component is perpendicular to."""
         if edge.direction is not None:
             return self.context.base(edge)
         normal = next(
@@ -232,7 +232,7 @@ class ForcePlanNarrator:
         return self._lay(edge, self._way(step), back=edge.tail == step.out)
 
     def _along(self, thrust: Thrust, edge: Edge) -> str:
-        """Return the way of the force of an actuator: from one of its ends towards the other."""
+        """Return the direction of the force of an actuator: from one of its ends to the other."""
         ends = list(map(point_name, thrust.ends))
         one, two = (self.reading.place(PointName(end)) for end in thrust.ends)
         if (self.reading.force(edge) * (two - one).conjugate()).real < 0:
@@ -256,7 +256,7 @@ class ForcePlanNarrator:
         )
 
     def _way(self, step: Carry) -> str:
-        """Return the way of a load."""
+        """Return the direction of a load."""
         load = next(
             given
             for given in self.statics.board.given
@@ -274,7 +274,7 @@ class ForcePlanNarrator:
         )
 
     def _lay(self, edge: Edge, way: str, *, back: bool = False) -> list[str]:
-        """Tell a vector laid off; of nothing, nothing."""
+        """Return how a vector is laid off; no lines for a zero vector."""
         new, old = (edge.tail, edge.head) if back else (edge.head, edge.tail)
         symbol = self.context.symbol(edge.symbol)
         length = self.reading.length(edge, self.number)
@@ -352,7 +352,7 @@ class ForcePlanNarrator:
         }
 
     def _closing(self) -> Iterator[list[str]]:
-        """Tell the forces that close a plan without a line of their own."""
+        """Yield the forces that close a plan without a line of their own."""
         for edge in self.plan.reactions:
             if edge in self._drawn or self.reading.is_none(edge):
                 continue

@@ -45,7 +45,7 @@ def force_chapters(say: Formulas, index: int) -> Iterator[Node]:
         Where a force plan does not close.
     """
     context = ForceContext(ForceReading(say.solution, index), say)
-    context.reading.statics.si  # noqa: B018 - what cannot be drawn is told before anything else
+    context.reading.statics.si  # noqa: B018 - report first what cannot be drawn
     yield from _loads(context)
     yield from _plans(context)
     yield from _lever(context)
@@ -99,7 +99,7 @@ def _plan(context: ForceContext, plan: ForcePlan, number: int) -> Iterator[Node]
 
 
 def _readable(context: ForceContext, *names: Name) -> bool:
-    """Tell whether the hand has all of what is named: not where it divides by nothing."""
+    """Return whether the hand has all named values: not where it divides by zero."""
     hand, index = context.reading.statics.by_hand, context.reading.index
     return all(hand.has(name)[index] for name in names)
 
@@ -125,7 +125,7 @@ def _lever(context: ForceContext) -> Iterator[Node]:
 
 
 def _friction(context: ForceContext, say: Formulas) -> Iterator[Node]:
-    """Tell the friction of the pairs, and the force plans with one correction."""
+    """Yield the friction of the pairs, and the force plans with one correction."""
     from planmethod.note.narrate.forces.friction import FrictionTeller  # few need it
     from planmethod.solved.forces.friction import rubbed_reading
 

@@ -1,4 +1,4 @@
-"""What became of the inertia forces where one force shall stand for both (равнодействующая)."""
+"""Inertia forces where one resultant replaces force and couple (равнодействующая)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The statement of the force analysis: what is given, what to find (Дано, Определить)."""
+"""The statement of the force analysis: given data and unknowns (Дано, Определить)."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ def link_names(links: tuple[str, ...]) -> str:
 
 
 def plan_title(reading: ForceReading, plan: ForcePlan, words: Language) -> str:
-    """Return what is cut free: ``Группа звеньев 4–5``, ``Начальное звено 1``."""
+    """Return the name of the free body: ``Группа звеньев 4–5``, ``Начальное звено 1``."""
     is_driver = plan.links == (reading.solution.problem.drive.link,)
     title = words.sheets.cut_driver if is_driver else words.sheets.cut_group
     return title.format(links=link_names(plan.links))
 
 
 def statement(reading: ForceReading, words: Language) -> list[GivenFact]:
-    """Return what is given: the mechanism, masses, moments of inertia, external loads."""
+    """Return the given facts: the mechanism, masses, moments of inertia, external loads."""
     problem, index = reading.solution.problem, reading.index
     dynamics = problem.dynamics
     assert dynamics is not None
@@ -106,7 +106,7 @@ def mass_lines(problem: Problem, words: Language) -> list[GivenFact]:
 def _where(
     load: Load | Couple, number: int, size: float, words: Language
 ) -> tuple[str, dict[str, object]]:
-    """Return where a load acts and which way, and the keys that say so."""
+    """Return the point of action and the direction of a load, and the keys for them."""
     note, path = words.note, f"loads[{number}]"
     data: dict[str, object] = {f"{path}.name": load.name, f"{path}.link": load.link}
     if isinstance(load, Couple):
@@ -150,7 +150,7 @@ def _pushed(problem: Problem, words: Language) -> list[GivenFact]:
 
 
 def _in_pairs(statics: Statics, words: Language) -> list[GivenFact]:
-    """Return what is given of the pairs: their friction, the bearings of shafts."""
+    """Return the given facts on the pairs: their friction, the bearings of shafts."""
     dynamics, say = statics.solution.problem.dynamics, words.say
     facts = friction_facts(statics, words)
     for joint, bearing in {} if dynamics is None else dynamics.bearings.items():
@@ -201,11 +201,11 @@ def _external(reading: ForceReading) -> list[Applied]:
 
 
 def wanted(reading: ForceReading, say: Notation) -> str:
-    """Return what is to be found, as one line of symbols."""
+    """Return the unknowns as one line of symbols."""
     statics, called = reading.statics, reading.solution.problem.mechanism.called
     symbols = [reaction_symbol(joint.on, called(joint.by)) for joint in statics.reactions]
     for k, contact in statics.contacts.items():
-        # Of a guide that gives a couple alone nobody can ask where its force acts.
+        # A guide that gives only a couple has no point of action.
         is_none = abs(statics.reactions[k].force[reading.index]) <= FAINT_SHARE * reading.peak
         letter = "M" if is_none else "l"
         by = called(contact.joint.by)
@@ -214,7 +214,7 @@ def wanted(reading: ForceReading, say: Notation) -> str:
 
 
 def cycle_statement(solution: Solution, words: Language) -> list[GivenFact]:
-    """Return what is given for all positions: mechanism, masses, external loads."""
+    """Return the given facts for all positions: mechanism, masses, external loads."""
     problem = solution.problem
     assert problem.dynamics is not None
     facts = given(problem, words, [float(position) for position in solution.positions])
@@ -260,7 +260,7 @@ def _load(problem: Problem, load: Load | Couple, number: int, words: Language) -
 
 
 def _over(problem: Problem, load: Load | Couple, words: Language) -> str:
-    """Return the letter of what a table is over."""
+    """Return the letter of the independent variable of a table."""
     assert isinstance(load.size, SizeTable)
     match load.size.over:
         case Over.PHI:
@@ -329,7 +329,7 @@ def _rows(problem: Problem, load: Load | Couple, number: int, words: Language) -
 
 
 def _phase(load: Load | Couple, number: int, words: Language) -> GivenFact:
-    """Return when a load acts: what is told after where it does."""
+    """Return when a load acts: the phrase after its point of action."""
     phase, note = load.phase, words.note
     if phase is None:
         return GivenFact("")
@@ -354,7 +354,7 @@ def like_line(load: Load | Couple, words: Language) -> str:
 
 
 def cycle_wanted(solution: Solution, say: Notation) -> str:
-    """Return what is to be found in all positions, as one line of symbols."""
+    """Return the unknowns of all positions as one line of symbols."""
     called = solution.problem.mechanism.called
     joints = statics_of(solution).reactions
     symbols = [reaction_symbol(joint.on, called(joint.by)) for joint in joints]
