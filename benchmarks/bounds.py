@@ -1,4 +1,4 @@
-"""What shall hold of the speed: ratios of one run beside their limits."""
+"""Limits of the speed: ratios measured in one run beside their limits."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Bound:
 
 
 def bounds_table(bounds: Sequence[Bound]) -> Table:
-    """Return bounds as a table with what is before it; nothing where there are none."""
+    """Return bounds as a table with its introduction; an empty list if there are no bounds."""
     if not bounds:
         return []
     rows = [

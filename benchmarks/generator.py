@@ -87,7 +87,7 @@ class _Drawing:
 
     def make(self, *, triad: bool = False) -> tuple[str, Pose]:
         rng = self.rng
-        if triad:  # P, Q, S are for what is loaded
+        if triad:  # P, Q, S are reserved for loaded points
             self.names = iter("ABCDEFGHIJKLMNORTUVWXYZ")
         self._draw_driver()
         count = rng.randint(1, 3)
@@ -157,7 +157,7 @@ class _Drawing:
     # Leads
 
     def _choose_known(self, banned: frozenset[str] = frozenset()) -> str:
-        """Choose a link to hang on; the driver and the later ones more often than the frame."""
+        """Choose a link to attach to; the driver and later links more often than the frame."""
         known = [name for name in (FRAME, *self.draft.known) if name not in banned]
         if not known:
             raise _Unlucky
@@ -383,7 +383,7 @@ class _Drawing:
         draft.rules.append((base.points[0], z + cmath.rect(1e-4, rng.uniform(-math.pi, math.pi))))
 
     def _not_beside(self, lead: _Lead) -> frozenset[str]:
-        """Links that the other lead may not hang on: it would make them one rigid body."""
+        """Return the links that the other leg may not join: they would form one rigid body."""
         driver = {self.draft.driver} if lead.point == self.draft.pivot else set()
         return lead.holders | {lead.to} | driver
 

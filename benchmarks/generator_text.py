@@ -101,7 +101,7 @@ class TextBuilder:
         return "\n".join(parts), pose
 
     def _tell_sides(self) -> None:
-        """Say on which side points of a slotted link lie where its line does not tell it."""
+        """Write the sides of a slotted link's points where its line does not determine them."""
         place = self.draft.place
         for slider, host, joint, other in self.draft.slotted:
             line, points = self.draft.links[slider].line, self.draft.links[host].points

@@ -1,6 +1,6 @@
-"""A group of thirty works with planted mistakes, as a department has it: problems/groups/ex3.csv.
+"""A realistic group of thirty submissions with planted mistakes: problems/groups/ex3.csv.
 
-Run ``python -m benchmarks.group`` (``make group``) to write it anew. Names are invented.
+Run ``python -m benchmarks.group`` (``make group``) to write it. The names are invented.
 """
 
 from __future__ import annotations
@@ -33,23 +33,23 @@ BLANKS = ("", "—", "нет")
 
 @dataclass(frozen=True, slots=True)
 class Student:
-    """Who draws what (студент).
+    """A student and the planted mistakes of the submission (студент).
 
     Attributes
     ----------
     code : str
-        Mistake that he makes; empty of an honest one; ``P2`` of one who solved another variant,
-        ``slip`` of one who multiplied wrongly.
+        Mistake that the student makes; empty for an honest one; ``P2`` for another variant,
+        ``slip`` for a wrong multiplication.
     place : int
-        Which of the places where the mistake shows.
+        Index of the place where the mistake shows.
     scales : mapping of str to float
-        His own.
+        The student's own scales.
     mm : bool
-        Whether he writes the lengths on his plan.
+        Whether the student writes the lengths of segments of the plan.
     skips : tuple of str
-        Answers that he leaves blank.
+        Answers left blank.
     says : mapping of str to str
-        Values that he writes in his own way.
+        Values written in the student's own form.
     """
 
     name: str

@@ -71,15 +71,15 @@ class Cost(Struct, frozen=True):
 
 
 def worked(act: Callable[[], object]) -> float:
-    """Return the median of what something costs, seconds of the processor.
+    """Return the median cost of a call, in seconds of processor time.
 
-    Growth is judged by it: another process that wants the same core does not count.
+    Growth is measured by it, since other processes on the same core do not count.
     """
     return clock(act, enough=0.3, least=9, timer=time.thread_time).median
 
 
 def by_links(dyads: Sequence[int] = DYADS, *, count: int = 10_000) -> list[Chain]:
-    """Measure chains of so many dyads, everything asked; NumPy's blocks."""
+    """Measure chains with these numbers of dyads, all quantities requested, in NumPy's blocks."""
     found = []
     angles = turn(count)
     for k in dyads:
@@ -94,7 +94,7 @@ def by_links(dyads: Sequence[int] = DYADS, *, count: int = 10_000) -> list[Chain
 
 
 def by_loads(numbers: Sequence[int] = LOADS) -> list[Cost]:
-    """Measure force plans of 36 positions of a six-link mechanism under so many loads."""
+    """Measure force plans of 36 positions of a six-link mechanism by the number of loads."""
     found = []
     for number in numbers:
         problem = with_loads(number)
@@ -107,7 +107,7 @@ def by_loads(numbers: Sequence[int] = LOADS) -> list[Cost]:
 
 
 def by_wheels(numbers: Sequence[int] = WHEELS) -> list[Cost]:
-    """Measure the record of a train of so many wheels in a row."""
+    """Measure the record of a train by its number of wheels in a row."""
     found = []
     with tempfile.TemporaryDirectory() as folder:
         for number in numbers:
@@ -119,7 +119,7 @@ def by_wheels(numbers: Sequence[int] = WHEELS) -> list[Cost]:
 
 
 def by_works(numbers: Sequence[int] = WORKS) -> list[Cost]:
-    """Measure the checking of so many works without a mistake of one task."""
+    """Measure the checking of correct submissions of one task by their number."""
     task = Task(Solution(slotted()))
     works = drawn_works(task, count=numbers[-1], seed=1)
     answers = len(works[0].answers)
@@ -140,7 +140,7 @@ def exponent(numbers: Sequence[float], costs: Sequence[float]) -> float:
 
 
 def bounds_of_links(found: Sequence[Chain]) -> list[Bound]:
-    """Return what shall hold of a chain of dyads."""
+    """Return the limits for a chain of dyads."""
     sizes = [one.links for one in found]
     held = [
         Bound(
@@ -159,7 +159,7 @@ def bounds_of_links(found: Sequence[Chain]) -> list[Bound]:
 
 
 def bounds_of_costs(found: Sequence[Cost]) -> list[Bound]:
-    """Return what shall hold of all else that grows."""
+    """Return the limits for the other costs that grow."""
     held = []
     for what in dict.fromkeys(one.what for one in found):
         own = [one for one in found if one.what == what]

@@ -1,8 +1,8 @@
-"""Hard cases of the plan method: at and near what is impossible, and at extreme data.
+"""Hard cases of the plan method: at and near impossible positions, and with extreme data.
 
-Every row is solved in float64 and judged by the referee (`planmethod.solved.accuracy`), and
-asked of the package as a user asks it. A row may be good, warned of, or refused with a reason; a
-wrong number without a warning is a fault, wherever it comes from.
+Every row is solved in float64, checked in high precision (`planmethod.solved.accuracy`), and
+requested from the package as a user would. A row may be good, have a warning, or be rejected with a
+reason; a wrong number without a warning is a fault, wherever it comes from.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ WRONG = 1e-6
 """Relative error above which a result without a warning is a wrong one."""
 
 CROWD = 65
-"""Positions asked for at once where many are meant: too many for all to be examined closely."""
+"""Number of positions in a batch: too many for each to be examined closely."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,28 +82,28 @@ class HardCase:
 class Outcome(Enum):
     """What became of a row, the best first."""
 
-    GOOD = "good"  # every result defined, nothing said
-    WARNED = "warned"  # every result defined, the user is told how far to trust it
+    GOOD = "good"  # every result defined, no warning
+    WARNED = "warned"  # every result defined, with a warning on its accuracy
     REFUSED = "refused"  # no result, with a reason
     BROKEN = "broken"  # the package contradicts itself: always a fault
 
 
 @dataclass(frozen=True, slots=True)
 class HardRow:
-    """What became of a row; of several positions the worst.
+    """Outcome of a row; the worst one if it has several positions.
 
     Attributes
     ----------
     told : str
         Warning or reason, as the user reads it; empty for a good row.
     warned : float
-        Bound of the relative error that the user is told; 0 where nothing is said, inf where no
-        result is given.
+        Bound of the relative error reported to the user; 0 without a warning, inf without a
+        result.
     margin : float
-        Least margin of all steps; NaN where there was nothing to judge.
+        Least margin of all steps; NaN if there was no result to evaluate.
     kappa : float
         Largest reach of a result over the natural size of its kind in the position (see `sizes`),
-        at least 1; NaN where there was nothing to judge.
+        at least 1; NaN if there was no result to evaluate.
     multiple : float
         Largest error of a result in units of u times its own reach.
     multiple_of, error_of : str
@@ -129,9 +129,9 @@ class HardRow:
 
     @property
     def silently_wrong(self) -> bool:
-        """Tell whether a result is wrong or cannot exist, and nothing is said.
+        """Return whether a result is wrong or cannot exist, without a warning.
 
-        It cannot exist where the referee finds none, or where a margin is negative.
+        It cannot exist if the high-precision check finds none, or if a margin is negative.
         """
         sound = self.error <= WRONG and self.agreed and not self.margin < 0
         return self.outcome is Outcome.GOOD and not sound
@@ -188,7 +188,7 @@ def _say(error: PlanMethodError) -> str:
 
 
 def _ask(blank: HardRow, problem: Problem, position: float, *, many: bool) -> HardRow:
-    """Ask a position as the commands do, and return a row of what the user is told."""
+    """Solve a position as the commands do, and return a row with the warning or error shown."""
     try:
         solution = Solution(problem, positions=[position] * (CROWD if many else 1))
         verify(solution)
@@ -203,7 +203,7 @@ def _ask(blank: HardRow, problem: Problem, position: float, *, many: bool) -> Ha
 
 
 def _add(row: HardRow, found: Refereed) -> HardRow:
-    """Return a row with what the referee found."""
+    """Return a row with the results of the high-precision check."""
     size = sizes(found.verdicts)
     kappa, error, error_of = 1.0, 0.0, ""
     for verdict in found.verdicts:

@@ -1,4 +1,4 @@
-"""The hard cases: mechanisms of the textbooks' proportions at and near what is impossible."""
+"""The hard cases: mechanisms of textbook proportions at and near impossible positions."""
 
 from __future__ import annotations
 

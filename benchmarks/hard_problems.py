@@ -1,8 +1,8 @@
 """Texts of the problem files behind the hard cases: textbook mechanisms, turned, scaled, moved.
 
 Every function returns the text of a file. Lengths are in m, angles in degrees; ``turn`` turns the
-whole mechanism about the origin. Lengths are mostly eighths of a metre, so that a dead position
-that is meant exactly is exact in float64 where nothing is turned.
+whole mechanism about the origin. Lengths are mostly eighths of a metre, so that an exact dead
+position is exact in float64 as well, unless the mechanism is turned.
 """
 
 from __future__ import annotations
@@ -106,8 +106,8 @@ def rocker(
 ) -> str:
     """Return a rocker mechanism (four-bar linkage) driven by its crank or by its rocker.
 
-    The crank OA and the rod AB stand in one line with the rocker CB square to the frame OC at
-    phi = 90 of the rocker. ``third`` places the point S of the rod.
+    At phi = 90 of the rocker, the rocker CB is square to the frame OC, and the crank OA and the
+    rod AB are in one line. ``third`` places the point S of the rod.
     """
     third = third or f'S = {{ on = "AB", at = {rod / 2!r}, across = {rod / 8!r} }}'
     rule = 'A = "left of OB"' if by_rocker else 'B = "left of AC"'
@@ -131,7 +131,7 @@ CB = {arm!r}
 
 
 def touching_line(*, gap: float, turn: float = 0.0) -> str:
-    """Return a slider-crank whose rod is longer by a share ``gap`` than what reaches its guide."""
+    """Return a slider-crank whose rod exceeds the distance to its guide by a fraction ``gap``."""
     foot = cis(turn) * (0.0625 - 0.25j)
     near = cis(turn) * (1 - 0.25j)
     return f"""
@@ -183,7 +183,7 @@ CD = {0.375 * size!r}
 def pin_from_pivot(
     *, distance: float, turn: float = 0.0, offset: float = 0.0, size: float = 1.0
 ) -> str:
-    """Return a slotted link whose pin stands at a distance from its pivot, the crank at 0 deg."""
+    """Return a slotted link whose pin is at a distance from its pivot, the crank at 0 deg."""
     pivot = 0.125 + distance * (0.6 + 0.8j)
     return slotted(phi=0.0, turn=turn, pivot=pivot, offset=offset, size=size)
 

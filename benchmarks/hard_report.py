@@ -81,7 +81,7 @@ def _fold(rows: list[HardRow]) -> list[str]:
 
 
 def _shorten(row: HardRow) -> str:
-    """Return the beginning of what the user is told, without the name of the case."""
+    """Return the beginning of the message shown to the user, without the name of the case."""
     said = row.told.split("in the problem file ")[-1].removeprefix(f"{row.case}: ")
     return said if len(said) <= TOLD else said[: TOLD - 1].rstrip() + "…"
 

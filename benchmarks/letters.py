@@ -1,7 +1,7 @@
-"""How the letters of sheets stand (расстановка букв): nearest to their own points, not too many.
+"""Placement of letters on sheets (расстановка букв): distance to their points, and density.
 
-Run ``python -m benchmarks.letters [EVERY]``: of the shipped linkages every so manieth, the sixth
-when absent, in 1 and 12 positions; it prints the lines of docs/paper.md.
+Run ``python -m benchmarks.letters [EVERY]``: it takes every EVERY-th shipped linkage (default: 6),
+in 1 and 12 positions, and prints the lines of docs/paper.md.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ PROBLEMS = Path(__file__).parent.parent / "problems"
 
 
 def measured(every: int, count: int) -> str:
-    """Return the line of so many positions."""
+    """Return the line for ``count`` positions."""
     near, dense, per_area = [], [], []
     for path in sorted(PROBLEMS.glob("l*/*.toml"))[::every]:
         problem = load(path)

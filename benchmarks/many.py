@@ -27,7 +27,7 @@ COMMANDS = {
 """What goes over variants, and its words."""
 
 MOST_SECONDS = {1000: 3.0, 10_000: 25.0}
-"""For so many variants, whole processes."""
+"""Limits by number of variants, for whole processes."""
 
 MOST_MEGABYTES = 300.0
 """More for the most variants than for the fewest."""
@@ -64,7 +64,7 @@ if __name__ == "__main__":
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """What so many positions or variants cost: seconds, and megabytes more than few of them."""
+    """Cost of ``count`` positions or variants: seconds, and megabytes more than for few of them."""
 
     count: int
     seconds: float
@@ -93,7 +93,7 @@ def by_positions(counts: Sequence[int]) -> list[Grown]:
 
 
 def by_variants(command: str, counts: Sequence[int], folder: Path) -> list[Grown]:
-    """Measure one of the `COMMANDS` on so many variants of a table, whole processes."""
+    """Measure one of the `COMMANDS` by the number of variants of a table, as whole processes."""
     found = []
     for count in counts:
         first, *others = COMMANDS[command]
@@ -103,7 +103,7 @@ def by_variants(command: str, counts: Sequence[int], folder: Path) -> list[Grown
 
 
 def tabled(count: int, folder: Path) -> str:
-    """Write an example with a table of so many variants, and return the name of its file."""
+    """Write an example with a table of ``count`` variants, and return the name of its file."""
     text = (ROOT / "problems" / "linkages" / "ex3.toml").read_text("utf-8")
     off, rows = np.random.default_rng(1), ["variant;AB;CD;DE;phi"]
     for number in range(1, count + 1):
@@ -116,7 +116,7 @@ def tabled(count: int, folder: Path) -> str:
 
 
 def variants(count: int, folder: Path) -> list[str]:
-    """Write files with so many variants of an example together, and return their names."""
+    """Write files with ``count`` variants of an example in all, and return their names."""
     text = (ROOT / "problems" / "linkages" / "ex3.toml").read_text("utf-8")
     names = []
     for first in range(0, count, AT_ONCE):
@@ -255,7 +255,7 @@ def many_section(*, quick: bool) -> Table:
 
 
 def _lost(count: int, folder: Path) -> tuple[str, list[Bound]]:
-    """Return what is said of a batch that loses a worker, and its bound."""
+    """Return the sentence on a batch that loses a worker, and its bound."""
     sent = min(count, SENT)
     said = killed([*variants(sent, folder), "--format", "pdf"], folder)
     _run(

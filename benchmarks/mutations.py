@@ -1,8 +1,8 @@
-"""Mutations of what a person reads, and whether the tests notice them (мутации).
+"""Mutations of the code behind the texts and drawings, and whether tests notice (мутации).
 
 ``python -m benchmarks.mutations`` makes each mistake of ``mutations.toml`` in a copy of the tree,
 runs the tests named beside it, and prints a table; names or words as arguments choose among them.
-A mutation is a text that stands once in its file: who moves the code mends the line there.
+The text of a mutation occurs once in its file: if you move the code, fix the entry.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ B -> D; the crank turns at a constant 10 1/s. A solution has 20 rows, one column
 x y, vx vy, ax ay of B and of C, then cos sin, omega, epsilon of link 2 (B -> C) and of link 3
 (D -> C).
 
-What cannot run here (no compiler, no library) is left out; `missing` says so.
+Peers that cannot run here (no compiler, no library) are left out; `missing` lists them.
 """
 
 from __future__ import annotations
@@ -273,7 +273,7 @@ def _stepping() -> Peer:
         n = phi.size
         fixed_a = components.Ground(0.0, 0.0)
         fixed_d = components.Ground(FRAME, 0.0)
-        crank = actuators.Crank(  # stands a step before: it moves, then tells where it is
+        crank = actuators.Crank(  # starts a step earlier: it moves, then returns its position
             fixed_a, radius=CRANK, angular_velocity=1.0, initial_angle=start - step
         )
         pair = dyads.RRRDyad(  # starts at the upper intersection, to the left of B -> D

@@ -41,7 +41,7 @@ YARDSTICKS = (
     "import numpy, click",
     "import numpy, shapely, svgwrite, click",
 )
-"""What a process costs before there is anything of ours in it."""
+"""Programs that measure the cost of a process before any code of the package is loaded."""
 
 COMMANDS = (
     ("--version", ()),

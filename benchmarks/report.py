@@ -226,7 +226,7 @@ def memory_section(rows: Sequence[tuple[str, float]]) -> Table:
 
 
 class Measured:
-    """What is measured when a section is asked for; the figure shows some of it again.
+    """Measurements, made when a section is requested; the figure reuses some of them.
 
     Parameters
     ----------

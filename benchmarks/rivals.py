@@ -141,7 +141,7 @@ SCENES: tuple[tuple[str, tuple[str, ...] | None], ...] = (
 
 
 def by_scene(count: int = 10_000) -> list[tuple[str, int, int, float, float]]:
-    """Return (what is asked, steps, operations, seconds for one position, for ``count``)."""
+    """Return (requested quantities, steps, operations, seconds for one position, for ``count``)."""
     problem = slotted()
     angles = turn(count)
     found = []

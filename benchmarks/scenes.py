@@ -101,7 +101,7 @@ MANY_LOADS = _many_loads(60)
 
 
 def with_loads(count: int) -> Problem:
-    """Return a six-link mechanism with so many loads on a point."""
+    """Return a six-link mechanism with ``count`` loads on a point."""
     return loads(_many_loads(count), name=f"six-link, {count} loads")
 
 

@@ -83,14 +83,14 @@ class Filled:
         Format of the first sheet.
     sheets : int
     white, within : float
-        Share of the field within the frame that is further than `FAR` from all ink, of all sheets
-        but those that go on with texts, per cent; and what of it lies within the outlines of views,
-        where nothing else can stand.
+        Share of the field within the frame that is further than `FAR` from all ink, on all sheets
+        but continuation sheets of texts, per cent; and its part within the outlines of views,
+        where no other block fits.
     seen : float
         The same further than `SEEN` of the shorter side of the paper, per cent.
     empty : float
-        Share of the field that the largest rectangle without ink takes, of the emptiest sheet,
-        per cent: what stands out as an empty corner (PM-D10).
+        Share of the field covered by the largest rectangle without ink on the emptiest sheet,
+        per cent: it is seen as an empty corner (PM-D10).
     inked : float
         Share of the squares of 5 mm of the field that have ink, of the emptiest sheet, per cent
         (PM-D19).
@@ -140,7 +140,7 @@ class Filled:
 def white_share(drawing: Drawing, far: float = FAR) -> tuple[float, float]:
     """Return the share of a sheet within its frame that is further than ``far`` from all ink, %.
 
-    The frame itself is ink. The second number is what of it lies within the outlines of views:
+    The frame itself is ink. The second number is its part within the outlines of views:
     within the convex hulls of their ink.
     """
     left, low, right, top = paper_format(paper_of(drawing)).inner
@@ -181,7 +181,7 @@ def _inked(drawing: Drawing) -> float:
 def aligned_share(drawing: Drawing, near: float = 0.6) -> float:
     """Return the share of blocks with a left edge or upper line in common with another, %.
 
-    Blocks are told by their ink: what is nearer than 8 mm to one another is one block.
+    Blocks are found by their ink: parts nearer than 8 mm to one another form one block.
     """
     boxes = _blocks(drawing)
     common = 0
@@ -192,7 +192,7 @@ def aligned_share(drawing: Drawing, near: float = 0.6) -> float:
 
 
 def _blocks(drawing: Drawing) -> list[Bounds]:
-    """Return the boxes of the blocks of a sheet: of views and of what stands together."""
+    """Return the boxes of the blocks of a sheet: views and groups of neighbouring items."""
     groups: list[Bounds] = []
     for item in drawing.items:
         if item.tag in FRAME or MARGIN_NOTE in item.tag.split():
@@ -221,9 +221,9 @@ def _overlap(size: int, by: int) -> tuple[slice, slice]:
 
 
 def filled(problem: Problem, count: int) -> Filled:
-    """Draw the default sheets of a problem in so many positions and measure them.
+    """Draw the default sheets of a problem in ``count`` positions and measure them.
 
-    One position is the first of the file; several are even parts of its range, or of a turn.
+    One position is the first of the file; several divide its range, or a turn, evenly.
     """
     positions = positions_of(problem, count)
     start = perf_counter()

@@ -1,8 +1,9 @@
-"""Every shipped problem (задачи поставки): solved in its variants, drawn, looked over.
+"""Every shipped problem (задачи поставки): solved in its variants, drawn and checked.
 
-Run ``python -m benchmarks.shipped [PROBLEM]...``; it prints what does not solve, what the norm
-control marks, and the counts. With ``--seed`` it is random mechanisms that nobody tuned for,
-written into a folder first: ``--seed 91301 --seed 91302 --written out/random``.
+Run ``python -m benchmarks.shipped [PROBLEM]...``; it prints the unsolved problems, the remarks of
+the drawing-standards check, and the counts. With ``--seed`` it takes random mechanisms, for which
+the layout was not tuned, and writes them into a folder first:
+``--seed 91301 --seed 91302 --written out/random``.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ def solved(path: Path, variant: str | None) -> None:
 
 
 def looked(path: Path, variant: str | None, count: int) -> list[Controlled]:
-    """Draw the default sheets in so many positions and look them over; of trains only the one."""
+    """Draw the default sheets in ``count`` positions and check them; a train has only one."""
     kind = kind_of(path)
     if kind is not None:
         problem = kind.load(path, variant)
@@ -101,7 +102,7 @@ def main(
 
 
 def _row(files: list[tuple[Path, list[str | None]]], count: int, all_variants: bool) -> str:
-    """Look over the sheets of all files in so many positions; return their row."""
+    """Check the sheets of all files in ``count`` positions; return their row."""
     drawn = sheets = 0
     codes: Counter[str] = Counter()
     for path, variants in files:

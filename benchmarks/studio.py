@@ -1,11 +1,11 @@
-"""Students who type at once in one studio: ``python -m benchmarks.studio`` (нагрузка на студию).
+"""Students typing at once in one studio: ``python -m benchmarks.studio`` (нагрузка на студию).
 
 Each student changes a number of a shipped task, waits for the scheme, and changes it again when a
-time between two bursts of typing has passed. What is asked stays on this machine, and is bounded in
+time between two bursts of typing has passed. Requests stay on this machine, and are bounded in
 count and time. A row of docs/studio.md is printed for each number of students: the times from the
-last letter to the scheme and what they were made of, what became of all that was asked, memory, and
-the load of the machine, which tells what the times are worth. ``--latencies`` prints how long one
-student waits for a scheme, plans, sheets, the first time and after: docs/studio.md, too.
+last letter to the scheme and their parts, the outcome of all requests, memory, and the load of the
+machine, by which to judge the times. ``--latencies`` prints how long one student waits for a
+scheme, plans, sheets, the first time and later: also for docs/studio.md.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ THINGS = {
     "sheets as PDF": ("command", {"what": "pdf"}),
     "note": ("command", {"what": "note"}),
 }
-"""What one student waits for, and how it is asked."""
+"""Results that one student waits for, and their requests."""
 
 
 class Visitor:
@@ -128,7 +128,7 @@ class Used(NamedTuple):
     memory: float
     cpu: float
     server: float
-    """Of the CPU, what its own process used, beside those at work, s."""
+    """CPU time of the server's own process, without the workers, s."""
 
 
 def used_by(root: int) -> Used:
@@ -223,7 +223,7 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
 
 
 def main() -> int:
-    """Print the rows that are asked for."""
+    """Print the requested rows."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--students", default="1,10,25,50")
     parser.add_argument("--changes", type=int, default=8)

@@ -15,7 +15,7 @@ from planmethod.bench.report import Table, drafting_section, forces_section, mac
 from planmethod.problem.model import Problem
 
 MEASURED = ("speed", "peers", "size", "commands", "many")
-"""Sections on speed, by the names of what `report.Measured` returns."""
+"""Sections on speed, by the names of the methods of `report.Measured`."""
 
 SECTIONS = (*MEASURED, "forces", "hard", "random", "machine", "drafting")
 
@@ -28,20 +28,20 @@ def make(
     quick: bool,
     count: int,
 ) -> tuple[str, bytes]:
-    """Return the document, or the sections wanted of it, and the figure (empty without all).
+    """Return the document, or its requested sections, and the figure (empty unless all are).
 
     Parameters
     ----------
     problems : sequence of Problem
-        Whose drafting errors are compared; those with loads over a turn, too.
+        Problems whose drafting errors are compared, over a turn too for those with loads.
     wanted : sequence of str
-        Of `SECTIONS`.
+        Names from `SECTIONS`.
     say : callable
-        Told what is being measured.
+        Called with the name of the section being measured.
     quick : bool
         A look, not a measurement.
     count : int
-        Random mechanisms.
+        Number of random mechanisms.
     """
     sections: list[Table] = []
     measured = report.Measured(quick=quick)

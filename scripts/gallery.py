@@ -1,7 +1,7 @@
-"""Pictures of the documentation, each made by the commands that its page tells.
+"""Pictures of the documentation, each made by the commands shown on its page.
 
-``make gallery`` draws them all. Pages of PDF and HTML, and the studio, are turned into pictures by
-pdftoppm and Chromium: pictures of what is not there are left as they are, and that is said.
+``make gallery`` draws them all. pdftoppm and Chromium turn PDF pages, HTML pages and the studio
+into pictures; if a program is missing, its pictures are left as they are, and a note is printed.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Picture(NamedTuple):
     made: str = ""
     """File that the command makes, where that is not the picture itself."""
     shown: str = ""
-    """Of a PDF page and resolution, of HTML width and height in pixels."""
+    """For a PDF, page and resolution; for HTML, width and height in pixels."""
     served: str = ""
     """What is opened at the server that the command starts."""
 

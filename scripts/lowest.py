@@ -12,7 +12,7 @@ from pathlib import Path
 
 HERE = Path(__file__).parents[1]
 TOOLS = ("build", "import-linter", "mypy", "ruff")
-"""What looks at the code, not at what it does."""
+"""Tools that check the source code and are not needed to run it."""
 
 BESIDE = ("pyparsing==3.1.0",)
 """What libraries of that time need of their own, and newer ones would warn of."""

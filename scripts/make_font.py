@@ -43,7 +43,7 @@ UNITS_PER_EM = 2000
 
 ROUND = 5  # parts of a quarter circle at the end of a stroke
 WITHIN = 0.004  # d: how far an outline may be simplified
-OPENING = 1.0  # d: what is to be free everywhere between two letters that stand closer
+OPENING = 1.0  # d: gap kept everywhere between two letters that are closer
 REACH = 1.0  # d: how far above and below a stroke keeps others away
 
 KERNED = (

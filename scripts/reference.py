@@ -1,9 +1,9 @@
-"""Write what follows from the declared keys of flat tables: the schema and the references of keys.
+"""Write the schema and the key references from the declared keys of flat tables.
 
 ``make schema`` writes ``planmethod/problem/schema.json`` and the tables of ``docs/problem-file.md``
-and ``docs/ru/keys.md`` anew. What the schema says of other tables, and of values that a table reads
-in its own way, is written there by hand and kept. The Russian sentences of keys stand in
-``docs/ru/keys.toml``; ``schema.ru.json`` is the schema with them.
+and ``docs/ru/keys.md``. The schema's entries for other tables, and for keys with their own reader,
+are written by hand and kept. The Russian descriptions of keys are in ``docs/ru/keys.toml``;
+``schema.ru.json`` is the schema with them.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def defaults_of(kind: str) -> dict[str, object]:
 
 
 def schema_text() -> str:
-    """Return the schema with what is declared put in."""
+    """Return the schema with the declared keys filled in."""
     schema = json.loads(SCHEMA.read_text("utf-8"))
     for kind, record in keys.FLAT.items():
         table, every = table_at(schema, kind), declared(record)
@@ -117,7 +117,7 @@ def schema_text() -> str:
 
 
 def russian_schema_text() -> str:
-    """Return the schema that tells in Russian what keys mean, so far as a sentence is there."""
+    """Return the schema with the Russian descriptions of keys, where there are any."""
     schema = json.loads(SCHEMA.read_text("utf-8"))
     sentences = tomllib.loads(SENTENCES.read_text("utf-8"))
     others = sentences.pop("schema")
@@ -143,7 +143,7 @@ def _tell(node: object, known: Mapping[str, str]) -> None:
 
 
 def _property(one: FlatField, by_hand: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the schema of a key; of one that is read in its own way it stands in the file."""
+    """Return the schema of a key; for a key with its own reader, the entry written by hand."""
     said = {"description": _plain(_sentence(one) + one.key.more)}
     match one.key:
         case NumberKey() as key:
@@ -211,12 +211,12 @@ MARK = r"(?m)^(<!-- keys of (\w+) -->\n).*?(?=^$|\Z)"
 
 
 def english_text() -> str:
-    """Return ``docs/problem-file.md`` with the tables of keys written anew."""
+    """Return ``docs/problem-file.md`` with its tables of keys regenerated."""
     return _with_tables(ENGLISH.read_text("utf-8"), _english)
 
 
 def russian_text() -> str:
-    """Return ``docs/ru/keys.md`` with the tables of keys written anew."""
+    """Return ``docs/ru/keys.md`` with its tables of keys regenerated."""
     return _with_tables(RUSSIAN.read_text("utf-8"), _russian)
 
 
@@ -286,7 +286,7 @@ def _written(one: FlatField, default: object) -> str:
     if isinstance(one.key, OwnKey | TextKey) or default is None:
         return ""
     if isinstance(one.key, NumberKey) and not one.key.low <= cast("float", default) <= one.key.high:
-        return ""  # it stands for none
+        return ""  # the default is outside the bounds: it means that there is no value
     if isinstance(default, bool):
         return f"`{str(default).lower()}`"
     if isinstance(default, Enum):

@@ -1,8 +1,8 @@
 """Letter shapes of GOST 2.304, type B, as strokes of a pen on the standard's grid (начертания).
 
-The grid step is the line thickness d = h/10. A shape is what the middle of the pen does, from the
-middle of the leftmost stroke (x = 0) and the middle of a stroke that stands on the base line
-(y = 0): capitals reach y = 9, small letters y = 6, tails y = -3.
+The grid step is the line thickness d = h/10. A shape is the path of the middle of the pen. x = 0 is
+the middle of the leftmost stroke, y = 0 the middle of a stroke on the base line: capitals reach
+y = 9, small letters y = 6, tails y = -3.
 
 The notation::
 

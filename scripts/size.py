@@ -1,8 +1,8 @@
-"""Lines of code by room, and the budget that they keep: ``make size``.
+"""Lines of code by package, and their budget: ``make size``.
 
-Counted are lines of ``planmethod/`` that hold code: no blank lines, no comments, no docstrings. The
-budget stands in ``budget.toml`` beside this file; a feature that needs more raises it there, in its
-own commit.
+Only lines of ``planmethod/`` that hold code are counted: no blank lines, comments or docstrings.
+The budget is in ``budget.toml`` beside this file; a feature that needs more lines raises it there,
+in its own commit.
 """
 
 from __future__ import annotations

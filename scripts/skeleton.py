@@ -25,7 +25,7 @@ Strokes: TypeAlias = tuple[tuple[complex, ...], ...]
 _B = TYPES["B"]
 _RAISED = 0.6  # size of raised and lowered signs
 _DOT = 0.2  # a dot is a small circle of the pen, so that it is seen: 1.4 d wide with its line
-_STEP = radians(7.5)  # of the polyline that stands for a rounded corner
+_STEP = radians(7.5)  # of the polyline that approximates a rounded corner
 _CLASS_WIDTH = 4.0  # from this width on, a letter of type A is one d wider than one of type B
 
 
@@ -82,14 +82,14 @@ def skeleton(char: str, kind: str) -> Skeleton:
 
 
 def missing_box(kind: str) -> Skeleton:
-    """Return what stands for a letter that there is not: a box."""
+    """Return the box drawn in place of a missing letter."""
     measures = TYPES[kind]
     top = measures.cap - 0.5
     box = (1.5 + 0.5j, 5.5 + 0.5j, 5.5 + 1j * top, 1.5 + 1j * top, 1.5 + 0.5j)
     return Skeleton((box,), 7.0)
 
 
-# From type B to the type asked for --------------------------------------------------------------
+# From type B to the requested type --------------------------------------------------------------
 
 _Map: TypeAlias = Callable[[complex], complex]
 _Spread: TypeAlias = Callable[[Strokes, Proportions], _Map]

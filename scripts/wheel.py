@@ -1,8 +1,8 @@
-"""Try what is built as a user has it: in clean environments, away from the repository.
+"""Try the built distributions as a user would: in clean environments, away from the repository.
 
-``make dist`` builds the source distribution and the wheel and runs this: each is installed from its
-file into an environment of its own, and the program is asked for its version and, by the commands
-of the README, for a template, a sketch, numbers, sheets and a protocol; then for a shipped task.
+``make dist`` builds the source distribution and the wheel and runs this script. Each is installed
+from its file into an environment of its own. The program prints its version and runs the commands
+of the README: a template, a sketch, numbers, sheets and a protocol; then it solves a shipped task.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def tried(package: Path, folder: Path) -> None:
     home = folder / "environment"
     venv.create(home, with_pip=True)
     programs = home / ("Scripts" if os.name == "nt" else "bin")
-    # The repository, and what is set for work on it, must not be found there.
+    # The repository and the Python settings of its developer must not reach this environment.
     clean = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
     pip: list[str | Path] = [programs / "python", *_INSTALL, package.resolve()]
     calls: list[list[str | Path]] = [pip]

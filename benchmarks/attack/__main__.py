@@ -1,8 +1,8 @@
-"""``python -m benchmarks.attack``: every door of the program with what strangers may send.
+"""``python -m benchmarks.attack``: hostile input at every entry point of the program.
 
-Files are made one after the other from seeds and given to commands in processes that have a limit
-of memory, and for every file one of processor time. What fails is kept in a folder with the words
-of its command. The number of a file is its seed: ``--only 1234`` does it again.
+Files are generated from seeds, one after another, and given to commands in processes with a memory
+limit and, for every file, a limit of processor time. Failing files are kept in a folder with their
+command line. The number of a file is its seed: ``--only 1234`` runs it again.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from benchmarks.attack.patterns import LENGTH, patterns, slow
 SECONDS, MEGABYTES, OWN = 5.0, 500.0, 100.0
 """Processor time and memory that one file may take."""
 HUNG = 100.0
-"""Seconds of the clock after which a process that tells nothing hangs in C, however busy it is."""
+"""Wall-clock seconds after which a silent process counts as hung in C, however busy it is."""
 
 CHUNK = 250
 """Files that one process is given."""
@@ -139,7 +139,7 @@ class _LateError(BaseException):
 def attempt(made: Made, folder: Path) -> tuple[object, float]:
     """Run a command in this process, in a folder; return its exit code and processor time.
 
-    A fault inside is told by its traceback instead of the code.
+    After an internal error, return its traceback instead of the code.
     """
     from planmethod.__main__ import main
 

@@ -29,11 +29,11 @@ COMMANDS = (
     ("batch", "levers/task-43.toml", "--keys", "--jobs", "2"),
 )
 RECORDS = ("run.json", "batch.jsonl")
-"""Files that grow: they tell of what is there so far, in whole lines or as a whole."""
+"""Files that grow: they list the files written so far, in complete lines or as a whole."""
 
 
 def files_of(folder: Path) -> dict[str, bytes]:
-    """Return what is in a folder, by path."""
+    """Return the contents of a folder's files by relative path."""
     return {
         path.relative_to(folder).as_posix(): path.read_bytes()
         for path in sorted(folder.rglob("*"))
@@ -82,7 +82,7 @@ def faults(found: dict[str, bytes], whole: dict[str, bytes], *, ended: bool) -> 
 
 
 def killed(command: Sequence[str], times: int, luck: random.Random, place: Path) -> Iterator[str]:
-    """Kill a command so many times; yield the row of the table, then what was left in pieces."""
+    """Kill a command ``times`` times; yield the row of the table, then the incomplete files."""
     run(command, place / "first")  # what is compiled and cached is there from now on
     seconds = run(command, place / "whole")
     whole = files_of(place / "whole")
@@ -102,7 +102,7 @@ def killed(command: Sequence[str], times: int, luck: random.Random, place: Path)
 
 
 def main() -> None:
-    """Kill every command so many times; exit code 1 where something was left in pieces."""
+    """Kill every command ``--times`` times; exit code 1 if a file was left incomplete."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.attack.kills", description=__doc__)
     parser.add_argument("--times", type=int, default=20, help="of each command")
     parser.add_argument("--seed", type=int, default=0)

@@ -1,8 +1,8 @@
-"""Every regular expression of the package on texts that make it slow if it can be (выражения).
+"""Regular expressions of the package on texts that expose slow matching (выражения).
 
-A pattern is tried on runs of what its repeats take, one and two of them after what leads to them,
-and an end that it does not take. One whose time grows with a power of the length needs minutes for
-such a text; one that is as long as its text needs milliseconds.
+The text is the prefix that a pattern requires, one or two runs of the characters that its repeats
+match, and an ending that it does not match. A pattern whose time grows as a power of the length
+needs minutes for such a text; a linear one needs milliseconds.
 """
 
 from __future__ import annotations
