@@ -1,0 +1,217 @@
+"""Exit codes of every command: done, findings, usage, a faulty file, what cannot be assembled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import click
+import pytest
+from cases import each
+from click.testing import CliRunner, Result
+from worked import path_of
+
+from planmethod.cli import cli
+from planmethod.errors import ExitCode
+
+EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
+VARIANTS = str(path_of("levers/task12-variants"))
+LONG = "author=Константинопольский-Преображенский-Вознесенский-Архангельский"
+
+FAULTY = """
+title = "Faulty"
+[frame]
+A = [0.0, 0.0]
+[links.1]
+points = ["A", "B"]
+AB = -0.1
+[driver]
+link = "1"
+phi = 0
+omega = 1
+"""
+
+GROUP = """student;variant;quantity;value;unit
+Ivanov;А;v D;0.74;m/s
+Petrov;Щ;v D;1;m/s
+"""
+
+OPEN = """
+title = "Does not close"
+[frame]
+A = [0.0, 0.0]
+D = [0.4, 0.0]
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C"]
+BC = 0.2
+[links.3]
+points = ["D", "C"]
+DC = 0.05
+[driver]
+link = "1"
+phi = 60
+omega = 10
+[assembly]
+C = "above D"
+"""
+
+DONE, FINDINGS, USAGE, PROBLEM, ASSEMBLY = list(ExitCode)[:5]
+
+CASES: dict[str, dict[ExitCode, list[tuple[str, ...]]]] = {
+    "solve": {
+        DONE: [(EX1,)],
+        USAGE: [(EX1, "--ruler", "0"), (EX1, "--json", "--csv")],
+        PROBLEM: [("faulty.toml",), ("absent.toml",), (EX1, "faulty.toml"), ("faulty.toml", EX1)],
+        ASSEMBLY: [("open.toml",), (EX1, "open.toml"), ("open.toml", EX1)],
+    },
+    "protocol": {
+        DONE: [(EX1,)],
+        USAGE: [(EX1, "--position", "1")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml",)],
+    },
+    "structure": {
+        DONE: [("open.toml", "--no-drawing")],
+        USAGE: [(EX1, "--nonsense")],
+        PROBLEM: [("faulty.toml",)],
+    },
+    "sheet": {
+        USAGE: [(EX1, "--format", "dwg"), (EX1, "--paper", "A9")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml",)],
+    },
+    "sketch": {
+        DONE: [(EX1,)],
+        USAGE: [(EX1, "--format", "dwg")],
+        PROBLEM: [("absent.toml",), (EX1, "absent.toml"), ("absent.toml", EX1)],
+        ASSEMBLY: [("open.toml",)],  # it is drawn, and said
+    },
+    "lint": {
+        DONE: [(EX2,), (EX2, "--strict"), (EX1, "--phi", "30,60,90")],
+        FINDINGS: [
+            (EX1, "--phi", "30,60,90", "--strict"),  # warnings alone
+            (EX2, "--stamp", LONG),
+            (EX2, "--stamp", LONG, "--strict"),  # errors alone
+            (EX2, EX1, "--stamp", LONG),
+        ],
+        USAGE: [(EX1, "--structure", "--phi", "30")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml",)],
+    },
+    "live": {
+        USAGE: [(EX1, "--nonsense")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml",)],
+    },
+    "animate": {
+        USAGE: [(EX1, "--format", "avi")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml",)],
+    },
+    "audit": {
+        DONE: [(EX1,), ("open.toml",)],  # whose source prints nothing
+        USAGE: [(EX1, "--nonsense")],
+        PROBLEM: [("faulty.toml",)],
+    },
+    "bench": {USAGE: [(EX1, "--nonsense")], PROBLEM: [("faulty.toml",)]},
+    "batch": {
+        USAGE: [(EX1, "--nonsense")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml", "--jobs", "1")],
+    },
+    "project": {
+        USAGE: [(EX1, "--nonsense")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml",)],
+    },
+    "note": {
+        USAGE: [(EX1, "--format", "odt")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml",)],
+    },
+    "form": {
+        DONE: [(EX1, "-o", "form.xlsx")],
+        USAGE: [(EX1, "--nonsense")],
+        PROBLEM: [("faulty.toml",)],
+        ASSEMBLY: [("open.toml",)],
+    },
+    "check": {
+        DONE: [(EX3, "--key")],
+        FINDINGS: [(VARIANTS, "group.csv")],  # of one student's variant there is none
+        USAGE: [(EX3,), (EX3, "absent.csv")],
+        PROBLEM: [("faulty.toml", "--key")],
+        ASSEMBLY: [("open.toml", "--key")],
+    },
+    "variants": {
+        FINDINGS: [
+            (EX3, "--count", "30", "--tries", "20", "-o", "none.csv"),
+            (EX3, "--count", "10", "--tries", "60", "--seed", "1", "-o", "fewer.csv"),
+        ],
+        USAGE: [(EX3, "-o", "t.xlsx"), (EX3, "--vary", "nothing")],
+        PROBLEM: [("faulty.toml",)],
+    },
+    "teeth": {
+        DONE: [("--scheme", "two-stage", "--U", "6")],
+        FINDINGS: [("--scheme", "two-stage", "--U", "6.0001", "--within", "0")],
+        USAGE: [("--scheme", "nonsense", "--U", "6")],
+    },
+    "synthesize": {
+        DONE: [("slotted", "--K_v", "1.6", "--centres", "0.4", "--stroke", "0.3")],
+        FINDINGS: [("three-angles", "--angles", "10,100;200,70;290,20")],  # they are not passed
+        USAGE: [("nonsense",), ()],
+        ASSEMBLY: [("slider-crank", "--stroke", "0.2", "--lambda", "1")],
+    },
+    "tasks": {DONE: [()], USAGE: [("--nonsense",)]},
+    "layouts": {DONE: [()], USAGE: [("nonsense",)]},
+    "schema": {DONE: [()], USAGE: [("--nonsense",)]},
+    "specimen": {USAGE: [("--format", "dwg")]},
+    "new": {DONE: [("four-bar",)], USAGE: [("nonsense",), ()]},
+    "studio": {USAGE: [("--nonsense",)]},
+}
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("faulty.toml").write_text(FAULTY, "utf-8")
+    Path("open.toml").write_text(OPEN, "utf-8")
+    Path("group.csv").write_text(GROUP, "utf-8")
+
+
+def run(*args: str) -> Result:
+    return CliRunner(env={"PLANMETHOD_LANG": "en"}).invoke(cli, args)
+
+
+def cases() -> Iterator[tuple[str, ExitCode, tuple[str, ...]]]:
+    for command, codes in CASES.items():
+        for code, every in codes.items():
+            yield from ((command, code, args) for args in every)
+
+
+@each("command, code, args", cases())
+def test_a_command_ends_with_the_code_of_what_it_met(
+    command: str, code: ExitCode, args: tuple[str, ...]
+) -> None:
+    done = run(command, *args)
+    assert done.exit_code == code, done.output[-500:]
+
+
+def test_every_command_has_cases_of_done_or_of_usage() -> None:
+    assert {*CASES} == {*cli.list_commands(click.Context(cli))}
+    assert all(USAGE in codes for codes in CASES.values())
+
+
+def test_fewer_variants_than_are_asked_for_are_a_finding_though_there_are_some() -> None:
+    (args,) = (one for one in CASES["variants"][FINDINGS] if "fewer.csv" in one)
+    assert run("variants", *args).exit_code == FINDINGS
+    found = Path("fewer.csv").read_text("utf-8-sig").splitlines()
+    assert 1 < len(found) - 1 < 10
+
+
+def test_the_code_of_many_problems_is_that_of_the_first_fault() -> None:
+    """All files are read before the first is solved."""
+    assert run("solve", EX1, "open.toml", "faulty.toml").exit_code == PROBLEM
+    assert run("solve", EX1, "open.toml", EX3).exit_code == ASSEMBLY
