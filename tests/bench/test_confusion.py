@@ -1,4 +1,4 @@
-"""The table of what checking names and forgives: that it counts what is said, by families."""
+"""The table of mistakes that checking names and forgives: its counts of verdicts, by families."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def computed(name: str) -> Calculation:
 
 @pytest.mark.parametrize("name", ["gears/gears-ex3", "point/k11-02"])
 def test_mistakes_in_trains_and_points_are_seen_and_named_among_few(name: str) -> None:
-    """Before, a written nought was also "a decimal place" and "another unit": one of four."""
+    """Before, a written zero was also "a decimal place" and "another unit": one of four."""
     task = computed(name)
     rows = confusion.computed_detection(task, 2)
     assert len(rows) > 3
@@ -55,7 +55,7 @@ def test_two_mistakes_are_counted_once(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_what_follows_from_a_number_of_ones_own_loses_nothing(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Of example 3; before, 7 of 133, most of them behind a_B that nobody could explain."""
+    """In example 3; before, 7 of 133 lost points, most of them after an unexplained a_B."""
     (task,) = tasks_of([problem_of("linkages/ex3")])
     for found in (confusion.by_plans(task, 1), confusion.by_routes(task, 1)):
         assert found.answers > 30 and not found.lost, found

@@ -50,7 +50,7 @@ def large(*_: object, **__: object) -> None:
 
 
 def dead(*_: object, **__: object) -> None:
-    faulthandler.disable()  # it would tell of a crash where there is none
+    faulthandler.disable()  # it would report a crash where there is none
     os.abort()
 
 

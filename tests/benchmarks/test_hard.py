@@ -22,7 +22,7 @@ from planmethod.solved.trust.conditioning import MULTIPLE
 CASES = {case.name: case for case in HARD}
 
 REGULAR = {"slider-crank-by-crank", "rocker-by-crank", "quadrants", "zeros"}
-"""Cases whose exact positions are no dead ones for their driver, turned or not."""
+"""Cases whose exact positions are not dead positions of their driver, turned or not."""
 
 DEAD = r"dead position|guides are parallel"
 

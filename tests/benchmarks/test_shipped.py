@@ -37,7 +37,7 @@ def test_what_does_not_solve_is_named_and_counted(tmp_path: Path) -> None:
     told = CliRunner().invoke(main, [str(bad), train, "--positions", "1"]).output
     assert "short: Cannot place C" in told
     assert "2 files, 2 problems with their variants, 1 unsolved." in told
-    assert "| 2 | 1 | 1 | 1 |" in told  # what is not drawn is an error
+    assert "| 2 | 1 | 1 | 1 |" in told  # a sheet that is not drawn is an error
 
 
 def test_random_mechanisms_are_written_and_looked_over(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Verdicts and diagnoses, on worked examples and on mechanisms that nobody looked at."""
+"""Verdicts and diagnoses, on worked examples and on random mechanisms."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def test_a_planted_mistake_is_named_or_owned_to_be_doubtful(name: str) -> None:
     for explanation in explanations(task)[:: some(1, 8)]:
         found = check(task, work_of(task, explanation.values))
         if Verdict.WRONG not in verdicts(found).values():
-            continue  # the answers do not show it, or hardly
+            continue  # the answers do not show the mistake, or barely
         seen += 1
         codes = [diagnosis.codes for diagnosis in found.diagnosis if diagnosis.sure]
         if any(explanation.code in diagnosis.codes for diagnosis in found.diagnosis):
@@ -85,7 +85,7 @@ def test_coriolis_forgotten_on_the_plan_begins_with_the_acceleration() -> None:
 
 
 def test_what_follows_from_a_slip_is_inherited_and_the_slip_counts_once() -> None:
-    """ω₃ = 12.5 in place of 15.5, and all that is computed from it by his own number."""
+    """ω₃ = 12.5 in place of 15.5, and a result computed from the student's own ω₃."""
     found = checked("linkages/ex3", v_B3=2.25, omega_3=12.5, an_B3_C=12.5**2 * 0.14495)
     told = verdicts(found)
     assert told["omega_3"] is Verdict.WRONG
@@ -121,7 +121,7 @@ def test_the_sense_is_an_answer_of_its_own() -> None:
     assert judged(Sense.CCW) == (Verdict.OK, 1.0, ())
     assert judged(Sense.CW) == (Verdict.WRONG, 0.7, ("sign", "V2"))
     assert judged(None, -15.5) == (Verdict.WRONG, 0.7, ("sign", "V2"))
-    assert judged(None) == (Verdict.OK, 0.7, ())  # it is asked, and not told
+    assert judged(None) == (Verdict.OK, 0.7, ())  # the sense is required, and is not given
 
 
 def test_millimetres_times_scale_that_are_not_the_value_are_a_slip() -> None:
@@ -152,7 +152,7 @@ def test_his_own_scale_counts_and_millimetres_alone_are_an_answer() -> None:
 
 
 def test_a_segment_of_other_letters_is_recognised() -> None:
-    """He reads pd in place of pe, and says so."""
+    """The student reads pd in place of pe, and writes this segment."""
     task = task_of("linkages/ex3")
     scales = {"mu_v": 0.05}
     written = WrittenAnswer(what="v E", value=3.4, mm=68.0, segment="p d", step=0.01, mm_step=0.5)
@@ -180,7 +180,7 @@ def test_blank_is_not_zero_and_unknown_is_not_wrong() -> None:
 
 
 def test_letters_of_the_department_find_the_quantity() -> None:
-    """In task 12 nothing is declared: what is meant is found by how it is written."""
+    """Task 12 declares no answers: the quantity is found by its written name."""
     task = task_of("levers/task12")
     for text in ("v_B3", "VB₃", "v B3", "В3"):
         written = WrittenAnswer(id=text, value=0.4536)
@@ -261,7 +261,7 @@ def test_a_slip_in_one_number_leaves_what_is_measured_beside_it_alone() -> None:
 
 
 def test_mistakes_that_give_the_same_sheet_are_told_together() -> None:
-    """Link 4 of the press hardly turns: the other way to close it, or its sense misread."""
+    """Link 4 of the press barely turns: the other assembly and a misread sense look the same."""
     task = task_of("press/press")
     (other,) = (e for e in explanations(task) if e.code == "P1" and e.where == "B")
     (diagnosis,) = check(task, work_of(task, other.values)).diagnosis
@@ -372,7 +372,7 @@ def test_a_plan_that_is_too_small_to_be_read_has_a_key() -> None:
 
 
 def test_the_numbers_of_another_variant_earn_nothing() -> None:
-    """P2: those of Б where А was given; that they agree with one another is no work of his."""
+    """P2: numbers of variant Б in place of А; their agreement with one another earns no points."""
     tasks = {
         name: Task(Solution(problem_of("levers/task12-variants", name))) for name in ("А", "Б")
     }

@@ -1,4 +1,4 @@
-"""Answers of trains and moving points: verdicts, mistakes by name, what follows, no value."""
+"""Answers of trains and moving points: verdicts, named mistakes, inherited and missing values."""
 
 from __future__ import annotations
 

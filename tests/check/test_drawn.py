@@ -43,7 +43,7 @@ def test_what_is_drawn_errs_as_much_as_the_tolerance_believes() -> None:
     works = drawn_works(ex3(), count=400, seed=1)
     compared = 0
     for entry in key_of_task(ex3()).entries:
-        if entry.sigma > 0.01 * abs(entry.exact):  # more than the rounding of what is written
+        if entry.sigma > 0.01 * abs(entry.exact):  # more than the rounding of written values
             values = [next(a.value for a in w.answers if a.id == entry.id) for w in works]
             spread = np.std(np.abs(np.array(values, dtype=float)))
             assert spread == pytest.approx(entry.sigma, rel=0.25), entry

@@ -1,4 +1,4 @@
-"""Copied work earns nothing, what follows by a right route does, and no neighbour costs points."""
+"""Copied numbers earn no points, results of a right route do, and other submissions cost none."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def variants(path: Path = TASK13) -> Variants:
 
 
 def answered(name: str, **values: float | str | tuple[float | str, str]) -> CheckedWork:
-    """Return the check of numbers as they are written; a sense may stand beside one."""
+    """Return the check of numbers as they are written, each with an optional sense."""
     told = []
     for key, value in values.items():
         number, sense = value if isinstance(value, tuple) else (value, "")
@@ -144,7 +144,7 @@ def test_two_works_by_one_pencil_are_a_finding_and_cost_nothing() -> None:
 
 
 def test_the_chance_of_a_likeness_is_what_honest_works_have() -> None:
-    """Of honest pairs no more are near each other than the chance says; measured, not fitted."""
+    """Honest pairs are no more often alike than the computed chance; measured, not fitted."""
     task = task_of("levers/task12")
     checked = [check(task, work) for work in drawn_works(task, None, 30, 9)]
     chances = np.array([likeness(*pair) for pair in itertools.combinations(checked, 2)])
@@ -174,7 +174,7 @@ UNASKED = [
     ("s27", "2", {"x D": 0.3987, "angle v D": 12.0}),
     ("s29", "1", {"x D": 0.3, "v D": 9.0, "omega 3": 7.0, "y D": -0.2}),
 ]
-"""Coordinates that nobody asks for, in another order in each work."""
+"""Coordinates that the task does not require, in another order in each submission."""
 
 
 def unasked(told: list[tuple[str, str, dict[str, float]]]) -> list[Work]:
@@ -190,7 +190,7 @@ def unasked(told: list[tuple[str, str, dict[str, float]]]) -> list[Work]:
 
 
 def told_of(checked: CheckedWork) -> tuple[object, ...]:
-    """Return what is told of a work: of what is left of its strokes the last bit may differ."""
+    """Return the reported parts of a check, without its strokes, whose last bit may differ."""
     return checked.answers, checked.diagnosis, checked.points, checked.of, checked.failure
 
 
@@ -220,7 +220,7 @@ def test_answers_that_nobody_asked_for_change_nothing_of_others() -> None:
 
 
 def test_another_variant_is_named_whatever_else_is_answered() -> None:
-    """What nobody asked has other names in the program of each variant: 6 coordinates of them."""
+    """Six coordinates that are not required have other names in the program of each variant."""
     path = ROOT / "problems/levers/task12-variants.toml"
     theirs = Variants(path).task("Е")
     first = ("y D", "ax E", "vx D", "x D", "ay D", "angle v D")

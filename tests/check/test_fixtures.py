@@ -51,7 +51,7 @@ _VARIANTS: dict[tuple[str, Settings], Variants] = {}
 
 
 def asked(case: Case) -> tuple[Task, dict[str, str]]:
-    """Return the task of a case, and what stands beside the settings of a department."""
+    """Return the task of a case, and its options that are not settings of a department."""
     told: dict[str, Any] = {}
     beside: dict[str, str] = {}
     known = set(Settings.__struct_fields__)
@@ -114,7 +114,7 @@ def judged(case: Case) -> tuple[Task, CheckedWork]:
 
 
 def outcome(case: Case) -> tuple[str, str]:
-    """Return what is said of the answers that a row asks for, in the words of the table."""
+    """Return the verdicts of the answers named in a row, in the words of the table."""
     task, checked = judged(case)
     texts = [part.split(":")[0] for part in case.verdicts.split("; ")]
     texts += [part.split(" =")[0] for part in case.written.split("; ") if part != "all"]

@@ -1,4 +1,4 @@
-"""The form: what is in it, what is not, and that it comes back from every program."""
+"""The form: its contents, and its return from every spreadsheet program."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def made(**more: Any) -> bytes:
 
 
 def rows_of(sheet: Any) -> dict[str, int]:
-    """Return the rows of the form by what stands in their first three columns."""
+    """Return the rows of the form by the texts of their first three columns."""
     return {
         str(cell.value): cell.row
         for row in sheet.iter_rows(max_col=3)
@@ -100,7 +100,7 @@ def read(path: Path, data: bytes | None = None) -> Work:
 
 
 def check_filled(work: Work) -> None:
-    """Compare with what `filled` wrote."""
+    """Compare a submission with the values that `filled` wrote."""
     assert (work.student, work.problem, work.ruler_mm) == ("Иванов И. И.", "ex3", 0.5)
     assert (work.variant, work.scales) == ("Б", {"mu_v": 0.05})
     assert not work.remarks
@@ -264,7 +264,7 @@ def test_a_form_comes_back_from_libreoffice(tmp_path: Path) -> None:
     check_filled(work)
     assert work.fingerprint == "f" * 64
     check_filled(read(tmp_path / "out" / "form.csv"))
-    # What the student sees while he types: 45.5 mm at 0.05 are 2275 mm/s.
+    # The student sees this while typing: 45.5 mm at 0.05 are 2275 mm/s.
     computed = openpyxl.load_workbook(tmp_path / "out" / "form.xlsx", data_only=True).worksheets[0]
     rows = rows_of(computed)
     assert computed[f"I{rows['VB₃']}"].value == language("ru").form.agrees

@@ -1,4 +1,4 @@
-"""Settings of a department: what is read, marks, and every fault."""
+"""Settings of a department: reading, marks, and every fault."""
 
 from __future__ import annotations
 

@@ -117,14 +117,14 @@ def test_weights_forgotten_change_forces_alone() -> None:
             if not name.startswith("F_") and name not in ("balance", "lever"):
                 assert wrong.values[name] == value, name
     whole = [e for e in by_code("levers/task12", "F3") if not e.where]
-    # G5 = 294 N hangs on F_45 alone: without it, 1991 N are 294 N more or less.
+    # Only F_45 balances G5 = 294 N: without the weight, its 1991 N change by 294 N.
     change = abs(whole[0].values["F_4_3"] - right["F_4_3"])
     assert change == pytest.approx(30 * 9.8)
 
 
 @pytest.mark.parametrize("name", SIX)
 def test_own_numbers_put_in_are_the_program_with_them_substituted(name: str) -> None:
-    """`Sheet.replayed` is `substituted`, in Python's own numbers, told by what would come out."""
+    """`Sheet.replayed` equals `substituted`, in Python's own numbers, by the recomputed values."""
     task = task_of(name)
     task.usual()
     sheet = task.sheet(0)
@@ -146,7 +146,7 @@ def test_own_numbers_put_in_are_the_program_with_them_substituted(name: str) -> 
 
 
 def test_the_key_says_which_segments_are_as_long_as_the_right_one() -> None:
-    """44.9 mm of pb₃ and 45.6 mm of bb₃ in the third example: nobody can tell which was read."""
+    """pb₃ = 44.9 mm and bb₃ = 45.6 mm in the third example cannot be distinguished."""
     hidden = key_of_task(task_of("linkages/ex3")).hidden
     assert "v_B3: b-b3" in hidden["V6"]
     assert not any(place.startswith("v_E:") for place in hidden["V6"])

@@ -154,7 +154,7 @@ def test_the_mistakes_of_the_forces_are_sums_of_what_acts() -> None:
 
 
 def test_forces_on_a_lever_that_was_not_turned_have_the_other_arms() -> None:
-    """Z1: in place of F·v of each force what is across v; couples stay."""
+    """Z1: each force has the moment F×v in place of F·v; couples keep theirs."""
     solution = Solution(problem_of("levers/task12"))
     points, links = solution.points, solution.links
     forces = {
@@ -187,7 +187,7 @@ ARM = 0.18
 V_ED = 1.6322
 
 SLIPS = (
-    # code, where, answer, what is written, mm, what the slip gives, how near
+    # code, where, answer, value written, mm, value given by the slip, tolerance
     ("S1", "mu_v", "v_E", 1570.0, 78.5, 78.5 / 0.05, 1e-6),
     ("S3", "mu_v", "v_E", 78.5, 78.5, 78.5 * 1.0, 1e-6),  # by mu_a = 1
     ("S3", "mu_v", "v_E", 0.157, 78.5, 78.5 * 0.002, 1e-6),  # by mu_l

@@ -18,7 +18,7 @@ from planmethod.check.tolerance import FOLDED, Tolerance, limit_of
 
 
 def test_folded_is_how_much_wider_lengths_about_nothing_err_than_their_middle_tells() -> None:
-    """|x| of a normal x: one sigma of x over half of what holds the middle 68 % of |x|."""
+    """|x| of a normal x: one sigma of x over half the range of the middle 68 % of |x|."""
     normal = NormalDist()
 
     def size(share: float) -> float:
@@ -50,9 +50,9 @@ def test_a_size_that_is_nothing_may_come_out_as_long_as_folded_errors_make_it() 
     assert found.spread == pytest.approx(1.7 * k * 0.1)
     assert found.allows(1.6 * k * 0.1, 1.6 * k * 0.1)
     assert not found.allows(1.8 * k * 0.1, 1.8 * k * 0.1)
-    # Where it is something the exact size is part of what is drawn, and less is added.
+    # If the exact size is not zero, it is part of the drawn size, and less is added.
     assert limit(0.1, 0.1).spread == pytest.approx(max(k * 0.1, 1.7 * k * 0.1 - 0.1))
-    # Where little is drawn, that is less than a millimetre; where much, the errors decide.
+    # If the exact size is small, this is less than a millimetre; if large, the errors decide.
     assert limit(0.05, 0.1).spread == pytest.approx(1.7 * k * 0.1 - 0.05)
     strict = limit(0.0, 0.1, sign=Sign.STRICT)
     assert strict.spread == pytest.approx(k * 0.1)  # a number with a sign is not folded
@@ -84,10 +84,10 @@ def test_a_policy_takes_the_wider_or_the_stricter_tolerance() -> None:
         assert flat == pytest.approx(department)
 
 
-# Verdicts of what the drawing cannot show ---------------------------------------------------------
+# Verdicts on values that the drawing cannot show --------------------------------------------------
 
 UNSEEN = Tolerance(1.0, 0.2, 0.4, 0.02, 0.1, seen=False, zero=False, per_mm=0.01)
-"""One that is drawn to 0.4 at best, where 0.1 is the most that a tolerance may be."""
+"""Tolerance of a value drawn to 0.4 at best, where a tolerance may be 0.1 at most."""
 
 
 def verdict(value: float, limit: Tolerance = UNSEEN, near: float = 1.5, **more: Any) -> Verdict:
@@ -116,7 +116,7 @@ def test_what_a_drawing_may_be_off_by_is_not_held_against_an_answer(
 
 
 def test_what_is_within_the_errors_of_a_drawing_is_not_told_to_be_inherited() -> None:
-    """It follows from a wrong number, but nobody can see that it is wrong itself."""
+    """The value follows from a wrong number, but the drawing cannot show that it is wrong."""
     item: Any = SimpleNamespace(id="omega_2", question=SimpleNamespace(sign=Sign.SIZE))
     shown = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
     for off, due in ((0.3, Verdict.UNSEEN), (0.45, Verdict.INHERITED)):
@@ -130,7 +130,7 @@ def test_what_is_within_the_errors_of_a_drawing_is_not_told_to_be_inherited() ->
 
 
 def test_what_follows_from_what_the_drawing_cannot_show_is_inherited() -> None:
-    """The parent is off, by no more than the drawing errs: nobody holds that against either."""
+    """The parent is off by no more than the drafting error, so neither value counts as wrong."""
     item: Any = SimpleNamespace(id="a_B", question=SimpleNamespace(sign=Sign.SIZE))
     shown = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
     own: Any = SimpleNamespace(id="epsilon_2", question=SimpleNamespace(sign=Sign.SIZE))
@@ -158,7 +158,7 @@ def test_a_tolerance_is_at_most_the_cap_but_for_what_is_nothing() -> None:
 def test_who_contradicts_his_own_numbers_is_wrong_within_the_errors_too() -> None:
     assert verdict(1.3, contradicts=True) is Verdict.WRONG
     assert verdict(1.3, sense_right=False) is Verdict.WRONG
-    assert verdict(1.9, follows=True) is Verdict.UNSEEN  # as his own plan has it
+    assert verdict(1.9, follows=True) is Verdict.UNSEEN  # as in the student's own plan
 
 
 def test_what_the_drawing_shows_is_judged_by_its_tolerance() -> None:

@@ -1,4 +1,4 @@
-"""Reads embedded answers as Moodle does: its grammar, read by itself and not by what wrote it."""
+"""Reads embedded answers as Moodle does, by a grammar independent of the package's writer."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ def whole(
 
 
 def compare(answer: dict[str, Any], gap: Gap) -> None:
-    """Probe the borders of what a gap accepts against the tolerance of the key."""
+    """Probe the limits of the values that a gap accepts against the tolerance of the key."""
     value, per = float(answer["value"]) / float(answer["per"]), float(answer["per"])
     tolerance = float(answer["tolerance"]) / per
     value = (

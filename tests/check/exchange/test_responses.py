@@ -1,4 +1,4 @@
-"""Exports of a learning management system, and what goes back to it."""
+"""Exports of a learning management system, and the files returned to it."""
 
 from __future__ import annotations
 

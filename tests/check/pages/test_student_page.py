@@ -1,4 +1,4 @@
-"""What a student is told, and how the page looks."""
+"""Remarks to a student, and the look of the page."""
 
 from __future__ import annotations
 
