@@ -1,4 +1,4 @@
-"""A batch in processes and on a cluster: one is killed, the files are the same; nothing listens."""
+"""A batch in processes and on a cluster: killed workers, equal files, no open sockets."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Here:
         self, function: Callable[[VariantOrder], Any], order: VariantOrder, *, key: str
     ) -> Any:
         sent: Callable[[], Any] = partial(function, pickle.loads(pickle.dumps(order)))
-        # A worker is in no command: what it does hangs on nothing of the one that sends.
+        # A worker runs outside any command: it does not depend on the sender's context.
         with ThreadPoolExecutor(1) as thread:
             done = thread.submit(sent).result()
         return SimpleNamespace(result=lambda: pickle.loads(pickle.dumps(done)))
@@ -50,7 +50,7 @@ class Here:
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A linkage with variants, and a folder with what the commands make of it and of a point."""
+    """A linkage with variants, and a folder with the files made from it and from a point."""
     folder = tmp_path_factory.mktemp("made")
     ex3, own = folder / "ex3.toml", str(folder / "own")
     ex3.write_text(path_of("linkages/ex3").read_text("utf-8") + VARIANTS, "utf-8")
@@ -100,7 +100,7 @@ def test_what_is_made_is_that_of_the_commands_and_not_made_again(
     assert "2 made, 2 there already." in run(*args)
     assert_same()
     assert manifest.read_text("utf-8").splitlines(keepends=True) == lines
-    monkeypatch.delattr(batch, "_shared")  # none is begun where nothing is left to do
+    monkeypatch.delattr(batch, "_shared")  # no worker starts if every sheet is there
     assert "0 made, 4 there already." in run(*args)
 
 

@@ -1,4 +1,4 @@
-"""Command ``check``: one student, a group, the key; what is said, which files, which exit codes."""
+"""Command ``check``: one student, a group, the key; its output, files and exit codes."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def test_one_student_is_a_list_of_one_object_of_the_contract(tmp_path: Path) -> 
         assert abs(by_id[name]["value"] - by_id[name]["exact"]) <= by_id[name]["tolerance"]
     assert by_id["v_B3"]["mm"] == 45.0
     assert by_id["v_B3"]["exact_mm"] == pytest.approx(44.868197)
-    assert by_id["v_E"]["verdict"] == "blank"  # it is asked
+    assert by_id["v_E"]["verdict"] == "blank"  # an answer is required
     assert found["points"] == 3.0
 
 

@@ -374,7 +374,7 @@ def test_hidden_names_stand_nowhere_in_a_folder_that_was_used(tmp_path: Path) ->
     assert "Иванов".encode() not in there and "Петров".encode() not in there
     assert not (out / "gradebook.csv").exists() and not (out / "feedback.zip").exists()
     assert len([*(out / "pages").iterdir()]) == 4
-    # The rows that are there now decide, too, and tell of nobody.
+    # The present rows of overrides apply, too, and name no student.
     by_hand = out / "overrides.csv"
     by_hand.write_text(by_hand.read_text("utf-8-sig").replace(";;;", ";1;;"), "utf-8")
     assert "Provisional" not in run(EX3, path, "-o", str(out), "--anonymize", "--salt", "w").stderr

@@ -1,4 +1,4 @@
-"""Commands that tell how good the numbers are: --sigma, --covariance, --referee, bench."""
+"""Commands on the accuracy of the numbers: --sigma, --covariance, --referee, bench."""
 
 from __future__ import annotations
 

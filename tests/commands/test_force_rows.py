@@ -119,7 +119,7 @@ def exact(statics: Statics) -> Iterator[tuple[str, npt.NDArray[Any]]]:
 
 
 def read(statics: Statics) -> Iterator[tuple[str, npt.NDArray[Any]]]:
-    """Yield the columns of what the ruler gives."""
+    """Yield the columns of values read with the ruler."""
     drawn = drawn_forces(statics)
     for r in statics.reactions:
         yield f"F.{r.joint}.{r.on}-{r.by}.read", drawn.read(f"F_{r.on}_{r.by}")

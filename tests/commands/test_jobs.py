@@ -1,4 +1,4 @@
-"""Problems shared among processes: the same outcome, and what is told when one is killed."""
+"""Problems shared among processes: the same outcome, and the message when one is killed."""
 
 from __future__ import annotations
 

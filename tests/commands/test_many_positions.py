@@ -1,4 +1,4 @@
-"""``solve`` in many positions: tables in blocks, arrays, what was asked, what stays empty."""
+"""``solve`` in many positions: tables in blocks, arrays, requested columns, empty cells."""
 
 from __future__ import annotations
 
@@ -171,7 +171,7 @@ def test_too_many_numbers_for_one_file(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "phi_deg" in arrays(EX3, "--phi", "0:360:1", "--ask", "omega_3")
 
 
-# What is asked ------------------------------------------------------------------------------------
+# Requested columns --------------------------------------------------------------------------------
 
 
 def test_asked_columns_come_in_the_order_asked() -> None:
@@ -441,7 +441,7 @@ def test_a_large_table_is_checked_before_it_is_written() -> None:
     assert [bool(row["C.x"]) for row in table] == [k < number for k in range(len(table))]
     assert [not row["reason"] for row in table] == [bool(row["C.x"]) for row in table]
     told = "Cannot place C: arcs from B (0.3 m) and D (0.15 m) do not meet."
-    assert {row["reason"] for row in table} == {"", told}  # true of every row it stands in
+    assert {row["reason"] for row in table} == {"", told}  # true for every row that has it
 
 
 @pytest.mark.parametrize(
@@ -451,7 +451,7 @@ def test_a_large_table_is_checked_before_it_is_written() -> None:
         ("5,60:90:30", "Note: --phi 60:90:30 is 1 position without 90; 60:120:30 has it.\n"),
         ("0:360:30", ""),  # the end is the beginning
         ("0:350:30", ""),  # no step meets the end
-        ("0:90:1", ""),  # nobody counts them
+        ("0:90:1", ""),  # too many positions to count
     ],
 )
 def test_an_end_that_is_left_out_is_told(phi: str, note: str) -> None:

@@ -62,7 +62,7 @@ def test_what_stands_after_two_dashes_is_no_option() -> None:
 
 
 def launches(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Return what is opened by the system, as it is."""
+    """Return the list to which every file opened by the system is added."""
     launched: list[str] = []
 
     def launch(url: str) -> int:

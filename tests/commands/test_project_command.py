@@ -245,7 +245,7 @@ def test_parts_position_and_formats_are_asked_for(tmp_path: Path) -> None:
 
 
 def test_what_an_earlier_project_has_more_is_removed(tmp_path: Path) -> None:
-    """Sheets of other decisions do not stay beside those that are made anew."""
+    """Sheets of earlier choices do not remain beside the new ones."""
     folder = tmp_path / "homework"
     folder.mkdir()
     parts = [{"name": "kinematics", "files": ["1-kinematics.pdf"]},

@@ -137,7 +137,7 @@ def test_only_the_usual_sheet_says_which_parts_of_a_project_it_leaves_out(
     assert done.stderr.count("[gears]") == told
 
 
-# What is hardly meant ----------------------------------------------------------------------------
+# Unlikely data ------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("way", "warned"), [("left", False), ("right", True)])

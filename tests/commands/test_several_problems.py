@@ -1,4 +1,4 @@
-"""Several problems in one command: what is said of one of them names it."""
+"""Several problems in one command: a message on one of them names it."""
 
 from __future__ import annotations
 

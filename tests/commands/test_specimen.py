@@ -1,4 +1,4 @@
-"""Command specimen: which sheets, which files, what is refused."""
+"""Command specimen: its sheets, files and errors."""
 
 from __future__ import annotations
 

@@ -113,7 +113,7 @@ def test_a_field_of_the_title_block_is_no_longer_than_in_a_file(tmp_path: Path) 
 def test_a_cam_is_designed_once_for_all_positions(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """And once for each mistake; in every position anew its form took 8 s, of others 15 s."""
+    """And once for each mistake; designed in every position, this form took 8 s, others 15 s."""
     made: list[CamDesign] = []
     find = CamDesign._nearest
 
@@ -300,7 +300,7 @@ sys.addaudithook(press)
 @pytest.mark.parametrize(
     ("event", "word"),
     [
-        ("import", "planmethod.cli"),  # as soon as there is anything of ours
+        ("import", "planmethod.cli"),  # at the first import of the package
         ("import", "planmethod.solved.solution"),  # in the midst of the work
         ("os.mkdir", "out"),
         ("open", ".tmp"),  # while a file is written

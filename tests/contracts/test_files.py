@@ -198,7 +198,7 @@ def test_nothing_is_written_where_a_link_leads_out(
         assert is_folder or kept.read_text() == "kept"
 
 
-# What is no file ----------------------------------------------------------------------------------
+# Paths that are not files -------------------------------------------------------------------------
 
 READ: tuple[tuple[str, ...], ...] = (
     ("solve", "ODD"), ("sheet", "ODD"), ("structure", "ODD"), ("variants", "ODD"), ("lint", "ODD"),
@@ -216,7 +216,7 @@ READ: tuple[tuple[str, ...], ...] = (
 def test_what_is_no_file_is_refused_at_once(
     odd: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A pipe that nobody writes into is waited for without end, a device has no end."""
+    """Reading a pipe without a writer never returns, and a device has no end."""
     monkeypatch.chdir(tmp_path)
     for name in ("odd", "v.csv"):
         if odd == "pipe":

@@ -1,4 +1,4 @@
-"""What a program in Python is told: every failure is one of ours, doubts are warnings."""
+"""Errors and warnings in Python: every failure is a PlanMethodError, doubts are warnings."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def behind(call: Callable[..., object], *more: object) -> Callable[[Any], object
 
 
 def doors() -> Iterator[tuple[str, Callable[[Any], object]]]:
-    """Yield every argument of the public names, and what is called with it."""
+    """Yield every argument of the public names, and the call that takes it."""
     problem = planmethod.load(EX3)
     solution = planmethod.solve(problem)
     drafting, statics = planmethod.drafting(solution), planmethod.statics(solution)

@@ -51,7 +51,7 @@ def position(name: str) -> dict[str, Any]:
 
 
 def near(got: float, wanted: float, largest: float) -> bool:
-    """Tell whether a value agrees to 1e-9 relative; what is exactly 0, to 1e-9 of the largest."""
+    """Return whether a value agrees to 1e-9 relative; an exact 0, to 1e-9 of the largest."""
     return abs(got - wanted) <= 1e-9 * (abs(wanted) if wanted != 0 else largest)
 
 

@@ -167,7 +167,7 @@ def solved(name: str) -> planmethod.Solution:
 
 
 def results(name: str) -> Iterator[tuple[str, Any, Callable[[Any], Any]]]:
-    """Yield what the package gives, asked for everything, and what is to be seen of it again."""
+    """Yield the package's results, with everything requested, and a view of each to compare."""
     problem = planmethod.load(path_of(name))
     solution = planmethod.solve(problem, positions=[150.0, 160.0])
     drafting, statics = planmethod.drafting(solution), planmethod.statics(solution)
@@ -192,7 +192,7 @@ def test_every_result_goes_to_another_process(name: str) -> None:
 
 
 def test_nobody_changes_what_is_kept() -> None:
-    """An array of a result is that which the next one is asked from."""
+    """Later results are computed from the arrays of earlier ones."""
     asked = np.array([150.0, 160.0])
     solution = planmethod.solve(planmethod.load(path_of("levers/six-link")), positions=asked)
     before = [numbers_of.velocity.copy() for numbers_of in solution.points.values()]
