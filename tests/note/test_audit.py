@@ -1,4 +1,4 @@
-"""What the sources print against what is exact: selectors, verdicts, the document."""
+"""Values printed in the sources against exact ones: selectors, verdicts, the document."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Formulas beside the plans: they compute to what they say, and the protocol has the same."""
+"""Formulas beside the plans: their results are right, and the protocol has the same ones."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ _LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 
 @each("seed", SEEDS)
 def test_every_value_of_the_plans_is_told(seed: int) -> None:
-    """What is laid off, what is read, and how the links turn."""
+    """Vectors laid off, vectors read, and angular velocities and accelerations of links."""
     solution = drawn(seed)
     names, lines = Names(solution, language("ru").note, on_sheet=True), lines_of(solution, "ru")
     symbols = {part for line in lines for part in line.split(" = ")[:-1]}

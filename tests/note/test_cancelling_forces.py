@@ -45,12 +45,12 @@ def shown(problem: Problem) -> str:
 
 
 def texts(sheet: Drawing) -> str:
-    """Return what stands on a sheet, without spaces."""
+    """Return the texts of a sheet, without spaces."""
     return "".join(i.text for i in sheet.items if isinstance(i, Text)).replace(" ", "")
 
 
 def test_couples_that_cancel_on_the_crank_are_told() -> None:
-    """M_Φ1 = -1·3 and M_1 = +3 N·m: the moment that balances them is nothing."""
+    """M_Φ1 = -1·3 and M_1 = +3 N·m: the moment that balances them is zero."""
     problem = six_link(CANCEL, epsilon="3")
     solution = Solution(problem)
     assert statics_of(solution).balance[0] == pytest.approx(0.0, abs=1e-12)

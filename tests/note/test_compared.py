@@ -25,7 +25,7 @@ NONE = "—"
 
 
 class Line(Struct, frozen=True):
-    """A column of a table, or a row of one that is told by rows: its name and its cells."""
+    """A column of a table, or a row of a table with named rows: its name and its cells."""
 
     name: str
     cells: Sequence[tuple[str, int | None]]
@@ -43,7 +43,7 @@ class Range(Struct, frozen=True):
 
 
 def written(text: str, sense: int | None = None) -> Range | None:
-    """Return what a number of a table may stand for; None of a dash.
+    """Return the range of values that a number of a table may have; None for a dash.
 
     Zeros at the end of a whole number may be places that were rounded to.
     """
@@ -62,7 +62,7 @@ def written(text: str, sense: int | None = None) -> Range | None:
 
 @cache
 def names(lang: str) -> tuple[set[str], set[str], set[str]]:
-    """Return how the tables name what is judged by, what is judged, and the difference."""
+    """Return the names of reference values, compared values and differences in the tables."""
     words = language(lang)
     sheets, said, point = words.sheets, words.report, words.point
     compared, reactions = said["results"]["columns_compared"], said["forces"]["columns_reactions"]
@@ -101,7 +101,7 @@ def lines_of(table: TablePart | Table) -> list[Line]:
 
 
 def comparisons(lines: Sequence[Line], lang: str) -> Iterator[tuple[Line, Line, Line]]:
-    """Yield what is judged by, what is judged, and their difference; a table may have many."""
+    """Yield reference values, compared values and their difference; a table may have many."""
     exact_names, read_names, off_names = names(lang)
     exact = read = None
     for k, line in enumerate(lines):
@@ -128,7 +128,7 @@ class Told(Struct):
 def judge(lines: Sequence[Line], lang: str, told: Told) -> list[str]:
     """Return the differences that the two numbers beside them do not give."""
     wrong, looked = [], False
-    # The σ of a difference is no difference of the two σ above it.
+    # The σ of a difference is not the difference of the two σ above it.
     heads = lines[0].cells if lines and not lines[0].name else []
     errors = {k for k, (text, _) in enumerate(heads) if text.startswith("±σ")}
     for exact, read, off in comparisons(lines, lang):
@@ -158,7 +158,7 @@ def judge(lines: Sequence[Line], lang: str, told: Told) -> list[str]:
 
 
 def tables_of(*words: str) -> list[TablePart | Table]:
-    """Return the tables of what a command prints and draws."""
+    """Return the tables that a command prints and draws."""
     found: list[TablePart | Table] = []
     document, place = Document.of.__func__, TablePart.place  # type: ignore[attr-defined]
 
@@ -184,7 +184,7 @@ def tables_of(*words: str) -> list[TablePart | Table]:
 
 
 def told_of(path: Path, lang: str, told: Told, *lines: str) -> list[str]:
-    """Return what is wrong in the tables of commands."""
+    """Return the faults in the tables of commands."""
     wrong = []
     for line in lines:
         command, *words = line.split()
@@ -194,10 +194,10 @@ def told_of(path: Path, lang: str, told: Told, *lines: str) -> list[str]:
 
 
 SAID = sorted([*PROBLEMS.glob("gears/*.toml"), *PROBLEMS.glob("point/*.toml")])
-"""Of these a document has differences; of linkages sheets and the note alone."""
+"""Problems whose documents have differences; for linkages only sheets and the note have them."""
 
 LINKAGES = ("linkages", "levers", "machines", "press")
-"""Folders of the problems whose differences stand on sheets and in the note."""
+"""Folders of the problems whose differences are on sheets and in the note."""
 
 TURN = "0:360:30"
 DRAWN = (  # problem, what draws tables that others do not have

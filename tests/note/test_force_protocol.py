@@ -1,4 +1,4 @@
-"""Force plans in the protocol: what is said, that numbers follow from each other and are right."""
+"""Force plans in the protocol: its sentences, and numbers that are consistent and right."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def forces_of(text: str) -> str:
 
 
 def number(text: str) -> float:
-    """Return a number as it is told: ``−3,5``, ``1,2·10⁻⁵``."""
+    """Return the value of a printed number: ``−3,5``, ``1,2·10⁻⁵``."""
     powers = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
     plain = text.replace(",", ".").replace("−", "-")
     return float(re.sub(r"·10([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)", lambda m: f"e{m[1].translate(powers)}", plain))
@@ -200,7 +200,7 @@ def test_with_a_fine_ruler_all_forces_are_exact() -> None:
         peak = statics_of(solution).largest(0)
         for found in EXACTLY.finditer(forces_of(text_of(solution))):
             value, exact = number(found["value"]), number(found["exact"])
-            # Of a force in whole ruler steps of 0.1 mm only so much is written.
+            # A force in whole ruler steps of 0.1 mm is written only to this accuracy.
             step = 0.06 * statics_of(solution).scale.per_mm
             assert abs(value - exact) <= 2e-3 * abs(exact) + (step if exact < peak else 0.0)
             count += 1
@@ -329,7 +329,7 @@ def test_the_force_of_a_guide_acts_where_it_is_told() -> None:
 
 @pytest.mark.parametrize("name", LOADED)
 def test_the_protocol_has_the_formulas_of_the_sheet(name: str) -> None:
-    """Each line but the sum in letters, whose links the protocol tells in a sentence."""
+    """Each line but the sum in letters: the protocol names its links in a sentence."""
     reading, text = ForceReading(worked(name), 0), told(name, "ru")
     for number, plan in enumerate(reading.plans):
         lines = [line for line in moment_lines(reading, plan) if not line.startswith("Σ")]
@@ -404,14 +404,14 @@ def test_a_reaction_below_the_ruler_is_not_laid_off() -> None:
 
 
 def by_rocker(phi: float) -> Solution:
-    """Return a mechanism whose crank and rod stand in one line at 90 degrees."""
+    """Return a mechanism whose crank and rod are in one line at 90 degrees."""
     text = rocker(phi=phi, by_rocker=True)
     load = '[[loads]]\nlink = "1"\ncouple = 7\n'
     return Solution(loads(f'title = "Мёртвое положение"\n{text}{load}', name="rocker"))
 
 
 def test_a_dead_position_is_refused_as_by_solve() -> None:
-    """No moment on the rocker holds a crank that stands in one line with the rod."""
+    """No moment on the rocker holds a crank that is in one line with the rod."""
     assert "Рычаг Жуковского" in protocol(by_rocker(110.0))
     with pytest.raises(AssemblyError, match="dead position"):
         protocol(by_rocker(90.0))

@@ -1,4 +1,4 @@
-"""Formulas: what is written is read into a tree, and set in one line with the brackets it needs."""
+"""Formulas: parsing into a tree, and setting in one line with the necessary brackets."""
 
 from __future__ import annotations
 

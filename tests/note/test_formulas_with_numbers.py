@@ -1,4 +1,4 @@
-"""Every formula of a protocol with numbers comes to what stands after it, in all kinds."""
+"""Every numeric formula of a protocol gives its printed result, for all kinds of problem."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One legend: a quantity that the plans give stands in every output, with its error."""
+"""One legend: a quantity of the plans appears in every output, with its error."""
 
 from __future__ import annotations
 

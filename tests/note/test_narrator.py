@@ -15,7 +15,7 @@ COURSES = {"ray": 3.0 + 1.0j, "post": -0.5 - 2.0j}
 
 
 class Letters:
-    """Names: points as they stand, lines by what they are called, the hand 0.04 mm off."""
+    """Names of points and lines as given; numbers read are 0.04 mm off the exact ones."""
 
     def point(self, name: PointName) -> str:
         return f"{name}_{{1}}"
@@ -43,7 +43,7 @@ class Letters:
 
 
 class Marking(BoardNarrator):
-    """A kind that tells given points in its own way."""
+    """A narrator with its own sentence for given points."""
 
     def given(self, step: steps.Given) -> list[str]:
         return [f"mark {self.naming.point(step.out)}"]

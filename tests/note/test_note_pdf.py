@@ -103,7 +103,7 @@ def _pages(written: Document, folder: Path) -> list[str]:
 def test_a_figure_that_ends_a_chapter_shrinks_a_little_to_stay_on_its_page(
     high: float, count: int, tmp_path: Path
 ) -> None:
-    """Of 257 mm of a page 17 lines leave a hundred; a picture is no smaller than 78 %."""
+    """17 lines leave 100 mm of a page of 257 mm; a picture is not reduced below 78 %."""
     view = DrawingView(Drawing(80.0, high, "Plan"))
     figure = Figure(view, "План", numbered=True, key="plan")
     lines = [Paragraph(f"Абзац {k}.") for k in range(17)]
@@ -141,7 +141,7 @@ def test_no_text_comes_between_the_parts_of_a_wide_table(tmp_path: Path) -> None
 def test_a_page_of_a_few_lines_at_the_end_of_a_chapter_is_saved(
     after: int, count: int, tmp_path: Path
 ) -> None:
-    """Of two lines too many a figure of 120 mm makes room; of half a page there is nothing won."""
+    """For two extra lines a figure of 120 mm shrinks; for half a page it would gain no page."""
     view = DrawingView(Drawing(80.0, 120.0, "Plan"))
     figure = Figure(view, "План", numbered=True, key="plan")
     lines = [Paragraph(f"Абзац {k}.") for k in range(13 + after)]

@@ -1,4 +1,4 @@
-"""The writer of plain text: every kind of node, numbering, what stands apart."""
+"""The writer of plain text: every kind of node, numbering, spacing."""
 
 from __future__ import annotations
 
@@ -171,7 +171,7 @@ LATER = ("gears", "moving", "synthesis")
 
 
 def test_only_writers_lay_text_out() -> None:
-    """Who makes a document knows nothing of columns of a terminal."""
+    """Modules that build documents do not use the columns of a terminal."""
     found = [
         path.relative_to(ROOT)
         for path in sorted((ROOT / "planmethod").rglob("*.py"))

@@ -1,4 +1,4 @@
-"""What is too small for any hand is not laid off, and it is said so."""
+"""Segments too small to draw are not laid off, and the protocol says that."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ slides = { on = "x-x" }
 
 
 def test_a_segment_of_some_hundredths_of_a_millimetre_is_not_laid_off(tmp_path: Path) -> None:
-    """Near 90 degrees the rod hardly turns: a^n_BA is 0.009 mm long."""
+    """Near 90 degrees the rod barely turns: a^n_BA is 0.009 mm long."""
     for phi, small in ((89, True), (60, False)):
         path = tmp_path / f"{phi}.toml"
         path.write_text(CRANK.replace("PHI", str(phi)), encoding="utf-8")

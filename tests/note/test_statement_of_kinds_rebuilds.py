@@ -1,4 +1,4 @@
-"""Trains, meshings, cams and moving points are built again of what is given alone."""
+"""Trains, meshings, cams and moving points are rebuilt from the stated data alone."""
 
 from __future__ import annotations
 
@@ -148,12 +148,12 @@ parts = 8
 """,
     ),
 }
-"""Problems beside the shipped ones, for what those have not."""
+"""Additional problems, for data that the shipped ones do not have."""
 
 RU, EN = language("ru"), language("en")
 SAME = 1e-9
 ASIDE = ("published", "answers")
-"""What a record has beside what is computed: numbers that the file prints."""
+"""Parts of a record that are not computed: numbers printed in the file."""
 
 
 def numbers_of(record: Any, path: str = "") -> dict[str, float]:
@@ -191,7 +191,7 @@ def numbers_in(value: Any) -> list[float]:
 
 
 def assert_printed(facts: Sequence[GivenFact], say: Notation) -> None:
-    """Every number of the data stands in the text of its fact, within its last digit."""
+    """Assert that every number of the data is in the text of its fact, within its last digit."""
     for fact in facts:
         assert fact.text, fact.data
         told = [*printed(fact.text)]

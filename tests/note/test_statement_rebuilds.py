@@ -54,9 +54,9 @@ def assert_same(problem: Problem, again: Problem, positions: Sequence[float]) ->
 
 
 def assert_printed(problem: Problem, facts: Sequence[GivenFact], say: Notation) -> None:
-    """Every number of the data stands in its text, within its last digit, with its sense in words.
+    """Assert that every number of the data is in its text, to the last digit, with its sense.
 
-    A sign may be words: that of a distance on one side or the other.
+    A word may give the sign, as for a distance to one side or the other.
     """
     stated = problem.stated
     for fact in facts:
@@ -200,7 +200,7 @@ def test_forces_of_a_cycle_follow_from_the_rows_of_its_loads() -> None:
             for rows in nested(fact.data):
                 assert_listed(rows, fact.text)
         if any("machine.cycle_deg" in fact.data for fact in facts):
-            assert problem.machine is not None  # a machine has a δ, forces do not hang on it
+            assert problem.machine is not None  # a machine has a δ, forces do not depend on it
             facts.append(GivenFact("", {"machine.delta": problem.machine.delta}))
         again = Solution(rebuilt(facts)).moved(solution.positions.tolist())
         one, two = (statics_of(of).balance for of in (solution, again))
@@ -214,7 +214,7 @@ def nested(data: Mapping[str, Any]) -> list[list[Any]]:
 
 
 def assert_listed(rows: Sequence[Any], text: str) -> None:
-    """Every row stands in the text in order: its place, its size; pressures in MPa."""
+    """Assert that the text has every row in order: its place, its size; pressures in MPa."""
     flat = [x for one in rows for x in (one if isinstance(one[0], list) else [one])]
     pairs = re.findall(r"\((−?[\d,]+);\s(−?[\d,]+)\)", text)
     said = [[float(x.replace(",", ".").replace("−", "-")) for x in pair] for pair in pairs]

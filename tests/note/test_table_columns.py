@@ -101,7 +101,7 @@ def test_the_causes_of_an_error_are_told_the_largest_first(name: str) -> None:
             continue
         shares = [share for _, share in errors.causes(label)]
         if not shares:
-            continue  # nothing is drawn for it
+            continue  # no construction leads to it
         assert shares == sorted(shares, reverse=True)
         assert sum(shares) == pytest.approx(1.0)
     text = result_tables(solution, "en", sigma=True)

@@ -232,7 +232,7 @@ def test_no_formula_of_a_protocol_is_lost_as_text(name: str) -> None:
 
 
 ORDER = ("tblStyle", "tblW", "jc", "tblInd", "tblBorders", "tblLayout", "tblCellMar", "tblLook")
-"""Of the properties of a table, as the schema has them: Word takes no other."""
+"""Order of the properties of a table in the schema: Word accepts no other."""
 
 
 def test_properties_stand_in_the_order_of_the_schema() -> None:
@@ -305,7 +305,7 @@ def test_a_template_that_is_not_there_or_broken_is_a_fault(tmp_path: Path) -> No
 
 
 def changed(folder: Path, change: Callable[[str, bytes], bytes | None]) -> Path:
-    """Return a template whose parts are changed; one that becomes nothing is left out."""
+    """Return a template with changed parts; a part that becomes None is left out."""
     plain, path = BytesIO(), folder / "own.docx"
     docx.Document().save(plain)
     with ZipFile(plain) as parts, ZipFile(path, "w", ZIP_DEFLATED) as written:

@@ -29,7 +29,7 @@ def lines(count: int, first: int = 0) -> list[Node]:
 
 def test_text_goes_before_a_figure_until_the_page_is_full() -> None:
     found = order([*lines(7), FIGURE, *lines(8, 7)])
-    assert found.index(FIGURE) == 11  # ten lines fill the page, the eleventh tells that it is full
+    assert found.index(FIGURE) == 11  # ten lines fill the page, the eleventh shows that it is full
     assert [node for node in found if node is not FIGURE] == lines(15)
 
 

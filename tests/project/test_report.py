@@ -122,7 +122,7 @@ def texts(written: Document) -> Iterator[str]:
 
 @pytest.mark.parametrize("name", FILES)
 def test_no_paragraph_is_empty(name: str) -> None:
-    """Of weights and inertia alone there is nothing to be said of loads."""
+    """With weights and inertia forces only, there is no paragraph on loads."""
     texts = [node.text for node in note_of(name).nodes if isinstance(node, document.Paragraph)]
     assert all(texts)
 
@@ -229,7 +229,7 @@ def test_numbers_and_their_units_are_not_parted(name: str) -> None:
 def test_the_numbers_of_every_formula_come_to_its_result(name: str) -> None:
     checked = 0
     for node in note_of(name).nodes:
-        # What is taken is a standard size near what is found.
+        # The accepted value is a standard size near the computed one.
         text = str(getattr(node, "text", "")).partition(", принимаем ")[0]
         checked += count_equations_that_hold([text])
     assert checked > 15
@@ -276,7 +276,7 @@ def test_the_calculation_has_the_results_of_the_sheet(name: str) -> None:
             for result in re.findall(
                 r"= ([0-9−][0-9,·^{}−]* (?:м/с(?:\^\{2\})?|мм|с\^\{−[12]\}))", line
             ):
-                is_zero = result.startswith("0 ")  # a sentence says so
+                is_zero = result.startswith("0 ")  # a sentence states it
                 assert is_zero or result in own.replace("\u00a0", " "), line
 
 
@@ -602,7 +602,7 @@ def test_a_train_takes_module_and_shifts_of_its_wheels_in_mesh() -> None:
 
 
 def test_rows_beside_the_meshing_keep_the_module_of_the_train() -> None:
-    """Wheels 4 and 5 have that of their sheet, and another one of the file is told."""
+    """Wheels 4 and 5 have the module of their sheet; another module in the file is an error."""
     parts = project_of("template").parts
     (part,) = (one for one in parts if isinstance(one.problem, GearProblem))
     assert isinstance(part.problem, GearProblem)
@@ -883,7 +883,7 @@ def test_pages_of_pdf_have_the_frames_of_word_and_no_text_runs_into_them(
 
 
 def speeds_told(project: Project, words: Language) -> Iterator[tuple[str, float]]:
-    """Yield the rotational speeds that note and sheets of a project tell, with their symbols."""
+    """Yield the rotational speeds in the note and sheets of a project, with their symbols."""
     symbol, value = r"(n(?:_\{[^}]*\})?)", r"([−-]?\d[\d.,]*)"
     given_facts = [fact.text for fact in given(project.problem, words)]
     for part in project.parts:
@@ -913,7 +913,7 @@ def speeds_told(project: Project, words: Language) -> Iterator[tuple[str, float]
 def test_a_letter_of_a_speed_is_one_thing_in_all_parts(
     name: str, lang: str, tmp_path: Path
 ) -> None:
-    """The crank is no wheel 1: beside a train its speed is n of the crank, or of its wheel."""
+    """The crank is not wheel 1: with a train, its speed is n of the crank, or of its wheel."""
     if name == "apart":  # a train of the same file that does not drive the crank by [driver]
         path = tmp_path / "apart.toml"
         text, count = re.subn(r"(?m)^train = .*$", "n = 80", TEMPLATE.read_text("utf-8"))

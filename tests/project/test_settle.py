@@ -125,7 +125,7 @@ def test_else_a_load_acts_in_the_calculated_position() -> None:
 
 
 def test_the_load_of_the_calculated_position_is_considerable() -> None:
-    """Of an engine the gas force falls to a hundredth of its largest on the way."""
+    """The gas force of an engine falls to a hundredth of its maximum during the stroke."""
     found = settle(replace(scaled("engine"), project=None))
     (gas,) = (
         np.abs(one.force)

@@ -71,7 +71,7 @@ def named(symbol: str) -> str:
     return INDEX.sub("", symbol) + "".join(indices)
 
 
-# What is said -------------------------------------------------------------------------------------
+# Stated values ------------------------------------------------------------------------------------
 
 
 def lines_of(drawing: Drawing) -> Iterator[str]:
@@ -92,7 +92,7 @@ def lines_of(drawing: Drawing) -> Iterator[str]:
 
 
 def stated(lines: Iterable[str], position: int) -> Iterator[Reading]:
-    """Yield what is said to be some number: v_{A} = ω_{1}·l_{OA} = 10·0,1 = 1,000 м/с."""
+    """Yield quantities equated to a number: v_{A} = ω_{1}·l_{OA} = 10·0,1 = 1,000 м/с."""
     for line in lines:
         for piece in re.split(r"[;:(]\s|,\s|\.\s|\.$", line.replace("\u00a0", " ")):
             sides = piece.split(" = ")
@@ -101,22 +101,22 @@ def stated(lines: Iterable[str], position: int) -> Iterator[Reading]:
             for k, side in enumerate(sides[:-1]):
                 symbol = side.rpartition(" ")[2]
                 found = next(filter(None, map(NUMBER.match, sides[k + 1 :])), None)
-                # Scales and angles are of a drawing each, σ of what stands before it.
+                # Scales and angles belong to one drawing, σ to the quantity before it.
                 if found and SYMBOL.fullmatch(symbol) and symbol[0] not in "μφσ":
                     yield Reading(named(symbol), position, found[0])
 
 
 READ = re.compile(r"[Сс]нято|^По плану|^По картине")
-"""Heads of columns with what was read, of which the quantities stand in a column before."""
+"""Heads of columns with values read; the quantities are in a preceding column."""
 
 BALANCES = ("по планам сил", "по рычагу", "планы сил", "рычаг")
 """Heads of columns with readings of the quantity that heads a column before."""
 
 UNTOLD = ("трени", "Разбег")
-"""Titles of sheets whose numbers are of other motions and forces than those that a note tells."""
+"""Titles of sheets whose numbers belong to other motions and forces than those of the note."""
 
 OF_PLANS = ("velocities", "accelerations")
-"""Tables of the note with what was read in all positions."""
+"""Tables of the note with the values read in all positions."""
 
 
 def tabled(grids: Iterable[Grid], position: int) -> Iterator[Reading]:
@@ -138,7 +138,7 @@ def tabled(grids: Iterable[Grid], position: int) -> Iterator[Reading]:
                 number = NUMBER.match(cell)
                 if number is not None:
                     where = position if places is None else int(places[row])
-                    # Texts tell the size of a balance, and its sense by a word or an arrow.
+                    # Texts give the size of a balance, and its sense by a word or an arrow.
                     size = number[0].lstrip("−") if head in BALANCES else number[0]
                     yield Reading(named(symbol.partition(", ")[0]), where, size)
 
@@ -167,7 +167,7 @@ def on_sheets(project: Project) -> dict[PartName, list[Reading]]:
 
 
 def _signed(cell: TableCell) -> str:
-    """Return a cell whose sense an arrow shows with the sign that it stands for."""
+    """Return the text of a cell, with a minus sign for a negative sense shown by an arrow."""
     return f"−{cell.text}" if (cell.sense or 0) < 0 else cell.text
 
 
