@@ -66,7 +66,7 @@ def test_a_plate_on_an_arm_has_its_least_distance_by_drawing(
         assert read == pytest.approx(exact, rel=0.02)
         precise = evaluate(built.program, built.data, Precise()).value
         assert float(precise[of]) == pytest.approx(read, rel=1e-12)
-        # The least radius of curvature of the cam that was drawn is what was asked for.
+        # The least radius of curvature of the drawn cam is the requested one.
         drawn = replace(design.geometry, r_min=read)
         rho = 1 / drawn.at(np.linspace(0.0, 2 * np.pi, 2001)).curvature
         assert rho.min() == pytest.approx(curvature, abs=0.003)

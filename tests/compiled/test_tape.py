@@ -1,4 +1,4 @@
-"""Programs as tapes of real operations: what is folded, what is known, and what the source says."""
+"""Programs as tapes of real operations: constant folding, known values, generated source."""
 
 from __future__ import annotations
 
@@ -264,7 +264,7 @@ def test_guards_that_always_hold_are_dropped() -> None:
     found = written(1.5)
     assert found.guards == ()
     assert found.depends[PointName("C")] == frozenset()
-    assert found.tape.nodes == []  # nothing is left to be computed
+    assert found.tape.nodes == []  # no operation remains
     assert found.value[PointName("C")].re == pytest.approx(1.0)
 
 

@@ -173,7 +173,7 @@ def test_only_what_is_needed_is_kept() -> None:
 
 
 def test_the_hand_reads_the_arm_and_knows_a_force_that_was_given() -> None:
-    """The arm of 20.8 mm is read as 21, and multiplied by the number that tells the force."""
+    """The arm of 20.8 mm is read as 21, and multiplied by the given size of the force."""
     assert read(ARM) == pytest.approx(-20.8)
     assert read(ARM, Hand(ruler=0.5)) == -21.0
     assert read(TOLD, Hand(ruler=0.5)) == -21.0 * DATA["k"]
@@ -263,7 +263,7 @@ STEP = 1e-6
 
 VECTOR = [(name, DATA["Q"]) for name in EVERY]
 NOTHING = [(name, DATA["P"]) for name in ("carried", "times", "turned", "again")]
-"""What moves the end of a vector of no length moves what is carried; its arm is not defined."""
+"""Zero vectors: moving the end moves the translated vector too, but the arm is not defined."""
 
 
 @each("name, end", VECTOR + NOTHING)

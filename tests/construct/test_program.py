@@ -96,7 +96,7 @@ def test_every_step_makes_something_of_a_known_kind() -> None:
     assert makes(GivenNumber(L)) is NumberName
 
 
-# Only what is needed ------------------------------------------------------------------------------
+# Only the needed steps ----------------------------------------------------------------------------
 
 
 def triangle() -> Program:
@@ -139,7 +139,7 @@ def ends(value: Any) -> tuple[Any, ...]:
 
 @given(st.data())
 def test_pruned_and_full_give_the_same(data: st.DataObject) -> None:
-    """In every arithmetic, bit for bit, whatever is asked of a mechanism's plans."""
+    """In every arithmetic, bit for bit, for any requested results of a mechanism's plans."""
     name = data.draw(st.sampled_from(["linkages/ex3", "levers/task12", "levers/six-link"]))
     solution = Solution(problem_of(name))
     program = solution.construction.program

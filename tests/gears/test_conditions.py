@@ -1,4 +1,4 @@
-"""Conditions of trains as they are told: every sum, quotient and inequality against the teeth."""
+"""Printed conditions of trains: every sum, quotient and inequality against the teeth."""
 
 from __future__ import annotations
 
@@ -164,7 +164,7 @@ def test_assembly_and_neighbourhood_are_told_with_true_numbers(
             assert left == pytest.approx(math.sin(math.pi / count), abs=6e-5)
             assert right == pytest.approx((rim + 2) / (wheels["1"] + wheels["2"]), abs=6e-5)
             assert re.search(rf"k = {count}\b", said)
-            if count > 1:  # the inequality that is told is the one that is judged
+            if count > 1:  # the printed inequality is the one that is checked
                 assert (left > right) == apart.holds
             assert re.search(rf" {held[-1]}\b", sentence(most, words))
 

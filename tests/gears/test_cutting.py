@@ -259,14 +259,14 @@ def test_undercut_leaves_what_the_rolled_rack_leaves() -> None:
         due, beyond = left_by_the_rack(z, m, x, beta)
         assert one.rho_low == pytest.approx(due, rel=1e-8), (z, m, x, beta)
         assert -one.size("rho_l") == pytest.approx(beyond, rel=1e-8)
-        # What is drawn ends there, and the contact ratio is that of what is left.
+        # The drawn flank ends there, and the contact ratio is that of the remaining flank.
         assert abs(one.fillet(one.theta) - one.flank(one.rho_low)) < 1e-9 * m
         start = max(float(pair.line) - two.rho_high, due)
         end = min(one.rho_high, float(pair.line) - two.rho_low)
         assert LineOfAction.of(one, two).overlap(pair) == pytest.approx((end - start) / pair.p_b)
 
 
-# What is told -------------------------------------------------------------------------------------
+# Reports ------------------------------------------------------------------------------------------
 
 
 def told(*args: str) -> dict[str, Any]:

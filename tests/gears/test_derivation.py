@@ -1,4 +1,4 @@
-"""How ratios and speeds are derived: every side of a formula is worth what stands at its end."""
+"""Derivation of ratios and speeds: every side of a formula has the value at its end."""
 
 from __future__ import annotations
 

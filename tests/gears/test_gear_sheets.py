@@ -1,4 +1,4 @@
-"""Sheets of gear trains: norm control, segments in the files, what stands where on the scheme."""
+"""Sheets of gear trains: norm control, segments in the files, layout of the scheme."""
 
 from __future__ import annotations
 

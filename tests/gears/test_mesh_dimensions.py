@@ -44,7 +44,7 @@ def test_thickness_and_space_make_the_pitch(name: str) -> None:
 def test_the_dimension_of_the_tooth_has_metal_between_its_ends_and_that_of_the_space_has_none(
     name: str,
 ) -> None:
-    """Of wheel 1, by the flanks and tips that are drawn: how far the metal goes each way."""
+    """The metal of wheel 1 is found by its drawn tips."""
     view = view_of(name)
     items, labels = mesh_dimensions(view, 5.0)
     drawn = meshing_picture(view, language("en"), 5.0, items, labels).items
@@ -114,7 +114,7 @@ def test_the_blocking_contour_is_closed(name: str) -> None:
 
 
 def test_the_radii_run_from_the_centres_to_their_circles() -> None:
-    """Of the external pair both wheels have four; a ring's would cover those of the pinion."""
+    """In the external pair both wheels have four; those of a ring would cover the pinion's."""
     told = []
     for name in FILES:
         view = view_of(name)
@@ -185,7 +185,7 @@ def test_every_dimension_of_the_rack_is_as_long_as_its_letters_say(name: str) ->
 
 
 def test_a_base_radius_is_named_where_it_is_drawn(tmp_path: Path) -> None:
-    """N₂ of many teeth is far away: no line goes there, and no letter stands in the air."""
+    """With many teeth N₂ is far away: there is neither a line to it nor a letter of its radius."""
     far = tmp_path / "far.toml"
     far.write_text("[meshing]\nz = [17, 40]\nm = 4\nbeta = 15\nb = 40\nx = [0.63, 0.81]\n", "utf-8")
     told = []

@@ -109,7 +109,7 @@ def test_a_written_set_is_compared_and_drawn(scheme: str, tmp_path: Path) -> Non
     assert abs(design["error"]) <= 0.02
     problem = load(path)
     (sheet,) = drawings(problem, fields={}, profile=PROFILES["board"])
-    # How short a vector of velocity is the ratio tells, not the sheet: PM-D08.
+    # The ratio, not the sheet, determines how short a velocity vector is: PM-D08.
     found = [f"{one.code} {one.message}" for one in inspect(sheet) if one.code != "PM-D08"]
     assert found == []
     texts = {one.text for one in sheet.items if isinstance(one, Text)}

@@ -1,4 +1,4 @@
-"""Trains whose wheels have shifts: axes stand as far apart as such wheels need, everywhere."""
+"""Trains of profile-shifted wheels: centre distances suit the shifts in every output."""
 
 from __future__ import annotations
 

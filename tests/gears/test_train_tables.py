@@ -1,4 +1,4 @@
-"""Equations, tables and protocols of trains: what stands in a cell is what its head says."""
+"""Equations, tables and protocols of trains: every cell agrees with its head."""
 
 from __future__ import annotations
 
@@ -263,7 +263,7 @@ def test_formulas_of_the_protocol_give_what_they_say_from_what_was_read(
         letters.add(symbol[0])
         count += 1
     assert count >= 3
-    assert {"n", "ω"} <= letters  # asked for in both units
+    assert {"n", "ω"} <= letters  # required in both units
 
 
 def test_a_train_is_asked_in_both_units_and_told_in_each(tmp_path: Path) -> None:

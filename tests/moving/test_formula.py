@@ -1,4 +1,4 @@
-"""Faults of formulas and of ``[point]``: what is said of each, and that nothing else happens."""
+"""Faults of formulas and of ``[point]``: the message of each, without side effects."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Texts, tables and hodographs of a moving point: numbers in formulas, units, what is whose."""
+"""Texts, tables and hodographs of a moving point: numbers in formulas, units, titles."""
 
 from __future__ import annotations
 
@@ -258,7 +258,7 @@ def test_the_components_on_a_hodograph_add_up_to_its_vector(name: str) -> None:
 
 
 def test_the_chord_joins_the_instants_before_and_after_the_calculated_one() -> None:
-    """Of an even motion round a circle it lies across the velocity, and is bisected by it."""
+    """In uniform circular motion it is perpendicular to the velocity, which bisects it."""
     problem = of('x = "2*cos(t)"\ny = "2*sin(t)"')
     course = course_of(problem)
     scales = sheet_scales(problem, course, BOARD)

@@ -30,7 +30,7 @@ A{inner} = 0.3
 points = {points}
 {sizes}
 """
-TOLD = {  # which points of the link, its sizes, what is laid off from where, and its angle
+TOLD = {  # points of the link, its sizes, and by point laid off: its origin and angle
     "three letters": (["C", "B", "D"], "CB = 0.22\nCD = 0.18\nangle.BCD = 100", {"D": ("C", 100)}),
     "the other side of the angle": (
         ["C", "D", "B"], "CB = 0.22\nCD = 0.18\nangle.DCB = -100", {"D": ("C", 100)},

@@ -1,4 +1,4 @@
-"""Change points: told where they are passed, and a branch of the motion kept where one is asked."""
+"""Change points: a warning where they are passed, and a branch of the motion kept on request."""
 
 from __future__ import annotations
 

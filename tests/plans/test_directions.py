@@ -73,7 +73,7 @@ def way(solution: Solution, p: str, q: str, i: int) -> complex:
 
 
 def line_of(solution: Solution, term: Vector, direction: Direction, i: int) -> complex:
-    """Return the direction of the line that a direction is told by, of the scheme."""
+    """Return the direction of the line of the scheme by which a direction is described."""
     if direction.points:
         tail, head = direction.points
         return way(solution, tail, head, i)

@@ -99,7 +99,7 @@ def test_nothing_follows_from_a_reading_of_what_was_laid_off(what: str | int) ->
 
 @pytest.mark.parametrize("what", EVERY)
 def test_every_result_is_a_computed_number(what: str | int) -> None:
-    """So that what follows from a student's own reading can be asked of the program."""
+    """The program can then compute results that follow from a student's own reading."""
     solution = solved(what)
     construction = solution.construction
     sizes = [quantity.size for quantity in construction.legend if quantity.size is not None]

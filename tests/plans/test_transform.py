@@ -163,7 +163,7 @@ def test_the_driver_reversed_or_at_another_speed(name: str, times: float) -> Non
 
 @pytest.mark.parametrize("name", SIX)
 def test_a_driver_at_rest_moves_nothing(name: str) -> None:
-    """At rest with an acceleration there are no velocities; the accelerations are those of it."""
+    """Velocities are zero; accelerations are the velocities of a driver with this speed."""
     problem = problem_of(name)
     still = Solution(replace(problem, drive=replace(problem.drive, rate=0.0, acceleration=-4.0)))
     going = Solution(replace(problem, drive=replace(problem.drive, rate=-4.0, acceleration=0.0)))

@@ -1,4 +1,4 @@
-"""``[[answers]]``: what is read, how names of ``--ask`` are understood, and every fault."""
+"""``[[answers]]``: reading, the names of ``--ask``, and every fault."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def test_forces_by_their_names() -> None:
 
 @pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
 def test_every_name_is_understood_and_means_the_same(path: Path) -> None:
-    """The words have the size of what the name has with a sign or as a vector."""
+    """The selector gives the magnitude of the value that the name gives signed or as a vector."""
     solution = Solution(load(path))
     slides = solution.problem.slides.values()
     at = SelectorValues(solution)
@@ -458,6 +458,6 @@ def test_the_schema_takes_what_the_reader_takes_and_refuses_what_it_can() -> Non
     assert loads(CRANK + A + V + good, name="asked").answers
     assert not schema_faults(A + V + good)
     seen = {name for name, (text, _) in FAULTS.items() if schema_faults(text)}
-    # names, uniqueness and what goes with which quantity are the reader's alone
+    # only the reader checks names, uniqueness, and which key suits which quantity
     assert len(seen) >= 14
     assert {"form", "points", "digits", "tolerance", "no what", "unit", "letters", "ids"} <= seen

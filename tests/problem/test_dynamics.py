@@ -1,4 +1,4 @@
-"""Masses and loads of problem files: what is read, and variants of them."""
+"""Masses and loads of problem files: reading, and variants of them."""
 
 from __future__ import annotations
 

@@ -158,7 +158,7 @@ def test_templates_load_clean_and_are_commented_in_russian(family: str) -> None:
     problem = planmethod.loads(text, name=family)  # a crank may be driven by a train
     assert problem.title
     assert len(re.findall(r"#.*[а-яё]", text)) >= 10
-    # what is commented out must be right as well
+    # lines that are commented out must be right as well
     uncommented = re.sub(r"(?m)^# (?=\[|mu_|convention|driver)", "", text)
     assert planmethod.loads(uncommented, name=family, variant="Б").drive is not None
 

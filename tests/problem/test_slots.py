@@ -1,4 +1,4 @@
-"""A slot is a line of its link: what is told where its stone's pin is taken for a point of it."""
+"""A slot is a line of its link: the error if the sliding block's pin is a point of it."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ def run(*words: str) -> Result:
 
 
 def test_the_index_and_the_documents_are_those_of_the_files() -> None:
-    """Written anew by make tasks; the pictures are compared with --thorough."""
+    """``make tasks`` rewrites them; the pictures are compared with --thorough."""
     fresh = index()
     assert index_text(fresh) == (home() / "index.json").read_text("utf-8")
     told = (ROOT / "docs" / "tasks.md").read_text("utf-8")

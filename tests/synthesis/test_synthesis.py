@@ -1,4 +1,4 @@
-"""Each synthesis does what was asked, as its own mechanism measures, or tells the limit."""
+"""Each synthesis meets its requirements, as measured on its mechanism, or reports the limit."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ def drawn_of(name: str) -> Drawn:
 
 
 def sentences(name: str) -> Iterator[tuple[str, dict[str, complex]]]:
-    """Yield what is told of a construction, and where the points lie, by their names as told."""
+    """Yield the sentences of a construction, and the places of points by their printed names."""
     drawn = drawn_of(name)
     at = {
         plain_text(point_name(step.out)): place(drawn.paper, step.out)
@@ -139,7 +139,7 @@ def test_of_two_meetings_of_arcs_the_one_is_taken_on_the_side_that_is_told() -> 
 
 
 def test_points_are_laid_off_in_the_directions_that_are_told() -> None:
-    """Of lines at an angle to the x axis, along it and across it."""
+    """Lines at an angle to the x axis, parallel to it and perpendicular to it."""
     count = 0
     for name in ASKED:
         for said, at in sentences(name):
@@ -251,7 +251,7 @@ def sheet_of(name: str) -> tuple[Drawing, Synthesis]:
 
 
 def supports(drawing: Drawing, found: Synthesis) -> Iterator[tuple[str, complex, Drawn]]:
-    """Yield the pivots, where their supports stand on the sheet, and the drawing at its scale."""
+    """Yield the pivots, the places of their supports on the sheet, and the drawing at its scale."""
     drawn = Drawn(found, BOARD, drawing.views[0].per_mm)
     own = {pivot: place(drawn.paper, pivot) for pivot in found.pivots}
     legs = [i.points[1] for i in drawing.items
@@ -294,7 +294,7 @@ def test_supports_stand_away_from_the_links_with_the_hatching_behind_their_base(
         assert rises
         assert foot.imag * sum(rises) <= 1e-6, (name, pivot)  # away from the links
         if abs(sum(rises)) < 1e-6:
-            assert foot.imag < 0  # down, where nothing tells otherwise
+            assert foot.imag < 0  # down, unless the links are on one side
 
 
 @each("name", ("slotted", "shaper", "quick"))

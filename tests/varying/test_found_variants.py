@@ -79,7 +79,7 @@ def of_ex3(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
 
 
 def ex3_segments(row: dict[str, float]) -> Iterator[tuple[str, float, float]]:
-    """Yield what is asked of example 3 by its own formulas: name, value, mm on the sheet."""
+    """Yield the answers of example 3 by its own formulas: name, value, mm on the sheet."""
     ab, cd, de = (row[f"links.{n}"] for n in ("1.AB", "3.CD", "4.DE"))
     turn, omega, c = cmath.exp(1j * math.radians(row["driver.phi"])), row["driver.omega"], -0.11j
     b, v_b, a_b = ab * turn, 1j * omega * ab * turn, -(omega**2) * ab * turn
