@@ -49,7 +49,7 @@ class Run:
 
 @dataclass
 class Page:
-    """What a file says: size in mm, and what is painted, in order."""
+    """Contents of a file: size in mm, and painted items in order."""
 
     width: float
     height: float
@@ -88,7 +88,7 @@ def read_svg(data: bytes) -> Page:
 
 
 def _svg_run(element: ET.Element, height: float, defined: dict[str, ET.Element]) -> Run:
-    """Read a run that stands in the definitions, or where it is drawn, if only there."""
+    """Read a run from the definitions, or from the place where it is drawn if it is only there."""
     number = r"(-?[\d.]+)"
     if element.tag == f"{SVG}use":
         run, place = (
@@ -302,7 +302,7 @@ def _dxf_item(part: Any) -> Path | Run:
 def turned_box(
     at: complex, angle: float, ink: tuple[float, float, float, float]
 ) -> tuple[float, float, float, float]:
-    """Return the bounds of a box turned about its origin, which stands at ``at``."""
+    """Return the bounds of a box turned about its origin, which is at ``at``."""
     turn = complex(cos(radians(angle)), sin(radians(angle)))
     corners = [at + turn * complex(x, y) for x in ink[::2] for y in ink[1::2]]
     xs, ys = [z.real for z in corners], [z.imag for z in corners]

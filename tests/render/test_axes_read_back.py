@@ -70,7 +70,7 @@ def number_of(text: str) -> float:
 
 
 def read_axes(items: Sequence[Item]) -> Iterator[Axes]:
-    """Yield the axes among items, with what stands at them."""
+    """Yield the axes among items, with their inscriptions."""
     lines = [one.points for one in items if isinstance(one, Stroke) and one.tag == AXIS]
     level = [pair for pair in lines if pair[0].imag == pytest.approx(pair[-1].imag, abs=1e-9)]
     upright = [pair for pair in lines if pair[0].real == pytest.approx(pair[-1].real, abs=1e-9)]

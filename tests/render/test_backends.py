@@ -1,7 +1,7 @@
-"""Contract of every output format: what is in the display list is on the paper, where it was put.
+"""Contract of every output format: the items of the display list are on the paper, in place.
 
-Coordinates are read back from the files and compared to 0.01 mm. Programs that some tests look with
-(Chromium, librsvg, poppler) may be absent: those tests then skip, saying so.
+Coordinates are read back from the files and compared to 0.01 mm. Some tests need Chromium, librsvg
+or poppler; without the program they are skipped, with the reason.
 """
 
 from __future__ import annotations
@@ -227,8 +227,8 @@ def expected_bounds(item: Item) -> tuple[float, float, float, float]:
     return (min(xs) - half, min(ys) - half, max(xs) + half, max(ys) + half)
 
 
-# Ends that are cut square do not reach half a width beyond: those pens are not of this test. Of the
-# turned runs only those by quarters have the ink of a box.
+# Square-cut ends do not reach half a width beyond the line: those pens are left out. A run's ink
+# has the bounds of a box only if the run is turned by quarters.
 ROUND = [
     item
     for item in ITEMS
@@ -538,10 +538,10 @@ def test_svg_is_the_same_picture_in_two_viewers(tmp_path: FilePath) -> None:
 def test_a_worked_sheet_is_the_same_picture_in_svg_and_in_pdf(tmp_path: FilePath) -> None:
     """Ten pixels to the millimetre, so that the sheet is whole pixels in all of them.
 
-    Pixels that differ by more than a quarter of the way from black to white, of those that either
-    picture has ink on: 8.8 to 9.2 % between PDF and a viewer of the SVG on four worked sheets
-    (edges of letters, which the PDF has as a font), none between the two viewers. Of the ink and
-    not of the sheet, for more to see is no difference.
+    Pixels that differ by more than a quarter of the range from black to white, as a share of the
+    pixels with ink in either picture: 8.8 to 9.2 % between the PDF and a viewer of the SVG on four
+    worked sheets (edges of letters, which the PDF has as a font), none between the two viewers.
+    The share is of the ink, not of the sheet, so that it does not depend on how full the sheet is.
     """
     (drawing,) = kinematics_sheets(problem_of("linkages/ex1"), sigma=False)
     dpi, width, height = 254, 4200, 2970

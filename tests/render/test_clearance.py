@@ -25,7 +25,7 @@ def test_sheets_keep_out_of_the_graphs(name: str, paper: str | None) -> None:
             kinematics_sheets(problem)
         return
     for drawing in kinematics_sheets(problem):
-        # Paper that is asked for may be too large for three links at the scales of the file.
+        # Requested paper may be too large for three links at the scales of the file.
         allowed = {"PM-D08"} | ({"PM-D10", "PM-D19"} if paper else set())
         assert [f.message for f in inspect(drawing) if f.code not in allowed] == []
 

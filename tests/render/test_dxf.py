@@ -429,7 +429,7 @@ def test_strokes_are_lines_with_the_extents_and_the_weight_of_the_letters() -> N
 
 @pytest.mark.skipif(shutil.which("librecad") is None, reason="LibreCAD is not installed")
 def test_librecad_prints_the_sheet_as_it_is(tmp_path: Path) -> None:
-    """Not asked for anything: paper of the sheet's size, ink to the frame, letters as drawn."""
+    """Without any option: paper of the sheet's size, ink to the frame, letters as drawn."""
     (drawing,) = drawn_sheets("linkages/ex3")
     (tmp_path / "a.dxf").write_bytes(render(drawing, "dxf"))
     own = {"QT_QPA_PLATFORM": "offscreen", "HOME": str(tmp_path), "XDG_RUNTIME_DIR": str(tmp_path)}

@@ -1,4 +1,4 @@
-"""Ellipses of the drafting error: their geometry, where they are drawn, what is said of them."""
+"""Ellipses of the drafting error: their geometry, their places, their inscription."""
 
 from __future__ import annotations
 
@@ -178,7 +178,7 @@ def test_dashed_are_the_points_where_first_order_does_not_hold() -> None:
 
 
 def test_a_short_segment_alone_does_not_make_its_end_dashed() -> None:
-    """The crank's slotted link of ex3 stops at 270°: b b3 is nothing, b3 is known as well."""
+    """The slotted link of ex3 stops at 270°: b b3 is zero, but b3 is known as well as ever."""
     solution = solved("linkages/ex3", many=True)
     assert drafting_of(solution).spreads["velocity.b-b3"].drawn[9]
     assert not error_ellipses(solution, PlanKind.VELOCITY, 9).strained

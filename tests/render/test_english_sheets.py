@@ -55,7 +55,7 @@ def bare(problem: Problem, lang: str) -> Problem:
 
 
 def test_a_title_block_has_the_texts_of_its_language_where_the_file_says_them() -> None:
-    """Of a Russian file with ``stamp.en``; what it says in one language is not translated."""
+    """For a Russian file with ``stamp.en``; texts given in one language are not translated."""
     russian = problem_of("linkages/ex3")
     english = replace(russian, sheet=replace(russian.sheet, lang="en"))
     (drawing,) = kinematics_sheets(english, positions=(20.0,), layout="one-position")

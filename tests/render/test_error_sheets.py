@@ -108,7 +108,7 @@ def assert_tables_inside(sheets: list[Drawing]) -> None:
 def test_nothing_of_it_without_the_options(
     name: str, many: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The display list is the same whatever the profile, and drafting errors are not asked for."""
+    """The display list does not depend on the profile, and no drafting errors are computed."""
     positions = MANY[name] if many else None
     plain = kinematics_sheets(problem_of(name), positions=positions, sigma=False)
     same_ruler = replace(PROFILES["coarse"], ruler=PROFILES["board"].ruler)

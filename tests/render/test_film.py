@@ -1,4 +1,4 @@
-"""Mechanisms moving for slides: what stands where in an SVG that plays, and in a GIF."""
+"""Moving mechanisms for slides: the places of items in an animated SVG and in a GIF."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def test_an_svg_that_plays_has_links_and_plan_where_they_are_solved_to_be() -> N
 
 @each("name", ["linkages/ex3", "levers/task-33", "press/press"])
 def test_joints_of_the_scheme_are_at_their_points_in_every_frame(name: str) -> None:
-    """At the scale that the film tells: parts and places have the same."""
+    """Parts and places have the scale that is written on the film."""
     problem = problem_of(name)
     film = film_of(problem, "ru", frames=8, plans=False)
     told = "".join(item.text for item in film.still if isinstance(item, Text))
@@ -119,7 +119,7 @@ def test_the_command_writes_every_frame_and_says_what_is_wrong(tmp_path: Path) -
         for k in range(count):
             picture.seek(k)
             shown.add(picture.convert("L").tobytes())
-        # To and fro: all but both ends twice; as long as was asked.
+        # Forward and back: all frames but both ends twice; the requested duration.
         assert getattr(picture, "n_frames", 0) == count and len(shown) > count // 2
         assert picture.info["duration"] == round(600 / count) * 10
     wrong = CliRunner().invoke(cli, [*args, "--format", "mp4"])

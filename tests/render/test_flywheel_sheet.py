@@ -1,4 +1,4 @@
-"""The sheet of the flywheel: what is constructed lies on it to scale, and the lint is content."""
+"""The sheet of the flywheel: the construction is on it to scale, and the lint finds no faults."""
 
 from __future__ import annotations
 

@@ -146,7 +146,7 @@ def test_a_problem_without_any_force_has_no_errors_to_show() -> None:
 
 
 def test_nothing_of_it_without_the_options(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No ellipse and no error of a reaction is asked for; only that of the discrepancy is told."""
+    """No ellipse or error of a reaction is computed; only the error of the discrepancy is shown."""
     plain = drawn_sheets("press/press", layout="forces")
     asked: list[str] = []
     found = Errors._spread

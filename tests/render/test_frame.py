@@ -153,7 +153,7 @@ OF_NOTE = {"city", "year"}
 """Fields of the title page alone."""
 
 PLACED = set(keys.known("stamp")) - set(LANGUAGES)
-"""Keys of ``[stamp]`` but for the tables of what a language has instead of them."""
+"""Keys of ``[stamp]``, without its tables of replacements for a language."""
 
 
 def test_every_key_of_the_problem_file_has_its_place() -> None:

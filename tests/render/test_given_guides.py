@@ -1,4 +1,4 @@
-"""Guides of the frame stand on the scheme where what is given has them."""
+"""Guides of the frame are on the scheme at the places given in the file."""
 
 from __future__ import annotations
 

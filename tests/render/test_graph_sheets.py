@@ -1,4 +1,4 @@
-"""Graphs of asked quantities, and transfer functions on sheets: what is drawn is what they are."""
+"""Graphs of requested quantities and transfer functions on sheets: drawn values against exact."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_curves_are_the_exact_quantities_in_their_scale() -> None:
         at = diagrams.turn.at(diagrams.fine)
         rows = [values_over(diagrams.turn, one, at) / scale.per_mm for one in group]
         rows = [row for row in rows if np.abs(row).max() > 1e-9]
-        assert len(drawn) == len(rows)  # y_E is nothing: the axis itself
+        assert len(drawn) == len(rows)  # y_E is zero: the axis itself
         for points, row in zip(drawn, rows, strict=True):
             assert [p.imag for p in points] == pytest.approx(row, abs=1e-9)
             assert points[-1].real == pytest.approx(diagrams.length)

@@ -352,7 +352,7 @@ def test_a_letter_at_the_end_of_a_long_leader_line_comes_near_on_a_thin_line() -
 def test_the_name_of_a_segment_does_not_stand_at_another_one() -> None:
     manner = replace(CROWDED, stranger=25.0)
     one, two = (50 + 50j, 80 + 50j), (50 + 62j, 80 + 62j)
-    # Under both of them is no room: between them the upper one's name is nearer to its own.
+    # There is no space under either: between them the upper one's name is nearer to its own.
     floor: list[Item] = [Stroke((complex(20, y), complex(110, y))) for y in (46, 48, 65, 67)]
     names = [
         replace(segment_label(text, *line), along=line, manner=manner)

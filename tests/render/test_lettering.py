@@ -317,7 +317,7 @@ def test_script_makes_the_same_files_again(tmp_path: Path) -> None:
     made = sorted((tmp_path / "one").glob("*.json"))
     assert len(made) == len(styles)
     for path in made:
-        # The bytes of the font may change with fontTools; what is drawn may not.
+        # The bytes of the font may change with fontTools; the drawn shapes may not.
         assert path.read_bytes() == (FONTS / path.name).read_bytes(), path.name
     again = sorted((tmp_path / "two").iterdir())
     assert len(again) >= 2

@@ -1,4 +1,4 @@
-"""The specimen of the lettering: every letter there, on its grid, and the measures it tells."""
+"""The specimen of the lettering: every letter on its grid, and its stated measures."""
 
 from __future__ import annotations
 

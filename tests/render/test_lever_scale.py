@@ -27,7 +27,7 @@ SHIPPED = ("levers/six-link", "levers/task12", "press/press", "levers/task-66")
 
 
 def solved(more: int) -> Solution:
-    """Return the solution of the six-link mechanism with so many loads more."""
+    """Return the solution of the six-link mechanism with ``more`` additional loads."""
     text = path_of("levers/six-link").read_text("utf-8")
     for k in range(more):
         text += f'\n[[loads]]\nname = "F_{{a{k}}}"\nlink = "2"\nat = "{("B", "C", "S2")[k % 3]}"\n'

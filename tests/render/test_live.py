@@ -29,7 +29,7 @@ from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.turn.numbering import number
 
 AGREE = 1e-12
-"""Of the largest value of a row."""
+"""Tolerance, relative to the largest value of a row."""
 
 WATT = """title = "</script><script>alert(1)</script> & <b>Watt</b>"
 source = "a linkage of two rockers"
@@ -100,7 +100,7 @@ def apart(made: np.ndarray, sweep: Sweep, positions: np.ndarray) -> float:
     assert np.isfinite(exact).any()
     largest = np.max(np.abs(np.nan_to_num(exact)), axis=1, keepdims=True)
     forces = [row.name[:2] in ("f:", "F.") for row in sweep.rows]
-    if any(forces):  # what cancels is nothing beside the other forces
+    if any(forces):  # forces that cancel are negligible beside the others
         largest[forces] = np.maximum(largest[forces], 1e-3 * largest[forces].max())
     return float(np.max(np.nan_to_num(np.abs(made - exact) / np.maximum(largest, 1e-300))))
 
@@ -138,7 +138,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
 
 
 def opened(page: Page, problem: Problem, folder: Path, lang: str = "ru") -> LiveScene:
-    """Open the page of a problem on a telephone; return what is on it."""
+    """Open the page of a problem on a telephone; return its scene."""
     file = folder / "live.html"
     file.write_text(live_page(problem, lang), "utf-8")
     page.said.clear()
@@ -227,7 +227,7 @@ CROSSED = """(() => {  // inscriptions of the scheme that a drawn line of a movi
 def test_no_line_of_the_scheme_runs_through_its_letters(
     name: str, page: Page, tmp_path: Path
 ) -> None:
-    """Of the slider and its guide, of supports, of rods beside the segments of the plan, too."""
+    """Lines of the slider, its guide, supports and rods count beside the segments of the plan."""
     opened(page, problem_of(name), tmp_path)
     seen, crossed = page.ask(CROSSED)
     assert seen >= 18 * 8
@@ -269,7 +269,7 @@ def test_what_does_not_exist_is_said_and_play_turns_back(page: Page, tmp_path: P
     assert set(page.ask("[...document.querySelectorAll('[data-row]')].map(n => n.textContent)")) > {
         "—"
     }
-    # Where there is no way on the driver turns back; it does not jump over the gap.
+    # Where the motion is blocked, the driver turns back; it does not jump over the gap.
     page.ask(
         "planmethod.show(57); sense = 1; playing = 1; for (let t = 20; t < 2000; t += 20) tick(t)"
     )

@@ -1,4 +1,4 @@
-"""The table of what is measured on the plans of several positions, beside what is exact."""
+"""The table of values measured on the plans of several positions, beside exact values."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ THREE = [20.0, 140.0, 260.0]
 
 
 def table_of(sheet: Drawing) -> list[str]:
-    """Return the texts of the table and of what stands about it, which reach to its left edge."""
+    """Return the texts of the table and around it, to the right of its left edge."""
     texts = [item for item in sheet.items if isinstance(item, Text)]
     (title,) = (one for one in texts if one.text.startswith("Измеренные на планах"))
     low = min(one.at.imag for one in texts if one.text.startswith("Известно до построения"))
@@ -76,5 +76,5 @@ def test_what_is_measured_ends_with_no_zeros_of_a_finer_ruler() -> None:
 def test_what_is_laid_off_exactly_has_no_zeros_behind_it() -> None:
     (sheet,) = kinematics_sheets(problem_of("linkages/ex3"))
     texts = [item.text for item in sheet.items if isinstance(item, Text)]
-    assert "3,200" in texts  # what is exact has its four digits
+    assert "3,200" in texts  # an exact value has four digits
     assert "3,2" in texts

@@ -51,7 +51,7 @@ AT = 60 + 150j
 SCALE = tuple(typeset("μ_{v} = 0,05 (м/с)/мм", 5).at(60 + 105j))
 LONG = Span("pb", None, 60 + 200j, 90 + 200j)
 VIEW = View("velocity", BOX, "μ_{v}", 0.05, (LONG,))
-# Ink all over the sheet, with room for what a test adds: no large rectangle is empty.
+# Ink all over the sheet, with space for items that a test adds: no large rectangle is empty.
 SPARSE = tuple(
     Stroke((complex(x, y), complex(x + 1, y)), Pen.THIN)
     for k, y in enumerate(range(63, 290, 34))
@@ -161,7 +161,7 @@ SHOWN: dict[str, tuple[Drawing, Drawing]] = {
     ),
     "PM-D19": (sheet(*SPARSE, ground=False), sheet()),
 }
-"""Of every code a sheet that shows it and one that does not."""
+"""For every code, a sheet that shows it and one that does not."""
 
 
 @pytest.mark.parametrize(("tag", "radius", "expected"), [("ε 1", 9.6, 1), ("ε 1", 11.0, 0)])
@@ -227,7 +227,7 @@ def test_a_sheet_that_shows_it_and_one_that_does_not(code: str) -> None:
     assert codes(good) == []
 
 
-# What is said -------------------------------------------------------------------------------------
+# Messages -----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
@@ -421,7 +421,7 @@ def test_a_length_just_below_its_limit_does_not_look_like_it() -> None:
 
 
 def test_one_scale_is_told_for_all_force_plans() -> None:
-    """At 50 N/mm one plan needs 40 N/mm and another 4: both are told 4, which mends both."""
+    """At 50 N/mm one plan needs 40 N/mm and another 4: both get the advice 4, which fixes both."""
     whole = forces_at("press/press", 50.0)
     values = [round(finding.value, 2) for finding in whole.findings]
     assert values == [4.15, 0.47]

@@ -32,7 +32,7 @@ def test_a_single_page_is_the_file_of_its_sheet(fmt: str) -> None:
 
 
 def test_every_page_has_the_size_and_the_ink_of_its_sheet() -> None:
-    """Pens and ink begin anew on a page: none is left over from the page before."""
+    """Pens and ink are reset on every page: none is left over from the page before."""
     whole = render_pages(SHEETS)
     assert len(re.findall(rb"/MediaBox", whole)) == len(SHEETS)
     for number, sheet in enumerate(SHEETS):

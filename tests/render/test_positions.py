@@ -130,7 +130,7 @@ def test_leader_lines_do_not_cross_their_neighbours(name: str) -> None:
 
 
 def test_letters_are_thinned_step_by_step() -> None:
-    """Centres of mass first, then every third of the others; what is in full and extreme stays."""
+    """Centres of mass go first, then all but every third; bold and extreme positions stay."""
     positions = positions_of("levers/task12")
     count = [len(positions.labels(2.5, thinned=thinned)) for thinned in Thinned]
     assert count == sorted(count, reverse=True) and count[0] > count[-1]
@@ -344,7 +344,7 @@ def test_the_scale_stands_once_under_the_heading_of_the_plans(name: str) -> None
 
 
 def test_plans_of_one_position_on_a_sheet_are_named_as_one() -> None:
-    """Of three positions that two sheets share, the last is alone."""
+    """Three positions share two sheets, so that the last is alone."""
     sheets = kinematics_sheets(
         problem_of("linkages/ex3"), positions=[30.0, 150.0, 270.0], paper="A3"
     )

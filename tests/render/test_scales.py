@@ -70,7 +70,7 @@ SAME = [
 
 @each("name, positions", sampled([(name, n) for name in SAME for n in (None, 3, 12)], 4))
 def test_sheets_and_numbers_have_the_same_scales(name: str, positions: int | None) -> None:
-    """Of usual sheets: whatever the positions, one for all plans of a kind on all sheets."""
+    """On default sheets, for any positions: one scale for all plans of a kind on all sheets."""
     problem = problem_of(name)
     first = problem.drive.positions[0]
     asked = None if positions is None else [first + 360 / positions * k for k in range(positions)]

@@ -1,4 +1,4 @@
-"""Specimen sheets: complete, neat, and true to what they say."""
+"""Specimen sheets: complete, neat, and true to their texts."""
 
 from __future__ import annotations
 

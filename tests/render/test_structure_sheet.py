@@ -146,7 +146,7 @@ MADE = {
         "1",
     ),
     "stone between stones": Mechanism(
-        # The place of D follows from that of B: both stones stand on bars.
+        # The place of D follows from that of B: both sliding blocks are on bars.
         ("1", "2", "3", "4", "5"),
         (
             R("A", ("0", "1")),

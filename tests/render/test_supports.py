@@ -164,7 +164,7 @@ def test_supports_of_the_shipped_schemes_stand_free(name: str) -> None:
 
 
 def test_a_link_that_goes_on_through_a_joint_is_one_piece() -> None:
-    """D is between the ends of link 2; a centre of mass beyond a joint is no end of a link."""
+    """D is between the ends of link 2; a centre of mass beyond a joint is not an end of a link."""
     for name, point, across in (("levers/task-1", "D", -0.282 - 0.959j),):
         scheme = Scheme(Solution(problem_of(name)), 0, 5.0)
         scheme.draw()

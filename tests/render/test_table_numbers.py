@@ -41,7 +41,7 @@ def solution_of(name: str, positions: tuple[float, ...] | None = None) -> Soluti
 
 
 class Told:
-    """A column as it is told: numbers, negative where a clockwise arrow is, and half a digit."""
+    """A printed column: numbers, negative with a clockwise arrow, and half of the last digit."""
 
     def __init__(self, head: str, cells: Sequence[TableCell]) -> None:
         self.head = head
@@ -181,7 +181,7 @@ def test_the_balance_has_the_arrow_of_its_sense_and_differs_by_lever_less_plans(
         assert column.arrows == [1 if value > 0.0 else -1 for value in values.tolist()]
     assert {*balance.arrows} == {1, -1}
     off = np.abs(both.lever) - np.abs(both.plans)
-    apart.assert_are(off, share=0.15)  # of the numbers that stand beside it
+    apart.assert_are(off, share=0.15)  # the difference of the numbers beside it
     share.assert_are(100.0 * off / np.abs(both.plans), share=0.15)
     np.testing.assert_array_equal(np.sign(apart.values), np.sign(off))
     expected = drawn_forces(statics).discrepancy_sigma
@@ -216,7 +216,7 @@ def test_the_reactions_of_a_position_are_exact_read_and_turned_as_the_statics_ha
 
 
 def test_friction_is_the_reaction_by_the_radius_or_by_the_sine_of_the_angle() -> None:
-    """Of the first correction it is that of the reactions without friction."""
+    """In the first correction it is the friction of the reactions without friction."""
     solution = solution_of("machines/rubbing-crank")
     heads = heads_of(columns_of("friction-table", "machines/rubbing-crank"))
     radius = heads["ρ, mm"].values / 1000.0
@@ -341,7 +341,7 @@ def test_the_run_up_and_the_stop_go_by_even_times_with_the_speed_of_the_course()
 
 
 def test_counterweights_and_the_force_of_inertia_are_those_of_the_masses() -> None:
-    """Of a full balancing nothing is left; before it is less the sum of m·a."""
+    """After full balancing the force is zero; before, it is minus the sum of m·a."""
     name = "machines/balanced-crank"
     columns = columns_of("balancing-tables", name)
     links, moment, radius, mass, _ = columns[:5]

@@ -184,7 +184,7 @@ def test_paragraph_wraps_and_keeps_its_lines_apart() -> None:
         ("v_{B}, v_{C}, ω_{2}, ε_{4}.", 25.0, ["v_{B}, v_{C},", "ω_{2}, ε_{4}."]),
         ("v_{B}, v_{C}, ω_{2}, ε_{4}.", 34.0, ["v_{B}, v_{C},", "ω_{2}, ε_{4}."]),
         ("v_{B}, v_{C}", 10.0, ["v_{B},", "v_{C}"]),  # the line before has one word alone
-        ("v, расстояние CDE", 44.0, ["v, расстояние", "CDE"]),  # there is no room for both
+        ("v, расстояние CDE", 44.0, ["v, расстояние", "CDE"]),  # both do not fit
         ("v_{B}, v_{C}, направление", 30.0, ["v_{B}, v_{C},", "направление"]),
     ],
 )

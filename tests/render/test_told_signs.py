@@ -51,7 +51,7 @@ def test_the_sign_beside_an_angular_velocity_is_the_way_the_link_turns_next(name
                 continue
             assert cell.sense == np.sign(turn), (column.head, cell)
             if sigma:
-                assert column.cells[1].sense in (cell.sense, 0)  # what is read turns alike
+                assert column.cells[1].sense in (cell.sense, 0)  # the value read has the same sense
             seen += 1
     assert seen >= 2
 

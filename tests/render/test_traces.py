@@ -1,4 +1,4 @@
-"""Traces of the construction: where the steps were drawn, and only where they are asked."""
+"""Traces of the construction: at the places of the steps, and only on request."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ def test_the_points_of_the_diagrams_stand_where_the_numbers_say() -> None:
 
 @pytest.mark.parametrize("way", Differentiation)
 def test_every_ray_is_parallel_to_its_chord(way: Differentiation) -> None:
-    """The slope of what a ray cuts off over the pole distance is that of the path."""
+    """The intercept of a ray over the pole distance is the slope of the path."""
     made = diagrams(press(differentiation=way, pole=PoleDistances(v=30.0)))
     s, v, _ = made.drawn(way)
     chords = np.diff(s) / 15.0

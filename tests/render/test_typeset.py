@@ -33,7 +33,7 @@ def test_plain_text_is_one_run() -> None:
 
 
 def test_a_height_is_no_other_one_for_being_a_whole_number() -> None:
-    """What is kept for 7 mm is given to who asks for 7.0, too."""
+    """The text cached for the height 7 is also returned for 7.0; its heights are floats."""
     made = typeset("W_{9}", 7)
     assert {type(height) for height in (made.height, *(run.height for run in made.runs))} == {float}
 

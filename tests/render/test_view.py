@@ -1,4 +1,4 @@
-"""A drawing as a figure of a document: whole, or what is in a box."""
+"""A drawing as a figure of a document: the whole, or the part in a box."""
 
 from __future__ import annotations
 
