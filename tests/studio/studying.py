@@ -39,7 +39,7 @@ def studio(*args: str) -> Iterator[list[str]]:
 
 
 PRINTED: dict[str, str] = {}
-"""Addresses as they were printed, with the token, by those without it."""
+"""Addresses with the token, as printed, by the same addresses without it."""
 
 
 def come_in(page: Page, address: str, width: int = 1200, height: int = 900) -> None:

@@ -42,11 +42,11 @@ from planmethod.studio.written import (
 
 EX3 = PROBLEMS / "linkages/ex3.toml"
 PYODIDE = os.environ.get("PLANMETHOD_PYODIDE")
-"""Folder of a runtime with its libraries, for who has one."""
+"""Folder of a Pyodide runtime with its libraries, if there is one."""
 
 
 def silent(_: object) -> None:
-    """Tell nobody."""
+    """Do not report progress."""
 
 
 def written(folder: Path, runtime: Runtime) -> Path:

@@ -111,7 +111,7 @@ def test_who_goes_on_is_not_cut_off_however_long_it_takes(port: int) -> None:
             one.sendall(b"y" * 100)
         one.sendall(b"z" * 4199)
         assert answered(one, b"5000")
-        one.sendall(WHOLE.replace(b"/ ", b"/long ", 1))  # what is computed takes its time
+        one.sendall(WHOLE.replace(b"/ ", b"/long ", 1))  # a computed answer takes time
         assert answered(one, b"0")
 
 

@@ -104,7 +104,7 @@ def test_the_address_gives_a_strict_cookie_and_leads_on_without_the_token(own: T
     stranger = TestClient(own.app, base_url=HOME, follow_redirects=False)
     answer = stranger.get(f"/?lang=en&token={TOKEN}")
     told = answer.headers["set-cookie"]
-    assert re.match(r"planmethod-8765=", told)  # browsers tell no ports apart
+    assert re.match(r"planmethod-8765=", told)  # browsers do not separate cookies by port
     assert {"HttpOnly", "SameSite=strict", "Path=/"} <= {*told.split("; ")}
     assert answer.headers["refresh"] == "0; url=/?lang=en"
     assert answer.headers["referrer-policy"] == "no-referrer"
@@ -190,7 +190,7 @@ def another_site(folder: Path) -> Iterator[int]:
 
     class Silent(http.server.SimpleHTTPRequestHandler):
         def log_message(self, *_: object) -> None:
-            """Tell nobody."""
+            """Do not log."""
 
     serving = functools.partial(Silent, directory=str(folder))
     with http.server.ThreadingHTTPServer(("127.0.0.1", 0), serving) as server:

@@ -50,7 +50,7 @@ def serving(factory: pytest.TempPathFactory, limits: StudioLimits) -> Iterator[T
     root = factory.mktemp("studio") / "sessions"
     with visiting(settings, odd_acts.act, root) as client:
         yield client
-    assert not root.exists()  # nothing is left behind
+    assert not root.exists()  # no file is left behind
 
 
 def lines(
@@ -137,7 +137,7 @@ def test_a_process_that_ends_is_replaced_and_why_is_told_as_far_as_it_is_known(
 
 
 class Asking(threading.Thread):
-    """One who asks and is at work or in the queue when this is made; ``told`` by name."""
+    """A client whose request is running or queued once this exists; ``told`` has its answers."""
 
     def __init__(
         self, client: TestClient, who: dict[str, str], text: str, do: str, **more: Any
@@ -346,7 +346,7 @@ def test_for_one_session_more_than_there_may_be_the_oldest_idle_one_ends(tmp_pat
     assert let(busy=(first.key, third.key)) is None
     assert len({path.name for path in tmp_path.iterdir()}) == 3
     for _ in range(200):
-        assert let(True) is not None  # the owner is let in whoever is there
+        assert let(True) is not None  # the owner is let in however many are there
     assert len(sessions) <= 4
 
 

@@ -1,4 +1,4 @@
-"""Whatever is sent to the studio is answered: with what was asked, or with a sentence."""
+"""Every request to the studio is answered: with the requested result, or with a sentence."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
 
 
 def tell(answer: Any, what: object) -> None:
-    """See that an answer is what was asked for, or one sentence."""
+    """Assert that an answer is the requested result, or one sentence."""
     assert answer.status_code < 500, what
     if answer.status_code >= 400 and answer.request.method != "HEAD":
         if answer.status_code == 409 and answer.headers["content-type"] == "application/json":

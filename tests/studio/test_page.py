@@ -248,7 +248,7 @@ def test_tables_scroll_within_an_edge_of_their_own(page: Page, address: str) -> 
     before = page.ask(heads)
     page.ask("document.querySelector('#answering .wide').scrollTo(200, 0)")
     assert page.ask(heads) == pytest.approx(before, abs=2)  # the quantity stays in sight
-    # indices stand below: v_B1
+    # indices are set below the line: v_B1
     assert page.ask("document.querySelector('#rows th sub').textContent") == "B1"
 
 
@@ -436,7 +436,7 @@ def test_what_is_undone_in_one_file_brings_back_nothing_of_another(page: Page, d
         before = page.ask("studio.text()")
         undo(page)
         assert page.ask("studio.text()") == page.ask("studio.typed.text()") == before
-    # the page opened again, and the text before had back, with what was done to it
+    # after reloading the page, undo restores the text before, with its history
     page.ask("studio.put('# typed\\n')")
     page.leave("location.reload()")
     page.wait("!!globalThis.studio")
@@ -482,7 +482,7 @@ def test_a_text_is_saved_to_the_file_that_it_came_from_or_it_is_asked(
     asked("the text came from b.toml", 1)
     page.wait("JSON.parse(localStorage.getItem('planmethod.text')).file === 'new.toml'")
     assert (desk / "new.toml").read_text() == "title = 'b'\n"
-    # an answer to what was asked of a file before is no answer for the file that is here now
+    # an answer to a question about an earlier file does not apply to the present one
     (desk / "new.toml").write_text("title = 'theirs'\n")
     at(page, "'b'", "'mine'")
     click(page, "#save")
@@ -553,7 +553,7 @@ def test_nothing_that_was_made_for_a_task_is_shown_under_the_next_one(
     fresh = page.ask(SHOWN)
     open_task(page, "linkages-ex3-variants")
     filled(page, work)
-    assert page.ask("!!document.querySelector('#page iframe')")  # also of who has initials
+    assert page.ask("!!document.querySelector('#page iframe')")  # also for a name with initials
     page.ask(
         "document.querySelector('#points').value = '0';"
         "document.querySelector('#by-hand button').click()"
@@ -655,7 +655,7 @@ def test_the_assemblies_that_a_file_leaves_open_are_offered(page: Page, address:
     )
     assert 'B = "above C"' in page.ask("studio.text()")
     assert 'E = "left of D"' in page.ask("studio.text()")
-    # where nothing is open, all there are; of what is typed while one looks at them
+    # if no assembly is open, all of them are offered, and they follow the text as it is typed
     click(page, "#to-assemblies")
     page.wait(f'{rules}.includes(\'B = "above C"; E = "left of D"\')')
     page.ask("studio.put(studio.text().replace('AB = 0.28', 'AB = 0.9'))")

@@ -22,7 +22,7 @@ HERE = (
     f"[...document.querySelectorAll({CONTROLS!r})].filter(one => one.checkVisibility()"
     " && one.id !== 'main' && !one.disabled && !one.classList.contains('cm-scroller'))"
 )
-"""What can be worked with in what is shown; the content itself is where a link leads."""
+"""Expression for the visible controls; the main content itself is only the target of a link."""
 
 LOADED = (
     "document.querySelector('#motion iframe') && performance.getEntriesByType('resource')"
@@ -114,7 +114,7 @@ def unreached(page: Page) -> list[str]:
     page.ask("all[0].focus()")  # not in a frame that a room before had, and that is hidden now
     missed, turn = {*range(wanted)}, 0
     frames = page.ask("all.filter(one => one.tagName === 'IFRAME').length")
-    while missed and turn < 2 * (wanted + 10 + 60 * frames):  # a trap would keep what is behind it
+    while missed and turn < 2 * (wanted + 10 + 60 * frames):  # a trap would keep focus
         for kind in ("rawKeyDown", "keyUp"):
             page.call("Input.dispatchKeyEvent", type=kind, key="Tab", code="Tab",
                       windowsVirtualKeyCode=9)  # fmt: skip
@@ -139,7 +139,7 @@ def test_every_control_has_a_role_and_a_name_and_is_come_to_by_tab(
     assert page.ask("document.querySelectorAll('iframe').length") == page.ask(
         "document.querySelectorAll('iframe + .own').length"
     )
-    # what is told is heard
+    # every reported text is announced by a screen reader
     live = page.ask(
         "[...document.querySelectorAll('.told, #said, #told, #done, #faults, #measured')]"
         ".filter(one => !one.closest('[role=status], [role=alert], [aria-live]')).length"

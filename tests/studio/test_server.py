@@ -1,4 +1,4 @@
-"""The studio does what the commands do, by the same code; faults are told at their place."""
+"""The studio does the work of the commands, by the same code; faults are shown at their place."""
 
 from __future__ import annotations
 
@@ -364,7 +364,7 @@ def test_marks_are_those_of_the_command_and_change_by_hand(
 def test_a_file_that_cannot_be_read_stops_no_other_and_names_have_their_pages(
     client: TestClient,
 ) -> None:
-    """Before: no marks at all; and no page of who has a point in his name."""
+    """Before: no grades at all, and no page for a student whose name has a full stop."""
     names = ["Петров П.П.", "=1+1", "a-b", "a b"]
     rows = "".join(f"{name};v B;3,2;м/с\n" for name in names)
     works = {

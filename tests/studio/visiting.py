@@ -1,4 +1,4 @@
-"""A studio whose routes are asked without a network, by who has the address that it printed."""
+"""A studio whose routes are called without a network, by a client with its printed address."""
 
 from __future__ import annotations
 
