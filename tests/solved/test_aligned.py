@@ -193,7 +193,7 @@ def _bare(points: str, slides: str = "") -> Problem:
         ("A:01 B:13 C:23 D:24 E:25", "4/0@D 5/0@E", 3),
         ("A:01 B:12 C:23 D:24 E:35 F:45 G:05", "", 3),  # class IV
         ("A:01 B:12 C:23 D:03 E:246 F:45 G:05 H:67 K:07", "", 6),  # two groups on one hinge
-        ("A:01 D:05 B:14 C:245 E:23", "3/0@E", 4),  # the hinge closed by what the file has later
+        ("A:01 D:05 B:14 C:245 E:23", "3/0@E", 4),  # the hinge closed by a later part of the file
     ],
 )
 def test_groups_of_any_class_without_sizes(points: str, slides: str, changes: int) -> None:
@@ -220,7 +220,7 @@ def test_what_jams_in_the_position_of_the_file_is_left_out() -> None:
         problem = loads(re.sub(r"(?m)^phi = [0-9.]+", phi, text), name="slider-crank")
         found = self_aligning(problem, analyse(problem.mechanism))
         every.append([scheme.classes for scheme in found.groups[0].schemes])
-    # The sphere B stands on the cylinder's line, about which the rod and the slider are loose.
+    # The sphere B is on the cylinder's line, about which the rod and the slider are loose.
     assert ("3s", "1v", "2c") not in every[0] and ("3s", "1v", "2c") in every[1]
     assert not next(s for s in found.groups[0].schemes if s.classes == ("3s", "1v", "2c")).steady
     assert set(every[0]) < set(every[1])

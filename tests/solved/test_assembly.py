@@ -1,4 +1,4 @@
-"""Which closing is meant, and what is said when there is none."""
+"""Choice of the assembly, and the messages if there is none."""
 
 from __future__ import annotations
 

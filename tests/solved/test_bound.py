@@ -1,4 +1,4 @@
-"""The bound that is told next to change points holds, of what is nearly nothing as well."""
+"""The error bound reported near change points holds, for nearly zero results as well."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def test_no_result_is_off_by_more_than_is_told(shape: str, phi: float) -> None:
 
 
 def test_what_is_told_is_of_the_largest_of_a_kind() -> None:
-    """The coupler of a parallelogram does not turn: what is found for it is noise, all of it."""
+    """The coupler of a parallelogram does not turn: its computed acceleration is all noise."""
     solution = Solution(loads(four_bar("parallelogram", 0.01), name="x"))
     (doubt,) = doubts(solution)
     turned = abs(float(solution.links["2"].epsilon[0]))

@@ -86,7 +86,7 @@ def test_a_step_of_a_table_jumps_and_its_slopes_do_not() -> None:
 
 
 def test_a_resistance_that_turns_is_a_position_alone() -> None:
-    """Against the velocity it is nothing in the dead position itself, and large on both sides."""
+    """A load against the velocity is zero in the dead position, and large on both sides of it."""
     text = f"force = 2000\nagainst = {chr(34)}velocity{chr(34)}"
     problem = task12(text).problem
     speed = [

@@ -57,7 +57,7 @@ def test_far_from_the_change_point_nothing_is_said() -> None:
 def test_near_the_change_point_the_estimate_covers_the_error(phi: str) -> None:
     solution = parallelogram(phi)
     verify(solution)
-    # The rocker of a parallelogram has no angular acceleration: what is found is the error.
+    # The rocker of a parallelogram has no angular acceleration: the computed one is the error.
     error = abs(solution.links["3"].epsilon[0]) / 12**2
     assert error <= 20 * error_bound(solution)[0]
 

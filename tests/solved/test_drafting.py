@@ -262,7 +262,7 @@ def test_a_quantity_read_once_errs_once() -> None:
 
 
 def test_what_follows_by_similarity_errs_with_its_side() -> None:
-    """v_S3 is v_D·CS3/CD: the point s3 is laid off, and nothing is read anew."""
+    """v_S3 is v_D·CS3/CD: the point s3 is laid off, without another reading."""
     assert one_error(drafting_of(drawn("levers/task12", "board")), "v_D", "v_S3")
 
 
@@ -354,12 +354,12 @@ def test_the_documented_strokes_err_by_what_they_do() -> None:
     assert f"of {DRAWS} random drawings" in DOCS
 
 
-# Nothing is lost where nothing is drawn -----------------------------------------------------------
+# Values without a construction -------------------------------------------------------------------
 
 
 def test_sigma_exists_wherever_the_exact_value_does() -> None:
-    """S3 stands at its own pivot: a line through both has no direction, and nothing needs it."""
-    # At a scale where no other segment is nearly nothing.
+    """S3 is at its own pivot: a line through both has no direction, and it is not needed."""
+    # At a scale where no other segment is nearly zero.
     scales = Scales(mu_l=0.002, mu_v=0.01, mu_a=0.4)
     solution = Solution(replace(load(CASES / "point-at-pivot.toml"), scales=scales))
     for errors in (drafting_of(solution), drawn_forces(statics_of(solution))):

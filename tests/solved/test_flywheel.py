@@ -145,7 +145,7 @@ def drawn_by_mertsalov(path: Path) -> FlywheelDrawing:
 @each("path", ["problems/press/flywheel", "problems/machines/compressor",
                "tests/data/turn/crusher"])  # fmt: skip
 def test_by_mertsalov_the_flywheel_has_what_is_left_of_the_energy(path: str) -> None:
-    """Of the crusher T_II is 900 J and more: its axis does not begin at zero."""
+    """In the crusher T_II is at least 900 J: its axis does not begin at zero."""
     drawing = drawn_by_mertsalov(ROOT / f"{path}.toml")
     wheel = drawing.flywheel
     points, made, exact = drawing.points, drawing.made, drawing.exact

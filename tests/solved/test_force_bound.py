@@ -1,4 +1,4 @@
-"""Forces are judged as motion is: the bound that is told holds, and what is spoilt is refused."""
+"""Forces are checked like motion: the reported bound holds, and spoilt results are rejected."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def exact_values(statics: Statics, rng: random.Random) -> Mapping[Name, Any]:
 
 
 def largest_error(statics: Statics, rng: random.Random) -> float:
-    """Return the largest error of a reaction or of what balances, of the largest of its kind."""
+    """Return the largest error of reactions and the balance, relative to the largest of a kind."""
     right, found = exact_values(statics, rng), statics.exact
     errors, sizes = [], []
     for reaction in statics.board.reactions:

@@ -57,7 +57,7 @@ def sheets_of(name: str | int, profile: str) -> dict[PointName, Complexes]:
     statics = statics_with(name, profile)
     plans = statics.solution.construction.plans
     free = frozenset([*(str(plan.pole) for plan in plans), *map(str, statics.board.starts)])
-    times = drawn_forces(statics).drawing.times(np.array([0]))  # tells how large the plans are
+    times = drawn_forces(statics).drawing.times(np.array([0]))  # the sizes of the plans
     pencil = Sampled(statics.solution.profile, free, DRAWS, 7, times)
     trace = evaluate(statics.program, statics.data(statics.per_mm, np.array([0])), pencil)
     return {end: np.broadcast_to(trace.value[end], (DRAWS,)) for end in ends_of(statics)}
@@ -213,7 +213,7 @@ def test_what_follows_from_a_strained_step_is_not_believed() -> None:
 
 
 def test_plans_without_forces_have_no_errors() -> None:
-    """Nothing loads the links: nobody draws their force plans."""
+    """The links are not loaded: their force plans are not drawn."""
     text = path_of("linkages/ex3").read_text("utf-8")
     solution = Solution(loads(text + "\n[dynamics]\ngravity = false\n", name="free"))
     for joint in statics_of(solution).reactions:
@@ -238,7 +238,7 @@ def test_forces_err_together_with_the_kinematics_they_follow_from() -> None:
     found = np.cov(np.array([sheets[label] for label in labels]))
     assert np.abs((matrix - found) / np.outer(sigma, sigma)).max() < 0.05
     together = matrix / np.outer(sigma, sigma)
-    # The lever hangs on the velocity plan, so that it errs with omega_3 much more than F_10 does.
+    # The lever is the velocity plan, so its error follows omega_3 much more than F_10's does.
     assert together[1, 7] > 0.8 > abs(together[1, 3])
 
 

@@ -1,4 +1,4 @@
-"""Forces in sweeps against `Statics` of solutions: values, names, what is asked, where none are."""
+"""Forces in sweeps against `Statics` of solutions: values, names, requests, missing forces."""
 
 from __future__ import annotations
 
@@ -220,7 +220,7 @@ def test_a_load_over_positions_is_known_there_only() -> None:
         Sweep(problem, ["M_dr"]).run([0.0, 33.0])
 
 
-# What is asked ------------------------------------------------------------------------------------
+# Requested quantities -----------------------------------------------------------------------------
 
 
 def test_forces_stand_among_other_results_as_they_are_asked() -> None:
@@ -347,7 +347,7 @@ force = 7
 
 @pytest.mark.parametrize(("way", "exists"), [("angle = 30", True), ('against = "velocity"', False)])
 def test_a_load_against_a_motion_needs_the_whole_motion(way: str, exists: bool) -> None:
-    """What stands still is told by the largest speed: that of another group, which is dead."""
+    """Standstill is judged against the largest speed, here that of another, dead group."""
     text = DEAD.replace("D = [3.0, 0.0]", "D = [3.0, 0.0]\nG = [-1.0, 2.5]")
     problem = loads(f'{text}E = "left of BG"\n{BESIDE}{way}\n', name="beside")
     sweep = Sweep(problem, ["F_G_5/0", "E"])

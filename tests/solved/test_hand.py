@@ -54,7 +54,7 @@ SIX_LINK = exact_values()["levers/six-link"]
 
 
 def test_the_first_example_with_a_ruler_of_1_mm() -> None:
-    """The chain of the textbook: segments to the millimetre, what follows computed from them.
+    """The textbook's chain: segments to the millimetre, later values computed from them.
 
     l_AB = 0.03, l_BC = 0.1, phi = 60°, omega = -100; mu_v = 0.05, mu_a = 5.
     """
@@ -212,7 +212,7 @@ def laid_off(name: str, kind: PlanKind) -> set[str]:
 @pytest.mark.parametrize("ruler", [0.1, 0.5, 1.0, 2.0])
 @pytest.mark.parametrize("name", SIX)
 def test_read_segments_are_marks_of_the_ruler(name: str, ruler: float) -> None:
-    """All but what was computed and laid off: it is known, and read by nobody."""
+    """All segments but those computed and laid off: they are known, and are not read."""
     step = Fraction(str(ruler))
     solution = drawn(name, ruler)
     lengths = {(one.kind, one.name): one.length for one in solution.construction.segments}
@@ -221,7 +221,7 @@ def test_read_segments_are_marks_of_the_ruler(name: str, ruler: float) -> None:
             assert segment.read[0] >= 0
             if segment.name in laid_off(name, kind):
                 continue
-            # On an enlarged view the marks are so much nearer.
+            # On an enlarged view the marks are closer by its factor.
             read = segment.read[0] * solution.hand.enlarged.get(lengths[kind, segment.name], 1.0)
             marks = round(read / ruler)
             assert read == pytest.approx(float(marks * step), abs=1e-12), segment.name
@@ -229,7 +229,7 @@ def test_read_segments_are_marks_of_the_ruler(name: str, ruler: float) -> None:
 
 @pytest.mark.parametrize("name", SIX)
 def test_the_drawing_is_read_to_half_a_mark(name: str) -> None:
-    """Lengths of the links are laid off as they are; what is read on the drawing is rounded."""
+    """Lengths of the links are laid off exactly; lengths read on the drawing are rounded."""
     solution = drawn(name, 0.5)
     given = {
         frozenset((p, q))

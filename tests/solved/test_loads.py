@@ -198,7 +198,7 @@ def test_a_couple() -> None:
 
 
 def test_a_resistance_is_zero_where_its_point_stands() -> None:
-    # C stands at 0 and 180 degrees; it moves left between them and right after
+    # C is at rest at 0 and 180 degrees; it moves left between them and right after
     assert up('force = 100\nagainst = "velocity"') == [0, *[100] * 5, 0, *[-100] * 5]
     assert up('force = -100\nagainst = "velocity"') == [0, *[-100] * 5, 0, *[100] * 5]
 

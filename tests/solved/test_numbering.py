@@ -99,7 +99,7 @@ def test_a_single_position_that_the_cycle_has_not_is_warned_of() -> None:
 
 @pytest.mark.parametrize("with_cycle", [True, False])
 def test_the_layouts_of_the_cycle_have_the_same_positions(with_cycle: bool) -> None:
-    """Without [cycle] a machine tells where position 0 is, else the extreme position does."""
+    """Without [cycle] the machine determines position 0, otherwise the extreme position does."""
     text = without_phi(SHAPER) if with_cycle else SHAPER[: SHAPER.index("[cycle]")]
     if not with_cycle:
         text += SHAPER[SHAPER.index("[dynamics.links.1]") :].replace(

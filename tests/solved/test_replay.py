@@ -98,7 +98,7 @@ def test_its_own_value_changes_nothing_to_the_bit(name: str) -> None:
 
 @pytest.mark.parametrize("name", EVERY)
 def test_another_reading_changes_what_depends_on_it_and_nothing_else(name: str) -> None:
-    """Every step that depends on it, but what is nothing or stays where it is at any size."""
+    """It changes every dependent step, except zeros and steps that do not depend on its size."""
     sheet = drawn(name)
     program, before = sheet.program, sheet.trace
     measured = [step for step in program.steps if isinstance(step, READINGS)]
@@ -115,7 +115,7 @@ def test_another_reading_changes_what_depends_on_it_and_nothing_else(name: str) 
 
 
 def dependents(program: Program, made: Name) -> set[Name]:
-    """Return what a point, line or number goes into, directly or not, and it itself."""
+    """Return a point, line or number and everything that depends on it, directly or not."""
     found = {made}
     for step in program.steps:
         if any(name in found for name, _ in operands(step)):
@@ -124,10 +124,10 @@ def dependents(program: Program, made: Name) -> set[Name]:
 
 
 def _stays(step: Step, trace: Trace, moved: set[Name]) -> bool:
-    """Tell whether a step may keep its value where what it uses has changed.
+    """Return whether a step may keep its value although its operands have changed.
 
-    A ruler reads the same of lengths that differ by less than its step, and a force of one
-    direction is laid off as it was read; nothing times anything is nothing.
+    A ruler gives the same reading for lengths that differ by less than its step, and a force of
+    known direction is laid off as it was read; zero times any number is zero.
     """
     if isinstance(step, Carry):
         return step.length is not None and step.length not in moved

@@ -63,7 +63,7 @@ def of_kind(statics: Statics, kind: LoadKind) -> dict[str, GivenLoad]:
 
 
 def single(text: str, base: str) -> Statics:
-    """Return the statics of a mechanism with more text, one force of inertia being asked for."""
+    """Return the statics of a mechanism with more text and a single resultant inertia force."""
     return Statics(Solution(loads(f"{base}[dynamics]\nresultant = true\n{text}", name="one")))
 
 

@@ -273,7 +273,7 @@ def test_a_batch_of_a_random_mechanism(seed: int) -> None:
 
 @each("seed", SEEDS[::20])
 def test_the_solution_stays_as_it_is(seed: int) -> None:
-    """Forces may be asked twice, and before or after the motion."""
+    """Forces may be computed twice, and before or after the motion."""
     solution = Solution(loaded(seed))
     program = solution.construction.program
     first, second = Statics(solution), Statics(solution)

@@ -129,11 +129,11 @@ def test_one_force_of_inertia_has_as_many_digits(which: int | str) -> None:
             assert verdict.multiple <= MULTIPLE, verdict
 
 
-# In units of what the data allow -----------------------------------------------------------------
+# In units of the accuracy that the data allow ---------------------------------------------------
 
 
 def asked(statics: Statics) -> tuple[Program, dict[str, Name]]:
-    """Return a program that ends with every force as a point, and what to look at by label."""
+    """Return a program that ends with every force as a point, and the names of these by label."""
     board = statics.board
     b = board.draft.b.copy()
     names: dict[str, Name] = {}
@@ -285,7 +285,7 @@ def test_errors_in_the_dead_position_of_the_driven_link(name: str) -> None:
 
 
 def test_a_force_grows_as_the_driver_loses_its_hold() -> None:
-    """In the dead position itself there is none, and that is told."""
+    """In the dead position itself there is no force, and this is an error."""
     sizes = [
         max(float(abs(r.force[0])) for r in approach("rocker by itself", 0.0, d).reactions)
         for d in (1e-2, 1e-4, 1e-6)

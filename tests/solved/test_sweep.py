@@ -254,7 +254,7 @@ def test_a_table_is_by_name() -> None:
     assert table["2.omega"] == pytest.approx(solution.links["2"].omega)
 
 
-# What is asked ------------------------------------------------------------------------------------
+# Requested quantities -----------------------------------------------------------------------------
 
 
 def test_what_is_asked_needs_fewer_steps_and_comes_in_order() -> None:
@@ -327,7 +327,7 @@ def values_of(count: int) -> dict[str, Array]:
 
 @pytest.mark.parametrize("count", [3, FEW + 3])
 def test_parameters_of_every_position(count: int) -> None:
-    """Of shape (n,): each position has numbers of its own."""
+    """Shape (n,): each position has parameters of its own."""
     sweep, values = Sweep(problem_of("ex3"), varied=VARIED), values_of(count)
     positions = np.linspace(10.0, 200.0, count)
     found = sweep.run(positions, values)
@@ -340,7 +340,7 @@ def test_parameters_of_every_position(count: int) -> None:
 
 @pytest.mark.parametrize("count", [3, FEW + 3])
 def test_parameters_of_every_variant(count: int) -> None:
-    """Of shape (v, 1): every variant in every position."""
+    """Shape (v, 1): every variant in every position."""
     sweep, values = Sweep(problem_of("ex3"), varied=VARIED), values_of(4)
     positions = np.linspace(10.0, 200.0, count)
     found = sweep.run(positions, {name: value[:, None] for name, value in values.items()})

@@ -22,7 +22,7 @@ from planmethod.solved.transfers import transfers_of
 FILES = ("linkages/ex1", "linkages/ex3", "levers/six-link", "levers/task-22", "press/press")
 RATES = ((20.0, 0.0), (-7.0, 0.0), (5.0, 11.0), (-5.0, 13.0))
 STEP = 2.0**-11
-"""Of the crank, radians."""
+"""Step of the crank angle, radians."""
 
 
 def problem_of(name: str) -> Problem:

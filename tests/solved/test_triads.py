@@ -76,7 +76,7 @@ def sextic(triad: list[tuple[complex, complex, float]]) -> list[tuple[complex, f
     """Return every pose of a link whose places z are r from a, by the roots of one polynomial.
 
     With w the link's direction and 1/w its conjugate, the differences of the equations are linear
-    in the origin and its conjugate: what is left is a polynomial in w.
+    in the origin and its conjugate: eliminating both leaves a polynomial in w.
     """
     poly = np.polynomial.Polynomial
     (z1, a1, r1), *others = triad

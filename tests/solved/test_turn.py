@@ -115,7 +115,7 @@ def test_a_smooth_curve_goes_through_its_values_and_has_no_corner() -> None:
     assert smooth(values, at - 14.3) == pytest.approx(smooth(values, at - 0.3))
     open_end = smooth(np.append(at**2, np.nan), np.array([-0.5, 0.5, 3.0, 6.0, 6.5, 7.0]))
     assert np.isnan(open_end).tolist() == [True, False, False, False, True, True]
-    # Of three values the natural curve has the bend 3/2 of the second difference in the middle.
+    # Through three values, the natural curve's bend in the middle is 3/2 of the second difference.
     assert smooth(np.array([0, 0, 1, np.nan]), np.array([0.5]))[0] == pytest.approx(-1.5 / 16)
 
 

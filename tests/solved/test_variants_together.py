@@ -1,4 +1,4 @@
-"""Variants that are read together are told as each alone, to the last bit."""
+"""Variants read together give the same results as each read alone, to the last bit."""
 
 import csv
 import random

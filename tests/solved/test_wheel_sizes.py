@@ -1,4 +1,4 @@
-"""Sizes of a flywheel, and what is told of one that is wide for its diameter."""
+"""Sizes of a flywheel, and the note on one that is wide for its diameter."""
 
 from __future__ import annotations
 
