@@ -68,7 +68,7 @@ class Page:
         self, page: Path | str, *, width: int = 1200, height: int = 900, dark: bool = False,
         leads: bool = False,
     ) -> None:  # fmt: skip
-        """Open a file, or an address, in a window of so many pixels; one that leads to another."""
+        """Open a file or address in a window of this size; ``leads``: it goes to another page."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=1, mobile=width < 600)  # fmt: skip
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
@@ -81,7 +81,7 @@ class Page:
             self._until_loaded()
 
     def leave(self, expression: str) -> None:
-        """Do what leads to another page, and go on there: on the way nobody answers."""
+        """Run an expression that leads to another page, and wait until that is loaded."""
         self._loaded = False
         self.ask(expression)
         self._until_loaded()
@@ -135,9 +135,9 @@ def browsing(folder: Path) -> Iterator[Page]:
     try:
         yield Page(send, receive)
     finally:
-        # Told to close it removes its own temporary folder; killed it does not.
+        # A browser told to close removes its temporary folder; a killed one does not.
         os.write(send, b'{"id": 0, "method": "Browser.close"}\0')
-        while os.read(receive, 1 << 20):  # it cannot end while nobody hears what it has to say
+        while os.read(receive, 1 << 20):  # it cannot end until its last messages are read
             pass
         done.wait()
         os.close(send)

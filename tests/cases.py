@@ -26,24 +26,24 @@ def is_thinned() -> bool:
 
 
 def some(count: int, few: int) -> int:
-    """Return how many seeds or examples are taken: all of so many, or by default a few."""
+    """Return the number of seeds or examples to run: ``count`` of them, or by default a few."""
     return count if _taken["everything"] else few
 
 
 def thinned(cases: Sequence[T], step: int) -> Sequence[T]:
-    """Return all cases, or by default the first of each so many."""
+    """Return all cases, or by default every ``step``-th, from the first on."""
     return cases if _taken["everything"] else cases[::step]
 
 
 def sampled(cases: Sequence[T], step: int) -> Sequence[T]:
-    """Return all cases, or in ``make test`` the first of each so many."""
+    """Return all cases, or in ``make test`` every ``step``-th, from the first on."""
     return cases[::step] if _taken["thinned"] else cases
 
 
 def each(names: str, cases: Iterable[Any]) -> Callable[[Test], Test]:
     """Run a test over many cases as one; the first failure is raised and names all that fail.
 
-    Like ``pytest.mark.parametrize``, for cases that are quicker than what pytest spends on a case.
+    Like ``pytest.mark.parametrize``, for cases that are quicker than pytest's own overhead.
     The cases share the fixtures of the test. One that skips itself is left out; if all do, so does
     the test.
 

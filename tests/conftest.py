@@ -9,7 +9,7 @@ import cases
 import pytest
 from hypothesis import settings
 
-# A slow machine is no failure, and a run is like the one before it.
+# A slow machine does not fail a test, and every run has the same examples.
 settings.register_profile("planmethod", deadline=None, derandomize=True, max_examples=40)
 settings.register_profile("thinned", deadline=None, derandomize=True, max_examples=20)
 settings.register_profile("thorough", deadline=None, derandomize=True, max_examples=200)
@@ -25,7 +25,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def is_whole(config: pytest.Config) -> bool:
-    """Return whether every case is taken: if that is asked for, of named tests, and by CI."""
+    """Return whether every case is taken: on request, for tests named one by one, and in CI."""
     asked = config.getoption("--thorough") or config.getoption("--every")
     named = any("::" in word for word in config.args)
     return bool(asked or named or os.environ.get("CI") == "true")
@@ -47,9 +47,9 @@ MANY = 4
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Take every third to seventh case of a test that has many, unless every one is asked for.
+    """Take every third to seventh case of a test that has many, unless all are requested.
 
-    Of a test whose cases take seconds, marked ``dear``, the first one is taken.
+    A test marked ``dear``, whose cases take seconds, runs its first case only.
     """
     if is_whole(config):
         return
@@ -60,7 +60,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             found.setdefault(name, []).append(item)
     left: set[int] = set()
     for own in found.values():
-        # Of parameters that cross by twos and fours all are met still.
+        # An odd step still meets every value of parameters that cross by twos and fours.
         step = (1, 3, 5, 5, 5, 5, 5, 5, 7)[min(len(own) // MANY, 8)]
         if own[0].get_closest_marker("dear"):
             step = len(own)
@@ -82,12 +82,12 @@ def _what_a_file_has_kept_goes_with_it(request: pytest.FixtureRequest) -> Iterat
     for kept in vars(request.module).values():
         if getattr(kept, "__module__", None) == request.module.__name__:
             getattr(kept, "cache_clear", int)()
-    gc.collect()  # with what hangs together in circles
+    gc.collect()  # with reference cycles
 
 
 @pytest.fixture(scope="session", autouse=True)
 def _no_config_of_the_developer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """The tests read an empty config file and no cache of who runs them; no warning is let pass."""
+    """Use an empty config file and no cache of the developer's; make every warning an error."""
     empty = Path(tmp_path_factory.mktemp("config")) / "config.toml"
     empty.touch()
     with pytest.MonkeyPatch.context() as patch:

@@ -46,7 +46,7 @@ def _values(sides: list[str]) -> tuple[list[float], float]:
         plain = re.sub(r"\^\{([^}]*)\}", r"**(\1)", found[0]).replace(",", ".")
         plain = re.sub(r"\|([^|]*)\|", r"abs(\1)", plain.replace("·", "*").replace("−", "-"))
         plain = re.sub(r"([\d.]+)°", rf"(\1*{radians(1.0)})", plain.replace("π", str(pi)))
-        if unit := side[found.end() :].lstrip():  # what has none is in that of what follows it
+        if unit := side[found.end() :].lstrip():  # a side without a unit has that of the next one
             factor = radians(1.0) if unit.startswith(DEGREES) else 1.0
         values.append(factor * float(eval(plain)))
         sizes = plain.replace("(-", "(+").replace("- ", "+ ").lstrip("-")
@@ -57,7 +57,7 @@ def _values(sides: list[str]) -> tuple[list[float], float]:
 
 
 def count_equations_that_hold(texts: Iterable[str], share: float = 1.2e-3) -> int:
-    """Assert that numbers give what stands after them, to a share of their terms; count them."""
+    """Assert that both sides of equations agree, to a share of their terms; count them."""
     count = 0
     for equation, values, size in equations_in(texts):
         for one, other in pairwise(values):

@@ -141,7 +141,7 @@ def solve_all(
     joints : sequence of (point, on, by)
         Every pair once.
     context : mpmath context, optional
-        Who solves; numpy when absent.
+        Arithmetic of the solver. Default: numpy.
     ends : Ends, optional
         An actuator that drives between two bodies, in place of the driving link's couple or force.
     """

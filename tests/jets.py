@@ -42,7 +42,7 @@ class Jets(Exact):
         return Jet(*(self.base.lift(part) for part in parts))
 
     def root(self, value: Number) -> Number:
-        """Return the square root, 0 of what is negative."""
+        """Return the square root, 0 for a negative number."""
         f, f1, f2 = _jet(value).parts()
         s = self.base.root(f)
         s1 = f1 / (2 * self.base.nonzero(s))

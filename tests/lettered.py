@@ -48,7 +48,7 @@ def force_lines(reading: ForceReading, lang: str) -> list[str]:
 
 
 def computed(numbers: str, decimal: str = ",") -> float:
-    """Compute what stands between two equals signs."""
+    """Compute an expression between two equals signs."""
     plain = numbers.replace(decimal, ".").replace("−", "-")
     plain = re.sub(r"·10\^\{(-?\d+)\}", r"e\1", plain)
     plain = re.sub(r"\^\{(\d+)\}", r"**\1", plain.replace("·", "*"))

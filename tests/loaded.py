@@ -38,7 +38,7 @@ def loaded_text(text: str, pose: Pose, rng: random.Random) -> str:
     for link, table in tables.items():
         points: list[str] = list(table["points"])
         host = tables.get(table.get("slides", {}).get("on"), {"slides": ()})
-        # A new point of a stone in a block would have to be told on which side of it it lies.
+        # A new point of a block on a bare block would need a rule for its side of the line.
         untold = _is_bare(host) and not {*points} & {*read.get("assembly", {})}
         new = [] if _is_bare(table) or untold else rng.sample(("S", "P", "Q"), rng.randint(0, 3))
         for letter in new:
@@ -63,7 +63,7 @@ def loaded_text(text: str, pose: Pose, rng: random.Random) -> str:
 
 
 def _is_bare(table: dict[str, object]) -> bool:
-    """Whether the only axis of a link is the line that it carries: it can have no second point."""
+    """Return whether a link's only axis is the line that it carries: it can have no other point."""
     lengths = [key for key, value in table.items() if isinstance(value, float)]
     return "slides" not in table and not lengths
 

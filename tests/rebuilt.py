@@ -1,4 +1,4 @@
-"""A mechanism built of what is given alone: the keys that the nodes of a statement carry."""
+"""A mechanism built from the stated data alone: the keys in the nodes of a statement."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def rebuilt(facts: Iterable[GivenFact], name: str = "rebuilt") -> Problem:
 
 
 def _toml(data: dict[str, Any]) -> Iterator[str]:
-    """Yield a problem file; what is given by one coordinate has 0 as the other."""
+    """Yield a problem file; a point given by one coordinate has 0 as the other."""
     lists: dict[str, dict[int, Any]] = {}
     tables: dict[int, list[str]] = {}
     for key, value in data.items():
@@ -64,7 +64,7 @@ def _value(value: Any) -> str:
 
 
 def printed(text: str) -> Iterator[tuple[float, float]]:
-    """Yield the numbers of a text, lengths in metres, each with what its last digit stands for."""
+    """Yield the numbers of a text, lengths in metres, each with the value of its last digit."""
     for match in re.finditer(rf"({_NUMBER})[ \u00a0]?([a-zа-я]*)", plain_text(text)):
         shown = match[1].rstrip(",.").replace("−", "-").replace(",", ".")
         base, _, power = shown.partition("·10")

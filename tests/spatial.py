@@ -46,7 +46,7 @@ def _twists(name: str, at: complex, along: complex) -> list[Vector]:
 
 
 def rank_of(classes: Mapping[str, str], places: Mapping[str, tuple[complex, complex]]) -> Rank:
-    """Return what is true of a scheme; ``places`` has a point and a direction (0 of a hinge)."""
+    """Return the ranks of a scheme; ``places`` has points and directions (0 for a hinge)."""
     size = max(abs(at) for at, _ in places.values())
     pairs = [(key, *key.split()[1].split("-")) for key in classes]
     columns: list[Vector] = []

@@ -1,4 +1,4 @@
-"""Joined cases are all run, and what fails is told with its case."""
+"""Joined cases all run, and a failure names its case."""
 
 from __future__ import annotations
 

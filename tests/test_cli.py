@@ -675,7 +675,7 @@ def test_no_traceback_reaches_a_user(faulty: str, open_chain: str) -> None:
 
 
 def test_a_mistake_of_ours_is_code_5(tmp_path: Path) -> None:
-    """Whatever goes wrong inside is told in one line."""
+    """Any internal error is reported in one line."""
     done = subprocess.run(
         [
             sys.executable,

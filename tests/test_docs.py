@@ -199,7 +199,7 @@ def test_the_notebook_of_a_lecture_runs(desk: Path, monkeypatch: pytest.MonkeyPa
 
 @each("page", examples.pages())
 def test_printed_examples_are_those_of_today(page: Path) -> None:
-    """Otherwise ``make examples`` writes them anew."""
+    """If not, ``make examples`` updates them."""
     assert examples.filled(page.read_text("utf-8")) == page.read_text("utf-8")
 
 
@@ -214,7 +214,7 @@ def test_the_problem_file_of_the_readme_is_solved(name: str) -> None:
 
 
 def code_of(block: str) -> str:
-    """Return the statements of an example but for what it prints, which is in its language."""
+    """Return the statements of an example without its prints, which depend on the language."""
     kept = [s for s in ast.parse(block).body if "print(" not in ast.unparse(s)]
     return "\n".join(map(ast.unparse, kept))
 

@@ -83,7 +83,7 @@ def test_an_asked_paper_is_taken_or_refused(name: str, paper: str) -> None:
     except LayoutError as error:
         assert error.exit_code is ExitCode.USAGE
         assert f"the views do not fit {paper}" in str(error)
-        assert paper in ("A4", "A3")  # what is asked here fits the larger ones
+        assert paper in ("A4", "A3")  # the requested views fit larger ones
         return
     # On a small format one position takes several sheets; every view is on one of them, once. With
     # two enlarged views the calculation of the press goes on another A2.
@@ -163,7 +163,7 @@ def test_many_positions_of_random_mechanisms(seed: int) -> None:
 
 
 def test_the_lint_of_these_tests_does_find() -> None:
-    """A letter put upon another one and one outside the frame are told."""
+    """The lint marks a letter on another one and a letter outside the frame."""
     (sheet,) = drawn_sheets("linkages/ex1")
     letter = next(item for item in sheet.items if isinstance(item, Text) and item.text == "B")
     spoiled = Drawing(sheet.width, sheet.height, sheet.title, [*sheet.items])
@@ -277,7 +277,7 @@ for _, found in printed():
 
 
 def test_sheets_are_the_same_whatever_was_drawn_before_them() -> None:
-    """What is kept of inscriptions, places and words is for nobody who would get another one."""
+    """Cached inscriptions, places and texts never differ from newly made ones."""
     paths = [str(path_of(name)) for name in ("linkages/ex3", "linkages/ex1")]
     fresh, after = (
         subprocess.run(

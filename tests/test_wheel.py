@@ -1,4 +1,4 @@
-"""The wheel: what is built has what the program reads, and what the README says of it holds."""
+"""The wheel: it has every file that the program reads, and the README is right about it."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def test_what_is_tried_of_a_wheel_are_the_first_commands_of_the_readme(name: str
     text = (ROOT / name).read_text("utf-8")
     told = [line for line in re.findall(r"(?m)^planmethod (.*?) *#", text) if "my.toml" in line]
     assert len(told) >= 5
-    # Nothing is opened where nobody looks.
+    # No viewer is opened in a test.
     assert tuple(line.replace(" --open", "") for line in told[:5]) == COMMANDS[1:6]
 
 
@@ -53,7 +53,7 @@ def test_the_readme_names_the_wheel_that_is_built(name: str) -> None:
 
 
 def test_what_messages_say_to_install_is_a_package_that_there_is() -> None:
-    """Extras of the program cannot be asked of an index that does not have the program."""
+    """An index that does not have the program cannot install its extras."""
     known = {re.split(r"[\s;<>=]", one)[0] for one in requires("planmethod") or ()}
     known |= {one.partition("[")[0] for one in known}
     for path in (ROOT / "planmethod").rglob("*.py"):

@@ -1,4 +1,4 @@
-"""Waiting for what another process does: until it is so, however busy the machine is."""
+"""Waiting until another process has done something, however busy the machine is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Exit codes of every command: done, findings, usage, a faulty file, what cannot be assembled."""
+"""Exit codes of every command: done, findings, usage, a faulty file, an impossible assembly."""
 
 from __future__ import annotations
 
