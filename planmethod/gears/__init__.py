@@ -1,1 +1,1 @@
-"""Gear trains: read, solved in fractions, told, drawn (зубчатые механизмы)."""
+"""Gear trains: read, solved in fractions, described, drawn (зубчатые механизмы)."""

@@ -43,9 +43,9 @@ def spread(teeth: int | float, shifts: float, alpha: float) -> float:
     Parameters
     ----------
     teeth : float
-        z₁ + z₂; of an internal pair z₂ − z₁.
+        z₁ + z₂; z₂ − z₁ for an internal pair.
     shifts : float
-        x₁ + x₂; of an internal pair x₂ − x₁. NaN comes out where no pair is so close.
+        x₁ + x₂; x₂ − x₁ for an internal pair. The result is NaN where no pair can be that close.
     alpha : float, rad
         Angle of the rack.
     """
@@ -80,7 +80,7 @@ def tips_apart(z: Both, tip: Both, lag: Both, a_w: Reals | float, inv_w: Reals |
 def ring_margins(
     teeth: Sequence[float], shifts: Sequence[float], alpha: float
 ) -> tuple[float, float]:
-    """Return how far the tips of a ring stay from where they interfere with a wheel in it.
+    """Return the clearance of the tips of a ring from interference with a wheel in it.
 
     Parameters
     ----------

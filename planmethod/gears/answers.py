@@ -110,7 +110,7 @@ def rack_speed(motion: TrainMotion, label: str) -> float | None:
 
 
 def _size(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:
-    """Return teeth, a radius or a distance of axes, mm."""
+    """Return teeth, a radius or a centre distance, mm."""
     train, sizes, heights = motion.train, motion.axes.sizes, motion.axes.heights
     label = asked.labels[0]
     if asked.kind == "r" and label in train.arms:
@@ -152,11 +152,11 @@ def _between(motion: TrainMotion, one: str, other: str) -> Mesh | None:
 def efficiency(motion: TrainMotion, output: str | None = None) -> Fraction | None:
     """Return the efficiency from the input to the output by the powers of the stages.
 
-    The output is a body of the train; that of its file where none is named.
+    The output is a body of the train. Default: that of its file.
 
-    The tooth forces are in equilibrium on every body; in each mesh the power seen from the carrier
-    comes out less than it goes in. None where an efficiency or the output is not given, W is not
-    1, or the train locks itself.
+    The tooth forces are in equilibrium on every body; in each mesh the output power relative to
+    the carrier is less than the input power. None where an efficiency or the output is not given,
+    W is not 1, or the train locks itself.
     """
     train = motion.train
     output = output or train.output

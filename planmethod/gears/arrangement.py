@@ -100,7 +100,7 @@ class Arrangement(Struct, frozen=True, dict=True):
 
     @cached_property
     def blocked(self) -> frozenset[int]:
-        """Gaps that the frame does not reach: within a set that goes round, or within a ring."""
+        """Gaps that the frame does not reach: within a rotating set, or within a ring."""
         spans: list[set[int]] = []
         for number, station in enumerate(self.stations):
             if station.part is AxisPart.WEB:
@@ -237,7 +237,7 @@ MOST_ORDERS = 24
 
 
 class ColumnOrder(Struct, frozen=True):
-    """An order that is tried: columns, and on which side of which column webs and arms stand."""
+    """A candidate order: columns, and the column and side of each web and arm."""
 
     order: tuple[int, ...]
     webs: tuple[tuple[int, str, int], ...] = field(default=())

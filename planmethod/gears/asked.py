@@ -14,7 +14,7 @@ PLAIN = ("W", "q")
 """Names without labels."""
 
 COUNTS = {"U": 2, "n": 1, "omega": 1, "z": 1, "r": 1, "v": 1, "a_w": 2, "k": 1, "eta": 0}
-"""Quantities and how many labels each takes; ``k`` is the largest number of satellites."""
+"""Quantities and the number of labels of each; ``k`` is the largest number of planets."""
 
 RELATIVE = ("U", "n", "omega")
 """Quantities that can be taken relative to a carrier."""

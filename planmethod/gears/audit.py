@@ -15,7 +15,7 @@ from planmethod.solved.selectors.steps import NoValue
 
 
 def audited(problem: GearProblem, ruler: float) -> list[Audited]:
-    """Compare every printed value with the exact one, and with that read off the pictures.
+    """Compare every printed value with the exact one, and with that read from the diagrams.
 
     Parameters
     ----------

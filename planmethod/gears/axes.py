@@ -96,7 +96,7 @@ def find_axes(train: Train, roles: Roles) -> tuple[TrainDimensions | None, list[
 
 
 def _arms(train: Train, roles: Roles, axes: TrainDimensions) -> list[Fault]:
-    """Compare the radii of carriers that are given with where the axes of satellites are."""
+    """Compare the given radii of carriers with the distances of the axes of their planets."""
     found = []
     for label, radius in train.arms.items():
         carrier = train.body_of[label]
@@ -205,7 +205,7 @@ def _radius(train: Train, label: str) -> Fraction | None:
 
 
 def _distance(train: Train, mesh: Mesh) -> Fraction | None:
-    """Return the distance of the axes of a mesh, with the shifts; None while teeth are unknown.
+    """Return the centre distance of a mesh, with the shifts; None while teeth are unknown.
 
     Wheels that cannot come that close to each other are placed as if they had no shifts.
     """
@@ -313,7 +313,7 @@ def _solve(
 
 
 def _in_loops(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> list[Mesh]:
-    """Return the meshes without those that only lead to an axis where nothing else meets."""
+    """Return the meshes without those that only lead to an axis without another mesh."""
     left = list(meshes)
     while True:
         ends = [lines.line[b] for mesh in left for b in train.ends(mesh)]
@@ -325,7 +325,7 @@ def _in_loops(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> list[Mesh]
 
 
 def _away(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> tuple[dict[str, int], set[str]]:
-    """Return how many meshes part each axis from the main one, and which run in a ring of it."""
+    """Return the number of meshes from each axis to the main one, and axes within its rings."""
     steps = {lines.main: 0}
     ringed: set[str] = set()
     before = 0
@@ -348,8 +348,8 @@ def _likely_side(
 ) -> int:
     """Return +1 if the second of two axes beside the main one is more likely the higher.
 
-    The axis that fewer meshes part from the main one is the nearer; the other lies beyond it, or
-    within where only the nearer one runs in a ring.
+    The axis with fewer meshes to the main one is the nearer; the other is beyond it, or within
+    where only the nearer one runs in a ring.
     """
     first, second = (lines.line[body] for body in train.ends(mesh))
     near, far, side = first, second, 1

@@ -27,7 +27,7 @@ class PlanetaryVariant(Struct, frozen=True):
         Its rank among all sets for that number of planets, from 1, the smallest first.
     chosen : TeethSet
     is_own : bool
-        It is the train of the file.
+        Whether it is the train of the file.
     """
 
     satellites: int
@@ -109,7 +109,7 @@ def compare(problem: GearProblem, motion: TrainMotion) -> PlanetaryComparison | 
     Raises
     ------
     ProblemError
-        The train is none of the planetary schemes that teeth are chosen for.
+        The train is not one of the planetary schemes for which teeth are chosen.
     """
     train, task = motion.train, motion.train.design
     if task is None:

@@ -96,7 +96,7 @@ def _coaxial(motion: TrainMotion) -> Iterator[Condition]:
 
 
 def _arms(motion: TrainMotion) -> Iterator[Condition]:
-    """Yield the radius of every carrier beside the sizes that set its satellites' axes."""
+    """Yield the radius of every carrier beside the sizes that place its planets' axes."""
     train, axes = motion.train, motion.axes
     for label, radius in train.arms.items():
         carrier = train.body_of[label]
@@ -194,7 +194,7 @@ def _axis(motion: TrainMotion, mesh: Mesh, end: int) -> str:
 
 
 def _step(motion: TrainMotion, mesh: Mesh, far: int) -> Terms:
-    """Return how much higher the far axis of a mesh is."""
+    """Return the height of the far axis of a mesh above the near one."""
     ends, heights = motion.train.ends(mesh), motion.axes.heights
     side = 1 if heights[ends[far]] > heights[ends[1 - far]] else -1
     one, other = mesh.first, mesh.second
@@ -217,13 +217,13 @@ def _shown(value: Fraction) -> str:
     return str(value.numerator) if value.denominator == 1 else f"{float(value):g}"
 
 
-# Sets of satellites ------------------------------------------------------------------------------
+# Sets of planets ---------------------------------------------------------------------------------
 
 
 def satellites_held(motion: TrainMotion, carrier: str) -> int | None:
-    """Return the largest number of satellites that can be assembled and do not touch.
+    """Return the largest number of planets that can be assembled and do not touch.
 
-    None where the carrier has more than one kind of satellite, or its wheels have no teeth.
+    None where the carrier has more than one kind of planet, or its wheels have no teeth.
     """
     found = _set_of(motion, carrier)
     if found is None:
@@ -258,7 +258,7 @@ def _sets(motion: TrainMotion) -> Iterator[Condition]:
 
 
 def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Fraction] | None:
-    """Return what k must divide, the diameter of the satellite's tips, and twice its distance.
+    """Return the number k must divide, the planet's tip diameter, and twice its distance.
 
     Both in modules of the train.
     """
@@ -292,7 +292,7 @@ def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Frac
 
 
 def _raised(motion: TrainMotion, mesh: Mesh, label: str) -> Fraction:
-    """Return by how many modules the tips of a wheel are farther out: x − Δy, of its own mesh."""
+    """Return the outward shift of a wheel's tips, modules: x − Δy, of its own mesh."""
     train, axes = motion.train, motion.axes
     if mesh.name not in axes.shifted:
         return train.wheels[label].shift

@@ -315,7 +315,7 @@ class _Drawing:
         )
 
     def _closes(self, starts: Sequence[str]) -> int:
-        """Return how many bodies have lines when some are laid off."""
+        """Return the number of bodies that have lines when some speeds are laid off."""
         lines = {*self.motion.train.fixed, *starts}
         ends: set[ContactPoint] = set()
         count = -1
@@ -471,7 +471,7 @@ class _Drawing:
     def _seen(
         self, body: str, carrier: str | None, segments: Mapping[str, NumberName]
     ) -> NumberName | None:
-        """Return the segment of a body, less that of a carrier; None of fixed bodies alone."""
+        """Return the segment of a body minus that of a carrier; None if both are fixed."""
         if carrier is None or carrier not in segments:
             return segments.get(body)
         back = NumberName(f"less {carrier}")

@@ -1,8 +1,8 @@
 """Ratios and speeds derived as the textbook does: stages, Willis, elimination (вывод отношений).
 
-A ratio is a path of stages between two bodies: meshes whose axes stand, sets with a wheel that is
-held (``1 - U_13`` with the carrier held), and differentials that a chain closes. Speeds that no
-path leads to follow from the formula of Willis.
+A ratio is a path of stages between two bodies: meshes with fixed axes, sets with a fixed wheel
+(``1 - U_13`` with the carrier fixed), and differentials closed by a chain. Speeds without a path
+follow from the formula of Willis.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ class Stage(Struct, frozen=True):
         Labels that name the ratio.
     ratio : Fraction
     tops, bottoms : tuple of str
-        Wheels whose teeth are multiplied and divided; none of a set.
+        Wheels whose teeth are multiplied and divided; empty for a set.
     carrier : str or None
-        The carrier that is held while the ratio is taken.
+        The carrier relative to which the ratio is taken.
     told : tuple of DerivedLine
         Derivation, line by line; empty for a mesh.
     """
@@ -533,7 +533,7 @@ def _built(value: Fraction) -> Rich:
 
 
 def _factor(value: Fraction, *, first: bool = False) -> Rich:
-    """Return a number that others stand before: in brackets where it has a sign."""
+    """Return a number as a further factor: in brackets where it has a sign."""
     return _built(value) if first or value >= 0 else f"({_built(value)})"
 
 
@@ -543,5 +543,5 @@ def _split(value: Fraction) -> tuple[str, Rich]:
 
 
 def _plus(sign: str, text: Rich) -> Rich:
-    """Return ``+ text`` where it is taken away with a sign, ``− text`` where not."""
+    """Return ``+ text`` if a negative number is subtracted, else ``− text``."""
     return f"+ {text}" if sign == MINUS else f"− {text}"

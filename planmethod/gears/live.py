@@ -132,7 +132,7 @@ class _TrainPage:
     # Teeth -----------------------------------------------------------------------------------
 
     def teeth(self, rim: Rim) -> int:
-        """Return how many teeth of a wheel are drawn; 0 where they are not known."""
+        """Return the number of drawn teeth of a wheel; 0 where it is not known."""
         size = self.motion.axes.sizes[rim.label]
         whole = self.train.counted(rim.label) and size.denominator == 1
         return int(size) if whole and size <= MOST_TEETH else 0

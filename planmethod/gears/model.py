@@ -124,7 +124,7 @@ class Train(Struct, frozen=True):
     bodies : tuple of str
         All bodies, in file order.
     racks : frozenset of str
-        Bodies that move straight.
+        Bodies in translation.
     inputs : mapping
         Speeds of bodies, in `unit`.
     unit : str
@@ -219,11 +219,11 @@ class Train(Struct, frozen=True):
         return found
 
     def ends(self, mesh: Mesh) -> tuple[str, str]:
-        """Bodies of the two wheels of a mesh."""
+        """Return the bodies of the two wheels of a mesh."""
         return self.body_of[mesh.first], self.body_of[mesh.second]
 
     def carrier(self, mesh: Mesh) -> str | None:
-        """Body that carries the axes of a mesh."""
+        """Return the body that carries the axes of a mesh."""
         return None if mesh.carrier is None else self.body_of[mesh.carrier]
 
 

@@ -27,7 +27,7 @@ class TrainKind(Enum):
 
 
 class Mobility(Struct, frozen=True):
-    """Mobility of a train, counted with one satellite of each set (структура).
+    """Mobility of a train, counted with one planet of each set (структура).
 
     Attributes
     ----------

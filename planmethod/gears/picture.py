@@ -17,7 +17,7 @@ from planmethod.gears.motion import TrainMotion
 
 
 class ContactKind(Enum):
-    """Kind of a point of the picture of linear velocities."""
+    """Kind of a point of the linear velocity diagram."""
 
     PITCH = "pitch"
     AXIS = "axis"
@@ -123,9 +123,9 @@ def draw(motion: TrainMotion, settings: PictureSettings | None = None) -> Veloci
 
 
 def _to_pole(motion: TrainMotion, mesh: Mesh) -> Fraction:
-    """Return how much higher the pitch point of a mesh is than the axis of its first wheel.
+    """Return the height of the pitch point of a mesh above the axis of its first wheel.
 
-    It divides the distance of the axes as the teeth do, whatever the shifts.
+    It divides the centre distance in proportion to the teeth, whatever the shifts.
     """
     axes = motion.axes
     one, other = motion.train.ends(mesh)

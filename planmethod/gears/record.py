@@ -149,7 +149,7 @@ def _number(value: Fraction) -> int | float:
 
 
 def _body(motion: TrainMotion, label: str) -> dict[str, Any]:
-    """Speeds of a body, and relative to the carrier of its meshes."""
+    """Return the speeds of a body, absolute and relative to the carrier of its meshes."""
     speed, train = motion.speed(label), motion.train
     body = train.body_of[label]
     if body in train.racks:

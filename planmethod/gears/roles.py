@@ -71,7 +71,7 @@ def _split(train: Train, carrier: str) -> tuple[list[str], list[str]]:
         if carrier in group or sure & set(group):
             sure |= set(group) & set(ends)
     once = {body for body in ends if ends.count(body) == 1}
-    for mesh in own:  # a satellite that meshes only once
+    for mesh in own:  # a planet that meshes only once
         one, other = train.ends(mesh)
         if {one, other} <= sure | once:
             once -= {next((body for body in (other, one) if body not in sure), "")}
@@ -107,7 +107,7 @@ def _bevels(
 
     The contact point P has one velocity, seen from the carrier: with axes that point from the
     apex to the wheels, the wheels turn in opposite senses of them. Where no axes are given, the
-    first wheel in mesh with a satellite lies below it on the main axis, the next above.
+    first wheel in mesh with a planet is below it on the main axis, the next above.
     """
     around = {body for bodies in satellites.values() for body in bodies}
     main = _main_axis(train, around)

@@ -163,7 +163,7 @@ class SchemeData(Struct, frozen=True, dict=True):
     def rolling(self) -> Mapping[str, Mapping[str, float]]:
         """Radii of the circles that roll on each other, by wheel and mesh, where shifts alter them.
 
-        They divide the distance of the axes, as it is drawn, as the teeth do.
+        They divide the drawn centre distance in proportion to the teeth.
         """
         found: dict[str, dict[str, float]] = {}
         axes = self.motion.axes

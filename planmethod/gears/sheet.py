@@ -249,7 +249,7 @@ class _Picture(Viewed, frozen=True):
     measured: Sequence[Span]
 
     def spans(self, items: Sequence[Item], corner: complex) -> Iterator[Span]:
-        """Yield the segments where they lie on the sheet."""
+        """Yield the segments at their places on the sheet."""
         for one in self.measured:
             yield replace(one, start=one.start + corner, end=one.end + corner)
 
@@ -261,7 +261,7 @@ class _Rays(Viewed, frozen=True):
     seen: GearReading
 
     def spans(self, items: Sequence[Item], corner: complex) -> Iterator[Span]:
-        """Yield the segments where they lie on the sheet."""
+        """Yield the segments at their places on the sheet."""
         (pole,) = (one.centre for one in items if isinstance(one, Disc) and one.tag == RAYS_POLE)
         views = [
             next(item.centre for item in items

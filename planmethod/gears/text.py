@@ -121,7 +121,7 @@ def compared_sentences(compared: PlanetaryComparison, words: Language) -> Iterat
 
 
 def compared_table(compared: PlanetaryComparison, words: Language) -> Table:
-    """Return the variants: satellites, teeth, ratio, deviation, size; the file's with a star."""
+    """Return the variants: planets, teeth, ratio, deviation, size; the file's with a star."""
     say, number = words.teeth["compared"], words.say.given
     first, *others = say["columns"]
     has_mm = compared.module_m is not None

@@ -207,7 +207,7 @@ def results(
     seen: GearReading | None,
     words: Language,
 ) -> Iterator[tuple[str, ...]]:
-    """Yield rows: symbol with unit, fraction, decimal, read off, sigma, difference in per cent."""
+    """Yield rows: symbol with unit, fraction, decimal, reading, sigma, difference in per cent."""
     train, say = motion.train, words.say
     known = tuple(train.body_of)
     found = {} if drawn is None else {one.name: one for one in drawn.found}

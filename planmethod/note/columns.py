@@ -20,7 +20,7 @@ def listed(values: Reals | Sequence[float]) -> list[float | None]:
 
 
 def bounds(values: Reals) -> list[float | None]:
-    """Return bounds for a record, rounded up to two digits: more of them mean nothing."""
+    """Return bounds for a record, rounded up to two significant digits."""
     return listed([_rounded_up(float(value)) for value in values])
 
 

@@ -101,7 +101,7 @@ class ComparedNumber(Struct, frozen=True):
 
     @property
     def share(self) -> float:
-        """The size of Δ, per cent of the exact value; 0 where there is none."""
+        """Magnitude of Δ, per cent of the exact value; 0 where it is undefined."""
         return abs(self.percent or 0.0)
 
     @property
@@ -123,7 +123,7 @@ class ComparedNumber(Struct, frozen=True):
 
     @property
     def sigma_text(self) -> str:
-        """Sigma with its mark; a dash where there is none."""
+        """Sigma with its mark; a dash where it is not finite."""
         return sigma_text(self.sigma) + self.mark if isfinite(self.sigma) else NONE
 
     @property
@@ -132,5 +132,5 @@ class ComparedNumber(Struct, frozen=True):
         return significant(self.off, 2)
 
     def percent_text(self, decimals: int = 1, most: float = inf) -> str:
-        """Return Δ in per cent; a dash where there is none, and beyond `most`."""
+        """Return Δ in per cent; a dash where it is undefined, and from `most` on."""
         return percent_text(self.percent, decimals, most)

@@ -6,7 +6,7 @@ The markup is small and reads like the textbook::
     a^{n}_{CB}      index above and index below, stacked, in either order
     \bar{v}_{B}     overbar: a thin line above the letters in the braces
     B_{3_{1}}       an index may have an index
-    \frac{v}{l}     fraction: built up where there is room, ``v/l`` in a line
+    \frac{v}{l}     fraction: built up where possible, ``v/l`` in a line
     \sqrt{x}        root: ``√(x)`` in a line
 
 Any other text represents itself, Russian included. A literal ``_``, ``^``, ``{``, ``}`` or
@@ -102,7 +102,7 @@ def parse(markup: Rich) -> tuple[Node, ...]:
     Raises
     ------
     LayoutError
-        If braces do not pair, an index has nothing in it, or a command is unknown.
+        If braces do not pair, an index is empty, or a command is unknown.
     """
     nodes, end = _parse(markup, 0, closing=False)
     assert end == len(markup)

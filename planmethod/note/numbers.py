@@ -74,7 +74,7 @@ def rich_number(text: str, decimal: str) -> str:
         return "—"
     mantissa, e, power = text.partition("e")
     if not mantissa.strip("-0."):
-        mantissa = mantissa.lstrip("-")  # no sign before nothing
+        mantissa = mantissa.lstrip("-")  # no sign before zero
     mantissa = mantissa.replace(".", decimal).replace("-", MINUS)
     if not e:
         return mantissa

@@ -31,7 +31,7 @@ class Records(Struct, frozen=True):
     some: Mapping[int, dict[str, Any]]
 
     def __len__(self) -> int:
-        """Return how many positions there are."""
+        """Return the number of positions."""
         return self.count
 
     def plain(self) -> list[Any]:

@@ -110,7 +110,7 @@ def _lettered_at(rim: Rim, angle: float, rims: Iterable[Rim], free: float) -> co
 def _around(
     scheme: SchemeData, rims: Mapping[str, Rim], satellites: Mapping[str, int]
 ) -> Iterator[Item]:
-    """Yield the other satellites of every carrier with their arms."""
+    """Yield the other planets of every carrier with their arms."""
     sets: dict[int, set[str]] = {}
     for body, carrier in scheme.over.items():
         if scheme.heights[body] and not scheme.heights[carrier]:

@@ -53,7 +53,7 @@ HALF_SENSE = 6.0
 SENSE = "sense"
 
 BUSH = 3.0
-"""Half the length of a bush, and how far a shaft goes out of one, mm."""
+"""Half the length of a bush, and the overhang of a shaft beyond it, mm."""
 
 
 class SideView(Struct, frozen=True, dict=True):
@@ -112,7 +112,7 @@ class SideView(Struct, frozen=True, dict=True):
         return start + room * (own.index(stub) + 0.5) / len(own)
 
     def _ends(self, body: str) -> tuple[float, float]:
-        """Return from where to where the shaft of a body goes, mm."""
+        """Return both ends of the shaft of a body, mm."""
         numbers = self.arrangement.at[body]
         ends = [self.places[k] for k in numbers]
         stub = self.arrangement.stubs.get(body)

@@ -84,7 +84,7 @@ class BlockingLimit(Struct, frozen=True):
                 return np.asarray(self.least)
 
     def margin(self, pair: Pair) -> Reals:
-        """Return how far the limit is, positive where it is kept; NaN where no pair exists."""
+        """Return the margin to the limit, positive where it is met; NaN where no pair exists."""
         return np.asarray(self.value(pair) - self.bound(pair))
 
 
@@ -130,7 +130,7 @@ def choose(
     total: float | None = None,
     aim: ShiftAim = ShiftAim.BLOCKING,
 ) -> tuple[float, float] | None:
-    """Return the shifts that keep all limits and are the best for an aim.
+    """Return the shifts that meet all limits and are the best for an aim.
 
     All multiples of `STEP` from `LOW` to `HIGH` are compared, so that nothing is missed. The best
     shifts have the least maximum of specific sliding at the lower points, or the greatest contact
@@ -139,13 +139,13 @@ def choose(
     Parameters
     ----------
     total : float, optional
-        Sum of the shifts, x₂ − x₁ of an internal pair, where the distance of the axes is given;
-        then x₁ alone is a multiple; for equal sliding neither is.
+        Sum of the shifts, x₂ − x₁ of an internal pair, where the centre distance is given; then
+        only x₁ is a multiple; for equal sliding neither is.
 
     Returns
     -------
     (float, float) or None
-        None where no shifts keep all limits.
+        None where no shifts meet all limits.
     """
     x = tried(total, pair.side)
     if aim is ShiftAim.SLIDING:

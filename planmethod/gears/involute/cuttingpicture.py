@@ -33,7 +33,7 @@ POSITIONS = 17
 """Positions of the rack that are drawn in a space."""
 
 _HIGHEST = 50.0  # mm: height of a tooth at most
-_OVER = 12.0  # mm: lines go on beyond what they are drawn for
+_OVER = 12.0  # mm: overhang of lines
 _HEAD = 2.5
 _DOT = 0.8
 _MERGED = 0.6  # mm: nearer lines are one
@@ -85,7 +85,7 @@ class CuttingView(Struct, frozen=True):
 
 
 def cutting_view(cutting: RackCutting, width: float, height: float) -> CuttingView:
-    """Return how the picture fills a room best, in a scale of GOST 2.302."""
+    """Return the placement that fills an area best, in a scale of GOST 2.302."""
     rack, tooth = cutting.tooth.pair.rack, cutting.tooth
     high = (tooth.size("d_a") - tooth.size("d_f")) / 2
     tall = 4.0 * (rack.ha + rack.c) * cutting.m + abs(cutting.displacement)
@@ -143,7 +143,7 @@ def _positions(view: CuttingView) -> Iterator[Item]:
 
 
 def _ends(view: CuttingView) -> tuple[float, float]:
-    """Return how far the rack reaches to the left and to the right."""
+    """Return the extent of the rack to the left and to the right."""
     return -1.75 * view.pitch, 1.25 * view.pitch
 
 
@@ -179,7 +179,7 @@ def _circle_pens(view: CuttingView) -> list[tuple[str, Pen]]:
 
 
 def _arc(view: CuttingView, radius: float) -> tuple[float, float]:
-    """Return where an arc of a circle starts and ends; at the left it goes on to its letters."""
+    """Return both ends of an arc of a circle; at the left it is extended to its letters."""
     z = view.cutting.tooth.z
     return (
         max(view.angle(-1) - pi / z - 2 * _OVER / radius, -pi / 2),

@@ -34,14 +34,14 @@ LOW, HIGH = -4.0, 4.0
 
 _COARSE, _FINE = 321, 161  # rows of the grids that the region and the curves are found on
 _NECK = 1.5  # grid steps: half the width of a neck that does not join two regions
-_DENSER = 6  # times as many points as where a curve crosses the grid
+_DENSER = 6  # factor of points over those where a curve crosses the grid
 _SERIES = (1.0, 2.0, 2.5, 4.0, 5.0, 8.0)  # mm for a unit of the shifts, times a power of ten
-_LETTERS = 30.0  # mm: room that the letters around a diagram take
+_LETTERS = 30.0  # mm: space for the letters around a diagram
 _MARGIN = 0.05  # of the window: white around the contour
 _INSIDE = 1e-3  # gradients from a curve at which other margins end to where they are
 _POLISHED = 8  # steps that bring a point of the grid's curve to the curve itself
 _NAMED = 14.0  # mm: shorter parts of a curve have no name
-_BEYOND = 1.2  # of the active end: how far the line of action of an internal pair is drawn
+_BEYOND = 1.2  # length of the drawn line of action of an internal pair over its active end
 _HEAD = 4.0
 _TICK = 1.2
 _STEPS = (1.0, 2.0, 5.0)  # of the numbers of an axis, times a power of ten
@@ -190,7 +190,7 @@ class Contour(Struct, frozen=True):
 def contour_picture(
     contour: Contour, words: Language, width: float, height: float, letter: float
 ) -> Picture:
-    """Return the blocking contour with the chosen point, not larger than a room but for letters."""
+    """Return the blocking contour with the chosen point; only letters may exceed the area."""
     solved, window = contour.solved, contour.window
     wide, tall = window.right - window.left, window.high - window.low
     room = (width - _LETTERS, height - _LETTERS)
@@ -314,7 +314,7 @@ def _axis_numbers(
 
 
 def sliding_scale(solved: SolvedMeshing, width: float) -> float:
-    """Return the scale in which the line of action has room, mm of paper for one."""
+    """Return the scale in which the line of action fits, mm of paper for one."""
     return nearest_scale((width - _LETTERS) / _line(solved))
 
 
@@ -324,7 +324,7 @@ def sliding_per_mm(solved: SolvedMeshing, height: float) -> float:
 
 
 def _floor(solved: SolvedMeshing) -> float:
-    """Return the specific sliding down to which the diagram goes."""
+    """Return the lowest specific sliding of the diagram."""
     ends = np.array([solved.contact.start, solved.contact.end])
     with np.errstate(all="ignore"):
         worst = float(np.nanmin(solved.pair.sliding(ends), initial=-1.0))

@@ -42,7 +42,7 @@ class RackCutting(Struct, frozen=True):
 
     @property
     def clearance(self) -> float:
-        """Radial clearance c*·m: how far the rack's tip is below its boundary line."""
+        """Radial clearance c*·m: distance of the rack's tip below its boundary line."""
         return self.tooth.pair.rack.c * self.m
 
     @property
@@ -52,7 +52,7 @@ class RackCutting(Struct, frozen=True):
 
     @property
     def least(self) -> float:
-        """Displacement below which undercut begins: the boundary line goes through N."""
+        """Displacement below which undercut begins: the boundary line passes through N."""
         return self.tooth.size("x_min") * self.m
 
     @property
@@ -90,7 +90,7 @@ class RackCutting(Struct, frozen=True):
 
     @property
     def at_pole(self) -> float:
-        """Shift of the rack at which its flank goes through P₀."""
+        """Shift of the rack at which its flank passes through P₀."""
         return self.displacement * tan(self.tooth.pair.alpha_t) - self.pitch / 4
 
     def shifts(self, count: int) -> Reals:

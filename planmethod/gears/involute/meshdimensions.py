@@ -1,6 +1,6 @@
 """Dimensions on the picture of a mesh (размеры на картине зацепления): p, s, e, h, c, r, breaks.
 
-The pitch and its parts stand along the reference circle of wheel 1 on the side that has no letters
+The pitch and its parts are placed along the reference circle of wheel 1 on the side without letters
 of circles, the height of the tooth beside the teeth of wheel 2, the clearance on the line of
 centres; the radii run from the centres, between the line of centres and the base radius.
 """
@@ -22,7 +22,7 @@ from planmethod.render.symbols.axes import wavy_line
 from planmethod.render.symbols.dimensions import angle_dimension, dimension
 
 Named: TypeAlias = list[tuple[str, complex, complex]]
-"""Letters, where they belong, and to which side they rather stand."""
+"""Letters, their places, and their preferred sides."""
 
 TAG = "dimension"
 
@@ -31,8 +31,8 @@ _TAIL = 1.5  # mm: of an extension line beyond the dimension line
 _ASIDE = 4.0  # mm: from the outermost tooth to the dimension of its height
 _BREAK = 16.0  # mm: length of a line of break
 _HEAD = 2.5  # mm: arrowhead of a radius
-_WITHIN = 3.6  # half pitches: how far from the line of centres the tip radius stands, times 1.5
-_NAMED = {"f": 0.55, "a": 0.4}  # where along radii their letters stand
+_WITHIN = 3.6  # half pitches: distance of the tip radius from the line of centres, times 1.5
+_NAMED = {"f": 0.55, "a": 0.4}  # places of letters along their radii
 _OUT = 9.0  # mm: from the line of centres to the dimension of the clearance
 
 

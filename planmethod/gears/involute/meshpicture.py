@@ -43,9 +43,9 @@ SCALES = (
 _BAND = 2.0  # mm: width of the hatched band of an active flank
 _DOT = 1.0  # mm: radius of a point's dot
 _HEAD = 4.0  # mm: arrowhead of a dimension
-_SHORTEST = 150.0  # mm: a line of centres that is broken is so long
-_ASIDE = 22.0  # mm: from the circles to the dimension of the distance of the axes
-_OVER = 14.0  # mm: circles and lines go on beyond the teeth
+_SHORTEST = 150.0  # mm: length of a broken line of centres
+_ASIDE = 22.0  # mm: from the circles to the dimension of the centre distance
+_OVER = 14.0  # mm: overhang of circles and lines beyond the teeth
 
 
 class MeshView(Struct, frozen=True):
@@ -128,7 +128,7 @@ def nearest_scale(most: float) -> float:
 
 
 def view_for(solved: SolvedMeshing, width: float, height: float) -> MeshView:
-    """Return how the picture of a pair fills a room best, in a scale of GOST 2.302.
+    """Return the placement of a pair that fills an area best, in a scale of GOST 2.302.
 
     The whole pair is shown where its teeth are then high enough; else the line of centres is
     broken and the teeth are as high as `HIGH`.
@@ -261,7 +261,7 @@ def _circle_sizes(view: MeshView, wheel: int) -> list[tuple[float, Pen, str]]:
 
 
 def _arc_ends(view: MeshView, wheel: int, radius: float) -> tuple[float, float]:
-    """Return where an arc starts and ends: at the side of its letters it goes on."""
+    """Return both ends of an arc: it is extended on the side of its letters."""
     z = view.solved.teeth[wheel].z
     middle = view.axis(wheel)
     half = min(3 * pi / z + 0.4 * _OVER / radius, pi)
@@ -300,7 +300,7 @@ def _line_of_action(view: MeshView) -> Iterator[Item]:
 def _near(view: MeshView, wheel: int) -> complex:
     """Return the end of the line of action, N₁ or N₂; a nearer point where it is far away."""
     full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
-    if wheel and view.solved.pair.side < 0:  # N₂ of a ring lies beyond N₁
+    if wheel and view.solved.pair.side < 0:  # N₂ of a ring is beyond N₁
         return view.along * _farthest(view)
     if shows_end(view, wheel):
         return full
@@ -337,7 +337,7 @@ def _centres(view: MeshView) -> Iterator[Item]:
             yield from kinked_line(gap - 10.0, gap + 10.0)
             yield from kinked_line(gap + way * 4.0 - 10.0, gap + way * 4.0 + 10.0)
             yield from axis_line(gap + way * 4.0, centre + way * 8.0, centre, tag="line of centres")
-        elif wheel or view.solved.pair.side > 0:  # else it lies on that of the ring
+        elif wheel or view.solved.pair.side > 0:  # else it is on that of the ring
             yield from axis_line(0j, centre + way * 8.0, centre, tag="line of centres")
         yield from centre_lines(centre, 5.0, directions=(1 + 0j,))
         yield Disc(centre, _DOT, Ink.BLACK)
@@ -348,7 +348,7 @@ def _centres(view: MeshView) -> Iterator[Item]:
 
 
 def _distance(view: MeshView, x: float, words: Language, letter: float) -> Iterator[Item]:
-    """Yield the dimension of the distance of the axes at an abscissa (межосевое расстояние)."""
+    """Yield the dimension of the centre distance at an abscissa (межосевое расстояние)."""
     low, high = view.drawn_centre(0), view.drawn_centre(1)
     for centre in (low, high):
         yield Stroke((centre - 6.0, complex(x - 3.0, centre.imag)), Pen.THIN, tag="dimension")

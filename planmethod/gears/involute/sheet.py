@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
 
 TEXT_WIDTH = STAMP_WIDTH - EDGE
-"""Width of the tables, which stand over the title block, mm."""
+"""Width of the tables, which are placed over the title block, mm."""
 
 
 TRIES = (
@@ -57,7 +57,7 @@ TRIES = (
 )
 """Sizes, height of the letters of the checks, mm, and part of the paper for the views.
 
-Tried in turn until everything has room.
+Tried in turn until everything fits.
 """
 
 
@@ -101,7 +101,7 @@ class _Meshing(Struct, frozen=True):
     formats = ("A1",)
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[Packing]:
-        """Yield the blocks at sizes that have room for the tables."""
+        """Yield the blocks at sizes at which the tables fit."""
         contour = Contour.of(self.solved)
         for paper, (sizes, checks, share) in product(papers, TRIES):
             parts = self._parts(contour, paper.room(), sizes, checks, share)

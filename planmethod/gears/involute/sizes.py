@@ -4,7 +4,7 @@ The sizes are by the formulas of GOST 16532 and GOST 19274 (геометриче
 helical wheels.
 
 An internal wheel has a negative number of teeth, as ISO 21771 has it: its shift, its diameters and
-radii of curvature and the distance of the axes are negative too, and the same formulas hold. Its
+radii of curvature and the centre distance are negative too, and the same formulas hold. Its
 root and fillet are those of the pinion cutter (долбяк), which has no shift.
 
 Everything is computed for many pairs of shifts at once: arrays of one quantity of both wheels have
@@ -52,7 +52,7 @@ class Rack(Struct, frozen=True):
     def rho(self) -> float:
         """Radius of the rounded tip ρ_f: the largest that leaves the flank straight down to ha.
 
-        The standard rounds 0.37995 to 0.38. A narrow rack has only room for a smaller one.
+        The standard rounds 0.37995 to 0.38. A narrow rack only allows a smaller one.
         """
         room = self.half_tip * cos(self.alpha) / (1 - sin(self.alpha))
         return min(self.c / (1 - sin(self.alpha)), room)
@@ -164,11 +164,11 @@ class Pair(Struct, frozen=True, dict=True):
 
     @property
     def side(self) -> int:
-        """-1 of an internal pair, else 1: sign of the distance of the axes and of wheel 2."""
+        """-1 for an internal pair, else 1: sign of the centre distance and of wheel 2."""
         return -1 if self.cutter else 1
 
     def _both(self, values: Reals) -> Reals:
-        """Return one number of each wheel in a shape that goes with the shifts."""
+        """Return one number of each wheel in a shape that broadcasts with the shifts."""
         return values.reshape(2, *[1] * (self.x.ndim - 1))
 
     def _of_ring(self, both: Reals, ring: Reals) -> Reals:

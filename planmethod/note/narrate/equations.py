@@ -41,5 +41,5 @@ def equation_of(equation: VectorEquation, directed: Directed) -> Equation:
 
 
 def term_of(term: Vector | Edge, directed: Directed) -> Term:
-    """Return a term: its symbol, how much of it is known, its direction."""
+    """Return a term: its symbol, its known parts, its direction."""
     return Term(term.symbol, term.known.value, directed(term.direction))

@@ -68,7 +68,7 @@ class Formulas:
         return self.notation.units[key]
 
     def exactly(self, value: float, unit: str = "") -> str:
-        """Return the exact value in brackets; on a sheet nothing: its table has it."""
+        """Return the exact value in brackets; empty on a sheet, whose table has it."""
         if self.names.on_sheet:
             return ""
         told = f"{self.notation.found(value)} {unit}".rstrip()
@@ -113,7 +113,7 @@ class Formulas:
     def formula(
         self, symbol: str, sides: Sequence[str], value: float, unit: str, more: str = ""
     ) -> str:
-        """Return ``symbol = in symbols = in numbers = value unit``, nothing twice."""
+        """Return ``symbol = in symbols = in numbers = value unit``, without repetition."""
         number = self.notation.short(value, 4)
         parts = [symbol, *(side for side in sides if side != number), f"{number} {self.unit(unit)}"]
         return " = ".join(parts) + more
@@ -185,7 +185,7 @@ def knot_letter(knot: Knot, words: Language) -> str:
 
 
 def _shown(value: float) -> float:
-    """Return a number as it was just written, so that the next formula goes on from it."""
+    """Return a number as just written, so that the next formula uses the same digits."""
     return float(f"{value:.4g}")
 
 

@@ -531,7 +531,7 @@ def _guides(text: As) -> Iterator[GivenFact]:
 
 
 def _offset(slide: Slide, name: str, way: str, text: As) -> GivenFact:
-    """Return how far a pin is from the line that its slider runs along, and on which side."""
+    """Return the distance and the side of a pin from the line that its slider runs along."""
     path = _path(slide.slider, "slides.offset")
     size = text.size(slide.offset, path)
     return GivenFact(f"e_{{{name}}} = {size} ({way})", {path: slide.offset})
@@ -742,7 +742,7 @@ def _carried(slide: Slide, text: As) -> Iterator[GivenFact]:
 
 
 def _angles_sense(text: As) -> Iterator[GivenFact]:
-    """Yield which way angles of links count, where such are given."""
+    """Yield the positive sense of angles of links, where such are given."""
     problem = text.problem
     told = any(
         body.angles or any(form.kind == "vertex" for form in body.forms.values())
@@ -817,7 +817,7 @@ def _coordinates(name: str, place: complex, text: As, path: str) -> list[GivenFa
     for index, (letter, metres) in enumerate((("x", place.real), ("y", place.imag))):
         value, stated = metres * UNITS[text.problem.unit], f"{path}[{index}]"
         said = text.plain(value, stated)
-        # A coordinate that was computed has more digits than anybody draws.
+        # A computed coordinate has more digits than can be drawn.
         if stated not in text.problem.stated and trimmed(value) != trimmed(value, 6):
             said = text.say.number(trimmed(value, DRAWN))
         told = f"{letter}_{{{name}}} = {said} {text.say.units[text.problem.unit]}"

@@ -319,7 +319,7 @@ class MachineTeller:
         return lines
 
     def motor_choice(self) -> list[str]:
-        """Return which motor of the series has the power; nothing where none is sought."""
+        """Return the motor of the series that has the power; empty where none is sought."""
         rated = machine_power(self.flywheel).rated
         if rated is None:
             return []
@@ -387,7 +387,7 @@ class MachineTeller:
         return None if found is None else adopted(self.flywheel.machine.wheel, found)
 
     def on_shaft(self, ratio: float) -> FlywheelSizes | None:
-        """Return the sizes of the flywheel on a shaft that is so much quicker than the crank."""
+        """Return the sizes of the flywheel on a shaft with a speed ratio to the crank."""
         flywheel = self.flywheel
         wheel = replace(flywheel.machine.wheel, ratio=ratio)
         found = size_of(wheel, self.drawing.adopted, flywheel.middle_speed)

@@ -31,7 +31,7 @@ UNDRAWN = 0.1
 """Part of a division of the ruler below which a segment is too small to be laid off."""
 
 COLLINEAR = 1e-9
-"""Ratio of the across to the along part below which three points of a link lie on one line."""
+"""Ratio of transverse to axial part below which three points of a link are collinear."""
 
 
 class MotionNarrator:
@@ -168,7 +168,7 @@ class MotionNarrator:
         return {q.size: q for q in every if q.size is not None and q.size not in drawn}
 
     def _result(self, step: Compute, quantity: Quantity) -> str:
-        """Return how such a quantity follows from the others."""
+        """Return the formula of a quantity that follows from others."""
         value, sides = self.say.number(step.out), self.say.product(step.powers, step.factor)
         more = self.say.exactly(self.say.exact(step.out))
         return self.say.formula(quantity.symbol, sides, value, quantity.kind.unit, more)
@@ -239,7 +239,7 @@ class MotionNarrator:
         ]
 
     def _turning_formula(self, step: Compute) -> str:
-        """Return how fast a link turns, and which way if it does."""
+        """Return the rate of rotation of a link, and its sense unless it is zero."""
         value = self.say.number(step.out)
         more = self.say.exactly(abs(self.say.exact(step.out)))
         sides = self.say.product(step.powers, step.factor)

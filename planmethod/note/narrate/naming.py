@@ -156,7 +156,7 @@ class Names:
         return self.axis(direction.guide or "".join(direction.points))
 
     def direction(self, line: LineName) -> LineDirection:
-        """Return what a line is turned from and by how much."""
+        """Return the line from which another is rotated, and the angle."""
         step = self.step[line]
         match step:
             case steps.Join(_, tail, head):

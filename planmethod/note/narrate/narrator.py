@@ -72,7 +72,7 @@ class StepNarrator:
             case steps.Hold():
                 return self.hold(step)
             case steps.Spot():
-                return []  # told with the link that it is on
+                return []  # described with its link
             case steps.Similar():
                 return self.similar(step)
             case steps.Measure() | steps.MeasureAlong():

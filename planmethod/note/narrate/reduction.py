@@ -30,14 +30,14 @@ class ReducedTerm(Struct, frozen=True):
     ----------
     name : str
     point : str or None
-        Where a force acts; None of a couple.
+        Point of action of a force; None for a couple.
     link : str
     size : Complexes
         Force, N, or couple, N·m (a real number as a complex one), in every position.
     speed : Complexes
         Velocity of the point, m/s, or angular velocity, 1/s.
     moment : Reals, N·m
-        What it comes to at the crank, positive where it resists.
+        Its moment reduced to the crank, positive where it resists.
     counted : float
         -1 where the file has weights added with the other sign.
     """
@@ -122,7 +122,7 @@ class ReductionTeller:
         yield self.tell.words.note.number, "", [str(k) for k in range(len(self.order))]
 
     def moments(self) -> list[_Column]:
-        """Return the table of the reduced moment: loads, velocities, angles, what each comes to."""
+        """Return the table of the reduced moment: loads, velocities, angles, reduced moments."""
         columns, speeds = [*self._leads()], set[str]()
         for term in self.terms:
             size = np.abs(term.size)
@@ -148,7 +148,7 @@ class ReductionTeller:
 
     @staticmethod
     def angle(term: ReducedTerm) -> Reals:
-        """Return the angle between a force and the velocity, degrees; NaN where either is none."""
+        """Return the angle between a force and the velocity, degrees; NaN where either is zero."""
         size, speed = np.abs(term.size), np.abs(term.speed)
         there = (size > _STILL * size.max()) & (speed > _STILL * speed.max())
         turned = np.abs(np.degrees(np.angle(term.size * term.speed.conjugate())))

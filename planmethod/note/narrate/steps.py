@@ -158,7 +158,7 @@ class PositionNarrator:
         return equals.join([*([symbol] if symbol else []), *sides, value])
 
     def _course(self, line: LineName, origin: PointName, value: float) -> tuple[str, str]:
-        """Return which way a signed length is laid off: along what, and in which sense."""
+        """Return the line and the sense in which a signed length is laid off."""
         words, found = self.words, self.names.direction(line)
         base, angle = found.base, found.angle
         forward = value > 0

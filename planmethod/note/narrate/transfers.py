@@ -89,7 +89,7 @@ class TransferNarrator:
         return f"{told}, {sense}" if sense else told
 
     def _sense(self, quantity: Quantity) -> Rich:
-        """Return the sense of a ratio against the crank, of an ε_q its own; nothing of others."""
+        """Return the sense of a ratio against the crank, or of an ε_q; empty for others."""
         read, _ = self._values(NumberName(quantity.name))
         forms = {
             QuantityKind.RATIO: ("transfer_along", "transfer_against"),

@@ -13,7 +13,7 @@ from planmethod.solved.turn.strokes import LONGER, TOLD
 from planmethod.solved.turn.turn import NoNumber, Turn
 
 NO_ANGLE = 1e-6
-"""Pressure angle that is none, degrees: a stone on the output link pushes along its motion."""
+"""Pressure angle taken as zero, degrees: a block on the output link pushes along its motion."""
 
 
 def degrees(value: float, words: Language) -> str:
@@ -63,7 +63,7 @@ def ratio_facts(turn: Turn, words: Language) -> list[str]:
 
 
 def working_fact(turn: Turn, words: Language) -> str:
-    """Return why a stroke is the working one; nothing where there is none, or both are equal."""
+    """Return why a stroke is the working one; empty where there is none, or both are equal."""
     strokes = turn.strokes
     if strokes is None or strokes.K_v is None:
         return ""
@@ -121,7 +121,7 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
 
 
 def range_fact(turn: Turn, words: Language) -> str:
-    """Return how far the crank turns."""
+    """Return the range of rotation of the crank."""
     if turn.range is None:
         return str(words.cycle["full_turn"][turn.solution.problem.drive.mover])
     low, high = (degrees(limit, words) for limit in turn.range)

@@ -35,7 +35,7 @@ def structure_in_full(
 
 
 def aligned_record(aligned: SelfAligning) -> dict[str, Any]:
-    """Return the schemes without redundant constraints, the best first; the reason where none is.
+    """Return the schemes without redundant constraints, best first; else the reason for none.
 
     Keys are a joint or pin and the links of the pair, the frame 0; values the classes of
     `planmethod.solved.aligned.schemes`. Where schemes leave local mobilities, ``local_mobility``

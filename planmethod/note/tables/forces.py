@@ -217,7 +217,7 @@ def forces_records(solution: Solution) -> Records:
 
 
 def _q(plan: ForcePlan) -> int:
-    """Return how many redundant constraints the links of a plan have with pairs of one freedom."""
+    """Return the number of redundant constraints of a plan's links with pairs of one freedom."""
     return redundant(len(plan.links))
 
 
@@ -255,7 +255,7 @@ def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
 
 
 def _distance(solution: Solution, number: int, index: int, words: Words) -> str:
-    """Return how far along its guide a reaction acts, m."""
+    """Return the distance along its guide at which a reaction acts, m."""
     contact = statics_of(solution).contacts.get(number)
     b = np.nan if contact is None else float(contact.b()[index])
     if contact is None or not np.isfinite(b):

@@ -47,8 +47,8 @@ def results_document(solution: Solution, words: Language, *, sigma: bool = False
     solution : Solution
     words : Language
     sigma : bool
-        Show how far the drawing may be off beside every value that is read, and what contributes
-        most to it in each of a few positions.
+        Show the drafting error beside every reading, and its largest causes in each of a few
+        positions.
     """
     return Document.of(_results(solution, words, Sigmas(solution, words.note, asked=sigma)))
 

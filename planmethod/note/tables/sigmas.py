@@ -79,6 +79,6 @@ class Sigmas:
 
 
 def levelled(cells: Sequence[str]) -> list[str]:
-    """Return cells with room for a mark where another cell of their column has one."""
+    """Return cells with space for a mark where another cell of their column has one."""
     some = any(cell.endswith(DRAWN) for cell in cells)
     return [cell + " " if some and not cell.endswith(DRAWN) else cell for cell in cells]

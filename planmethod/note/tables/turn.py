@@ -1,4 +1,4 @@
-"""Tables of the turn of a crank: by positions, and how far the diagrams are off (таблицы цикла)."""
+"""Tables of the crank's cycle: by positions, and the errors of the diagrams (таблицы цикла)."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def _columns_over(diagrams: Diagrams, chosen: Sequence[GraphQuantity], words: La
 def deviation_columns(
     diagrams: Diagrams, words: Language, ways: Sequence[Differentiation] = tuple(Differentiation)
 ) -> Columns:
-    """Return how far v and a are off by some ways: drawn exactly, and with the ruler."""
+    """Return the errors of v and a by several methods: drawn exactly, and with the ruler."""
     said, say = words.cycle, words.say
     hand = Hand(ruler=diagrams.turn.solution.profile.ruler)
     exactly, ruled = deviations(diagrams, ways), deviations(diagrams, ways, hand)

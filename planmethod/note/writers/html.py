@@ -90,7 +90,7 @@ def html_part(written: Document, lang: str) -> str:
 
 
 def _body(written: Document, words: Words) -> Iterator[str]:
-    """Yield the elements; items that follow one another are a list, figures stand side by side."""
+    """Yield the elements; consecutive items become a list, figures are set side by side."""
     for kind, run in groupby(document.numbers_of(written), lambda pair: type(pair[0])):
         if kind is document.Contents:
             yield f"<h2>{words.contents}</h2>{''.join(_contents(written))}"

@@ -1,7 +1,7 @@
 r"""A document as Markdown with formulas in LaTeX (документ в Markdown).
 
-So the pages of a repository show it. Formulas stand between dollars; which part of a sentence is
-one is known by `planmethod.note.writers.sentences`. Figures are their captions alone.
+Repository pages render it. Formulas are put between dollar signs; those within sentences are found
+by `planmethod.note.writers.sentences`. Figures are reduced to their captions.
 """
 
 from __future__ import annotations

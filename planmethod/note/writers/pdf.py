@@ -37,7 +37,7 @@ PAD = 3.0
 """White at the sides of a cell, points."""
 
 SMALL, RISE, DROP = 0.72, 0.34, 0.16
-"""Letters of indices, and how far their base line is off, in parts of the letters beside them."""
+"""Size of index letters, and shifts of their base line, in parts of the letters beside them."""
 
 LEAST = 34.0 * MM
 """Least width of a column of a table that may be cut into several."""
@@ -72,7 +72,7 @@ def pdf_document(
     font : str
         Name of a font that reportlab knows.
     wide : bool
-        Whether the pages lie.
+        Whether the pages are landscape.
     foot : callable, optional
         Takes the number of a page and returns the line at its foot.
     """
@@ -255,7 +255,7 @@ class _Row(Flowable):  # type: ignore[misc]
         self._figures, self._font = figures, font
 
     def wrap(self, width: float, height: float) -> tuple[float, float]:
-        """Return the room that the row takes, points."""
+        """Return the space that the row takes, points."""
         return width, max(f.view.size[1] for f in self._figures) * MM + self.CAPTION
 
     def draw(self) -> None:

@@ -280,7 +280,7 @@ class FormulaLines(Flowable):  # type: ignore[misc]
         self._width = 0.0
 
     def wrap(self, width: float, height: float) -> tuple[float, float]:
-        """Return the room that the formulas take, points."""
+        """Return the space that the formulas take, points."""
         self._width = width
         return width, sum(row.ascent + row.descent + self._gap for row in self._rows) + self._gap
 

@@ -377,7 +377,7 @@ class _Setter:
         """Yield the flowables of a document."""
         kinds = {type(node) for node in written.nodes}
         self._is_note = bool(kinds & {document.TitlePage, document.Contents})
-        fresh = True  # a page that has nothing yet needs no break
+        fresh = True  # an empty page needs no break
         numbered = list(document.numbers_of(written))
         for (node, number), after in zip_longest(numbered, written.nodes[1:]):
             self._leads = leads(node, after)

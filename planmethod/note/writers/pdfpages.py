@@ -38,7 +38,7 @@ class FloatingPages(BaseDocTemplate):  # type: ignore[misc]
     """
 
     def filterFlowables(self, flowables: list[Any]) -> None:  # noqa: N802
-        """Put the text after a picture or table before it where that has no room."""
+        """Put the text after a picture or table before it where that does not fit."""
         first = flowables[0]
         if not isinstance(first, Floating) or (missing := self._missing(first)) <= 0.0:
             return

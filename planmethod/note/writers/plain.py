@@ -152,7 +152,7 @@ class PlainWriter:
         return re.sub(self._unit, NO_BREAK, plain_text(rich))
 
     def _caption(self, kind: str, number: str, text: str) -> list[str]:
-        # Only what has a number needs the words that stand before it.
+        # Only a numbered caption needs words before its number.
         text = self._language.document[kind].format(number=number, text=text) if number else text
         return wrap(self._whole(text))
 
@@ -177,7 +177,7 @@ _WORD = r"^[^\W\d_]+"
 
 
 def _tabulated(node: Table) -> list[str]:
-    """Return the lines of a table; one that may be cut is so where it is too wide."""
+    """Return the lines of a table, cut where it may be and is too wide."""
     head = [plain_text(cell) for cell in node.head]
     rows = [[plain_text(cell) for cell in row] for row in node.rows]
     if node.repeated:
@@ -189,7 +189,7 @@ def _tabulated(node: Table) -> list[str]:
 
 
 def width(text: str) -> int:
-    """Return how many columns a terminal needs for a text."""
+    """Return the width of a text in columns of a terminal."""
     columns = 0
     for char in text:
         if not unicodedata.combining(char):

@@ -425,7 +425,7 @@ class _Writer:
     # Figures --------------------------------------------------------------------------------------
 
     def _figure(self, figure: Figure, number: str) -> None:
-        """Put a picture in the middle, as large as it is if there is room, its name below."""
+        """Add a centred picture with its name below, in its own size if it fits."""
         share = self._share(figure)
         place = self._paragraph("Figure")
         put_picture(place.add_run(), figure, figure.view.size[0] * share, share, self._file.part)

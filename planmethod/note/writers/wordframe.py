@@ -23,7 +23,7 @@ from planmethod.note.writers.wordtable import rows_of
 from planmethod.note.writers.wordtext import put_field, small_paragraph
 
 EDGE, BINDING = 5.0, 20.0
-"""From the edge of the paper to the frame, mm; on the left there is room for the binding."""
+"""From the edge of the paper to the frame, mm; on the left with space for the binding."""
 
 ABOVE = 10.0
 """White between the text and a title block, mm."""

@@ -151,7 +151,7 @@ class LeverNarrator:
         return [text for text in dict.fromkeys(told) if text]
 
     def shift(self, one: LeverShift) -> str:
-        """Return how far the point of a shifted force is from the centre of mass on the lever."""
+        """Return the distance of a shifted force from the centre of mass on the lever."""
         told = self._pair(one)
         formula = f"{one.symbol}·{told.letters} = {self.found(one.shift)}·{told.numbers}"
         length = self.notation.number(f"{one.shift * one.ratio:.1f}")
@@ -307,7 +307,7 @@ class LeverNarrator:
                 text = f"{self.found(abs(couple.moment))}·{numbers}"
                 terms.append((couple.lever_moment, text))
         said = signed_sum([(turn * moment, text) for moment, text in terms])
-        return fraction(said or "0", divisor)  # in an extreme position nothing may have a moment
+        return fraction(said or "0", divisor)  # in an extreme position all moments may be zero
 
     def _compared(self) -> list[str]:
         """Return the difference of lever and force plans, and the one expected of a drawing."""

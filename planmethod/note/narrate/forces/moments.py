@@ -175,7 +175,7 @@ class MomentNarrator:
         return signed_sum(terms)
 
     def lines(self, equation: Moments) -> list[str]:
-        """Return an equation of moments, its arms, and what it gives; nothing where all is zero."""
+        """Return an equation of moments, its arms and its result; empty where all is zero."""
         told = self.told(equation)
         if told is None:
             return []
@@ -273,9 +273,9 @@ class MomentNarrator:
         return str(getattr(self.said, f"side_{SIDES[quarter]}"))
 
     def places(self) -> list[str]:
-        """Return how far from its joint each guide's reaction acts.
+        """Return the distance from its joint at which each guide's reaction acts.
 
-        Of a force at the edges of its slider also what acts there.
+        For a slider that bears at its edges, also the forces there.
         """
         found = (guide_of(self.reading, one.couple) for one in self.plan.moments if one.couple)
         here = [guided for guided in found if guided is not None]
@@ -287,7 +287,7 @@ class MomentNarrator:
         return lines
 
     def _place(self, guided: Guided) -> str:
-        """Return how far from its joint the reaction of a guide acts."""
+        """Return the distance from its joint at which the reaction of a guide acts."""
         letters = fraction(guided.symbol("M"), guided.symbol("F"))
         numbers = fraction(self.found(guided.read_moment), self.found(guided.read_force))
         found = f"{self.found(guided.read_distance)} {self.units['m']}"

@@ -186,7 +186,7 @@ class ForcePlanNarrator:
         return text + self.context.exactly(abs(self.reading.force(edge)))
 
     def closing(self, edge: Edge) -> str:
-        """Return a force read off its plan: ``F_{42} = 70,0/0,01 = 7000 Н``."""
+        """Return a force read from its plan: ``F_{42} = 70,0/0,01 = 7000 Н``."""
         symbol, length = self.context.symbol(edge.symbol), self.reading.length(edge, self.number)
         if self.reading.is_none(edge):
             return f"{symbol} = 0"
@@ -320,7 +320,7 @@ class ForcePlanNarrator:
         return template.format(links="–".join(links))
 
     def _carried_by(self, line: LineName, out: PointName) -> Edge:
-        """Return the side of the plan that lies on a line."""
+        """Return the side of the plan on a line."""
         step = self.context.step[line]
         assert isinstance(step, Parallel | Perpendicular)
         ends = {step.through, out}

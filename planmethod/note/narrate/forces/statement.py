@@ -347,7 +347,7 @@ def _phase(load: Load | Couple, number: int, words: Language) -> GivenFact:
 
 
 def like_line(load: Load | Couple, words: Language) -> str:
-    """Return whose indicator diagram a load has, and how much later (второй цилиндр)."""
+    """Return the load whose indicator diagram a load shares, and the delay (второй цилиндр)."""
     assert isinstance(load.size, SizeTable) and load.size.like is not None
     shift = f"{words.say.given(load.size.shift)}{words.say.units['deg']}"
     return words.sheets.load_like.format(name=load.name, other=load.size.like, shift=shift)
