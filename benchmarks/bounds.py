@@ -31,7 +31,7 @@ class Bound:
 
     @property
     def holds(self) -> bool:
-        """Whether the number is within its limit."""
+        """True if the number is within its limit."""
         return self.found >= self.limit if self.least else self.found <= self.limit
 
 

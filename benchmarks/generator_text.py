@@ -66,7 +66,7 @@ class Draft:
         return frozenset(found | ({FRAME} if point in self.fixed else set()))
 
     def is_bare_host(self, name: str) -> bool:
-        """Whether a link has no axis other than the line it carries."""
+        """Return whether a link has no axis other than the line that it carries."""
         link = self.links[name]
         carries = any(other.line and other.line.host == name for other in self.links.values())
         return carries and len(link.points) == 1 and link.line is None
@@ -214,7 +214,7 @@ class TextBuilder:
         return self.place[base] if isinstance(base, str) else self.size * base
 
     def _only_translates(self, name: str) -> bool:
-        """Whether slides alone lead from a link to the frame: its angles are then from +x."""
+        """Return whether only slides join a link to the frame: its angles are then from +x."""
         line = self.draft.links[name].line
         return line is not None and (line.host == FRAME or self._only_translates(line.host))
 

@@ -1,4 +1,4 @@
-"""How cost grows with the work: links of a chain, loads, wheels of a train, works of a group."""
+"""Growth of cost with size: links of a chain, loads, wheels of a train, works of a group."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ WORKS = (10, 30, 100, 300)
 
 
 class Chain(Struct, frozen=True):
-    """What a chain of dyads costs: seconds of the processor.
+    """Cost of a chain of dyads, in seconds of processor time.
 
     Attributes
     ----------
     live : int
-        Most numbers of a position that are in use at a time.
+        Largest number of values of a position in use at a time.
     ready, one, many : float
-        To prepare, for one position, for ``count`` of them.
+        Cost of preparing, of one position, of ``count`` positions.
     """
 
     links: int
@@ -63,7 +63,7 @@ class Chain(Struct, frozen=True):
 
 
 class Cost(Struct, frozen=True):
-    """What so much work costs, seconds of the processor."""
+    """Cost of work of some size, in seconds of processor time."""
 
     what: str
     number: int

@@ -80,7 +80,7 @@ class HardCase:
 
 
 class Outcome(Enum):
-    """What became of a row, the best first."""
+    """Outcome of a row, the best first."""
 
     GOOD = "good"  # every result defined, no warning
     WARNED = "warned"  # every result defined, with a warning on its accuracy

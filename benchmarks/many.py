@@ -24,7 +24,7 @@ COMMANDS = {
     "solve --npz": ("solve", "--all-variants", "--npz", "all.npz"),
     "check --key": ("check", "--key", "--json"),
 }
-"""What goes over variants, and its words."""
+"""Commands that run over variants, with their arguments."""
 
 MOST_SECONDS = {1000: 3.0, 10_000: 25.0}
 """Limits by number of variants, for whole processes."""

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 Floats: TypeAlias = NDArray[np.float64]
 
 PEERS = 2
-"""Those looked for: compiled C and pylinkage."""
+"""Number of peers: compiled C and pylinkage."""
 
 ROWS = 20
 OMEGA = 10.0  # 1/s

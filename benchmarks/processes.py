@@ -25,7 +25,7 @@ from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sketch import VIEWS, sketch
 
 ROOT = Path(__file__).parent.parent
-"""Where processes start: they find the package and the benchmarks here."""
+"""Working directory of processes, where they find the package and the benchmarks."""
 
 FORMATS = ("svg", "pdf", "png")
 
@@ -74,7 +74,7 @@ LOADED = (
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """What one command costs.
+    """Cost of one command.
 
     Attributes
     ----------

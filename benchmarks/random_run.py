@@ -27,7 +27,7 @@ CHUNK = 50
 
 @dataclass
 class Tally:
-    """What became of some random mechanisms.
+    """Outcomes of random mechanisms.
 
     Attributes
     ----------

@@ -137,7 +137,7 @@ SCENES: tuple[tuple[str, tuple[str, ...] | None], ...] = (
     ("velocities", ("velocities",)),
     ("everything", None),
 )
-"""What scenes may ask for, the least first."""
+"""Quantities to request, from fewest to all."""
 
 
 def by_scene(count: int = 10_000) -> list[tuple[str, int, int, float, float]]:

@@ -1,4 +1,4 @@
-"""How sheets fill their paper (заполнение листа): white, empty corners, views, vectors, seconds.
+"""Filling of sheets (заполнение листа): white, empty corners, views, vectors, seconds.
 
 Run ``python -m benchmarks.sheets [PROBLEM]...``; it prints the table of docs/paper.md.
 """
@@ -73,7 +73,7 @@ HEAD = (
 
 @dataclass(frozen=True, slots=True)
 class Filled:
-    """How the sheets of one problem fill their paper.
+    """Filling of the sheets of one problem.
 
     Attributes
     ----------

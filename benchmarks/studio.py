@@ -123,7 +123,7 @@ def text_of(name: str) -> str:
 
 
 class Used(NamedTuple):
-    """What a server used so far (затраты сервера): memory at its most, MB; CPU, s."""
+    """Resources used by a server so far (затраты сервера): peak memory, MB; CPU, s."""
 
     memory: float
     cpu: float

@@ -35,7 +35,7 @@ ACROSS, WIDTH, HEIGHT = 4, 70.0, 62.0
 """Cells in a row of a contact sheet, and their size, mm."""
 
 ROOM = (48.0, 36.0)
-"""What a mechanism alone may take of its cell, mm."""
+"""Space for the mechanism itself in its cell, mm."""
 
 INTRODUCTION = """# Shipped tasks
 

@@ -25,7 +25,7 @@ CHROMIUM = ("chromium", "--headless", "--no-sandbox", "--hide-scrollbars", "--di
 
 
 class Picture(NamedTuple):
-    """A picture, what draws it, and for pages what of them is seen."""
+    """A picture, the command that draws it, and for pages the part to show."""
 
     name: str
     command: str
@@ -34,7 +34,7 @@ class Picture(NamedTuple):
     shown: str = ""
     """For a PDF, page and resolution; for HTML, width and height in pixels."""
     served: str = ""
-    """What is opened at the server that the command starts."""
+    """Path opened at the server that the command starts."""
 
 
 PICTURES = (

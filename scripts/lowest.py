@@ -15,7 +15,7 @@ TOOLS = ("build", "import-linter", "mypy", "ruff")
 """Tools that check the source code and are not needed to run it."""
 
 BESIDE = ("pyparsing==3.1.0",)
-"""What libraries of that time need of their own, and newer ones would warn of."""
+"""Dependencies of old libraries, in versions that do not warn."""
 
 
 def lowest() -> Iterator[str]:

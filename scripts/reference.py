@@ -75,7 +75,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "cam": ("$defs", "cam"),
     "project": ("$defs", "project"),
 }
-"""Where the schema has a kind of table."""
+"""Paths of the kinds of table in the schema."""
 
 
 def table_at(schema: dict[str, Any], kind: str) -> dict[str, Any]:
@@ -207,7 +207,7 @@ def _one(value: object) -> str:
 # The references ----------------------------------------------------------------------------------
 
 MARK = r"(?m)^(<!-- keys of (\w+) -->\n).*?(?=^$|\Z)"
-"""What stands before a table that is written here; it ends at an empty line."""
+"""Mark before a generated table, which ends at an empty line."""
 
 
 def english_text() -> str:

@@ -69,7 +69,7 @@ def _ends(problem: Problem, motion: Motion, rng: random.Random) -> Ends | None:
 
 
 def _in_a_guide(problem: Problem, one: str, two: str) -> bool:
-    """Whether a pair of the mechanism itself is that of a cylinder and a rod between the points."""
+    """Return whether a slide of the mechanism already joins the links of the two points."""
     for slide in problem.slides.values():
         pair = [problem.bodies[link].points for link in (slide.slider, slide.host)]
         if any(one in a and two in b for a, b in (pair, pair[::-1])):

@@ -36,12 +36,12 @@ def pytest_configure(config: pytest.Config) -> None:
     is_thin = not is_whole(config)
     settings.load_profile("thorough" if thorough else "thinned" if is_thin else "planmethod")
     cases.take(everything=thorough, is_thin=is_thin)
-    # As in the commands: what the tests share is large, and looking for cycles in it a twentieth.
+    # As in the commands: the tests share large data, and the search for cycles in it takes 5 %.
     gc.set_threshold(100_000)
 
 
 WHOLE = ("contracts/", "construct/", "note/test_messages.py")
-"""Where every case is its own claim; elsewhere many cases of a test show the same."""
+"""Tests each of whose cases makes its own claim; elsewhere many cases of a test show the same."""
 
 MANY = 4
 

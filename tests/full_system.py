@@ -37,7 +37,7 @@ class Acting:
 
 @dataclass(frozen=True)
 class Pose:
-    """Where the points of the links are, by (link, point), and unit vectors along the guides."""
+    """Places of the points of links, by (link, point), and unit vectors along the guides."""
 
     place: Callable[[str, str], Number]
     along: Callable[[Slide], Number]
@@ -58,7 +58,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class _Unknown:
-    """What an unknown of size one does: a force at a place and a couple, and back on ``by``."""
+    """Effect of an unknown of size one: a force at a place and a couple, and back on ``by``."""
 
     joint: Joint
     at: Number

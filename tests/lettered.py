@@ -1,4 +1,4 @@
-"""What the sheets of the forces letter, by the parts of the analysis, in one line."""
+"""Formulas on the sheets of forces, by the parts of the analysis, in one line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What processes of the studio do in tests of their limits: a function of a module."""
+"""Work of the studio's processes in tests of their limits: a function of a module."""
 
 from __future__ import annotations
 

@@ -483,7 +483,7 @@ def test_a_new_problem_is_ready_to_solve(family: str) -> None:
 @pytest.mark.dear
 @pytest.mark.parametrize("family", MACHINES)
 def test_a_new_machine_is_one_from_the_loads_to_the_flywheel(family: str) -> None:
-    """Its loads work against the machine (an engine's for it), its flywheel is one that is made."""
+    """Its loads resist the machine (an engine's drive it), and its flywheel can be made."""
     assert run("new", family, "mine.toml").exit_code == 0
     text = Path("mine.toml").read_text("utf-8")
     done = run("solve", "mine.toml", "--json")
@@ -644,7 +644,7 @@ def test_write_is_what_the_commands_write_with(tmp_path: Path) -> None:
 @pytest.mark.parametrize("args", [("solve", EX1, "--json"), ("protocol", EX3), ("solve", EX3)])
 @pytest.mark.skipif(sys.platform == "win32", reason="pipes of a POSIX shell")
 def test_a_pipe_closed_by_its_reader_is_no_error(args: tuple[str, ...]) -> None:
-    """As in ``planmethod solve ... --json | head -c 10``."""
+    """Case: ``planmethod solve ... --json | head -c 10``."""
     many = ("--phi", "0:360:2") if args[0] == "solve" else ()
     with subprocess.Popen(
         [sys.executable, str(ROOT / "cli.py"), *args, *many],

@@ -1,4 +1,4 @@
-"""What the documents say is so: commands run, examples load, links lead somewhere."""
+"""The documents are right: commands run, examples load, links have targets."""
 
 from __future__ import annotations
 
@@ -299,7 +299,7 @@ def test_files_that_the_text_speaks_of_exist(document: Path) -> None:
 
 
 def test_every_promise_has_a_test() -> None:
-    """What docs/security.md promises is held by tests that are there, in the last cell of a row."""
+    """The tests that docs/security.md names in the last cell of a row exist."""
     page = (ROOT / "docs/security.md").read_text("utf-8")
     table = page.partition("## What is promised")[2].partition("\n## ")[0]
     rows = [line for line in table.splitlines() if line.startswith("| ")][2:]

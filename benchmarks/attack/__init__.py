@@ -1,1 +1,1 @@
-"""What strangers may send, made in masses from a seed, and every door of the program with it."""
+"""Hostile input, generated in bulk from a seed, for every entry point of the program."""

@@ -117,12 +117,12 @@ DOORS: dict[str, Callable[[int], Made]] = {
 }
 
 FILES = {"problem files": 20_000, "works": 3000, "groups of works": 2000, "drawings": 1000}
-"""How many files each door is given, where it is not told otherwise: else 500."""
+"""Number of files for an entry point. Default: 500."""
 
 
 @dataclass
 class Found:
-    """What came of the files of a door."""
+    """Outcome of the files given to an entry point."""
 
     door: str
     files: int = 0
@@ -133,7 +133,7 @@ class Found:
 
 
 class _LateError(BaseException):
-    """A file took its processor time; no net of the program catches it."""
+    """A file exceeded its processor time; no handler of the program catches this."""
 
 
 def attempt(made: Made, folder: Path) -> tuple[object, float]:

@@ -1,4 +1,4 @@
-"""What a person gets of a cam: texts in both languages, the sheet, DXF, the key, a project."""
+"""Outputs of a cam for a reader: texts in both languages, the sheet, DXF, the key, a project."""
 
 from __future__ import annotations
 

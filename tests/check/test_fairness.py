@@ -357,7 +357,7 @@ def test_the_routes_of_example_3_are_those_of_an_independent_computation() -> No
 
 
 def test_a_route_from_right_numbers_is_none_and_one_wrong_among_them_is_enough() -> None:
-    """What follows from right numbers is right or wrong by itself, and keeps its own parents."""
+    """A result of right numbers is right or wrong by itself, and keeps its own parents."""
 
     def examined(name: str, value: float, *, right: bool) -> Examined:
         item: Any = SimpleNamespace(id=name, question=SimpleNamespace(id=name, sign=Sign.SIZE))

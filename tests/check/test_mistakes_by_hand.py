@@ -1,4 +1,4 @@
-"""What each mistake gives, worked out by hand: complex numbers and the formulas of the books."""
+"""Results of each mistake, computed by hand: complex numbers and the formulas of the books."""
 
 from __future__ import annotations
 

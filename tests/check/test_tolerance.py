@@ -1,4 +1,4 @@
-"""How far an answer may be off where it is short or cannot be seen, and the verdicts of it."""
+"""Tolerances of answers that are short or cannot be seen on the drawing, and their verdicts."""
 
 from __future__ import annotations
 

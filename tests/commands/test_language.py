@@ -1,4 +1,4 @@
-"""In which language commands write: that of messages, or the one that the file names."""
+"""The language of commands' output: that of messages, or the one named in the file."""
 
 from __future__ import annotations
 

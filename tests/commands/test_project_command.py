@@ -171,7 +171,7 @@ def test_every_plan_has_the_scale_of_the_project(name: str, made: Callable[[str]
 @pytest.mark.dear
 @pytest.mark.parametrize("name", NAMES)
 def test_every_quantity_has_one_value(name: str, made: Callable[[str], Path]) -> None:
-    """What the note measures in the calculated position is in the workbook and on the sheet."""
+    """The values that the note measures in the calculated position are in workbook and sheet."""
     folder = made(name)
     told = record(folder)
     head, *rows = (

@@ -1,4 +1,4 @@
-"""What other commands make of the file of a project."""
+"""Other commands on the file of a project."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def test_of_an_exact_nothing_there_is_no_per_cent(scaled: Path, tmp_path: Path) 
 
 
 def test_solve_prints_one_position_at_the_scales_of_all() -> None:
-    """As the protocol and the sheet of all positions have it."""
+    """The protocol and the sheet of all positions have the same scales."""
     path = ROOT / "problems/linkages/ex3.toml"
     asked = (path, "--phi", "20,140,260", "--lang", "ru")
     whole, one = (run("solve", *asked, *more).stdout for more in ((), ("--position", "1")))

@@ -108,7 +108,7 @@ def test_angles_are_good_to_the_last_place_and_exact_at_quadrants(
 
 
 def test_angles_of_equal_steps_are_turned_by_a_table() -> None:
-    """So are those equal to rounding; a block with one that is not is turned one by one."""
+    """Steps equal to rounding count as equal; a block with another one is turned one by one."""
     tape = Tape()
     a = tape.input(0)
     results = [tape.make("cosd", a), tape.make("sind", a)]

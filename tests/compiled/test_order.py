@@ -1,4 +1,4 @@
-"""In which order a tape is run, and how many numbers are at hand: no more for a longer chain."""
+"""The order of a tape's operations, and its live numbers: no more for a longer chain."""
 
 from __future__ import annotations
 

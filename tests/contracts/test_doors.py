@@ -1,4 +1,4 @@
-"""What a stranger sends: no traceback, no exit 5, bounded work, nothing raw on the terminal."""
+"""Hostile input: no traceback, no exit 5, bounded work, no raw bytes on the terminal."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ def test_a_field_of_the_title_block_is_no_longer_than_in_a_file(tmp_path: Path) 
 def test_a_cam_is_designed_once_for_all_positions(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """And once for each mistake; designed in every position, this form took 8 s, others 15 s."""
+    """It is designed once for each mistake, too; before, the form took 8 s, others 15 s."""
     made: list[CamDesign] = []
     find = CamDesign._nearest
 

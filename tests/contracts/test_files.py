@@ -1,4 +1,4 @@
-"""What a stranger's file does beside its words: numbers, keys, links, pipes and full disks."""
+"""Other hazards of a stranger's file: numbers, keys, links, pipes and full disks."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def refuses(*words: str | Path, code: int, said: str = "") -> str:
 # Numbers ------------------------------------------------------------------------------------------
 
 FAR = ("1e99999999", "-1e-99999999", "0e99999999999999999999", "1e-99999999999999999999")
-"""As fractions they have as many digits as they say; the longer ones no exact number takes."""
+"""Numbers whose exact fractions would have as many digits as their power of ten."""
 
 
 @pytest.mark.parametrize("text", FAR)

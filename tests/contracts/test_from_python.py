@@ -33,7 +33,7 @@ ODD: tuple[Any, ...] = (
     Path("x"), int, [10**400], ["1"], 10**400, {1.0, 2.0}, np.array(["a"]), np.array([object()]),
     "v_Q", 10**9, lambda: 0,
 )  # fmt: skip
-"""What is handed in where something else is wanted; some of it is wanted somewhere."""
+"""Values passed as every argument: wrong for most of them, right for some."""
 
 
 def keyed(

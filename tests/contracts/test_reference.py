@@ -32,7 +32,7 @@ SLIDING = {
         "guide": ("B", "5", "0"),
     },
 }
-"""What the exact values call a pair, and the record: point, of, to."""
+"""Names of pairs in the exact values, and in the record: point, of, to."""
 
 
 @cache

@@ -124,7 +124,7 @@ def set_of(folder: Path, wheels: dict[str, int], kind: str, count: int) -> Train
 
 
 def whole_of(wheels: dict[str, int], kind: str) -> int:
-    """What k divides, by the textbook: z_1 + z_3, of a double satellite over its common factor."""
+    """Return the textbook's number that k divides: z_1 + z_3, reduced for a double planet gear."""
     one, two, three = (wheels[label] for label in "123")
     rim = wheels.get("2'", two)
     sign = 1 if kind == "internal" else -1
@@ -132,7 +132,7 @@ def whole_of(wheels: dict[str, int], kind: str) -> int:
 
 
 def is_apart(wheels: dict[str, int], count: int) -> bool:
-    """Whether circles over the tips of two neighbouring satellites do not meet, m = 1."""
+    """Return whether the tip circles of two neighbouring planet gears do not meet, m = 1."""
     centres = [complex(wheels["1"] + wheels["2"]) / 2 * 1j ** (4 * k / count) for k in (0, 1)]
     tip = (max(wheels["2"], wheels.get("2'", 0)) + 2) / 2
     return count == 1 or abs(centres[0] - centres[1]) > 2 * tip
@@ -230,7 +230,7 @@ def ring_apart(z: tuple[int, int], x: tuple[float, float]) -> tuple[float, float
 
 
 def test_inner_meshes_are_judged_by_where_the_tips_of_the_ring_come(tmp_path: Path) -> None:
-    """Of 40 pairs, half of them without shifts: a train and a choice of teeth say the same."""
+    """For 40 pairs, half of them without shifts, a train and a choice of teeth agree."""
     draw, judged = random.Random(46), set()
     for number in range(some(40, few=16)):
         z = draw.randint(12, 45)

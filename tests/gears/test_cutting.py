@@ -167,7 +167,7 @@ def test_undercut_is_seen_where_a_swept_rack_leaves_the_involute() -> None:
     cut, base = swept(0.0, 2001), 30 * cos(radians(20))
 
     def is_left(radius: float) -> bool:
-        """Whether a point just within the involute at a radius is still in the tooth."""
+        """Return whether a point just within the involute at a radius is still in the tooth."""
         angle = acos(base / radius)
         half = 5 * pi / 2 / 60 + tan(radians(20)) - radians(20) - tan(angle) + angle
         place = (radius * np.exp(-1j * (half - 2e-6))) * np.exp(1j * (pi / 2 + pi / 12))
@@ -246,7 +246,7 @@ def left_by_the_rack(z: int, m: float, x: float, beta: float) -> tuple[float, fl
 
 
 def test_undercut_leaves_what_the_rolled_rack_leaves() -> None:
-    """Of 72 wheels: from a trace of undercut down to a deep one, straight and helical."""
+    """For 72 wheels, from a trace of undercut to a deep one, straight and helical."""
     draw = np.random.default_rng(46)
     for number in range(some(72, few=18)):
         z, m = int(draw.integers(8, 41)), float(draw.choice([1, 2, 2.5, 4, 6, 10]))

@@ -36,7 +36,7 @@ def told(motion: TrainMotion) -> list[str]:
 
 
 def value_of(side: str, motion: TrainMotion) -> float:
-    """What a side of a formula is worth, by the speeds and teeth of the train themselves."""
+    """Return the value of a side of a formula, by the speeds and teeth of the train."""
     known, left, side = (
         motion.train.body_of,
         side,

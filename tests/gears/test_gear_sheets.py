@@ -141,7 +141,7 @@ SMALL = told(
     [mesh("1", "2", carrier="H"), mesh("2'", "3", "internal", "H"), mesh("4", "5")],
     'bodies = [["H", "4"]]\nfixed = ["3"]\nmodule = 4\nn = { 1 = -960 }\nask = ["U_1_5"]',
 )
-"""Its scheme is too low at the scale of the file: the sheet has another one."""
+"""Train whose scheme is too low at the scale of the file, so that the sheet has another one."""
 
 
 def test_a_picture_is_read_once_for_sheet_protocol_and_note(tmp_path: Path) -> None:

@@ -180,7 +180,7 @@ def test_a_faulty_helix_is_said(tmp_path: Path, body: str, said: str) -> None:
 
 
 def kept(pair: Pair, least: float = 1.2, tip: float = 0.25) -> np.ndarray:
-    """Where the limits hold, by inequalities of their own."""
+    """Return where the limits hold, by inequalities of this test."""
     with np.errstate(all="ignore"):
         whole = (pair.x >= pair.x_min).all(axis=0) & (pair.epsilon >= least)
         whole &= (pair.s_na / pair.m >= tip).all(axis=0) & (pair.rho_p >= pair.rho_l).all(axis=0)

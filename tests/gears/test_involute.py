@@ -306,7 +306,7 @@ def contour() -> Contour:
 def test_between_the_numbers_of_an_axis_of_the_contour_there_is_white(
     size: float, letter: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """As much as a letter is high, in a picture of any size."""
+    """The gap is at least the height of a letter, in a picture of any size."""
     placed: list[Label] = []
     monkeypatch.setattr(diagrams, "lettered", lambda _, labels: placed.extend(labels))
     contour_picture(contour(), language("ru"), size, size, letter)

@@ -1,4 +1,4 @@
-"""What is drawn of a moving point: constructions against exact numbers, sheets, protocols."""
+"""Drawings of a moving point: constructions against exact numbers, sheets, protocols."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ def test_of_any_loaded_mechanism_too(seed: int) -> None:
 @each("lang", LANGUAGES)
 @each("name", SIX)
 def test_the_protocol_has_the_formulas_of_the_sheet(name: str, lang: str) -> None:
-    """But for the letters of its points, which it writes on one line."""
+    """Only the letters of points differ: the protocol writes them on one line."""
 
     def bare(text: str) -> str:
         return re.sub(r"[–\s]", "", plain_text(text)).translate(_LOWERED)

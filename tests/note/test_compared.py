@@ -117,7 +117,7 @@ def comparisons(lines: Sequence[Line], lang: str) -> Iterator[tuple[Line, Line, 
 
 
 class Told(Struct):
-    """What was looked at."""
+    """Counts of the compared numbers."""
 
     tables: int = 0
     rows: int = 0

@@ -263,7 +263,7 @@ def test_every_known_force_is_laid_off_in_the_order_of_the_polygon() -> None:
 
 
 def test_every_reaction_is_told_from_end_to_end() -> None:
-    """Its vector, or another that it is equal to; then its size."""
+    """The protocol names its vector, or one that equals it, and then its size."""
     for solution in every():
         reading, text = ForceReading(solution, 0), forces_of(text_of(solution))
         for plan in reading.plans:

@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 GLOSSARY = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8").casefold()
 PACKAGE = ROOT / "planmethod"
 FIELDS = ("construct", "mechanism", "plans", "problem/model.py")
-"""Where classes are named after terms of the theory of mechanisms, not of the program."""
+"""Parts of the package whose classes are named after terms of the theory of mechanisms."""
 
 IN_BRACKETS = re.compile(r"\(([^()]*[а-яё][^()]*)\)")
 

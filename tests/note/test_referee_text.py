@@ -1,4 +1,4 @@
-"""What the referee says, for people and for programs."""
+"""Output of --referee, for people and for programs."""
 
 from __future__ import annotations
 

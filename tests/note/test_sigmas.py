@@ -322,7 +322,7 @@ def test_causes_are_named_by_what_is_drawn() -> None:
 
 
 def test_without_a_believed_result_there_are_no_causes() -> None:
-    """What is lost in its error or found by draws has no causes of first order."""
+    """A result lost in its error, or whose error is found by draws, has no first-order causes."""
     solution = Solution(problem_of("levers/six-link"), positions=[250.0])
     drafting_of(solution).spreads = {
         label: type(spread)(spread.sigma, np.ones_like(spread.drawn))

@@ -341,7 +341,7 @@ BROKEN: dict[str, tuple[str, str, str]] = {
 
 
 SERVES = ("a size of letters that is none", "a flag that is none", "settings of another kind")
-"""What of it Word and its library put up with."""
+"""Faults that Word and the library tolerate."""
 
 
 @pytest.mark.parametrize("how", BROKEN)

@@ -18,7 +18,7 @@ LANGUAGES = ("ru", "en")
 INTERNAL = re.compile(
     r"line\d|~|\bNone\b|\bnan\b|\binf\b|[va]:\S|mu_|omega_|epsilon_|angle_|\||[_^]\{|\{|\}|\\"
 )
-"""What a reader must never see: names of the program, markup, numbers that are none."""
+"""Strings that a reader must never see: internal names, markup, values that are not numbers."""
 
 
 @cache

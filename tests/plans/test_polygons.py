@@ -1,4 +1,4 @@
-"""What the force plans say of themselves: polygons close, equations hold, letters fit."""
+"""Consistency of force plans: polygons close, equations hold, letters fit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whatever a stranger writes, the answer is a problem or a `ProblemError`."""
+"""Any text of a stranger gives a problem or a `ProblemError`."""
 
 from __future__ import annotations
 

@@ -318,7 +318,7 @@ def test_reading_needs_no_heavy_modules() -> None:
 
 @each("path", PROBLEMS)
 def test_a_problem_goes_to_another_process_and_comes_back(path: Path) -> None:
-    """So do all that is read of a file: `--jobs` sends it."""
+    """Everything read from a file can be pickled, since `--jobs` sends it."""
     kind = kind_of(path)
     problem = load(path) if kind is None else kind.load(path, None)
     assert type(pickle.loads(pickle.dumps(problem))) is type(problem)

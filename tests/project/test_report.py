@@ -237,7 +237,7 @@ def test_the_numbers_of_every_formula_come_to_its_result(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["homework", "forces"])
 def test_the_matrix_of_constraints_has_six_columns_for_each_moving_link(name: str) -> None:
-    """And as many rows as the pairs take away: both are terms of the formula above it."""
+    """It has a row for each freedom removed by a pair; the formula above it has both numbers."""
     told = " ".join(inlined(text) for text in texts(note_of(name))).replace("\u00a0", " ")
     count = re.search(r"= 6·(\d+)((?: − \d·\d+)+) = 1\b", told)
     matrix = re.search(r"имеет (\d+) строк\w* и (\d+) столбц\w*, её ранг .*? равен (\d+)", told)

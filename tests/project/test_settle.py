@@ -1,4 +1,4 @@
-"""What is decided of a project, once: positions, the calculated one, scales, strokes."""
+"""Decisions on a project, made once: positions, the calculated one, scales, strokes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is read off the drawings of a project is one number on its sheets and in its note."""
+"""A value read off the drawings of a project is the same on its sheets and in its note."""
 
 import re
 from collections import defaultdict
@@ -216,7 +216,7 @@ LEAST = {
     PartName.MESHING: 20,
     PartName.CAM: 5,
 }
-"""How many numbers of a part that sheets and note of a usual project share at least."""
+"""Least number of values that sheets and note of a usual project share, by part."""
 
 PROJECTS = [
     TEMPLATE,

@@ -288,7 +288,7 @@ inertia = 0.1
 
 
 def test_the_difference_has_the_digits_of_what_it_is_the_difference_of() -> None:
-    """Where the balance has a narrow peak, each of its numbers has decimals of its own."""
+    """If the balance has a narrow peak, its numbers have different decimals."""
     solution = Solution(loads(FAST, name="fast"), positions=TURN)
     (_, plans, lever, off, *_) = _balance_columns(solution, range(12), language("ru"))
 

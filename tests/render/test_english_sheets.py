@@ -71,7 +71,7 @@ def test_a_title_block_has_the_texts_of_its_language_where_the_file_says_them() 
 
 
 def test_every_shipped_problem_has_an_english_title_block() -> None:
-    """But for names of variants, which are the file's own letters."""
+    """Names of variants, which are the file's own letters, are not translated."""
     files = sorted(PROBLEMS.rglob("*.toml"))
     assert len(files) > 200
     for path in files:
@@ -148,7 +148,7 @@ def test_a_sheet_in_russian_has_no_english_word(
 
 
 def test_the_numbers_are_the_same_in_every_language() -> None:
-    """But for the sign of decimals."""
+    """Only the decimal sign differs."""
     problem = problem_of("linkages/ex3")
     found = []
     for lang in LANGUAGES:

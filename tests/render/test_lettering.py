@@ -235,7 +235,7 @@ def test_outlines_are_what_the_pen_leaves(style: str) -> None:
 
 @each_style
 def test_letters_keep_inside_their_room(style: str) -> None:
-    """But for their lean: no letter runs into the next one."""
+    """A letter leaves its box only by its slope, so that no letter runs into the next one."""
     used = lettering(style)
     for char in letters():
         glyph = used.glyph(char)

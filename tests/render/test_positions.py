@@ -66,10 +66,10 @@ def test_no_label_of_twelve_positions_is_in_the_way(name: str) -> None:
 
 @pytest.mark.parametrize("name", SIX)
 def test_every_point_has_its_letter_in_every_position(name: str) -> None:
-    """As many labels as points times positions, less those that one place has in common.
+    """Every point has a label in every position; points in one place share a label.
 
-    Where they are too many for their area only every third and the bold one are left, and of a
-    centre of mass the bold one.
+    If there are too many for their area, only every third and the bold one are left, and for a
+    centre of mass only the bold one.
     """
     positions = positions_of(name)
     third = {str(positions.bold), *map(str, TWELVE[::3])}

@@ -1,4 +1,4 @@
-"""What signs, pens and letters of a sheet claim, against the motion itself."""
+"""Signs, pens and letters of a sheet against the motion itself."""
 
 from __future__ import annotations
 

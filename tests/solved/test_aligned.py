@@ -296,7 +296,7 @@ def test_a_link_on_three_profiles_keeps_a_local_mobility_which_is_told() -> None
 def test_schemes_with_a_local_mobility_are_those_of_an_exhaustive_search(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """As if no scheme were regular: what would be offered of each group then."""
+    """With the regular schemes excluded, as if there were none: those then offered for a group."""
     monkeypatch.setattr("planmethod.solved.aligned.schemes._Search._good",
                         lambda self, every: self._freer(every))  # fmt: skip
     for points, slides in (("A:01 B:12 C:23 D:03", ""), ("A:01 B:12 C:23", "3/0@C"),

@@ -1,4 +1,4 @@
-"""Where the reactions of the guides act: sums, signs, and all links at once as the referee."""
+"""Points of action of the guides' reactions: sums, signs, and all links at once as a check."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ def rule(length: float, step: float = 1.0) -> float:
 
 
 def meet(p: complex, u: complex, q: complex, v: complex) -> complex:
-    """Where the line from p along u meets the line from q along v."""
+    """Return the intersection of the line from p along u with the line from q along v."""
     return p + u * (((q - p).conjugate() * v).imag / (u.conjugate() * v).imag)
 
 
@@ -192,7 +192,7 @@ def test_a_coincident_point_found_by_similarity(step: float) -> None:
 
 
 def test_what_the_textbook_prints_for_the_third_example() -> None:
-    """Its BC of 72 mm, its 46 mm of b-b3 and 160 of a_B come out with a ruler of 1 mm."""
+    """A ruler of 1 mm gives its BC of 72 mm, its 46 mm of b-b3 and its 160 of a_B."""
     got = read("linkages/ex3", 1.0, PlanKind.POSITION)
     assert got["B-C"] == 72.0
     assert read("linkages/ex3", 1.0, V)["b-b3"] == 46.0

@@ -69,7 +69,7 @@ def test_a_better_hand_has_smaller_errors_in_proportion() -> None:
 
 @pytest.mark.parametrize("name", TWELVE)
 def test_sigmas_of_reactions_are_those_of_random_sheets(name: str) -> None:
-    """Where first order is believed: near zero no length errs normally."""
+    """Where the linear error holds: near zero the error of a length is not normal."""
     statics = statics_with(name)
     told = 0
     for index in (0, 4, 7):

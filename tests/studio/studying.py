@@ -1,4 +1,4 @@
-"""What who tries the studio in a browser does there: opens it, takes a task, types, clicks."""
+"""A user's actions in the studio in a browser: open it, take a task, type, click."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the studio's processes, queue and sessions do to those who ask too much."""
+"""Limits of the studio's processes, queue and sessions against excessive requests."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
 
 @pytest.fixture(scope="module")
 def hurried(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
-    """Where strangers have little time."""
+    """A studio with a short time limit for strangers."""
     yield from serving(tmp_path_factory, replace(LIMITS, seconds=0.5))
 
 

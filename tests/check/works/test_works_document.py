@@ -1,4 +1,4 @@
-"""What docs/works.md says of files is so."""
+"""The statements of docs/works.md on files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whatever file a stranger gives, it is read, or refused with `WorksError`."""
+"""Any file of a stranger is read, or rejected with `WorksError`."""
 
 from __future__ import annotations
 
