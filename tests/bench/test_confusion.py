@@ -52,7 +52,7 @@ def test_two_mistakes_are_counted_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert row.unknown == row.works > 5
 
 
-def test_what_follows_from_a_number_of_ones_own_loses_nothing(
+def test_results_of_a_students_own_number_lose_no_points(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """In example 3; before, 7 of 133 lost points, most of them after an unexplained a_B."""

@@ -63,7 +63,7 @@ def test_positions_are_those_of_the_file_where_the_driver_cannot_turn_round() ->
     assert list(speed.places(rocker, 3)) == [110.0] * 3
 
 
-def test_times_are_told_in_their_unit() -> None:
+def test_times_are_printed_in_their_unit() -> None:
     assert [report.span(s) for s in (2.5, 0.0123, 4.2e-6, 3e-9)] == [
         "2.5 s", "12.3 ms", "4.2 µs", "3 ns",
     ]  # fmt: skip

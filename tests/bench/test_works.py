@@ -29,14 +29,14 @@ def detected() -> list[checking.Detected]:
     return checking.all_detected([problem_of("linkages/ex1")], 1)
 
 
-def test_what_is_said_of_a_mistake_is_counted_once() -> None:
+def test_every_diagnosis_is_counted_once() -> None:
     for row in detected():
         assert row.named + row.among + row.unknown + row.misnamed == row.works
         assert row.seen <= row.works <= checking.PLACES
         assert sum(row.taken_for.values()) >= row.misnamed
 
 
-def test_variants_of_a_file_are_told_from_each_other(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_variants_of_a_file_are_distinguished(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checking, "places_of", lambda task, key: iter(()))
     problems = [problem_of("linkages/ex3-variants", name) for name in ("1", "2")]
     rows = [row for row in checking.all_detected(problems, 1) if row.code == "P2"]

@@ -21,7 +21,7 @@ FILES = {
 
 
 @pytest.mark.parametrize("door", DOORS)
-def test_nothing_falls(door: str) -> None:
+def test_no_hostile_file_breaks_the_program(door: str) -> None:
     count = some(20 * FILES[door], few=FILES[door])
     found = attack(door, range(count))
     assert not found.bad
@@ -58,7 +58,7 @@ def dead(*_: object, **__: object) -> None:
     ("fault", "said"),
     [(fail, "KeyError"), (late, "over 0.2 s"), (large, "MB"), (dead, "killed")],
 )
-def test_what_falls_is_found(fault: object, said: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failing_file_is_found(fault: object, said: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("benchmarks.attack.__main__.SECONDS", 0.2)
     monkeypatch.setattr("planmethod.kinds.kind_of", fault)
     found: Found = attack("problem files", range(3))

@@ -32,7 +32,7 @@ def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(growth, "clock", once)
 
 
-def test_all_who_are_compared_compute_the_same() -> None:
+def test_all_peers_compute_the_same() -> None:
     sweep = Sweep(fourbar(), FOURBAR_ROWS)
     assert len(sweep.rows) == ROWS
     angles = speed.turn(300)
@@ -82,7 +82,7 @@ def test_sections_by_themselves() -> None:
     assert "on a wrong branch: 0 of 48 positions" in told.stdout
 
 
-def test_what_shall_hold_is_told_with_its_number() -> None:
+def test_every_limit_is_printed_with_its_number() -> None:
     told = bounds.bounds_table([bounds.Bound("more", 2.0, 1.0)])
     assert told[-1] == "| more | 2 | at most 1 | no |"
     linear = [many.Grown(n, 1.0 + 1e-3 * n, 30.0) for n in (10, 100, 1000, 10_000)]

@@ -68,7 +68,7 @@ def is_dead(row: HardRow) -> bool:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_every_row_is_good_or_told(name: str) -> None:
+def test_every_row_is_good_or_has_a_message(name: str) -> None:
     """By default of every third row and of those that are dead exactly."""
     case = CASES[name]
     labels = [row.label for row in case.rows]
@@ -98,14 +98,14 @@ def test_names_and_labels_are_unique() -> None:
     assert set(FAULTS) <= set(keys)
 
 
-def test_a_dead_slider_driven_by_its_crank_stands_exactly() -> None:
+def test_a_dead_slider_driven_by_its_crank_is_exactly_at_rest() -> None:
     solution = Solution(loads(texts.slider_crank(), name="x"), positions=[0.0, 180.0, -180.0])
     verify(solution)
     assert list(solution.points["B"].velocity) == [0, 0, 0]
     assert list(solution.points["B"].place) == [0.5, 0.25, 0.25]
 
 
-def test_a_refusal_says_what_and_where() -> None:
+def test_an_error_names_the_fault_and_its_place() -> None:
     (row,) = examined(CASES["rocker-by-rocker"], "exactly")
     assert row.outcome is Outcome.REFUSED
     assert "at phi = 90 deg" in row.told
@@ -120,14 +120,16 @@ def test_a_refusal_says_what_and_where() -> None:
     ],
     ids=["arcs that do not meet", "pin on a pivot"],
 )
-def test_what_is_impossible_is_told_without_a_grumble_of_numpy(text: str, position: float) -> None:
+def test_an_impossible_position_is_reported_without_numpy_warnings(
+    text: str, position: float
+) -> None:
     # Warnings are errors here.
     solution = Solution(loads(text, name="x"), positions=[position])
     with pytest.raises(AssemblyError):
         verify(solution)
 
 
-def test_the_referee_judges_what_exists_where_a_pin_is_on_its_pivot() -> None:
+def test_the_referee_checks_existing_results_where_a_pin_is_on_its_pivot() -> None:
     (row,) = examined(CASES["slotted"], "exactly")
     assert not math.isnan(row.margin)
 

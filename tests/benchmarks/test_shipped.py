@@ -30,7 +30,7 @@ C = "right of B"
 """
 
 
-def test_what_does_not_solve_is_named_and_counted(tmp_path: Path) -> None:
+def test_an_unsolved_problem_is_named_and_counted(tmp_path: Path) -> None:
     bad = tmp_path / "short.toml"
     bad.write_text(SHORT_ROD, encoding="utf-8")
     train = "problems/gears/gears-ex1.toml"

@@ -67,7 +67,7 @@ def test_a_number_of_the_table_is_that_of_the_diagrams(path: Path) -> None:
         assert float(s.replace(",", ".")) == pytest.approx(exact, abs=0.006)
 
 
-def test_solve_tells_sizes_checks_and_forces_in_both_languages() -> None:
+def test_solve_prints_sizes_checks_and_forces_in_both_languages() -> None:
     english = ran("solve", BY_NAME["offset"], "--lang", "en")
     assert "pressure angle of the rise: at most 30.00° at φ = 51.13°, allowed 30°" in english
     assert "soft impact at φ = 130°: a_q jumps from 0 to −45.00 mm" in english
@@ -81,7 +81,7 @@ def test_solve_tells_sizes_checks_and_forces_in_both_languages() -> None:
 
 @pytest.mark.dear
 @pytest.mark.parametrize("name", ["offset", "oscillating", "flat"])
-def test_the_protocol_tells_the_construction_step_by_step(name: str) -> None:
+def test_the_protocol_describes_the_construction_step_by_step(name: str) -> None:
     told = [("ru", ("параллельно ему", "обращённое")), ("en", ("chord", "inverted"))]
     for lang, words in sampled(told, 2):  # the scales of the sheet are searched for in each
         text = ran("protocol", BY_NAME[name], "--lang", lang)
@@ -104,7 +104,7 @@ def test_the_sheet_has_its_views_and_no_error(path: Path) -> None:
 
 @pytest.mark.dear
 @pytest.mark.parametrize("sense, n", [("opposite", 120), ("same", 120), ("same", -120)])
-def test_the_least_distance_of_a_plate_on_an_arm_is_told_and_drawn(
+def test_the_least_distance_of_a_plate_on_an_arm_is_printed_and_drawn(
     sense: str, n: int, tmp_path: Path
 ) -> None:
     keys = {
@@ -171,7 +171,7 @@ def test_a_mistake_is_known_by_its_numbers(
     assert not judged(right, position).diagnosis
 
 
-def test_what_is_read_on_the_drawing_has_its_sigma() -> None:
+def test_a_value_read_on_the_drawing_has_its_sigma() -> None:
     figures = CamFigures(load(BY_NAME["oscillating"]))
     for name in ("r_min", "centre_distance", "s", "v_q"):
         read = figures.read_off(name, 3, PROFILES["board"])

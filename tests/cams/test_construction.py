@@ -27,7 +27,7 @@ def number(built: CamConstruction, name: str) -> complex:
 
 
 @pytest.mark.parametrize("built", BUILT.values(), ids=BUILT)
-def test_what_is_drawn_is_near_what_is_exact(built: CamConstruction) -> None:
+def test_drawn_values_are_near_exact_ones(built: CamConstruction) -> None:
     """By chords of 12 parts: s and profile within 3 % of the stroke, sizes 10 % of r_min."""
     near = 0.03 * built.design.problem.stroke
     problem, geometry = built.design.problem, built.design.geometry
@@ -82,9 +82,7 @@ def test_sigma_of_the_least_distance_is_that_of_random_sheets(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("follower", ["translating", "oscillating"])
-def test_where_the_distance_of_a_plate_is_given_none_is_drawn(
-    follower: str, tmp_path: Path
-) -> None:
+def test_a_given_distance_of_a_plate_is_not_constructed(follower: str, tmp_path: Path) -> None:
     moving = {"follower": "translating", "stroke": 0.03} if follower == "translating" else {}
     left_out = ("swing", "arm", "centre", "sense") if moving else ()
     keys = {key: value for key, value in PLATE.items() if key not in left_out} | moving

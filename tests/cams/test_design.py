@@ -58,7 +58,7 @@ def test_the_least_cam_is_that_of_brute_force(seed: int, tmp_path: Path) -> None
         assert broken(keys, nearer) > 0
 
 
-def test_a_cam_is_told_as_agreed(tmp_path: Path) -> None:
+def test_the_record_of_a_cam_has_the_agreed_keys(tmp_path: Path) -> None:
     found = told(written(tmp_path, WANTED))
     assert found["kind"] == "cam"
     assert found["centre_distance"] is None and found["undercut"] is None
@@ -104,7 +104,7 @@ def test_an_offset_that_is_given_is_kept_and_the_depth_is_the_least(tmp_path: Pa
         assert bare.r_min == pytest.approx(least_translating(WANTED | {"offset": e}), rel=1e-9)
 
 
-def test_sizes_that_are_given_are_kept_and_what_they_break_is_told(tmp_path: Path) -> None:
+def test_given_sizes_are_kept_and_the_limits_that_they_break_are_reported(tmp_path: Path) -> None:
     design = designed(tmp_path, WANTED | {"r_min": 0.02, "offset": 0.005})
     assert (design.bare.r_min, design.bare.e) == (0.02, 0.005)
     text = CliRunner().invoke(cli, ["solve", str(tmp_path / "cam.toml"), "--lang", "en"]).output
@@ -226,7 +226,7 @@ def test_a_fault_is_one_clear_message(change: dict[str, Any], said: str, tmp_pat
     assert "Traceback" not in done.output
 
 
-def test_what_no_cam_keeps_is_said(tmp_path: Path) -> None:
+def test_pressure_angles_that_no_cam_keeps_are_reported(tmp_path: Path) -> None:
     keys = {"follower": "oscillating", "swing": 60, "arm": 0.1, "rise": 40, "return": 40}
     path = written(tmp_path, keys | {"pressure": {"rise": 10, "return": 10}})
     done = CliRunner().invoke(cli, ["solve", str(path), "--lang", "en"])

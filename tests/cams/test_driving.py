@@ -152,7 +152,7 @@ def test_a_rocker_turns_by_the_law_and_the_sense(
     assert link["epsilon"] == pytest.approx(way * gain, rel=1e-10)
 
 
-def test_the_whole_linkage_moves_as_differences_over_the_angle_of_the_cam_say(
+def test_the_linkage_moves_as_finite_differences_over_the_cam_angle(
     tmp_path: Path,
 ) -> None:
     step, omega = 0.01, 120 * pi / 30
@@ -167,7 +167,7 @@ def test_the_whole_linkage_moves_as_differences_over_the_angle_of_the_cam_say(
         assert here["a" + axis] == pytest.approx(gain, abs=1e-5)
 
 
-def test_variants_are_other_angles_and_the_given_says_the_cam(tmp_path: Path) -> None:
+def test_variants_change_the_angle_and_the_statement_names_the_cam(tmp_path: Path) -> None:
     body = filled(SLIDER, cam=20, n=120) + "\n[variants.90.driver]\ncam = 90\n"
     one = solved(tmp_path, body)
     other = solved(tmp_path, body, "--variant", "90")
@@ -206,7 +206,7 @@ def test_variants_are_other_angles_and_the_given_says_the_cam(tmp_path: Path) ->
         ),
     ],
 )
-def test_a_faulty_drive_is_said(tmp_path: Path, body: str, said: str) -> None:
+def test_a_faulty_drive_is_reported(tmp_path: Path, body: str, said: str) -> None:
     path = tmp_path / "faulty.toml"
     path.write_text(body, encoding="utf-8")
     run = CliRunner().invoke(cli, ["solve", str(path), "--lang", "en"])
@@ -300,7 +300,7 @@ def test_a_single_angle_is_one_of_the_turn(tmp_path: Path) -> None:
     assert one["points"] == other["points"] and one["cam_deg"] == other["cam_deg"] == 60.0
 
 
-def test_a_resting_follower_is_told_and_its_plans_are_points(tmp_path: Path) -> None:
+def test_a_resting_follower_is_reported_and_its_plans_are_points(tmp_path: Path) -> None:
     path, body = tmp_path / "lift.toml", filled(SLIDER, cam=TURN, n=120)
     path.write_text(body + LOADED, encoding="utf-8")
     for lang, said in (("ru", "толкатель стоит"), ("en", "the follower rests")):
@@ -326,7 +326,7 @@ couple = -20
 """
 
 
-def test_the_lever_is_right_where_the_follower_moves_and_none_where_it_rests() -> None:
+def test_the_lever_is_right_where_the_follower_moves_and_absent_where_it_rests() -> None:
     body = filled(ROCKER, cam=TURN, n=60, sense="same") + LOADED
     statics = statics_of(Solution(problem_of(body)))
     assert statics.lever is not None

@@ -23,7 +23,7 @@ def brute(normals: NDArray[np.float64], bounds: NDArray[np.float64]) -> float | 
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_as_all_feet_and_corners_say(seed: int) -> None:
+def test_the_nearest_point_is_that_of_all_feet_and_corners(seed: int) -> None:
     luck = np.random.default_rng(seed)
     angles = luck.uniform(0.0, luck.choice([2.0, 4.0, 6.3]), 30)
     normals = np.exp(1j * angles).view(float).reshape(-1, 2) * luck.uniform(0.5, 2.0, (30, 1))

@@ -67,7 +67,7 @@ def test_curvature_and_pressure_are_those_of_differences(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
-def test_the_profile_is_what_a_swept_roller_leaves(path: Path) -> None:
+def test_the_profile_is_the_envelope_of_a_swept_roller(path: Path) -> None:
     design = CamDesign(load(path))
     geometry = design.geometry
     if not geometry.roller:

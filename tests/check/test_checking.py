@@ -33,7 +33,7 @@ RANDOM = tuple(f"random-{seed}" for seed in range(some(60, 2)))
 
 
 @pytest.mark.parametrize("name", [*SIX, *RANDOM])
-def test_who_writes_the_exact_values_is_right(name: str) -> None:
+def test_exact_values_are_right_answers(name: str) -> None:
     task = task_of(name)
     found = check(task, work_of(task, exact(task)))
     assert set(verdicts(found).values()) <= {Verdict.OK, Verdict.UNSEEN}
@@ -84,7 +84,7 @@ def test_coriolis_forgotten_on_the_plan_begins_with_the_acceleration() -> None:
     assert (diagnosis.codes, diagnosis.sure, diagnosis.roots) == (("A1",), True, ("a_B3",))
 
 
-def test_what_follows_from_a_slip_is_inherited_and_the_slip_counts_once() -> None:
+def test_results_of_a_slip_are_inherited_and_the_slip_counts_once() -> None:
     """ω₃ = 12.5 in place of 15.5, and a result computed from the student's own ω₃."""
     found = checked("linkages/ex3", v_B3=2.25, omega_3=12.5, an_B3_C=12.5**2 * 0.14495)
     told = verdicts(found)
@@ -101,7 +101,7 @@ def test_a_right_value_that_does_not_follow_is_inconsistent() -> None:
     assert told["ak_B3_B"] is Verdict.INCONSISTENT
 
 
-def test_what_the_drawing_cannot_show_is_not_judged_by_the_exact_value() -> None:
+def test_a_value_that_the_drawing_cannot_show_is_not_judged_by_the_exact_one() -> None:
     """ε₄ of the third example: 2.5 σ are more than a half of it."""
     for value in (84.5, 60.0, 110.0):
         assert verdicts(checked("linkages/ex3", epsilon_4=value))["epsilon_4"] is Verdict.UNSEEN
@@ -141,7 +141,7 @@ def test_millimetres_times_scale_that_are_not_the_value_are_a_slip() -> None:
     assert codes(1.85, 37.0) == [()]  # drawn wrong, and computed right
 
 
-def test_his_own_scale_counts_and_millimetres_alone_are_an_answer() -> None:
+def test_the_students_scale_counts_and_millimetres_alone_are_an_answer() -> None:
     task = task_of("linkages/ex3")
     exact_mm = 3.9156681586643276 / 0.04
     written = WrittenAnswer(what="v E", mm=round(exact_mm * 2) / 2, mm_step=0.5)
@@ -198,7 +198,7 @@ def test_letters_of_the_department_find_the_quantity() -> None:
         assert verdict in (Verdict.OK, Verdict.UNSEEN), text
 
 
-def test_a_work_is_judged_the_same_whoever_else_is() -> None:
+def test_a_work_is_judged_independently_of_the_others() -> None:
     task = Task(Solution(task_of("levers/task12").solution.problem))
     written = (
         WrittenAnswer(id="v_D", value=0.59, step=0.01),
@@ -249,7 +249,7 @@ def test_positions_of_a_cycle_are_judged_each_by_itself() -> None:
     assert found == [Verdict.OK, Verdict.OK, Verdict.WRONG, Verdict.UNREADABLE]
 
 
-def test_a_slip_in_one_number_leaves_what_is_measured_beside_it_alone() -> None:
+def test_a_slip_in_one_number_does_not_affect_values_measured_beside_it() -> None:
     """a_N is measured on the line of a_S3; ten times a_S3 says nothing of that line."""
     task = task_of("press/press")
     values = dict(exact(task))
@@ -260,7 +260,7 @@ def test_a_slip_in_one_number_leaves_what_is_measured_beside_it_alone() -> None:
     assert told == {"a_S3"}
 
 
-def test_mistakes_that_give_the_same_sheet_are_told_together() -> None:
+def test_mistakes_that_give_the_same_sheet_are_named_together() -> None:
     """Link 4 of the press barely turns: the other assembly and a misread sense look the same."""
     task = task_of("press/press")
     (other,) = (e for e in explanations(task) if e.code == "P1" and e.where == "B")
@@ -315,7 +315,7 @@ def test_the_direction_of_a_vector_is_an_answer_of_its_own() -> None:
         assert found.answers[0].verdict is verdict, text
 
 
-def test_a_number_without_a_unit_is_in_the_one_that_is_asked() -> None:
+def test_a_number_without_a_unit_has_the_required_one() -> None:
     problem = task_of("linkages/ex3").solution.problem
     speed, turn = AskedAnswer("v", "v B3", unit="мм/с"), AskedAnswer("w", "omega 3", unit="об/мин")
     task = Task(Solution(replace(problem, answers=(speed, turn))))
@@ -344,7 +344,7 @@ def test_a_number_without_a_unit_is_in_the_one_that_is_asked() -> None:
         Task(Solution(replace(problem, answers=(replace(speed, unit="м/с²"),))))
 
 
-def test_the_key_has_every_position_and_hides_what_none_shows() -> None:
+def test_the_key_has_every_position_and_hides_mistakes_that_no_answer_shows() -> None:
     usual = replace(task_of("levers/crosshead").solution.problem, answers=())
     solution = Solution(usual, positions=[90.0, 150.0])
     both = key_of(solution)
@@ -371,7 +371,7 @@ def test_a_plan_that_is_too_small_to_be_read_has_a_key() -> None:
     assert sum(entry.zero for entry in entries) > 1
 
 
-def test_the_numbers_of_another_variant_earn_nothing() -> None:
+def test_the_numbers_of_another_variant_earn_no_points() -> None:
     """P2: numbers of variant Б in place of А; their agreement with one another earns no points."""
     tasks = {
         name: Task(Solution(problem_of("levers/task12-variants", name))) for name in ("А", "Б")

@@ -165,7 +165,9 @@ gears.n = { 1 = 90 }
         ('[[answers]]\nwhat = "U_1_5"\nsense = true\n', "has no sense"),
     ],
 )
-def test_what_cannot_be_asked_is_a_fault_of_the_file(tmp_path: Path, text: str, told: str) -> None:
+def test_an_answer_that_cannot_be_required_is_a_fault_of_the_file(
+    tmp_path: Path, text: str, told: str
+) -> None:
     path = tmp_path / "train.toml"
     path.write_text(TRAIN.read_text(encoding="utf-8") + text, encoding="utf-8")
     code, said = run("check", "--key", path, "-o", tmp_path)

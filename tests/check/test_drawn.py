@@ -39,7 +39,7 @@ def test_numbers_have_three_figures_and_four_behind_a_one() -> None:
     assert steps[:3] == pytest.approx([0.01, 1e-5, 1.0])
 
 
-def test_what_is_drawn_errs_as_much_as_the_tolerance_believes() -> None:
+def test_drawn_values_err_as_much_as_the_tolerance_assumes() -> None:
     works = drawn_works(ex3(), count=400, seed=1)
     compared = 0
     for entry in key_of_task(ex3()).entries:
@@ -51,7 +51,7 @@ def test_what_is_drawn_errs_as_much_as_the_tolerance_believes() -> None:
     assert compared > 12
 
 
-def test_lengths_are_on_the_ruler_and_make_the_values_at_his_scale() -> None:
+def test_lengths_are_on_the_ruler_and_give_the_values_at_the_students_scale() -> None:
     (work,) = drawn_works(ex3(), scales={"mu_v": 0.04}, mm=True)
     answer = next(a for a in work.answers if a.id == "v_B3")
     assert answer.mm is not None and answer.value is not None
@@ -60,14 +60,14 @@ def test_lengths_are_on_the_ruler_and_make_the_values_at_his_scale() -> None:
     assert check(ex3(), work).points == check(ex3(), work).of
 
 
-def test_senses_are_told_where_they_are_asked() -> None:
+def test_senses_are_given_where_they_are_required() -> None:
     (work,) = drawn_works(ex3())
     told = {answer.id: answer.sense for answer in work.answers if answer.sense}
     assert set(told.values()) == {Sense.CCW, Sense.CW}
     assert len(told) == sum(item.asks_sense for item in ex3().declared)
 
 
-def test_honest_works_are_hardly_faulted_or_called_mistaken() -> None:
+def test_honest_works_are_rarely_faulted_or_called_mistaken() -> None:
     found = checking.honest(ex3(), 60)
     assert found.works == 60
     assert found.answers == 60 * len(ex3().declared)
@@ -77,7 +77,7 @@ def test_honest_works_are_hardly_faulted_or_called_mistaken() -> None:
 
 
 @pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3"])
-def test_planted_mistakes_are_seen_and_hardly_one_is_called_another(name: str) -> None:
+def test_planted_mistakes_are_found_and_rarely_named_wrongly(name: str) -> None:
     rows = checking.detection(Task(Solution(problem_of(name))), 1)
     whole = {"V1", "V2", "A1", "A2", "A3", "N1", "N4", "P1", "true_mm"}
     works = sum(row.works for row in rows if row.code in whole)
@@ -88,7 +88,7 @@ def test_planted_mistakes_are_seen_and_hardly_one_is_called_another(name: str) -
     assert sum(row.misnamed for row in rows) <= 0.05 * sum(row.works for row in rows)
 
 
-def test_the_key_says_what_the_bench_does_not_plant() -> None:
+def test_the_key_lists_mistakes_that_the_bench_does_not_plant() -> None:
     key = key_of_task(ex3())
     sheet = ex3().sheet(0)
     for change in planted(sheet, ex3().declared):
@@ -108,7 +108,7 @@ def checked_group() -> tuple[CheckedWork, ...]:
     return tuple(check_works(Variants(ROOT / group.PROBLEM), read_works(FILE)))
 
 
-def test_the_file_is_what_a_spreadsheet_program_saves() -> None:
+def test_the_file_is_one_that_a_spreadsheet_program_saves() -> None:
     data = FILE.read_bytes()
     assert data.startswith(b"\xef\xbb\xbf")
     assert data.count(b"\r\n") == data.count(b"\n") > 570
@@ -123,7 +123,7 @@ def test_the_file_has_the_group_that_it_is_made_of() -> None:
     assert len({one.code for one in group.GROUP if one.code}) >= 12
 
 
-def test_honest_students_lose_nothing_but_for_blanks() -> None:
+def test_honest_students_lose_points_only_for_blanks() -> None:
     for student, checked in zip(group.GROUP, checked_group(), strict=True):
         if student.code:
             continue
@@ -133,7 +133,7 @@ def test_honest_students_lose_nothing_but_for_blanks() -> None:
         assert len(lost) == len(student.skips) + len(checked.open)
 
 
-def test_most_planted_mistakes_of_the_group_are_named_and_hardly_one_wrongly() -> None:
+def test_most_planted_mistakes_of_the_group_are_named_and_few_wrongly() -> None:
     counted: Counter[str] = Counter()
     for student, checked in zip(group.GROUP, checked_group(), strict=True):
         sure = {d.codes[0] for d in checked.diagnosis if d.sure}

@@ -64,7 +64,7 @@ def answered(name: str, **values: float | str | tuple[float | str, str]) -> Chec
 
 
 @pytest.mark.parametrize("name", ["levers/task-13", "levers/task12-variants"])
-def test_a_copied_variant_is_named_and_earns_what_is_right_for_ones_own(name: str) -> None:
+def test_a_copied_variant_is_named_and_earns_only_answers_right_for_ones_own(name: str) -> None:
     """All pairs, drawn with the pencil's noise; before, 24 of 30 were "another position"."""
     group = variants(ROOT / f"problems/{name}.toml")
     over = 0
@@ -93,7 +93,7 @@ def test_a_copied_variant_is_named_and_earns_what_is_right_for_ones_own(name: st
         (0.10, 3, 9, False),
     ],
 )
-def test_what_comes_by_chance_more_than_once_in_200_times_is_not_called_copied(
+def test_a_likeness_with_a_chance_above_1_in_200_is_not_called_copied(
     share: float, answers: int, others: int, named: bool
 ) -> None:
     found = [
@@ -131,7 +131,7 @@ def test_an_honest_or_mistaken_work_is_not_called_copied() -> None:
                 assert ("P2",) not in [d.codes for d in found.diagnosis], made.code
 
 
-def test_two_works_by_one_pencil_are_a_finding_and_cost_nothing() -> None:
+def test_two_works_by_one_pencil_are_a_finding_and_lose_no_points() -> None:
     task = task_of("linkages/ex3")
     works = [replace(work, student=f"{n}") for n, work in enumerate(drawn_works(task, None, 20, 5))]
     honest = [check(task, work) for work in works]
@@ -143,7 +143,7 @@ def test_two_works_by_one_pencil_are_a_finding_and_cost_nothing() -> None:
     assert [work.points for work in found] == [work.points for work in [*honest, again]]
 
 
-def test_the_chance_of_a_likeness_is_what_honest_works_have() -> None:
+def test_the_chance_of_a_likeness_is_that_of_honest_works() -> None:
     """Honest pairs are no more often alike than the computed chance; measured, not fitted."""
     task = task_of("levers/task12")
     checked = [check(task, work) for work in drawn_works(task, None, 30, 9)]
@@ -194,7 +194,7 @@ def told_of(checked: CheckedWork) -> tuple[object, ...]:
     return checked.answers, checked.diagnosis, checked.points, checked.of, checked.failure
 
 
-def test_answers_that_nobody_asked_for_stop_nobody() -> None:
+def test_answers_that_are_not_required_stop_no_work() -> None:
     """Before: KeyError 'asked124', as another variant calls the same coordinate otherwise."""
     rows = (
         "student;variant;what;mm;value",
@@ -211,7 +211,7 @@ def test_answers_that_nobody_asked_for_stop_nobody() -> None:
     assert found[1].diagnosis == alone.diagnosis and alone.diagnosis[0].codes == ("P2",)
 
 
-def test_answers_that_nobody_asked_for_change_nothing_of_others() -> None:
+def test_answers_that_are_not_required_do_not_change_other_works() -> None:
     path = ROOT / "problems/linkages/ex3-variants.toml"
     works = unasked(UNASKED)
     first = [told_of(one) for one in check_works(Variants(path), works)]
@@ -219,7 +219,7 @@ def test_answers_that_nobody_asked_for_change_nothing_of_others() -> None:
     assert first == last[::-1]
 
 
-def test_another_variant_is_named_whatever_else_is_answered() -> None:
+def test_another_variant_is_named_despite_other_answers() -> None:
     """Six coordinates that are not required have other names in the program of each variant."""
     path = ROOT / "problems/levers/task12-variants.toml"
     theirs = Variants(path).task("Е")
@@ -234,7 +234,7 @@ def test_another_variant_is_named_whatever_else_is_answered() -> None:
 
 
 @pytest.mark.parametrize("name", ["gears/gears-ex2", "point/k11-01"])
-def test_a_computed_answer_that_nobody_asked_for_changes_nothing_of_others(name: str) -> None:
+def test_a_computed_answer_that_is_not_required_does_not_change_other_works(name: str) -> None:
     task = Variants(ROOT / f"problems/{name}.toml").task(None)
     wrong = [
         WrittenAnswer(id=item.id, value=1.17 * item.question.take(Trace({}, {})), step=0.001)
@@ -246,7 +246,7 @@ def test_a_computed_answer_that_nobody_asked_for_changes_nothing_of_others(name:
     assert check(task, Work("s", tuple(wrong))) == alone
 
 
-def test_what_nobody_asked_costs_nobody() -> None:
+def test_answers_that_are_not_required_lose_no_points() -> None:
     task = task_of("linkages/ex3")
     right = work_of(task, exact(task))
     more = (WrittenAnswer(what="vx B3", value=9.9, step=0.1), *right.answers)
@@ -270,7 +270,7 @@ def test_names_that_pages_print_are_understood(name: str, value: float) -> None:
     assert found.key is not None and abs(found.key.exact - value) < 0.01
 
 
-def test_a_unit_of_another_quantity_is_said_and_is_open() -> None:
+def test_a_unit_of_another_quantity_is_reported_and_left_undecided() -> None:
     written = WrittenAnswer(id="v_B", value=3.2, unit="м/с²", step=0.1)
     found = check(task_of("linkages/ex3"), Work("s", (written,))).answers[0]
     assert (found.verdict, found.points, found.of) == (Verdict.UNREADABLE, 0.0, 1.0)
@@ -278,7 +278,7 @@ def test_a_unit_of_another_quantity_is_said_and_is_open() -> None:
     assert found.written is not None and found.written.unit == "м/с²"
 
 
-def test_a_length_in_metres_is_told_in_metres() -> None:
+def test_a_length_in_metres_is_reported_in_metres() -> None:
     """l_CB of example 3 is 0.145 m, 72.5 mm of the plan; the key said 0.0725 m."""
     problem = task_of("linkages/ex3").solution.problem
     asked = AskedAnswer(id="l", what="length C B", unit="м")
@@ -292,7 +292,7 @@ def test_a_length_in_metres_is_told_in_metres() -> None:
         assert (found.value or 0.0) / found.key.per == pytest.approx(0.145)
 
 
-def test_senses_stand_one_way_in_a_key() -> None:
+def test_senses_have_one_form_in_a_key() -> None:
     """ω, ε and moments that turn clockwise had a minus and an arrow, or an arrow alone."""
     words = language("ru")
     for name in ("levers/task12", "linkages/ex3"):
@@ -327,7 +327,7 @@ def test_letters_of_an_inertia_couple_have_no_underscore_of_their_own() -> None:
         ({"ak_B3_B": 93.1, "omega_3": (20.4, "ccw")}, {"ak_B3_B": "omega_3"}),
     ],
 )
-def test_what_follows_by_a_right_route_is_inherited(
+def test_a_result_by_a_right_route_is_inherited(
     written: dict[str, float], follows: dict[str, str]
 ) -> None:
     found = answered("linkages/ex3", **written)
@@ -356,7 +356,7 @@ def test_the_routes_of_example_3_are_those_of_an_independent_computation() -> No
         assert told == dict.fromkeys(("an_B3_C", "v_D", "ak_B3_B"), "omega_3")
 
 
-def test_a_route_from_right_numbers_is_none_and_one_wrong_among_them_is_enough() -> None:
+def test_a_route_from_right_numbers_is_not_one_and_one_wrong_number_is_enough() -> None:
     """A result of right numbers is right or wrong by itself, and keeps its own parents."""
 
     def examined(name: str, value: float, *, right: bool) -> Examined:
@@ -380,7 +380,7 @@ def test_a_route_from_right_numbers_is_none_and_one_wrong_among_them_is_enough()
         assert set(one.parents) == ({p.item.id for p, _ in parents} if routed else set())
 
 
-def test_velocities_never_follow_accelerations_and_nothing_follows_itself() -> None:
+def test_velocities_never_follow_accelerations_and_no_answer_follows_itself() -> None:
     found = answered("linkages/ex3", an_B3_C=60.0, omega_3=(20.34, "ccw"), v_B3=2.95)
     told = {a.id: (a.verdict, a.follows) for a in found.answers if a.written}
     assert told["v_B3"][0] is Verdict.WRONG
@@ -430,7 +430,7 @@ def sentences(found: CheckedWork, hidden: tuple[str, ...] = ()) -> tuple[str, li
         ((154.5, "ccw"), ("S4",), "сдвинуть запятую"),
     ],
 )
-def test_a_slip_is_said_where_it_can_be_told_which_and_nothing_is_drawn_anew(
+def test_a_slip_is_named_if_it_is_certain_and_needs_no_redrawing(
     written: tuple[float, str], codes: tuple[str, ...], said: str
 ) -> None:
     found = answered("linkages/ex3", v_B3=2.24, omega_3=written)
@@ -445,7 +445,7 @@ def test_v_over_l_for_v_squared_over_l_is_a_mistake_not_a_slip() -> None:
     assert [(d.codes, d.sure) for d in found.diagnosis] == [(("N3",), True)]
 
 
-def test_what_no_answer_shows_is_said_on_the_page() -> None:
+def test_mistakes_that_no_answer_shows_are_listed_on_the_page() -> None:
     """Lengths alone do not show the crank turned the other way: V2 in task 12 В."""
     group = variants(ROOT / "problems/levers/task12-variants.toml")
     task = group.task("В")

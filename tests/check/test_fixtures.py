@@ -142,7 +142,7 @@ def outcome(case: Case) -> tuple[str, str]:
 
 
 @pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
-def test_a_case_is_judged_as_the_document_says(case: Case) -> None:
+def test_a_case_is_judged_as_in_the_document(case: Case) -> None:
     verdicts, named = outcome(case)
     assert verdicts == case.verdicts
     assert case.named in (named, "·")

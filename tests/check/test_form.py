@@ -129,7 +129,7 @@ def test_an_empty_form_is_blank_and_called_as_its_file(tmp_path: Path) -> None:
     assert (named.student, named.variant) == ("=Сидоров", "В")
 
 
-def test_a_row_that_is_gone_is_told(tmp_path: Path) -> None:
+def test_a_missing_row_is_reported(tmp_path: Path) -> None:
     book = book_of(made())
     sheet = book.worksheets[0]
     sheet.delete_rows(rows_of(sheet)["ω3"])
@@ -163,7 +163,7 @@ def test_only_the_answers_can_be_written_in() -> None:
     assert given[f"D{rows_of(given)['Вариант']}"].protection.locked
 
 
-def test_texts_are_no_formulas_and_every_formula_is_ours() -> None:
+def test_texts_are_not_formulas_and_every_formula_is_the_forms_own() -> None:
     book = book_of(made(student="=1+1", title="=2+2"))
     formulas = [
         str(cell.value) for sheet in book for row in sheet for cell in row if cell.data_type == "f"
@@ -218,13 +218,13 @@ def test_the_same_form_has_the_same_bytes() -> None:
         assert not re.search(rb"202\d-", archive.read("docProps/core.xml"))
 
 
-def test_positions_are_told_where_there_are_several(tmp_path: Path) -> None:
+def test_positions_are_named_where_there_are_several(tmp_path: Path) -> None:
     entries = [replace(ENTRIES[0], id=f"v_B3@{n}", position=n) for n in range(3)]
     work = read(tmp_path / "form.xlsx", form_of(entries, problem="ex3"))
     assert [answer.position for answer in work.answers] == [0, 1, 2]
 
 
-def test_the_fingerprint_is_of_what_the_answers_depend_on(tmp_path: Path) -> None:
+def test_the_fingerprint_covers_the_data_that_answers_depend_on(tmp_path: Path) -> None:
     text = EX3.read_text("utf-8")
 
     def changed(*pairs: tuple[str, str]) -> str:
@@ -300,7 +300,9 @@ def test_the_command_writes_a_form_for_each_student(tmp_path: Path) -> None:
         (["--names", "nowhere.txt"], "nowhere.txt"),
     ],
 )
-def test_the_command_refuses_what_it_cannot_do(args: list[str], said: str, tmp_path: Path) -> None:
+def test_the_command_rejects_impossible_requests(
+    args: list[str], said: str, tmp_path: Path
+) -> None:
     result = run(str(EX3), "-o", str(tmp_path), *args)
     assert result.exit_code == ExitCode.USAGE
     assert said in result.output

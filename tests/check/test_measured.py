@@ -141,7 +141,7 @@ def test_layers_and_colours_are_named(tmp_path: Path) -> None:
         read_layers(["red=green"])
 
 
-def test_what_cannot_be_matched_is_said_and_not_guessed(tmp_path: Path) -> None:
+def test_items_that_cannot_be_matched_are_reported_and_not_guessed(tmp_path: Path) -> None:
     task = task_of("linkages/ex3")
     sheet = task.sheet(task.first)
     checked = judged(draw(sheet, tmp_path / "d.dxf", without=("d",)), task)
@@ -166,7 +166,7 @@ def test_what_cannot_be_matched_is_said_and_not_guessed(tmp_path: Path) -> None:
     assert Unread.PLAN in {remark.why for remark in checked.work.remarks}
 
 
-def test_the_scale_that_a_drawing_tells_counts(tmp_path: Path) -> None:
+def test_the_scale_written_on_a_drawing_counts(tmp_path: Path) -> None:
     task = task_of("linkages/ex3")
     sheet = task.sheet(task.first, {"mu_v": 0.04})
     assert not off(judged(draw(sheet, tmp_path / "told.dxf"), task))
@@ -229,14 +229,14 @@ def test_hostile_drawings_are_refused_with_one_message(tmp_path: Path) -> None:
         assert str(path.name) in str(error.value)
 
 
-def test_a_missing_library_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_library_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("planmethod.check.measured.dxf_file.find_spec", lambda _: None)
     (tmp_path / "work.dxf").write_text("0\nEOF\n")
     with pytest.raises(WorksError, match="pip install ezdxf"):
         read_drawing(tmp_path / "work.dxf", {}, task_of("linkages/ex3"))
 
 
-def test_nothing_of_a_damaged_drawing_is_a_traceback(tmp_path: Path) -> None:
+def test_a_damaged_drawing_gives_no_traceback(tmp_path: Path) -> None:
     task = task_of("linkages/ex3")
     whole = draw(task.sheet(task.first), tmp_path / "whole.dxf").read_bytes()
     for seed in range(12 if "CI" in os.environ else 4):

@@ -92,7 +92,7 @@ def test_a_point_divided_from_the_wrong_end_on_both_plans_is_one_mistake() -> No
     assert (found.codes, found.sure, found.where) == (("V3",), True, "H2")
 
 
-def test_the_whole_is_read_for_its_part_and_a_small_product_is_told_from_nothing() -> None:
+def test_the_whole_is_recognized_in_place_of_its_part_and_a_small_product_from_zero() -> None:
     """Crosshead, rod 0.3 m: a_CB = 1.325 for a^τ_CB = 1.159 (N5); v·l and v²·l for aⁿ (N3)."""
     for code, values in (
         ("N5", {"at_C_B": 1.325, "epsilon_2": 4.418, "an_C_B": 0.643, "a_C": 1.724}),
@@ -145,7 +145,7 @@ def test_own_numbers_put_in_are_the_program_with_them_substituted(name: str) -> 
     assert local[first] == pytest.approx(right[first])
 
 
-def test_the_key_says_which_segments_are_as_long_as_the_right_one() -> None:
+def test_the_key_lists_segments_as_long_as_the_right_one() -> None:
     """pb₃ = 44.9 mm and bb₃ = 45.6 mm in the third example cannot be distinguished."""
     hidden = key_of_task(task_of("linkages/ex3")).hidden
     assert "v_B3: b-b3" in hidden["V6"]

@@ -90,7 +90,7 @@ BY_HAND = (
 
 
 @each("code, where, key, values", BY_HAND)
-def test_a_mistake_of_the_slider_crank_gives_what_is_worked_out_by_hand(
+def test_a_mistake_of_the_slider_crank_gives_the_values_computed_by_hand(
     code: str, where: str | None, key: str, values: Sequence[complex]
 ) -> None:
     found = sizes("linkages/ex1", code, key, where)
@@ -133,7 +133,7 @@ def test_the_mistakes_of_a_slotted_link_are_products_of_its_right_answers() -> N
     assert back == pytest.approx(-right["ak_B3_B"])
 
 
-def test_the_mistakes_of_the_forces_are_sums_of_what_acts() -> None:
+def test_the_mistakes_of_the_forces_are_sums_of_the_acting_forces() -> None:
     """Task 12: 5 of 30 kg moves upright, J₁ = 0.2 with ε₁ = 7, g = 9.8; F_43 has all of 5."""
     right = exact(task_of("levers/task12"))
     couple = 0.2 * 7.0

@@ -17,7 +17,7 @@ from planmethod.check.questions import Sign
 from planmethod.check.tolerance import FOLDED, Tolerance, limit_of
 
 
-def test_folded_is_how_much_wider_lengths_about_nothing_err_than_their_middle_tells() -> None:
+def test_folded_is_the_ratio_of_the_folded_spread_to_the_middle_68_per_cent() -> None:
     """|x| of a normal x: one sigma of x over half the range of the middle 68 % of |x|."""
     normal = NormalDist()
 
@@ -43,7 +43,7 @@ def limit(exact: float, sigma: float, *, sign: Sign = Sign.SIZE, **settings: Any
     return limit_of(sheet, question, Settings(**settings), None)
 
 
-def test_a_size_that_is_nothing_may_come_out_as_long_as_folded_errors_make_it() -> None:
+def test_a_zero_size_may_be_read_as_long_as_folded_errors_make_it() -> None:
     k = Settings().k
     found = limit(0.0, 0.1)
     assert found.zero
@@ -59,13 +59,11 @@ def test_a_size_that_is_nothing_may_come_out_as_long_as_folded_errors_make_it() 
 
 
 @each("exact, zero", [(0.0, True), (0.37, True), (0.375, False), (0.38, False)])
-def test_what_is_shorter_than_three_sigmas_is_too_short_to_be_measured(
-    exact: float, zero: bool
-) -> None:
+def test_a_value_below_three_sigmas_is_too_short_to_be_measured(exact: float, zero: bool) -> None:
     assert limit(exact, 0.125).zero == zero
 
 
-def test_the_drawing_shows_what_its_errors_are_below_the_cap_of() -> None:
+def test_the_drawing_shows_values_whose_errors_are_below_the_cap() -> None:
     settings = Settings()
     at_cap = settings.cap / settings.k
     assert limit(1.0, 0.99 * at_cap).seen
@@ -107,15 +105,13 @@ def verdict(value: float, limit: Tolerance = UNSEEN, near: float = 1.5, **more: 
     (0.65, Verdict.WRONG),
     (5.0, Verdict.WRONG),
 ])  # fmt: skip
-def test_what_a_drawing_may_be_off_by_is_not_held_against_an_answer(
-    off: float, due: Verdict
-) -> None:
+def test_the_error_of_a_drawing_is_not_held_against_an_answer(off: float, due: Verdict) -> None:
     assert verdict(1.0 + off) is due
     if off < 1:
         assert verdict(1.0 - off) is due
 
 
-def test_what_is_within_the_errors_of_a_drawing_is_not_told_to_be_inherited() -> None:
+def test_a_value_within_the_errors_of_a_drawing_is_not_called_inherited() -> None:
     """The value follows from a wrong number, but the drawing cannot show that it is wrong."""
     item: Any = SimpleNamespace(id="omega_2", question=SimpleNamespace(sign=Sign.SIZE))
     shown = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
@@ -129,7 +125,7 @@ def test_what_is_within_the_errors_of_a_drawing_is_not_told_to_be_inherited() ->
         assert (parent.verdict, child.verdict) == (Verdict.WRONG, due)
 
 
-def test_what_follows_from_what_the_drawing_cannot_show_is_inherited() -> None:
+def test_a_result_of_a_value_that_the_drawing_cannot_show_is_inherited() -> None:
     """The parent is off by no more than the drafting error, so neither value counts as wrong."""
     item: Any = SimpleNamespace(id="a_B", question=SimpleNamespace(sign=Sign.SIZE))
     shown = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
@@ -147,7 +143,7 @@ def test_what_follows_from_what_the_drawing_cannot_show_is_inherited() -> None:
         assert (parent.verdict, child.verdict) == (Verdict.UNSEEN, due)
 
 
-def test_a_tolerance_is_at_most_the_cap_but_for_what_is_nothing() -> None:
+def test_a_tolerance_is_at_most_the_cap_except_for_zero() -> None:
     assert limit(0.04, 0.001).least == pytest.approx(0.1 * 0.04)  # not the half millimetre, 0.005
     assert limit(0.06, 0.001).least == pytest.approx(0.005)
     assert UNSEEN.tolerance() == pytest.approx(0.1) and UNSEEN.tolerance(1.0) == pytest.approx(0.1)
@@ -155,13 +151,13 @@ def test_a_tolerance_is_at_most_the_cap_but_for_what_is_nothing() -> None:
     assert nothing.tolerance() == pytest.approx(0.4)
 
 
-def test_who_contradicts_his_own_numbers_is_wrong_within_the_errors_too() -> None:
+def test_a_contradiction_of_ones_own_numbers_is_wrong_within_the_errors_too() -> None:
     assert verdict(1.3, contradicts=True) is Verdict.WRONG
     assert verdict(1.3, sense_right=False) is Verdict.WRONG
     assert verdict(1.9, follows=True) is Verdict.UNSEEN  # as in the student's own plan
 
 
-def test_what_the_drawing_shows_is_judged_by_its_tolerance() -> None:
+def test_a_value_shown_by_the_drawing_is_judged_by_its_tolerance() -> None:
     seen = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
     assert verdict(1.03, seen) is Verdict.OK
     assert verdict(1.05, seen) is Verdict.WRONG

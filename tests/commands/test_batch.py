@@ -78,7 +78,7 @@ def assert_same() -> None:
         assert own.read_bytes() == (Path("out") / own.name).read_bytes(), own.name
 
 
-def test_what_is_made_is_that_of_the_commands_and_not_made_again(
+def test_batch_makes_the_files_of_the_commands_and_does_not_repeat_them(
     desk: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def listen(*_: object) -> None:

@@ -74,7 +74,7 @@ def test_one_student_is_a_list_of_one_object_of_the_contract(tmp_path: Path) -> 
     assert found["points"] == 3.0
 
 
-def test_a_group_is_a_list_and_each_has_his_variant_and_scales(tmp_path: Path) -> None:
+def test_a_group_is_a_list_and_each_student_has_a_variant_and_scales(tmp_path: Path) -> None:
     rows = [
         "студент;вариант;величина;значение;ед.;мм;направление",
         "Иванов;А;mu_v;0,02;;;",
@@ -143,7 +143,7 @@ def test_the_key_is_printed_and_written_for_every_variant(tmp_path: Path) -> Non
         (("--key", "nobody.toml"), 3, "nobody.toml"),
     ],
 )
-def test_what_cannot_be_done_is_one_message(
+def test_an_impossible_request_gives_one_message(
     words: tuple[str, ...], code: int, said: str, tmp_path: Path
 ) -> None:
     paths = {"WORK": written(tmp_path, WORK), "BAD": written(tmp_path, "{", "bad.json")}
@@ -179,7 +179,7 @@ def test_several_processes_give_the_same(tmp_path: Path) -> None:
     assert told(run(TASK12, path, "--json")) == told(run(TASK12, path, "--json", "--jobs", "2"))
 
 
-def test_a_table_of_which_nothing_is_read_says_which_columns_it_has(tmp_path: Path) -> None:
+def test_an_unreadable_table_is_reported_with_its_columns(tmp_path: Path) -> None:
     """Before: exit code 0, and two pages of blanks."""
     path = written(tmp_path, "Студент;Скорость;Ускорение\nИ;3,2;160\n", "group.csv")
     result = run(EX3, path, "-o", str(tmp_path / "out"))

@@ -85,7 +85,7 @@ def killed() -> None:
 
 
 @pytest.mark.parametrize(("how", "jobs"), [(raised, "1"), (raised, "2"), (killed, "2")])
-def test_a_fault_of_ours_in_one_work_stops_no_other(
+def test_an_internal_error_in_one_work_stops_no_other(
     how: Callable[[], None], jobs: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Before: exit code 5, and no mark of anybody."""
@@ -129,7 +129,7 @@ def test_a_page_that_cannot_be_made_stops_no_other(
     assert record(out)["failures"][0]["trace"].endswith("ZeroDivisionError\n")
 
 
-def test_a_variant_that_cannot_be_solved_costs_the_others_nothing(tmp_path: Path) -> None:
+def test_an_unsolvable_variant_costs_the_others_no_points(tmp_path: Path) -> None:
     text = Path(EX3).read_text("utf-8")
     problem = put(tmp_path, "ex3.toml", text + "\n[variants.1]\n[variants.2]\nlinks.1.OA = 9\n")
     rows = "student;variant;what;value;unit\none;1;v B;3,2;м/с\ntwo;2;v B;3,2;м/с\n"
@@ -176,14 +176,14 @@ def test_a_file_that_cannot_be_read_stops_no_other(tmp_path: Path) -> None:
     assert [one["name"] for one in record(out)["inputs"]] == ["ex3.toml", "good.csv"]
 
 
-def test_where_no_file_can_be_read_nothing_is_written(tmp_path: Path) -> None:
+def test_if_no_file_can_be_read_no_file_is_written(tmp_path: Path) -> None:
     bad, out = bad_files(tmp_path), tmp_path / "out"
     result = run(EX3, *bad, "-o", str(out))
     assert result.exit_code == 2 and not out.exists()
     assert all(f"Error: {path}: " in result.stderr for path in bad)
 
 
-def test_a_fault_of_ours_in_a_file_stops_no_other(
+def test_an_internal_error_in_a_file_stops_no_other(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     works = planmethod.check.works
@@ -234,7 +234,7 @@ def share(result: Result) -> float:
 
 
 @pytest.mark.parametrize("written", ["x", "2 или 3", "1/2", "3,2 кг", "1,2·103", "=A1+"])
-def test_nothing_that_cannot_be_read_raises_a_mark(written: str, tmp_path: Path) -> None:
+def test_an_unreadable_answer_never_raises_a_mark(written: str, tmp_path: Path) -> None:
     """Before: two right answers and 18 × "x" were 2 of 2, and the best mark."""
     path, blank = put(tmp_path, "x.csv", table(written)), put(tmp_path, "y.csv", table(""))
     result, other = run(EX3, path, "--json"), run(EX3, blank, "--json")
@@ -255,7 +255,7 @@ def test_an_answer_beside_one_that_cannot_be_read_counts_once(tmp_path: Path) ->
     "written",
     ["?", "-", "—", "...", "не решал", "Не решала", "нет ответа", "н/д", "n/a", "не знаю", "/"],
 )
-def test_what_says_that_there_is_no_answer_is_blank(written: str, tmp_path: Path) -> None:
+def test_an_entry_meaning_no_answer_is_blank(written: str, tmp_path: Path) -> None:
     result = run(EX3, put(tmp_path, "x.csv", table(written)), "--json")
     assert result.exit_code == 0, result.stderr
     (found,) = json.loads(result.stdout)
@@ -300,7 +300,7 @@ def test_points_of_the_whole_work_decide_all_that_is_open(tmp_path: Path) -> Non
     assert not json.loads(result.stdout)[0]["provisional"] and "Provisional" not in result.stderr
 
 
-def test_an_answer_that_stands_twice_is_decided_once(tmp_path: Path) -> None:
+def test_an_answer_given_twice_is_decided_once(tmp_path: Path) -> None:
     path = put(tmp_path, "x.csv", "student;what;value\ns;v B;9\ns;v B;8\n")
     hand = put(tmp_path, "hand.csv", "student;id;points\ns;v_B;1\n")
     result = run(EX3, path, "--json", "--overrides", hand)
@@ -343,7 +343,7 @@ WORK = {
         ("decided", "x", False), ("never", None, False), ("never", "x", False),
     ],
 )  # fmt: skip
-def test_right_values_stand_on_a_page_when_the_settings_say_so(
+def test_right_values_are_on_a_page_if_the_settings_allow_it(
     values: str, written: str | None, shown: bool, tmp_path: Path
 ) -> None:
     answers = [*WORK["answers"], {"what": "v D", "value": written}]
@@ -363,7 +363,7 @@ def test_right_values_stand_on_a_page_when_the_settings_say_so(
 # The folder of a run -------------------------------------------------------------------------
 
 
-def test_hidden_names_stand_nowhere_in_a_folder_that_was_used(tmp_path: Path) -> None:
+def test_hidden_names_are_nowhere_in_a_reused_folder(tmp_path: Path) -> None:
     path = put(tmp_path, "Иванов.csv", table("x").replace("s;", "Иванов П.;") + "Петров;v B;3\n")
     out = tmp_path / "out"
     assert run(EX3, path, "-o", str(out), "--gradebook").exit_code == 1
@@ -397,7 +397,7 @@ def test_names_are_not_hidden_beside_a_file_of_the_instructors_that_has_them(
     assert result.exit_code == 0 and "Петров".encode() not in words_of(out)
 
 
-def test_a_run_takes_away_what_it_wrote_and_nothing_else(tmp_path: Path) -> None:
+def test_a_run_removes_only_files_that_it_wrote(tmp_path: Path) -> None:
     out = tmp_path / "out"
     three, good = put(tmp_path, "three.csv", THREE), put(tmp_path, "good.csv", GOOD)
     run(EX3, three, "-o", str(out), "--gradebook")
@@ -413,7 +413,7 @@ def test_a_run_takes_away_what_it_wrote_and_nothing_else(tmp_path: Path) -> None
     }  # fmt: skip
 
 
-def test_a_run_that_was_stopped_owns_what_it_wrote(
+def test_a_stopped_run_owns_the_files_that_it_wrote(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     files, out = planmethod.check.pages.files, tmp_path / "out"
@@ -438,9 +438,7 @@ def test_a_run_that_was_stopped_owns_what_it_wrote(
 
 
 @pytest.mark.parametrize("name", ["../kept", "/tmp/kept", "pages/../../kept", "a/b/c", "run.json"])
-def test_a_record_that_somebody_made_up_takes_nothing_away_elsewhere(
-    name: str, tmp_path: Path
-) -> None:
+def test_a_forged_record_removes_no_file_elsewhere(name: str, tmp_path: Path) -> None:
     out, kept = tmp_path / "out", put(tmp_path, "kept", "mine")
     out.mkdir()
     put(out, "run.json", json.dumps({"files": {name: None, "overrides.csv": None}}))

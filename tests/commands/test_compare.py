@@ -24,7 +24,7 @@ def work(tmp_path: Path) -> Path:
     return file
 
 
-def test_own_numbers_stand_beside_the_exact_ones_without_a_verdict(work: Path) -> None:
+def test_own_numbers_are_printed_beside_the_exact_ones_without_a_verdict(work: Path) -> None:
     result = run(EX3, "--compare", work, "--lang", "en")
     assert result.exit_code == ExitCode.DONE
     rows = {line.split()[0]: line.split() for line in result.output.splitlines() if line.strip()}
@@ -43,7 +43,7 @@ def test_a_train_is_compared_too(tmp_path: Path) -> None:
     assert "−375" in result.output
 
 
-def test_a_file_may_refuse_it_and_options_that_say_something_else_are(
+def test_a_file_may_forbid_comparison_and_contradicting_options_are_rejected(
     work: Path, tmp_path: Path
 ) -> None:
     closed = tmp_path / "closed.toml"

@@ -69,7 +69,7 @@ def test_a_profile_brings_its_ruler(profile: str) -> None:
     assert other["hand"]["ruler"] == 2.0
 
 
-def test_what_was_found_by_random_sheets_is_told() -> None:
+def test_errors_found_by_random_sheets_are_marked() -> None:
     found = record(EX3, "--phi", "0:360:30", "--profile", "coarse")["positions"]
     labels = [position["hand"]["monte_carlo"] for position in found]
     assert any(labels) and not all("v_B" in told for told in labels)
@@ -134,7 +134,7 @@ def test_the_covariance_has_the_forces_of_a_loaded_problem() -> None:
         (("--ruler", "nan"), "'nan' is not a number"),
     ],
 )
-def test_what_does_not_go_together(args: tuple[str, ...], said: str) -> None:
+def test_incompatible_options_are_rejected(args: tuple[str, ...], said: str) -> None:
     result = run("solve", EX3, *args)
     assert result.exit_code == 2
     assert said in result.output
@@ -242,7 +242,7 @@ def test_an_angle_of_a_guide_can_be_varied() -> None:
     assert np.allclose(both[:, 0], plain) and not np.allclose(both[:, 1], plain)
 
 
-def test_what_a_sweep_does_not_take() -> None:
+def test_invalid_arguments_of_a_sweep_are_rejected() -> None:
     sweep = Sweep(problem_of("linkages/ex3"), "v_E")
     phi = np.linspace(0, 90, 50)
     for out in (np.zeros((1, 50)), np.zeros((2, 1)), [0.0]):
@@ -260,7 +260,7 @@ def test_what_a_sweep_does_not_take() -> None:
     assert sweep.reason(-1) == ""
 
 
-def test_what_a_drawing_does_not_have() -> None:
+def test_items_that_a_drawing_does_not_have_are_rejected() -> None:
     drafting = drafting_of(Solution(problem_of("linkages/ex3")))
     with pytest.raises(UnknownItemError, match="no plan has a point Q"):
         drafting.ellipse(PointName("Q"), 0)

@@ -192,7 +192,7 @@ def cases() -> Iterator[tuple[str, ExitCode, tuple[str, ...]]]:
 
 
 @each("command, code, args", cases())
-def test_a_command_ends_with_the_code_of_what_it_met(
+def test_a_command_ends_with_the_code_of_its_outcome(
     command: str, code: ExitCode, args: tuple[str, ...]
 ) -> None:
     done = run(command, *args)
@@ -204,7 +204,7 @@ def test_every_command_has_cases_of_done_or_of_usage() -> None:
     assert all(USAGE in codes for codes in CASES.values())
 
 
-def test_fewer_variants_than_are_asked_for_are_a_finding_though_there_are_some() -> None:
+def test_fewer_variants_than_requested_are_a_finding() -> None:
     (args,) = (one for one in CASES["variants"][FINDINGS] if "fewer.csv" in one)
     assert run("variants", *args).exit_code == FINDINGS
     found = Path("fewer.csv").read_text("utf-8-sig").splitlines()

@@ -64,7 +64,7 @@ def numbers(value: Any, path: str = "") -> dict[str, Any]:
     [(FORCES, "--phi", "0.3"), (NOTHING,), TASK12],
     ids=["forces", "arm-nothing", "task12"],
 )
-def test_what_is_divided_by_nothing_is_not_readable_and_the_rest_goes_on(
+def test_a_division_by_zero_is_unreadable_and_the_rest_is_checked(
     asked: tuple[str, ...],
 ) -> None:
     found = record(*asked)
@@ -120,7 +120,7 @@ def test_arrays_of_the_cycle_are_exact_everywhere() -> None:
 
 
 @pytest.mark.parametrize("command", [("solve", "--sigma"), ("protocol",), ("sheet", "-o", "out")])
-def test_nothing_of_python_reaches_a_terminal(command: tuple[str, ...]) -> None:
+def test_no_python_traceback_reaches_a_terminal(command: tuple[str, ...]) -> None:
     assert os.environ["PYTHONWARNINGS"] == "error"  # as in every process that a test starts
     found = subprocess.run(
         [sys.executable, str(ROOT / "cli.py"), *command, str(CASES / "point-at-pivot.toml")],
@@ -140,7 +140,7 @@ def test_nothing_of_python_reaches_a_terminal(command: tuple[str, ...]) -> None:
 @pytest.mark.parametrize(
     "command", [("solve",), ("solve", "--csv", "-"), ("protocol",), ("sheet", "-o", "out")]
 )
-def test_a_change_point_between_the_positions_is_told_once(command: tuple[str, ...]) -> None:
+def test_a_change_point_between_the_positions_is_reported_once(command: tuple[str, ...]) -> None:
     case = str(CASES / "parallelogram.toml")
     result = run(*command, case, "--phi", "170,190")
     assert result.exit_code == 0

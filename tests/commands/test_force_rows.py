@@ -151,7 +151,7 @@ def test_the_table_has_the_forces_exact_and_read(file: str) -> None:
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: Path(file).stem)
-def test_arrays_and_what_is_asked_are_the_table(file: str) -> None:
+def test_arrays_and_requested_columns_equal_the_table(file: str) -> None:
     table = rows(done("solve", file, "--csv"))
     found = arrays(file)
     asked = rows(done("solve", file, "--ask", "forces", "--csv"))
@@ -195,7 +195,7 @@ def test_the_documents_name_them_as_they_are() -> None:
     assert {f"{name}.read" for name in ("F.B.2-1", "driving.moment", "lever.moment")} <= set(row)
 
 
-def test_asked_forces_on_a_terminal() -> None:
+def test_requested_forces_on_a_terminal() -> None:
     text = done("solve", TASK12, "--ask", "M_dr,v_B,F_B_2/1")
     head = text.splitlines()[2].split()
     assert head[3:] == ["driving.moment", "B.vx", "B.vy", "F.B.2-1.x", "F.B.2-1.y", "F.B.2-1"]
@@ -287,7 +287,7 @@ def test_a_dead_position_is_empty_in_every_form() -> None:
         assert found["reason"].tolist() == [-1, 0, -1]
 
 
-def test_places_without_forces_say_why() -> None:
+def test_places_without_forces_have_a_reason() -> None:
     """Without masses the forces of a place need no velocities: it is their plan that fails."""
     args = ("solve", "dead.toml", "--phi", "45,180,90", "--ask", "C,M_dr")
     said = refused(4, *args)
@@ -315,7 +315,7 @@ def _steep(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("_steep")
-def test_motion_is_told_where_only_forces_do_not_exist(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_motion_is_printed_where_only_forces_do_not_exist(monkeypatch: pytest.MonkeyPatch) -> None:
     phi = "0:360:30"  # dead at 180 degrees, with flat force plans at some others
     for form in ((), ("--json",), ("--csv",), ("--npz", "a.npz"), ("--ask", "M_dr")):
         said = refused(4, "solve", "dead.toml", "--phi", "45,160,90", *form)

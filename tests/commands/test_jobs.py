@@ -97,7 +97,7 @@ def slow(number: int, folder: Path) -> int:
     return number
 
 
-def test_what_kills_its_process_loses_none_of_the_others(
+def test_a_killed_process_loses_no_other_problem(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     outcomes = list(in_processes(partial(killed_by_some, folder=tmp_path), range(8), 2))
@@ -107,7 +107,7 @@ def test_what_kills_its_process_loses_none_of_the_others(
     assert "a process at work was killed" in capsys.readouterr().err
 
 
-def test_who_stops_early_leaves_no_process_and_no_file(tmp_path: Path) -> None:
+def test_stopping_early_leaves_no_process_and_no_file(tmp_path: Path) -> None:
     before = multiprocessing.active_children()
     outcomes = in_processes(partial(slow, folder=tmp_path), range(4), 2)
     first = next(outcomes)
@@ -136,7 +136,7 @@ def test_processes_end_with_the_one_that_gave_them_work(tmp_path: Path) -> None:
     wait_until(lambda: not any(tmp_path.iterdir()))
 
 
-def test_an_interrupt_is_told_with_what_is_done(
+def test_an_interrupt_is_reported_with_the_work_done(
     files: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     def steps(todo: list[Todo]) -> Iterator[Callable[[], None]]:

@@ -132,7 +132,7 @@ def write(place: Path, lang: str | None) -> None:
         ({"LANG": "ru_RU.UTF-8", OWN_VARIABLE: "en"}, "ru", False),
     ],
 )
-def test_what_is_written_is_in_the_language_that_is_named(
+def test_output_is_in_the_language_named(
     place: Path,
     monkeypatch: pytest.MonkeyPatch,
     environ: dict[str, str],

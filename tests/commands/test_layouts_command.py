@@ -19,7 +19,7 @@ def run(*args: str) -> Result:
     return CliRunner().invoke(cli, args)
 
 
-def test_the_list_says_what_each_is_for() -> None:
+def test_the_list_states_the_purpose_of_each_layout() -> None:
     result = run("layouts")
     assert result.exit_code == ExitCode.DONE
     lines = result.output.splitlines()

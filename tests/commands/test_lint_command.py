@@ -119,7 +119,7 @@ def test_records_of_several_and_their_exit_code() -> None:
     assert record(VARIANTS, "--variant", "Б")["variant"] == "Б"
 
 
-def test_positions_are_told_by_the_numbers_of_the_sheet() -> None:
+def test_positions_are_named_by_the_numbers_of_the_sheet() -> None:
     found = record(EX2, "--phi", "0,150,240")
     numbers = {f["where"]["position"] for sheet in found["sheets"] for f in sheet["findings"]}
     assert numbers
@@ -155,7 +155,7 @@ def test_faults_outrank_findings(tmp_path: Path) -> None:
     assert run(EX3, "--paper", "A9").exit_code == ExitCode.USAGE
 
 
-def test_the_help_says_what_the_argument_is() -> None:
+def test_the_help_describes_the_argument() -> None:
     told = re.sub(r"\s+", " ", run("--help", lang="en").output)
     assert "PROBLEM is a problem file" in told
     assert "docs/normcontrol.md" in told

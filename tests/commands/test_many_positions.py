@@ -155,7 +155,7 @@ def test_a_file_of_arrays_that_cannot_be_written() -> None:
     assert Path("taken").read_text("utf-8") == "mine"
 
 
-def test_nothing_is_left_of_arrays_that_failed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failed_arrays_leave_no_file(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*args: object, **kwargs: object) -> None:
         raise OSError(28, "No space left on device")
 
@@ -174,7 +174,7 @@ def test_too_many_numbers_for_one_file(monkeypatch: pytest.MonkeyPatch) -> None:
 # Requested columns --------------------------------------------------------------------------------
 
 
-def test_asked_columns_come_in_the_order_asked() -> None:
+def test_requested_columns_keep_the_order_of_the_request() -> None:
     table = rows(done("solve", EX3, "--phi", "0:360:30", "--ask", "omega_3, v_E,B", "--csv"))
     assert list(table[0]) == ["position", "phi_deg", "3.omega", "E.vx", "E.vy", "B.x", "B.y"]
     whole = rows(done("solve", EX3, "--phi", "0:360:30", "--csv"))
@@ -185,7 +185,7 @@ def test_asked_columns_come_in_the_order_asked() -> None:
         assert not any(cell.startswith("-0.0") and float(cell) == 0 for cell in row.values())
 
 
-def test_asked_results_as_a_table() -> None:
+def test_requested_results_as_a_table() -> None:
     text = done("solve", EX3, "--phi", "0:360:90", "--ask", "v_E,omega_3", "--lang", "ru")
     assert "E.vx" in text and "3.omega" in text and "E.ax" not in text
     cells = [line.split() for line in text.splitlines()]
@@ -195,13 +195,13 @@ def test_asked_results_as_a_table() -> None:
     assert max(map(len, text.splitlines())) <= 100
 
 
-def test_whole_groups_may_be_asked() -> None:
+def test_whole_groups_may_be_requested() -> None:
     (row,) = rows(done("solve", EX1, "--ask", "velocities", "--csv"))
     assert "2.omega" in row and "B.vx" in row
     assert not {"B.x", "B.ax", "2.epsilon", "margin"} & set(row)
 
 
-def test_what_is_asked_of_variants_is_one_table() -> None:
+def test_requested_columns_of_variants_are_one_table() -> None:
     table = rows(done("solve", VARIANTS, "--all-variants", "--ask", "omega_3", "--csv"))
     assert [row["variant"] for row in table] == list("АБВГДЕ")
 
@@ -244,7 +244,7 @@ def test_a_range_shorter_than_its_step_is_one_position() -> None:
 # Impossible positions -----------------------------------------------------------------------------
 
 
-def test_a_refusal_tells_of_partial_where_several_positions_are_asked() -> None:
+def test_an_error_suggests_partial_where_several_positions_are_requested() -> None:
     for form in ((), ("--csv",), ("--json",), ("--npz", "a.npz"), ("--ask", "omega_3")):
         several = refused(4, "solve", SIX_LINK, "--phi", "0:360:30", *form)
         assert "Cannot place C at position 0 (phi = 0 deg)" in several
@@ -296,7 +296,7 @@ def test_impossible_positions_are_nan_with_a_reason() -> None:
         assert np.isfinite(found["B.x"]).all()  # the crank turns on
 
 
-def test_asked_cells_that_exist_are_filled() -> None:
+def test_requested_cells_that_exist_are_filled() -> None:
     args = ("solve", SIX_LINK, "--phi", "0:360:30", "--ask", "omega_3,B", "--partial")
     text, _ = warned(*args, "--csv")
     table = rows(text)
@@ -307,7 +307,7 @@ def test_asked_cells_that_exist_are_filled() -> None:
     assert "Cannot place C at position 0" in shown
 
 
-def test_nothing_is_said_where_nothing_is_impossible() -> None:
+def test_no_note_is_printed_where_every_position_exists() -> None:
     result = run("solve", EX3, "--phi", "0:360:30", "--csv", "--partial")
     assert result.exit_code == 0 and result.stderr == ""
     table = rows(result.stdout)
@@ -341,7 +341,7 @@ def test_positions_that_rounding_spoils_are_impossible_too() -> None:
         assert np.isnan(found["3.omega"]).tolist() == [False, True, False]
 
 
-def test_what_is_asked_alone_is_told_with_a_doubt() -> None:
+def test_a_doubt_about_the_requested_result_alone_is_a_warning() -> None:
     """The place is good although the velocity is not: a warning, no refusal."""
     result = run("solve", "dead.toml", "--phi", f"45,{SPOILT}", "--ask", "C", "--csv")
     assert result.exit_code == 0
@@ -409,7 +409,7 @@ SAID_BY = ("solve", "solve --json", "solve --ask v_B", "sheet", "sheet --layout 
 
 
 @pytest.mark.parametrize("command", SAID_BY)
-def test_all_commands_tell_a_cycle_without_a_dead_position(command: str) -> None:
+def test_all_commands_report_a_cycle_without_a_dead_position(command: str) -> None:
     verb, *options = command.split()
     text = """
 frame = { O = [0, 0], guides.x-x = { through = "O", angle = 0 } }
@@ -454,12 +454,12 @@ def test_a_large_table_is_checked_before_it_is_written() -> None:
         ("0:90:1", ""),  # too many positions to count
     ],
 )
-def test_an_end_that_is_left_out_is_told(phi: str, note: str) -> None:
+def test_an_end_that_is_left_out_is_reported(phi: str, note: str) -> None:
     result = run("solve", EX3, "--phi", phi, "--ask", "v_E", "--csv")
     assert (result.exit_code, result.stderr) == (0, note)
 
 
-def test_doubts_of_a_large_table_are_told_together() -> None:
+def test_doubts_of_a_large_table_are_reported_together() -> None:
     near = ",".join(f"{180 + 0.015 * k:g}" for k in range(-8, 9) if k)
     phi = f"60:120:{60 / BLOCK},{near}"
     result = run("solve", "dead.toml", "--phi", phi, "--csv", "t.csv")
@@ -500,7 +500,7 @@ def test_a_large_table_keeps_its_ruler() -> None:
 # Parts --------------------------------------------------------------------------------------------
 
 
-def test_gaps_are_told_in_the_order_of_their_first_positions() -> None:
+def test_gaps_are_listed_in_the_order_of_their_first_positions() -> None:
     codes = np.array([-1, 9, 2, 2, -1, 9, 9], np.int16)
     asked = []
 
@@ -528,7 +528,7 @@ def test_gaps_are_told_in_the_order_of_their_first_positions() -> None:
 
 
 @pytest.mark.parametrize("cause", Cause)
-def test_what_is_true_of_every_position_of_a_kind_has_no_number_of_one(cause: Cause) -> None:
+def test_a_fact_shared_by_all_positions_of_a_cause_has_no_number_of_one(cause: Cause) -> None:
     """Radii hold for all; the place, the margin and distances between moving points do not."""
     facts = Failure(
         cause, Place(7, 30.5, TURN, "m", alone=False), "C", ("A", "B"), (1.0, 2.0, 3.25, 4.5)

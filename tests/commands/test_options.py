@@ -39,7 +39,7 @@ def test_an_option_that_is_given_twice_is_refused_with_both_values(name: str) ->
         )
 
 
-def test_a_switch_is_not_on_and_off_and_twice_on_says_nothing_else() -> None:
+def test_a_switch_is_not_both_on_and_off_and_may_be_repeated() -> None:
     done = CliRunner().invoke(cli, ["sheet", EX3, "--sigma", "--no-sigma"])
     assert done.exit_code == 2
     assert "--sigma" in done.output
@@ -53,7 +53,7 @@ def test_fields_of_the_title_block_are_given_one_by_one() -> None:
     assert context.params["stamp"] == {"author": "Иванов", "group": "М-31"}
 
 
-def test_what_stands_after_two_dashes_is_no_option() -> None:
+def test_a_word_after_two_dashes_is_not_an_option() -> None:
     context = command_of("solve").make_context("solve", ["--phi", "20", "--", "--phi", "30"])
     assert [str(path) for path in context.params["problems"]] == ["--phi", "30"]
 
@@ -97,7 +97,7 @@ def test_one_written_file_is_shown(
     assert (tmp_path / shown).exists()
 
 
-def test_a_file_that_nothing_opens_is_written_and_named(
+def test_a_file_without_a_viewer_is_written_and_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("click.launch", lambda url: 1)
@@ -109,7 +109,7 @@ def test_a_file_that_nothing_opens_is_written_and_named(
     assert f"no program of this system opens {page}" in done.stderr
 
 
-def test_nothing_is_shown_of_a_problem_that_fails(
+def test_no_file_of_a_failing_problem_is_opened(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     launched = launches(monkeypatch)

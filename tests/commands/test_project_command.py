@@ -91,7 +91,7 @@ def test_a_project_has_the_files_of_its_parts(name: str, made: Callable[[str], P
 
 @pytest.mark.dear
 @pytest.mark.parametrize("name", NAMES)
-def test_the_record_has_what_was_decided(name: str, made: Callable[[str], Path]) -> None:
+def test_the_record_has_the_decisions(name: str, made: Callable[[str], Path]) -> None:
     told = record(made(name))
     assert (told["schema"], told["problem"]) == (1, name)
     assert [one["number"] for one in told["positions"]] == list(range(len(told["positions"])))
@@ -212,7 +212,7 @@ def test_commands_take_the_decisions_of_the_project(made: Callable[[str], Path])
     assert plans["acceleration"]["mu"] == told["scales"]["mu_a"]
 
 
-def test_a_table_that_a_command_leaves_out_is_told(tmp_path: Path) -> None:
+def test_a_table_that_a_command_leaves_out_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "alone.toml"
     text = (FILES / "shaper.toml").read_text("utf-8")
     path.write_text(text.replace("[project]\ncalculated = 4\n", ""), "utf-8")
@@ -224,7 +224,7 @@ def test_a_table_that_a_command_leaves_out_is_told(tmp_path: Path) -> None:
 # Options -----------------------------------------------------------------------------------------
 
 
-def test_parts_position_and_formats_are_asked_for(tmp_path: Path) -> None:
+def test_parts_position_and_formats_are_selected(tmp_path: Path) -> None:
     out = str(tmp_path)
     done = run(
         str(FILES / "homework.toml"),
@@ -244,7 +244,7 @@ def test_parts_position_and_formats_are_asked_for(tmp_path: Path) -> None:
     assert names == {"1-kinematics.svg", "numbers.xlsx", "project.json"}
 
 
-def test_what_an_earlier_project_has_more_is_removed(tmp_path: Path) -> None:
+def test_surplus_files_of_an_earlier_project_are_removed(tmp_path: Path) -> None:
     """Sheets of earlier choices do not remain beside the new ones."""
     folder = tmp_path / "homework"
     folder.mkdir()
@@ -318,7 +318,7 @@ def test_an_earlier_project_is_replaced_and_other_files_stay(tmp_path: Path) -> 
         (("none.toml",), ExitCode.PROBLEM, "none.toml"),
     ],
 )
-def test_what_is_asked_wrongly_is_told(
+def test_a_faulty_request_is_reported(
     args: tuple[str, ...], code: ExitCode, said: str, tmp_path: Path
 ) -> None:
     done = run(str(FILES / args[0]), *args[1:], "-o", str(tmp_path), "--lang", "en")
@@ -337,7 +337,7 @@ def test_a_train_alone_is_no_project(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
-def test_where_a_part_fails_nothing_is_written(jobs: str, tmp_path: Path) -> None:
+def test_if_a_part_fails_no_file_is_written(jobs: str, tmp_path: Path) -> None:
     """A scheme of a metre has no room on A4."""
     scales = "\n[scales]\nmu_l = 0.0002\nmu_v = 0.01\nmu_a = 0.1\n"
     text = (FILES / "homework.toml").read_text("utf-8") + scales + '[sheet]\npaper = "A4"\n'
@@ -350,7 +350,7 @@ def test_where_a_part_fails_nothing_is_written(jobs: str, tmp_path: Path) -> Non
 
 
 @pytest.mark.skipif(sys.platform == "win32" or os.geteuid() == 0, reason="root writes everywhere")
-def test_a_folder_that_cannot_be_written_to_is_told(tmp_path: Path) -> None:
+def test_an_unwritable_folder_is_reported(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
     done = run(str(FILES / "homework.toml"), "-o", str(tmp_path), "--lang", "en")
     tmp_path.chmod(0o700)

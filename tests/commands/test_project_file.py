@@ -58,7 +58,7 @@ def exact(number: int) -> str:
 
 
 @pytest.mark.parametrize("row", ["v C;0,5;", "v C;0,5;1"])
-def test_own_numbers_are_of_the_calculated_position_if_they_say_no_other(
+def test_own_numbers_belong_to_the_calculated_position_by_default(
     row: str, scaled: Path, tmp_path: Path
 ) -> None:
     work = tmp_path / "my.csv"
@@ -73,7 +73,7 @@ def test_own_numbers_are_of_the_calculated_position_if_they_say_no_other(
     assert answer["position"] == number
 
 
-def test_of_an_exact_nothing_there_is_no_per_cent(scaled: Path, tmp_path: Path) -> None:
+def test_an_exact_zero_has_no_percentage(scaled: Path, tmp_path: Path) -> None:
     work = tmp_path / "my.csv"
     work.write_text("величина;значение;положение\nv C;0,5;0\n", "utf-8")
     told = run("solve", scaled, "--compare", work, "--lang", "ru").stdout
@@ -128,7 +128,7 @@ def test_lint_looks_over_the_sheets_of_the_project(
     ("words", "told"),
     [(("solve",), 0), (("structure",), 0), (("sheet",), 1), (("sheet", "--layout", "forces"), 0)],
 )
-def test_only_the_usual_sheet_says_which_parts_of_a_project_it_leaves_out(
+def test_only_the_default_sheet_lists_the_parts_of_a_project_that_it_leaves_out(
     words: tuple[str, ...], told: int, scaled: Path, tmp_path: Path
 ) -> None:
     more = ("-o", tmp_path) if words[0] == "sheet" else ()
@@ -174,7 +174,7 @@ def test_forces_without_masses_are_warned_of(kept: str, said: str, tmp_path: Pat
     ("words", "laid"),
     [(("structure", "--no-drawing"), 0), (("solve", "--ask", "v_C"), 0), (("solve",), 1)],
 )
-def test_what_needs_no_scales_lays_no_sheet_out(
+def test_a_command_without_scales_lays_out_no_sheet(
     words: tuple[str, ...], laid: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calls: list[Problem] = []
@@ -231,7 +231,7 @@ pressure = 30
 
 
 @pytest.mark.parametrize("has_links_fault", [True, False])
-def test_every_command_tells_the_faults_of_all_tables_at_once(
+def test_every_command_reports_the_faults_of_all_tables_at_once(
     tmp_path: Path, has_links_fault: bool
 ) -> None:
     path = tmp_path / "faulty.toml"
@@ -250,7 +250,7 @@ def test_every_command_tells_the_faults_of_all_tables_at_once(
         assert len({*lines}) == len(lines), done.output
 
 
-def test_solve_tells_the_numbers_of_all_parts(scaled: Path) -> None:
+def test_solve_prints_the_numbers_of_all_parts(scaled: Path) -> None:
     parts = json.loads(run("solve", scaled, "--json").stdout)["parts"]
     for table, record in parts.items():
         alone = KINDS_BY_TABLE[table]

@@ -39,7 +39,7 @@ def test_it_takes_a_shipped_file_and_no_key_of_strangers() -> None:
     assert any("omga" in fault.message for fault in judged)
 
 
-def test_keys_are_told_in_the_language_that_is_asked_for() -> None:
+def test_keys_are_described_in_the_requested_language() -> None:
     for lang, said in (("ru", "Угловая скорость, 1/с."), ("en", "Angular velocity, 1/s.")):
         schema = msgspec.json.decode(run("schema", "--lang", lang).output)
         assert schema["$defs"]["driver"]["properties"]["omega"]["description"] == said

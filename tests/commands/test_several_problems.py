@@ -75,7 +75,7 @@ def test_a_wrong_call_names_the_problem_that_it_is_wrong_for(apart: str) -> None
     assert "gears-ex1" in done.stderr
 
 
-def test_a_name_that_is_there_is_not_said_twice() -> None:
+def test_a_message_that_names_its_file_is_not_prefixed() -> None:
     names = ("a/ex1.toml", "ex1")
     assert named("ex1: too large", names) == "ex1: too large"
     assert named("the sheet of a/ex1.toml", names) == "the sheet of a/ex1.toml"

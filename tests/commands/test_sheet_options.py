@@ -70,7 +70,7 @@ def test_a_plan_that_takes_more_sheets_than_it_should_is_not_written() -> None:
     assert kinematics_sheets(problem, positions=[20.0], most=0)
 
 
-def test_all_positions_are_drawn_when_they_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_all_positions_are_drawn_on_request(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("planmethod.commands.sheet.MOST_SHEETS", 1)
     args = ("sheet", EX2, "--phi", "0:360:20", "--format", "svg")
     assert run(*args).exit_code == 2
@@ -225,7 +225,7 @@ def test_an_option_clears_a_field(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "Настройкин" not in drawn("--stamp", "author=")
 
 
-def test_a_faulty_config_is_told_once_and_nothing_is_drawn() -> None:
+def test_a_faulty_config_is_reported_once_and_no_sheet_is_drawn() -> None:
     name = config("[stamp]\nautor = 'x'\n[sheet]\nform = '7'\n")
     refused = run("sheet", EX1, EX2, "--config", name)
     assert refused.exit_code == 2
@@ -236,7 +236,7 @@ def test_a_faulty_config_is_told_once_and_nothing_is_drawn() -> None:
     assert run("sheet", EX1, "--config", name, "--no-config").exit_code == 2
 
 
-def test_a_command_that_draws_nothing_reads_no_config(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_command_without_drawings_reads_no_config(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PLANMETHOD_CONFIG", "no-such-file.toml")
     assert run("structure", EX1, "--no-drawing").exit_code == 0
     assert run("solve", EX1).exit_code == 0

@@ -80,7 +80,7 @@ def test_a_finished_file_shows_all_links_and_how_far_the_crank_turns() -> None:
         ("", set()),
     ],
 )
-def test_of_an_unfinished_file_what_can_be_drawn_is_and_the_rest_is_marked(
+def test_the_complete_part_of_an_unfinished_file_is_drawn_and_the_rest_is_marked(
     text: str, links: set[str]
 ) -> None:
     drawing, shown = drawn(text)
@@ -140,7 +140,7 @@ def test_assemblies_of_a_second_group_follow_those_of_the_first() -> None:
     assert len({one["E"] for one in rules}) == 2
 
 
-def test_arcs_that_do_not_meet_are_drawn_and_the_miss_is_told_for_the_turn() -> None:
+def test_arcs_that_do_not_meet_are_drawn_and_the_gap_is_reported_for_the_turn() -> None:
     text = FOUR_BAR.format(rod=0.1, rocker=0.25, phi=90, rule="above D")
     drawing, links = drawn(text)
     assert links == {"1"}
@@ -163,7 +163,7 @@ def test_the_range_of_a_crank_that_does_not_turn_fully_is_an_arc() -> None:
     assert at == pytest.approx(0.45**2, abs=1e-9)
 
 
-def test_what_is_probably_not_meant_is_told() -> None:
+def test_probable_mistakes_are_reported() -> None:
     slider = """
 [frame]
 A = [0, 0]
@@ -193,7 +193,7 @@ def run(*words: str) -> Result:
     return CliRunner().invoke(cli, ["sketch", *words])
 
 
-def test_the_command_draws_and_says_what_is_wrong(tmp_path: Path) -> None:
+def test_the_command_draws_and_reports_faults(tmp_path: Path) -> None:
     half = tmp_path / "half.toml"
     half.write_text(without(EX3, "DE"), encoding="utf-8")
     result = run(str(half), "-o", str(tmp_path))
@@ -209,7 +209,7 @@ def test_the_command_draws_and_says_what_is_wrong(tmp_path: Path) -> None:
     assert "planmethod sheet" in train.output
 
 
-def test_a_watched_file_is_drawn_again_and_its_faults_stand_in_place_of_the_sheet(
+def test_a_watched_file_is_redrawn_and_its_faults_replace_the_sheet(
     tmp_path: Path,
 ) -> None:
     file, picture = tmp_path / "my.toml", tmp_path / "my.svg"

@@ -25,7 +25,7 @@ def made(folder: Path) -> set[str]:
     return {path.name for path in folder.iterdir()}
 
 
-def test_all_sheets_when_none_is_named(tmp_path: Path) -> None:
+def test_all_sheets_are_drawn_by_default(tmp_path: Path) -> None:
     done = run()
     assert done.exit_code == ExitCode.DONE, done.output
     names = {f"specimen-{name}.{fmt}" for name in SPECIMENS for fmt in ("svg", "pdf")}

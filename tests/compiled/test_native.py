@@ -179,7 +179,7 @@ def small(name: str = "limit") -> Any:
     return c_source(tape, [tape.mul(3.14159, x)], [Guard(NumberName(name), x, 0.5)], [frozenset()])
 
 
-def test_nothing_of_a_problem_is_in_the_source_and_variants_share_a_library(cache: Path) -> None:
+def test_the_source_has_no_data_of_a_problem_and_variants_share_a_library(cache: Path) -> None:
     source = small("Ё; system()")
     assert source.constants == (0.5, 3.14159) or source.constants == (3.14159, 0.5)
     assert "system" not in source.text and "3.14159" not in source.text
@@ -270,7 +270,7 @@ def test_the_cache_is_bounded(cache: Path, monkeypatch: pytest.MonkeyPatch) -> N
     assert list(cache.glob("*.so"))
 
 
-def test_a_library_that_was_cut_short_is_made_anew(cache: Path) -> None:
+def test_a_truncated_library_is_rebuilt(cache: Path) -> None:
     """To load one kills the process (SIGBUS)."""
     tape = Tape()
     source = c_source(tape, [tape.add(tape.input(0), 17.0)], [], [frozenset()])

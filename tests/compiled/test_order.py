@@ -61,7 +61,7 @@ def test_every_operand_is_made_before_it_is_read(monkeypatch: pytest.MonkeyPatch
             assert all(place[ref] < place[number] for ref in refs if type(ref) is int)
 
 
-def test_what_an_earlier_part_reads_is_made_there() -> None:
+def test_a_value_that_an_earlier_part_reads_is_made_there() -> None:
     """An operation that two parts have stands once, and may have been written by the later one."""
     tape = Tape()
     x = tape.input(0)

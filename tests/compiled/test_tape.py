@@ -63,13 +63,13 @@ def test_constants_are_folded(tape: Tape) -> None:
     assert len(tape.nodes) == before
 
 
-def test_division_by_nothing_is_folded_without_an_error(tape: Tape) -> None:
+def test_division_by_zero_is_folded_without_an_error(tape: Tape) -> None:
     assert tape.make("div", 1.0, 0.0) == math.inf
     assert tape.make("div", -1.0, 0.0) == -math.inf
     assert math.isnan(float(tape.make("div", 0.0, 0.0)))
 
 
-def test_what_changes_nothing_is_not_made(tape: Tape) -> None:
+def test_operations_without_effect_are_not_made(tape: Tape) -> None:
     before = len(tape.nodes)
     assert tape.add(X, 0.0) == tape.add(0.0, X) == X
     assert tape.sub(X, 0.0) == X
@@ -155,7 +155,7 @@ def both(
 
 
 @each("seed", range(some(60, few=20)))
-def test_a_tape_is_what_it_was_made_of(seed: int) -> None:
+def test_a_tape_equals_its_program(seed: int) -> None:
     rng, tape = random.Random(seed), Tape()
     made = drawn(rng, tape, 40)
     results = [ref for ref, _ in made] + [made[5][0], made[-1][0]]  # some twice
@@ -196,7 +196,7 @@ def test_directions_at_the_half_turn() -> None:
         assert found[0].tolist() == [180.0, 180.0, 180.0, 0.0, -90.0, 135.0]
 
 
-def test_a_direction_is_not_hidden_by_one_that_is_none() -> None:
+def test_an_undefined_direction_does_not_hide_a_defined_one() -> None:
     tape = Tape()
     x, y = tape.input(0), tape.input(1)
     result = tape.make("degrees", tape.make("atan2", y, x))
@@ -220,7 +220,7 @@ def test_the_other_value_where_a_size_is_zero() -> None:
 # Guards -------------------------------------------------------------------------------------------
 
 
-def test_a_guard_that_fails_empties_what_depends_on_it() -> None:
+def test_a_failing_guard_empties_the_dependent_values() -> None:
     tape = Tape()
     x = tape.input(0)
     root = tape.make("sqrt", x)
@@ -275,7 +275,7 @@ def test_guards_that_never_hold_are_kept() -> None:
     assert found.depends[PointName("C")] == frozenset({0})
 
 
-def test_guards_of_what_varies_are_kept() -> None:
+def test_guards_of_varying_values_are_kept() -> None:
     found = written(1.5, inputs=("q",))
     assert [guard.step for guard in found.guards] == ["C"]
     assert type(found.guards[0].margin) is int
@@ -333,7 +333,7 @@ def test_a_turned_vector_keeps_its_length() -> None:
     assert other.size is None
 
 
-def test_a_straight_line_has_only_what_is_used() -> None:
+def test_a_straight_line_has_only_used_operations() -> None:
     tape = Tape()
     x, y = tape.input(0), tape.input(1)
     used = tape.add(x, y)
@@ -425,7 +425,7 @@ def steps_of(program: Program) -> set[Name]:
     return {step.out for step in program.steps}
 
 
-def test_a_program_is_cut_down_to_what_is_asked() -> None:
+def test_a_program_is_cut_down_to_the_requested_results() -> None:
     problem = load(next(path for path in every_file() if path.stem == "ex3"))
     whole, few = Sweep(problem), Sweep(problem, ["omega_3"])
     assert steps_of(few.program) < steps_of(whole.program)

@@ -151,18 +151,18 @@ def test_a_similar_point_is_computed_from_the_read_side() -> None:
     assert similar(Hand(ruler=1.0), sign=-1.0) == similar(Hand(ruler=1.0))  # read along a line
 
 
-def test_lengths_of_the_link_that_no_number_tells_are_read_too() -> None:
+def test_lengths_of_the_link_without_a_given_number_are_read_too() -> None:
     hand = Hand(ruler=1.0)
     assert similar(hand, span=True) == pytest.approx(31 * -14.1 / 47, rel=1e-14)
     assert similar(hand, arm=True) == pytest.approx(31 * -14 / 47.3, rel=1e-14)
     assert similar(hand, span=True, arm=True) == pytest.approx(31 * -14 / 47, rel=1e-14)
 
 
-def test_what_the_exact_arithmetic_reads_changes_nothing() -> None:
+def test_readings_of_exact_arithmetic_have_no_effect() -> None:
     assert similar(Float64(), span=True, arm=True) == similar(Float64())
 
 
-def test_a_measured_length_is_rounded_and_goes_on_so() -> None:
+def test_a_measured_length_is_rounded_and_stays_rounded() -> None:
     b = Builder()
     p, q = b.given("P"), b.given("Q")
     pq = b.measure("pq", p, q)

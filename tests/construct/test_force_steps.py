@@ -131,7 +131,7 @@ def test_positions_are_read_one_by_one() -> None:
             assert many[i] == read(program, Q=end), name
 
 
-def test_nothing_is_carried_and_has_no_moment() -> None:
+def test_a_zero_vector_is_translated_and_has_no_moment() -> None:
     """A vector of no length has no direction; it spoils no position beside it."""
     ends = np.array([10 + 20j, 40 + 60j])
     for name, program in EVERY.items():
@@ -143,7 +143,7 @@ def test_nothing_is_carried_and_has_no_moment() -> None:
     assert read(built(lambda b: b.total("X"))) == 0.0
 
 
-def test_what_follows_from_an_impossible_point_is_not_a_number() -> None:
+def test_a_result_of_an_impossible_point_is_not_a_number() -> None:
     def impossible(b: Builder) -> PointName:
         return b.meet_lines("Z", b.join(P, Q), b.parallel(A, b.join(P, Q)))
 
@@ -163,7 +163,7 @@ def test_operands_are_checked() -> None:
         built(lambda b: b.carry("X", O, P, Q, NumberName("m")))
 
 
-def test_only_what_is_needed_is_kept() -> None:
+def test_only_needed_steps_are_kept() -> None:
     assert {step.out for step in ARM.steps} == {"A", "B", "P", "Q", "X"}
     assert {step.out for step in CARRIED.steps} == {"O", "P", "Q", "X"}
     assert {step.out for step in SUM.steps} == {*"ABPQklMX", "h_M", "l_M"}
@@ -184,7 +184,7 @@ def test_the_hand_carries_exactly(name: str) -> None:
     assert read(EVERY[name], Hand(ruler=1.0)) == read(EVERY[name])
 
 
-def test_the_hand_lays_off_again_what_it_has_read() -> None:
+def test_the_hand_lays_off_its_own_readings() -> None:
     """The vector of 50 mm is read in steps of 15 as 45, its arm of 20.8 as 15: each once."""
     assert read(AGAIN, Hand(ruler=15.0)) == pytest.approx(5 - 2j - 1.5 * 0.9 * (30 + 40j))
     assert read(MOMENT, Hand(ruler=15.0)) == pytest.approx(-15.0 * 45.0)
@@ -248,7 +248,7 @@ def test_sheets_drawn_at_random_spread_as_far(name: str) -> None:
         assert float(np.std(np.imag(values))) == pytest.approx(up, rel=0.06)
 
 
-def test_nothing_is_nothing_on_every_sheet() -> None:
+def test_zero_is_zero_on_every_sheet() -> None:
     nothing = {"Q": DATA["P"]}
     assert np.all(read(TURNED, Sampled(PROFILE, FREE, 50, 7), **nothing) == DATA["O"])
     for program in (ARM, MOMENT):

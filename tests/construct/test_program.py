@@ -68,7 +68,7 @@ def test_a_name_is_made_before_it_is_used() -> None:
         Program((Given(A), Given(B), MeetLines(C, AB, AB)))
 
 
-def test_a_line_is_not_a_point_nor_a_number_a_line() -> None:
+def test_a_line_is_not_a_point_and_a_number_is_not_a_line() -> None:
     drawn = (Given(A), Given(B), Join(AB, A, B), GivenNumber(L))
     with pytest.raises(ProgramError, match=r"^step 5 \(AC\): 'AB' is not a .*PointName$"):
         Program((*drawn, Join(AC, A, PointName("AB"))))
@@ -121,12 +121,12 @@ def test_only_the_steps_that_are_needed_are_kept() -> None:
     assert program.needed_for([s.out for s in program.steps]) == program
 
 
-def test_what_no_step_makes_cannot_be_asked() -> None:
+def test_a_name_that_no_step_makes_cannot_be_requested() -> None:
     with pytest.raises(ProgramError, match=r"^no step makes T, U$"):
         triangle().needed_for([PointName("U"), PointName("P"), PointName("T")])
 
 
-def test_a_pruned_program_asks_for_no_more_data() -> None:
+def test_a_pruned_program_needs_no_more_data() -> None:
     kept = triangle().needed_for([NumberName("height")])
     trace = evaluate(kept, {"P": 0j, "Q": 4 + 0j, "R": 1 + 3j}, Float64())
     assert trace.value[NumberName("height")] == 3.0

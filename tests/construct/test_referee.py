@@ -38,7 +38,7 @@ def data_of(solution: Solution) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("name", SIX)
-def test_more_digits_of_the_referee_change_nothing_that_fewer_gave(name: str) -> None:
+def test_more_digits_of_the_referee_confirm_those_of_fewer(name: str) -> None:
     solution = Solution(problem_of(name))
     program, data = solution.construction.program, data_of(solution)
     few, many = adjudicate(program, data, digits=30), adjudicate(program, data, digits=60)
@@ -67,7 +67,7 @@ def test_the_referee_knows_quadrants_exactly(turns: int) -> None:
         assert referee.direction(referee.lift(90.0 * k + 360.0 * turns)) == unit
 
 
-def test_what_is_impossible_is_nan_for_the_referee_too() -> None:
+def test_an_impossible_result_is_nan_for_the_referee_too() -> None:
     b = Builder()
     p, q = b.given("P"), b.given("Q")
     r = b.known("r")

@@ -68,7 +68,7 @@ def test_the_drawing_fits_its_box_and_fills_it(
 
 
 @given(extents, boxes)
-def test_mm_per_unit_is_the_round_number_when_it_is_asked(
+def test_the_round_number_of_mm_per_unit_is_returned_on_request(
     extent: tuple[float, float], box: tuple[float, float]
 ) -> None:
     mu = choose_scale(extent, box, mm_per_unit=True)
@@ -87,6 +87,6 @@ def test_the_tighter_side_decides() -> None:
 
 
 @pytest.mark.parametrize("extent", [(0.0, 0.0), (math.nan, 0.0), (math.inf, 1.0)])
-def test_nothing_to_draw_gives_1(extent: tuple[float, float]) -> None:
+def test_an_empty_drawing_has_scale_1(extent: tuple[float, float]) -> None:
     assert choose_scale(extent, (100, 100)) == 1.0
     assert choose_scale(extent, (100, 100), mm_per_unit=True) == 1.0

@@ -193,7 +193,7 @@ def nan_exactly_where_negative(value: Any, margin: Any) -> bool:
 @example(0j, 1 + 0j, 3j, 3.0, Way.FORWARD)
 @example(0j, 1 + 0j, 3j, 2.999999, Way.FORWARD)
 @example(0j, 1 + 0j, 5 + 3j, 5.0, Way.BACKWARD)
-def test_a_line_meets_an_arc_on_the_asked_way(
+def test_a_line_meets_an_arc_in_the_requested_direction(
     p: complex, q: complex, c: complex, r: float, way: Way
 ) -> None:
     assume(apart(p, q))
@@ -216,7 +216,7 @@ def test_a_line_meets_an_arc_on_the_asked_way(
         assert abs(leg) < r
 
 
-def test_what_lies_on_a_guide_stays_on_it_exactly() -> None:
+def test_a_point_on_a_guide_stays_on_it_exactly() -> None:
     def build(b: Builder) -> PointName:
         return b.meet_line_circle("X", b.join(P, Q), R, NumberName("r"), Way.FORWARD)
 
@@ -231,7 +231,7 @@ def test_what_lies_on_a_guide_stays_on_it_exactly() -> None:
 @example(0j, 3.0, 5 + 0j, 1.9, Side.LEFT)
 @example(0j, 9.0, 1 + 0j, 2.0, Side.RIGHT)  # one inside the other
 @example(0j, 3.0, 0j, 3.0, Side.RIGHT)  # one and the same
-def test_arcs_meet_on_the_asked_side(
+def test_arcs_meet_on_the_requested_side(
     c1: complex, r1: float, c2: complex, r2: float, side: Side
 ) -> None:
     def build(b: Builder) -> PointName:
@@ -276,7 +276,9 @@ def test_arcs_that_touch_meet_on_the_line_of_centres() -> None:
 @example(0j, 3.0, 3 + 0j, Side.RIGHT)
 @example(0j, 3.0, 2 + 0j, Side.RIGHT)
 @example(0j, 3.0, 0j, Side.RIGHT)
-def test_a_tangent_touches_on_the_asked_side(c: complex, r: float, s: complex, side: Side) -> None:
+def test_a_tangent_touches_on_the_requested_side(
+    c: complex, r: float, s: complex, side: Side
+) -> None:
     value, margin = run(lambda b: b.touch("X", P, NumberName("r"), Q, side), P=c, Q=s, r=r)
     d = abs(s - c)
     if d == 0:
@@ -374,7 +376,7 @@ def test_one_impossible_position_does_not_spoil_the_others() -> None:
     assert value[2] == alone[0]
 
 
-def test_what_follows_from_an_impossible_point_is_not_a_number() -> None:
+def test_a_result_of_an_impossible_point_is_not_a_number() -> None:
     def build(b: Builder) -> NumberName:
         x = b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
         y = b.meet_lines("Y", b.join(P, x), b.perpendicular(Q, b.join(P, Q)))
@@ -448,7 +450,7 @@ def test_a_held_link_is_where_all_three_legs_have_it(kinds: str, scale: float) -
 
 
 @pytest.mark.parametrize("bx", [1.0, math.nan])
-def test_a_link_that_no_pose_satisfies_has_no_margin_above_nothing(bx: float) -> None:
+def test_a_link_without_a_pose_has_no_positive_margin(bx: float) -> None:
     data: dict[str, Any] = {"A0": 0j, "A1": 10 + 0j, "A2": 5 + 9j}
     data |= {"r0": 1.0, "r1": 1.0, "r2": 1.0}
     data |= {"c": 1.0, "dx": 0.5, "dy": 0.8, "bx": bx, "by": 0.3, "turn": 10.0}

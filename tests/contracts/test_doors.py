@@ -130,7 +130,7 @@ def test_a_cam_is_designed_once_for_all_positions(
 # What is found late -------------------------------------------------------------------------------
 
 
-def test_what_is_found_late_names_the_file(tmp_path: Path) -> None:
+def test_a_late_error_names_the_file(tmp_path: Path) -> None:
     path = tmp_path / "f.toml"
     path.write_bytes(EX3.read_bytes())
     for words in (
@@ -158,7 +158,7 @@ def test_warnings_and_usage_errors_name_the_file(variant: str | None, tmp_path: 
         assert f"Error: --position 7: the last of {called} is 0" in refused.output
 
 
-def test_a_layout_that_has_nothing_to_show_is_told(tmp_path: Path) -> None:
+def test_a_layout_without_contents_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "l.toml"
     sizes = "[sizes]\nA3 = { letter = 3.5, title = 5, text = 3.5, column = 200 }\n"
     path.write_text(
@@ -238,7 +238,7 @@ def test_no_order_of_a_file_reaches_the_terminal(text: str, tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("command", ["check --key -o {out}", "form -o {out}"])
-def test_a_number_beyond_all_bounds_is_none(command: str, tmp_path: Path) -> None:
+def test_a_number_beyond_all_bounds_is_rejected(command: str, tmp_path: Path) -> None:
     path = tmp_path / "x.toml"
     path.write_text('title = "x"\n[point]\nx = "18*t"\ny = "24*sh(t)"\nt = 360\n')
     assert run(*command.format(out=tmp_path).split(), str(path)).exit_code == 3
@@ -248,7 +248,7 @@ def test_a_number_beyond_all_bounds_is_none(command: str, tmp_path: Path) -> Non
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="file names are bytes")
-def test_words_that_are_not_utf8_are_told(tmp_path: Path) -> None:
+def test_arguments_that_are_not_utf8_are_reported(tmp_path: Path) -> None:
     path = os.fsencode(tmp_path) + b"/n\xff.toml"
     with open(path, "wb") as file:  # noqa: PTH123 - no name in UTF-8
         file.write(EX3.read_bytes())
@@ -274,7 +274,7 @@ def test_a_date_of_the_environment_is_in_no_file(tmp_path: Path) -> None:
     assert [name for name, _ in made[0]] == ["ex3.pdf", "ex3.svg"]  # both --format count
 
 
-def test_a_library_that_is_not_there_is_told(tmp_path: Path) -> None:
+def test_a_missing_library_is_reported(tmp_path: Path) -> None:
     (tmp_path / "reportlab.py").write_text("raise ImportError('libx.so: cannot open')")
     done = process(
         "sheet", str(EX3), "--format", "pdf", "--lang", "en", "-o", str(tmp_path / "out"),

@@ -169,7 +169,7 @@ WRITERS: dict[str, tuple[str, ...]] = {
 
 
 @pytest.mark.parametrize("name", WRITERS)
-def test_nothing_is_written_where_a_link_leads_out(
+def test_no_file_is_written_through_a_link_to_elsewhere(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A folder in it, or a file; the project, which has its own folder, is dear."""
@@ -213,7 +213,7 @@ READ: tuple[tuple[str, ...], ...] = (
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with a name here")
 @pytest.mark.parametrize("odd", ["pipe", "device", "socket", "folder"])
-def test_what_is_no_file_is_refused_at_once(
+def test_a_path_that_is_not_a_file_is_rejected_at_once(
     odd: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Reading a pipe without a writer never returns, and a device has no end."""
@@ -347,7 +347,7 @@ def test_a_server_clears_folders_of_dead_ones_alone(
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
-def test_a_limit_of_the_size_of_files_is_told_as_a_full_disk_is(tmp_path: Path) -> None:
+def test_a_limit_of_the_size_of_files_is_reported_like_a_full_disk(tmp_path: Path) -> None:
     """Also where a library writes into a folder of the system for a while."""
     works = tmp_path / "w.csv"
     works.write_text("student;what;value\nA;v_B1;3.2\n")

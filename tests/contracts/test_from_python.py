@@ -111,7 +111,7 @@ def doors() -> Iterator[tuple[str, Callable[[Any], object]]]:
     yield "check_works(works)", lambda b: list(check_works(variants, b))
 
 
-def test_whatever_is_handed_in_is_taken_or_refused_in_one_sentence() -> None:
+def test_every_argument_is_accepted_or_rejected_in_one_sentence() -> None:
     faults, refused = [], 0
     for door, call in doors():
         for odd in ODD:
@@ -129,7 +129,7 @@ def test_whatever_is_handed_in_is_taken_or_refused_in_one_sentence() -> None:
 
 
 @pytest.mark.parametrize("lang", ["ru", "en"])
-def test_a_refusal_names_the_argument_and_what_is_wanted(lang: str) -> None:
+def test_an_error_names_the_argument_and_the_expected_type(lang: str) -> None:
     problem = planmethod.load(EX3)
     solution = planmethod.solve(problem)
     draw: Any = planmethod.draw
@@ -157,7 +157,7 @@ def test_a_name_that_there_is_not_is_a_key_error_too() -> None:
         solution.links["9"]
 
 
-def test_positions_are_whatever_numpy_takes() -> None:
+def test_positions_are_any_values_that_numpy_accepts() -> None:
     problem = planmethod.load(EX3)
     once = planmethod.solve(problem, positions=[10.0, 20.0, 30.0]).read_off("v_E")
     ways: tuple[Any, ...] = (
@@ -169,7 +169,7 @@ def test_positions_are_whatever_numpy_takes() -> None:
         assert np.array_equal(found, once)
 
 
-def test_what_is_asked_for_and_its_column_are_one_spelling() -> None:
+def test_a_requested_quantity_and_its_column_have_one_spelling() -> None:
     problem, at = planmethod.load(EX3), np.array([0.0, 30.0])
     solution = planmethod.solve(problem, positions=at)
     table = planmethod.Sweep(problem, ["omega_3", "v_E", "E"]).table(at)
@@ -212,7 +212,7 @@ B = "right of A"
 """
 
 
-def test_doubts_are_warnings_and_what_means_nothing_is_refused() -> None:
+def test_doubts_are_warnings_and_meaningless_requests_are_errors() -> None:
     problem = planmethod.loads(TANGENT, name="near")
     with pytest.warns(DoubtWarning, match=r"near: .*dead position"):
         planmethod.solve(problem, positions=[30.0, -90.0 + 1e-2])
@@ -221,7 +221,7 @@ def test_doubts_are_warnings_and_what_means_nothing_is_refused() -> None:
     planmethod.solve(problem, positions=np.linspace(0.0, 60.0, 4))  # warnings are errors here
 
 
-def test_where_nothing_acts_no_force_is_minus_nothing() -> None:
+def test_without_a_load_no_force_is_minus_zero() -> None:
     for name in ("linkages/ex3", "linkages/ex1"):
         statics = planmethod.statics(planmethod.solve(planmethod.load(path_of(name))))
         found = [statics.balance, *(joint.force for joint in statics.reactions)]

@@ -239,7 +239,7 @@ def test_coriolis_has_the_sense_of_the_relative_velocity_turned_along_omega() ->
             assert turn == pytest.approx(math.pi / 2, rel=1e-12)
 
 
-def test_variants_say_their_name() -> None:
+def test_variants_have_their_name() -> None:
     file = str(path_of("levers/task12-variants"))
     run = CliRunner().invoke(cli, ["solve", file, "--all-variants", "--json"])
     assert run.exit_code == 0

@@ -54,7 +54,7 @@ def told(value: object) -> bytes:
 # Threads -----------------------------------------------------------------------------------------
 
 
-def test_eight_threads_find_what_one_does() -> None:
+def test_eight_threads_give_the_results_of_one() -> None:
     once = {problem.name: told(numbers(problem)) for problem in problems()}
     before = sys.getswitchinterval()
     sys.setswitchinterval(1e-5)
@@ -68,7 +68,7 @@ def test_eight_threads_find_what_one_does() -> None:
         assert told(one) == once[problem.name], problem.name
 
 
-def test_a_sweep_and_a_solution_may_be_asked_by_several_threads() -> None:
+def test_a_sweep_and_a_solution_may_be_shared_by_threads() -> None:
     problem = planmethod.load(path_of("linkages/ex3"))
     sweep, solution = planmethod.Sweep(problem), planmethod.solve(problem, positions=range(360))
     ways = [np.linspace(k, 360.0 + k, 5001) for k in range(8)]
@@ -191,7 +191,7 @@ def test_every_result_goes_to_another_process(name: str) -> None:
         assert seen(pickle.loads(pickle.dumps(result))) == seen(result), what
 
 
-def test_nobody_changes_what_is_kept() -> None:
+def test_arrays_of_results_are_read_only() -> None:
     """Later results are computed from the arrays of earlier ones."""
     asked = np.array([150.0, 160.0])
     solution = planmethod.solve(planmethod.load(path_of("levers/six-link")), positions=asked)

@@ -216,7 +216,7 @@ def test_a_negative_ratio_does_not_pass_with_the_other_sign() -> None:
 @pytest.mark.parametrize(
     "text", ["a}b", "a#b", "a\\}b", "{1:NUMERICAL:=1}", "&#35; &amp; <b>", "\\#", "a\\"]
 )
-def test_whatever_stands_in_feedback_comes_back_as_it_was(text: str) -> None:
+def test_any_text_of_feedback_is_read_back_unchanged(text: str) -> None:
     gaps, rest = gaps_of("x {1:NUMERICAL:=1:0.1#" + escaped(text) + "~%0%2:0.1#z} y")
     assert [c.feedback for c in gaps[0].choices] == [text, "z"] and rest == "x {#1} y"
 
@@ -232,7 +232,7 @@ def test_braces_of_a_title_open_no_gap() -> None:
     assert category == "$course$/top/a//b {1:NUMERICAL:=5:1} ]]> <i>"
 
 
-def test_wrong_intervals_meet_neither_each_other_nor_the_right_one(
+def test_wrong_intervals_do_not_overlap_each_other_or_the_right_one(
     whole: tuple[list[dict[str, Any]], list[Question]],
 ) -> None:
     for question in whole[1]:
@@ -251,7 +251,7 @@ def test_wrong_intervals_meet_neither_each_other_nor_the_right_one(
                 assert abs(one.value - right[0].value) >= 2 * right[0].margin * (1 - FINE), one
 
 
-def test_the_scheme_and_the_data_show_nothing_that_is_asked() -> None:
+def test_the_scheme_and_the_data_do_not_show_the_answers() -> None:
     task = Variants(path_of("linkages/ex3")).task(None)
     letters = {item.text for item in assigned(task.solution).items if isinstance(item, Text)}
     assert "ω" in letters and "ε" not in letters

@@ -123,7 +123,7 @@ def test_a_later_attempt_counts(tmp_path: Path) -> None:
     assert [a.value for a in work.answers if a.value is not None] == [2.5]
 
 
-def test_columns_are_what_the_map_says(tmp_path: Path) -> None:
+def test_columns_follow_the_map(tmp_path: Path) -> None:
     rows = [
         ["Фамилия", "Имя", "Вар", "Ответ 1", "Ответ 2", "Куда"],
         ["Сидорова", "Анна", "2", "244,2", "15,37", "против часовой стрелки"],
@@ -153,7 +153,7 @@ def test_a_column_for_each_gap_needs_no_map(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_what_cannot_be_understood_is_told_in_one_sentence(
+def test_an_export_that_cannot_be_understood_is_reported_in_one_sentence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lang: str
 ) -> None:
     two = written(tmp_path / "two.csv", [["Фамилия", "Ответ 1", "Ответ 2"], ["Ли", "1", "2"]])
@@ -189,7 +189,7 @@ def test_the_gradebook_has_points_of_a_hundred_and_no_formulas() -> None:
     assert "почты" not in gradebook_csv(works, ["3", ""], {}, language("ru")).decode()
 
 
-def test_pages_are_zipped_by_student_and_names_are_hidden_where_asked(tmp_path: Path) -> None:
+def test_pages_are_zipped_by_student_and_names_are_hidden_on_request(tmp_path: Path) -> None:
     rows = [MOODLE["ru"], ["Ли", "Анна", "li@x.ru", "", "", "Вариант 3", exact("3", "ru")]]
     path = written(tmp_path / "r.csv", rows)
     for extra in ((), ("--anonymize", "--salt", "x")):
@@ -205,7 +205,7 @@ def test_pages_are_zipped_by_student_and_names_are_hidden_where_asked(tmp_path: 
         assert ZipFile(io.BytesIO(again)).namelist() == []
 
 
-def test_other_groups_have_a_gradebook_where_it_is_asked(tmp_path: Path) -> None:
+def test_other_groups_have_a_gradebook_on_request(tmp_path: Path) -> None:
     group = tmp_path / "ex3.csv"
     lines = (EX3.parent.parent / "groups" / "ex3.csv").read_text("utf-8-sig").splitlines()
     group.write_text("\n".join(lines[:60]), "utf-8")  # of the first three students
@@ -222,7 +222,7 @@ def test_other_groups_have_a_gradebook_where_it_is_asked(tmp_path: Path) -> None
     )
 
 
-def test_a_gap_that_nobody_asked_is_passed_over(tmp_path: Path) -> None:
+def test_a_gap_without_a_question_is_skipped(tmp_path: Path) -> None:
     path = written(tmp_path / "r.csv", [["Фамилия", "Ответ 1"], ["Ли", "часть 1: 3; часть 99: 5"]])
     [work] = read_responses(path, {}, (), lambda _: gaps_of(Variants(EX3).task("1"))).works
     assert [answer.value for answer in work.answers] == [3.0]

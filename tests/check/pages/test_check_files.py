@@ -92,7 +92,7 @@ def test_a_remark_alone_leaves_the_points(tmp_path: Path) -> None:
         HEAD + "s01;;nan;\n",
     ],
 )
-def test_a_faulty_file_of_overrides_is_told_with_its_row(tmp_path: Path, text: str) -> None:
+def test_a_faulty_file_of_overrides_is_reported_with_its_row(tmp_path: Path, text: str) -> None:
     with pytest.raises(OverridesError, match=r"overrides\.csv"):
         read(tmp_path, text)
 
@@ -107,7 +107,7 @@ def test_no_bytes_of_an_overrides_file_break_anything(
         overridden([ex3_work.work("s01")], read_overrides(path))
 
 
-def test_no_overrides_are_none(tmp_path: Path) -> None:
+def test_a_missing_file_of_overrides_means_no_overrides(tmp_path: Path) -> None:
     assert read_overrides(tmp_path / "absent.csv") == ()
     with pytest.raises(OverridesError):
         read_overrides(tmp_path)

@@ -65,7 +65,7 @@ def test_positions_have_rows_of_their_own() -> None:
     assert "положение 0" in text and "положение 1" in text
 
 
-def test_variants_with_other_scales_are_told_apart() -> None:
+def test_variants_with_other_scales_are_listed_separately() -> None:
     other = replace(key("2"), scales={**ex3_work.SCALES, "mu_v": 0.1})
     line = key_text([key("1"), other, key("3")], RU)
     assert "1, 3: μ_l" in line and "2: μ_l = 0,002 м/мм; μ_v = 0,1" in " ".join(line.split())

@@ -36,14 +36,14 @@ def test_a_record_has_the_keys_of_the_contract_and_no_nan() -> None:
     ]
 
 
-def test_a_size_is_told_without_its_sign() -> None:
+def test_a_size_is_recorded_without_its_sign() -> None:
     key = replace(ex3_work.entries()[0], exact=-2.0, signed=False)
     judged = Judged("v", Verdict.OK, key, WrittenAnswer(id="v"), value=-2.01, local=-2.02)
     told = record(replace(ex3_work.work(), answers=(judged,)))["answers"][0]
     assert (told["exact"], told["value"], told["local"]) == (2.0, 2.01, 2.02)
 
 
-def test_an_answer_that_nobody_knows_is_told_all_the_same() -> None:
+def test_an_unknown_answer_is_recorded_too() -> None:
     odd = Judged("q_7", Verdict.UNREADABLE, written=WrittenAnswer(what="q 7", where="g.csv:3"))
     work = replace(ex3_work.work(), answers=(odd,))
     told = record(work)["answers"][0]
@@ -72,7 +72,7 @@ def test_a_text_that_looks_like_a_formula_is_a_text(name: str) -> None:
     assert cell.data_type == "s" and cell.value.strip() == name.strip()
 
 
-def test_the_workbook_tells_the_same_as_the_works() -> None:
+def test_the_workbook_agrees_with_the_graded_works() -> None:
     works = [ex3_work.work("s01"), ex3_work.work("s02")]
     unsure = Diagnosis(("A1", "A3"), False, ("a_B3",))
     works[1] = replace(works[1], diagnosis=(unsure,), suspicious=True)
@@ -96,7 +96,7 @@ def test_the_workbook_tells_the_same_as_the_works() -> None:
     assert [cell.value for cell in settings[2]] == ["k", 2.5]
 
 
-def test_verdicts_are_told_in_words_beside_the_colour() -> None:
+def test_verdicts_are_written_in_words_beside_the_colour() -> None:
     book = openpyxl.load_workbook(io.BytesIO(results_xlsx([ex3_work.work()], language("ru"))))
     said = {
         row[3].value: row[3].fill.fgColor.rgb for row in book.worksheets[1].iter_rows(min_row=2)
@@ -117,7 +117,7 @@ def test_a_workbook_has_no_clock_in_it() -> None:
         assert b"1980-01-01" in file.read("docProps/core.xml")
 
 
-def test_what_is_no_number_is_an_empty_cell() -> None:
+def test_a_missing_number_is_an_empty_cell() -> None:
     book = new_workbook()
     add_sheet(book, "A", ["x"], [[float("nan")], [float("inf")], [1.0]])
     told = [row[0].value for row in openpyxl.load_workbook(io.BytesIO(saved(book)))["A"].rows]

@@ -55,7 +55,7 @@ def test_difficulty_and_discrimination_are_those_of_numpy() -> None:
     assert [one.label for one in found.questions] == [e.label for e in ex3_work.entries()[:8]]
 
 
-def test_marks_are_counted_with_those_that_nobody_has() -> None:
+def test_marks_that_no_student_has_are_counted_as_zero() -> None:
     works = group([[1.0, 1.0], [1.0, 0.0], [0.0, 0.0]])
     found = statistics_of(works, ["5", "3", "2"], SCALE)
     assert found is not None and found.marks == (("5", 1), ("4", 0), ("3", 1), ("2", 1))
@@ -64,7 +64,7 @@ def test_marks_are_counted_with_those_that_nobody_has() -> None:
     assert statistics_of([works[0], nothing], ["5", ""], SCALE) is None
 
 
-def test_what_could_not_be_read_and_what_all_answer_alike_discriminates_nothing() -> None:
+def test_unread_answers_and_unanimous_answers_have_no_discrimination() -> None:
     works = group([[1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
     unread = replace(works[0].answers[1], verdict=Verdict.UNREADABLE, points=0.0, of=0.0)
     works[0] = replace(
@@ -116,7 +116,7 @@ def test_the_sheet_and_the_page_show_the_same(lang: str) -> None:
     assert re.search(r"v<sub>B3</sub>", page)
 
 
-def test_bars_are_as_long_as_what_they_stand_for() -> None:
+def test_bars_are_as_long_as_their_values() -> None:
     drawing = bars([("a", 0.5, "50 %"), ("b", 1.0, "100 %"), ("c", 0.0, "0 %")], whole=1.0)
     widths = [
         max(p.real for p in item.points) - min(p.real for p in item.points)

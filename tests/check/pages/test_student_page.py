@@ -89,7 +89,7 @@ def test_every_mistake_has_its_sentence_in_every_language(code: str, lang: str) 
     assert words.advice.endswith(".") and not words.name.endswith(".")
 
 
-def test_what_is_not_sure_is_said_to_be_a_guess() -> None:
+def test_an_uncertain_diagnosis_is_called_a_guess() -> None:
     work = ex3_work.work()
     several = replace(work.diagnosis[0], codes=("A1", "A3"), sure=False)
     first = remarks(replace(work, diagnosis=(several,)))[0]
@@ -105,7 +105,7 @@ def test_a_wrong_answer_without_a_diagnosis_is_not_passed_over() -> None:
     assert len(told) == 1 and "v_{B3}" in told[0] and "pb_{3}" in told[0]
 
 
-def test_what_the_same_mistake_gives_is_told_as_its_consequence() -> None:
+def test_further_results_of_the_same_mistake_are_called_its_consequence() -> None:
     work = ex3_work.work()
     answers = tuple(
         replace(j, verdict=Verdict.WRONG, follows="") if j.id == "a_D" else j for j in work.answers
@@ -140,7 +140,7 @@ def test_each_verdict_has_its_remark() -> None:
     assert remarks(one(Verdict.OK, value=key.exact, points=1.0)) == [RU.check["student"].all_right]
 
 
-def test_points_that_inheriting_costs_are_told() -> None:
+def test_points_lost_by_inheriting_are_reported() -> None:
     work = ex3_work.work()
     half = tuple(
         replace(j, points=0.5) if j.verdict is Verdict.INHERITED else j for j in work.answers
@@ -148,19 +148,19 @@ def test_points_that_inheriting_costs_are_told() -> None:
     assert "1,5 из 3" in remarks(replace(work, answers=half))[1]
 
 
-def test_what_is_unreadable_beside_the_answers_is_told() -> None:
+def test_an_unreadable_entry_beside_the_answers_is_reported() -> None:
     work = ex3_work.work()
     scale = WrittenAnswer(where="group.csv:7", unreadable="x", why=Unread.SCALE, fault="два")
     told = remarks(replace(work, work=replace(work.work, remarks=(scale,))))
     assert "«два»" in told[-1] and "(group.csv:7)" in told[-1]
 
 
-def test_what_is_to_be_drawn_anew_is_where_the_trouble_begins() -> None:
+def test_redrawing_begins_where_the_trouble_begins() -> None:
     lines = Remarks(Speech(RU), ex3_work.work(), ex3_work.SCALES).redraw()
     assert len(lines) == 1 and "πb_{3}" in lines[0] and "55,6" in lines[0]
 
 
-def test_a_number_that_follows_from_a_segment_does_not_tell_to_draw_it_anew() -> None:
+def test_a_number_that_follows_from_a_segment_needs_no_redrawing() -> None:
     key = replace(ex3_work.entries()[1], mm=44.9, scale="mu_v", segment="p-b3")
     judged = Judged(
         key.id, Verdict.WRONG, key, WrittenAnswer(id=key.id), value=-15.5, sense_right=False
@@ -258,7 +258,7 @@ class _Strict(HTMLParser):
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_the_html_is_whole_loads_nothing_and_runs_nothing(lang: str) -> None:
+def test_the_html_is_complete_and_neither_loads_nor_runs_anything(lang: str) -> None:
     name = "<script>alert(1)</script><img src=x onerror=y>\x00"
     work = ex3_work.work(name)
     text = student_html(page_of(work, lang), ex3_work.solution(), language(lang))
@@ -268,7 +268,7 @@ def test_the_html_is_whole_loads_nothing_and_runs_nothing(lang: str) -> None:
     assert "\x00" not in text and "<script" not in text and text.count("<svg") == 2
 
 
-def test_nothing_is_told_by_colour_alone() -> None:
+def test_no_verdict_is_shown_by_colour_alone() -> None:
     work = ex3_work.work()
     text = student_html(page_of(work), ex3_work.solution(), RU)
     for judged in work.answers:
@@ -288,13 +288,13 @@ def test_plans_are_figures_in_pixels_too() -> None:
         assert pixels.min() < 100
 
 
-def test_what_a_student_wrote_is_shown_as_it_stands() -> None:
+def test_a_students_text_is_shown_literally() -> None:
     for name in ("Иванов_", "a_{b", "x^", "\\frac"):
         text = student_html(page_of(ex3_work.work(name)), ex3_work.solution(), RU)
         assert f">{name}" in text or f" {name}" in text
 
 
-def test_indices_become_tags_and_nothing_else_does() -> None:
+def test_only_indices_become_tags() -> None:
     assert markup("v_{B3} <b> a^{τ}") == "v<sub>B3</sub> &lt;b&gt; a<sup>τ</sup>"
     assert "<script>" not in markup("x_{<script>}")
 

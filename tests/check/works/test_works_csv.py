@@ -85,7 +85,7 @@ def test_excel_names_its_separator_in_a_line_of_its_own(tmp_path: Path) -> None:
     assert works[0].answers[0].where == "group.csv:6, value"
 
 
-def test_columns_may_stand_in_any_order_with_russian_heads(tmp_path: Path) -> None:
+def test_columns_may_be_in_any_order_with_russian_heads(tmp_path: Path) -> None:
     text = (
         "Группа 321;;;;;;\n;;;;;;\n"
         "НАПРАВЛЕНИЕ;Ед. изм.;Значение;мм на плане;Величина;Положение;ФИО;Подпись\n"
@@ -101,13 +101,13 @@ def test_columns_may_stand_in_any_order_with_russian_heads(tmp_path: Path) -> No
     assert (remark.why, remark.fault) == (Unread.COLUMN, "Подпись")
 
 
-def test_a_row_without_a_student_is_told(tmp_path: Path) -> None:
+def test_a_row_without_a_student_is_reported(tmp_path: Path) -> None:
     first, _ = read(tmp_path, LONG + ";;v B3;2,2;m/s;44;\n\n;;;;;;\n")
     (remark,) = first.remarks
     assert (remark.why, remark.where) == (Unread.STUDENT, "group.csv:9")
 
 
-def test_an_unquoted_decimal_comma_between_commas_is_told(tmp_path: Path) -> None:
+def test_an_unquoted_decimal_comma_between_commas_is_reported(tmp_path: Path) -> None:
     text = "student,what,value,unit\ns01,v B3,2,275,m/s\ns01,v D,3.4,m/s\n"
     (work,) = read(tmp_path, text)
     first, second = work.answers
@@ -118,21 +118,21 @@ def test_an_unquoted_decimal_comma_between_commas_is_told(tmp_path: Path) -> Non
     assert [answer.why for answer in wide.answers] == [Unread.FIELDS] * 2
 
 
-def test_what_cannot_be_read_is_told_by_row_and_column(tmp_path: Path) -> None:
+def test_an_unreadable_cell_is_reported_by_row_and_column(tmp_path: Path) -> None:
     (work,) = read(tmp_path, "student;what;value;sense\ns01;v B3;2,2,7;left\ns01;v D;3;-->\n")
     v, other = work.answers
     assert (v.why, v.fault, v.where) == (Unread.NUMBER, "2,2,7", "group.csv:2, value")
     assert (other.why, other.value, other.where) == (Unread.SENSE, 3.0, "group.csv:3, sense")
 
 
-def test_variants_and_scales_that_change_are_told(tmp_path: Path) -> None:
+def test_changing_variants_and_scales_are_reported(tmp_path: Path) -> None:
     text = "student;variant;what;value\ns01;1;mu_v;0,05\ns01;2;mu_v;0,04\n"
     (work,) = read(tmp_path, text)
     assert (work.variant, work.scales) == ("1", {"mu_v": 0.05})
     assert [remark.why for remark in work.remarks] == [Unread.TWICE] * 2
 
 
-def test_a_name_may_stand_in_two_columns_and_a_value_in_one(tmp_path: Path) -> None:
+def test_a_name_may_be_in_two_columns_and_a_value_in_one(tmp_path: Path) -> None:
     (work,) = read(tmp_path, "Фамилия;Имя;что;значение;ответ\nИванов;Пётр;v B;2;3\n")
     assert work.student == "Иванов Пётр"
     assert [answer.value for answer in work.answers] == [2.0]
@@ -160,14 +160,14 @@ def test_a_scale_beside_an_answer_is_that_of_its_plan(tmp_path: Path) -> None:
     assert [remark.why for remark in work.remarks] == [Unread.SCALE]
 
 
-def test_who_has_no_name_goes_by_number_or_variant(tmp_path: Path) -> None:
+def test_a_student_without_a_name_is_called_by_number_or_variant(tmp_path: Path) -> None:
     one, two = read(tmp_path, "№;v_B3\n1;2,2\n2;2,3\n")
     assert (one.student, two.student) == ("1", "2")
     (work,) = read(tmp_path, "Вариант;v_B3\n5;2,2\n")
     assert (work.student, work.variant) == ("5", "5")
 
 
-def test_one_student_may_stand_above_the_table(tmp_path: Path) -> None:
+def test_one_student_may_be_named_above_the_table(tmp_path: Path) -> None:
     text = "Студент: Иванов;;\nВариант;Б;\nμ_v, (мм/с)/мм;50;\nвеличина;значение;мм\nv B3;2,2;44\n"
     (work,) = read(tmp_path, text)
     assert (work.student, work.variant, work.scales) == ("Иванов", "Б", {"mu_v": 0.05})

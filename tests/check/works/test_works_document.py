@@ -46,7 +46,7 @@ def test_the_heads_of_the_table_are_known() -> None:
         assert len(set(named)) == {"student": 3, "variant, problem": 2, "quantity": 2}.get(field, 1)
 
 
-def test_numbers_units_and_senses_are_read_as_they_are_told() -> None:
+def test_numbers_units_and_senses_are_read_as_documented() -> None:
     told = part("Numbers, units, senses")
     for written, said in re.findall(r"(?m)^\| (`.*`) \| ([−\d.]+)", told):
         for text in re.findall("`([^`]+)`", written):

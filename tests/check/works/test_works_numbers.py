@@ -66,7 +66,7 @@ def test_a_number_is_read_as_it_is_written(text: str, value: float, step: float,
         ".",
     ],
 )
-def test_what_is_surely_no_number_is_none(text: str) -> None:
+def test_a_text_that_is_surely_not_a_number_is_rejected(text: str) -> None:
     assert read_number(text) is None
 
 
@@ -116,7 +116,7 @@ def test_a_unit_is_read_in_any_letters(text: str, factor: float, unit: str) -> N
 @pytest.mark.parametrize(
     "text", ["", "1", "x", "м/", "/с", "м с", "()", "((м", "м)", "кв/с", "м/с" * 20]
 )
-def test_what_is_no_unit_is_none(text: str) -> None:
+def test_a_text_that_is_not_a_unit_is_rejected(text: str) -> None:
     assert read_unit(text) is None
 
 

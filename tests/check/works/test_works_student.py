@@ -57,7 +57,7 @@ def test_digits_count_as_they_are_written(tmp_path: Path) -> None:
     assert (second.value, second.step) == (1200.0, 100.0)
 
 
-def test_a_nought_is_an_answer_and_null_is_none(tmp_path: Path) -> None:
+def test_a_zero_is_an_answer_and_null_is_not(tmp_path: Path) -> None:
     answers = [{"id": "x", "value": 0}, {"id": "y", "value": None}, {"id": "z", "value": "—"}]
     nought, null, dash = read_one(tmp_path, answers=answers).answers
     assert not nought.is_blank
@@ -79,7 +79,7 @@ def test_a_nought_is_an_answer_and_null_is_none(tmp_path: Path) -> None:
         ({"value": 3, "position": 1.5}, Unread.POSITION, "answers[0].position"),
     ],
 )
-def test_a_fault_of_one_answer_is_told_by_its_place(
+def test_a_fault_of_one_answer_is_reported_with_its_place(
     tmp_path: Path, answer: dict[str, Any], why: Unread, where: str
 ) -> None:
     answers = [{"id": "v_C"} | answer, {"id": "v_D", "value": 1}]
@@ -95,7 +95,7 @@ def test_nan_is_no_number(tmp_path: Path) -> None:
     assert [answer.why for answer in read(tmp_path, text)[0].answers] == [Unread.NUMBER] * 2
 
 
-def test_what_stands_twice_is_not_read_unless_it_is_the_same(tmp_path: Path) -> None:
+def test_an_answer_given_twice_is_not_read_unless_both_agree(tmp_path: Path) -> None:
     one, other = {"id": "x", "value": 2}, {"id": "x", "value": 3}
     assert len(read_one(tmp_path, answers=[one, one]).answers) == 1
     first, second = read_one(tmp_path, answers=[one, other]).answers
@@ -122,7 +122,7 @@ def test_what_stands_twice_is_not_read_unless_it_is_the_same(tmp_path: Path) -> 
         ({"answers": [{"value": 7}]}, Unread.QUANTITY, "answers[0]"),
     ],
 )
-def test_what_is_no_answer_goes_to_the_remarks(
+def test_an_entry_that_is_not_an_answer_goes_to_the_remarks(
     tmp_path: Path, changes: dict[str, Any], why: Unread, where: str
 ) -> None:
     (remark,) = read_one(tmp_path, **changes).remarks
@@ -152,7 +152,7 @@ def test_the_scale_of_lengths_may_be_a_ratio(tmp_path: Path) -> None:
     assert read_one(tmp_path, scales={"mu_v": "1:2"}).remarks[0].why is Unread.SCALE
 
 
-def test_halves_of_characters_are_told_by_their_place_and_stop_no_other(tmp_path: Path) -> None:
+def test_half_characters_are_reported_by_place_and_stop_no_other_work(tmp_path: Path) -> None:
     answers = [{"what": "v B", "value": 1}, {"what": "v C", "value": "2 \ud800"}]
     whole = [{"student": "\ud800Ив", "answers": answers}, {"student": "B", "answers": []}]
     first, second = read(tmp_path, whole)
@@ -164,7 +164,7 @@ def test_halves_of_characters_are_told_by_their_place_and_stop_no_other(tmp_path
         text.encode()
 
 
-def test_no_order_to_a_terminal_is_in_what_is_read(tmp_path: Path) -> None:
+def test_no_terminal_sequence_is_in_the_texts_read(tmp_path: Path) -> None:
     work = read_one(tmp_path, student="\x1b[2J\u202eИв", answers=[{"what": "\x1b]0;v", "value": 1}])
     said = " ".join((work.student, *(a.what + a.id + a.raw + a.fault for a in work.answers)))
     assert "\x1b" not in said
@@ -183,7 +183,7 @@ def test_points_may_have_other_names(tmp_path: Path) -> None:
     assert [answer.what or answer.id for answer in kinds.answers] == ["M 5 0", "v_B"]
 
 
-def test_look_alike_letters_are_latin_in_what(tmp_path: Path) -> None:
+def test_look_alike_letters_become_latin_in_the_name_of_an_answer(tmp_path: Path) -> None:
     (answer,) = read_one(tmp_path, answers=[{"what": "v В3"}]).answers
     assert answer.what == "v B3"
     (answer,) = read_one(tmp_path, answers=[{"what": "VB₃"}]).answers
@@ -222,7 +222,7 @@ def test_a_fault_of_the_whole_file_is_an_error(tmp_path: Path, text: str, said: 
     assert error.value.exit_code is ExitCode.USAGE
 
 
-def test_a_file_that_is_none_is_an_error(tmp_path: Path) -> None:
+def test_a_file_without_works_is_an_error(tmp_path: Path) -> None:
     large = tmp_path / "large.json"
     large.write_bytes(b" " * (4 * 2**20 + 1))
     for path in (tmp_path, tmp_path / "none.json", large, tmp_path / "a\0b.json"):

@@ -133,7 +133,7 @@ def test_digits_are_those_that_the_cell_shows(tmp_path: Path) -> None:
         ("=1+1", Unread.FORMULA),
     ],
 )
-def test_a_cell_that_is_no_number_is_told(tmp_path: Path, value: Any, why: Unread) -> None:
+def test_a_cell_that_is_not_a_number_is_reported(tmp_path: Path, value: Any, why: Unread) -> None:
     (work,) = read(tmp_path, saved([["student", "v_B"], ["s", value]]))
     (answer,) = work.answers
     assert (answer.why, answer.where) == (why, "Лист!B2")
@@ -161,7 +161,7 @@ def test_every_sheet_that_is_shown_is_read(tmp_path: Path) -> None:
     assert [(work.student, work.answers[0].value) for work in works] == [("Лист", 3), ("Петров", 2)]
 
 
-def test_a_span_over_the_whole_sheet_does_not_hang(tmp_path: Path) -> None:
+def test_a_span_over_the_whole_sheet_does_not_stop_the_program(tmp_path: Path) -> None:
     data = saved(ROWS, lambda sheet: sheet.merge_cells("A4:A6"))
     wide = patched(data, SHEET, lambda part: part.replace(b'"A4:A6"', b'"A1:XFD1048576"'))
     assert wide != data
@@ -172,7 +172,7 @@ def far_row(part: bytes) -> bytes:
     return part.replace(b"</sheetData>", b'<row r="999999"><c r="A999999"/></row></sheetData>')
 
 
-def test_an_empty_row_far_below_is_nothing(tmp_path: Path) -> None:
+def test_an_empty_row_far_below_is_ignored(tmp_path: Path) -> None:
     data = patched(saved(ROWS), SHEET, far_row)
     assert [work.student for work in read(tmp_path, data)] == ["Иванов", "Петров"]
 
