@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
 from pathlib import Path
@@ -39,6 +40,15 @@ def path_of(name: str) -> Path:
 @cache
 def problem_of(name: str, variant: str | None = None) -> Problem:
     return load(path_of(name), variant=variant)
+
+
+def forget_cached() -> None:
+    """Clear what functions of the package have cached, as in a fresh process."""
+    for name, module in [*sys.modules.items()]:
+        if name.startswith("planmethod."):
+            for own in vars(module).values():
+                if isinstance(own, type(problem_of)):
+                    own.cache_clear()
 
 
 def drawn_sheets(

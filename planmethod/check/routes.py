@@ -62,10 +62,10 @@ def follow_routes(sheet: Sheet, found: list[Examined], floor: float) -> None:
             for powers in ways(sheet, role, told):
                 if one.routed or _would_circle(one, powers, found):
                     continue
-                _try(one, powers, floor)
+                try_powers(one, powers, floor)
 
 
-def _try(one: Examined, powers: list[tuple[Examined, int]], floor: float) -> None:
+def try_powers(one: Examined, powers: list[tuple[Examined, int]], floor: float) -> None:
     """Let an answer follow some others, if their product gives it to the digits written."""
     if all(parent.right for parent, _ in powers):
         return

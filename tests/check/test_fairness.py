@@ -30,7 +30,7 @@ from planmethod.check.pages.keypage import KeyPage
 from planmethod.check.pages.remarks import Remarks
 from planmethod.check.pages.speech import Speech
 from planmethod.check.questions import Sign
-from planmethod.check.routes import _try
+from planmethod.check.routes import try_powers
 from planmethod.check.task import Task
 from planmethod.check.tolerance import Tolerance
 from planmethod.check.works.csv_file import read_csv
@@ -375,7 +375,7 @@ def test_a_route_from_right_numbers_is_not_one_and_one_wrong_number_is_enough() 
     ):
         one = examined("an", value, right=False)
         one.contradicts = True
-        _try(one, parents, 0.005)
+        try_powers(one, parents, 0.005)
         assert (one.routed, one.contradicts) == (routed, not routed)
         assert set(one.parents) == ({p.item.id for p, _ in parents} if routed else set())
 

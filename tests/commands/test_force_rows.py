@@ -30,7 +30,6 @@ from planmethod.solved import impossible
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.many import positions as many
-from planmethod.solved.many.positions import blocks
 from planmethod.solved.solution import Solution
 
 EX1 = str(path_of("linkages/ex1"))
@@ -246,7 +245,6 @@ def test_a_large_table_is_the_small_ones_beside_each_other(monkeypatch: pytest.M
     whole = Solution(problem, positions=[float(k) for k in range(0, 360, 2)])
     wanted = dict(exact(statics_of(whole))) | dict(read(statics_of(whole)))
     monkeypatch.setattr(many, "BLOCK", 50)
-    monkeypatch.setattr(blocks, "__defaults__", (50,))
     table = rows(done("solve", PRESS, "--phi", "0:360:2", "--csv"))
     assert len(table) == 180
     for name, values in wanted.items():
@@ -324,7 +322,6 @@ def test_motion_is_printed_where_only_forces_do_not_exist(monkeypatch: pytest.Mo
     assert run("solve", "dead.toml", "--phi", "45,160,90", "--ask", "a_C").exit_code == 0
     for block in (2048, 5):
         monkeypatch.setattr(many, "BLOCK", block)
-        monkeypatch.setattr(blocks, "__defaults__", (block,))
         table = rows(run("solve", "dead.toml", "--phi", phi, "--csv", "--partial").stdout)
         kinds = [(bool(row["C.ax"]), bool(row["F.B.2-1"]), row["reason"][:20]) for row in table]
         assert kinds.count((True, True, "")) == 12 - 1 - flat(table)

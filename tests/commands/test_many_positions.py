@@ -23,9 +23,10 @@ from planmethod.commands.output import bar
 from planmethod.note.records.spreadsheet import csv_rows, large_table
 from planmethod.plans.model import MOTION
 from planmethod.problem import load
+from planmethod.problem.model import Problem
 from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.many import positions as many
-from planmethod.solved.many.positions import BLOCK, SAMPLE, Gaps, blocks, evenly, examine
+from planmethod.solved.many.positions import BLOCK, SAMPLE, Gaps, evenly, examine
 from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.solution import Solution
 
@@ -366,20 +367,21 @@ def test_a_large_table_is_the_small_ones_beside_each_other(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Solved in blocks, with one set of scales."""
+    problem, degrees = load(Path(EX3)), [float(k) for k in range(360)]
+    header, wanted = csv_rows(Solution(problem, positions=degrees))
     monkeypatch.setattr(many, "BLOCK", 100)
-    monkeypatch.setattr(blocks, "__defaults__", (100,))
-    sizes = []
-    real = Solution.__init__
+    examined: list[int] = []
 
-    def counted(self: Solution, *args: Any, **kwargs: Any) -> None:
-        real(self, *args, **kwargs)
-        sizes.append(len(self.positions))
+    def counted(problem: Problem, *, positions: list[float]) -> Solution:
+        examined.append(len(positions))
+        return Solution(problem, positions=positions)
 
-    monkeypatch.setattr(Solution, "__init__", counted)
+    monkeypatch.setattr(many, "Solution", counted)
+    gaps = examine(problem, np.radians(degrees)).gaps
+    assert examined == [100, 100, 100, 60]
+    large = large_table(problem, np.radians(degrees), gaps, ruler=0.5, partial=False)
+    assert [len(rows) for rows in large.blocks()] == [100, 100, 100, 60]
     text = done("solve", EX3, "--phi", "0:360:1", "--csv", "-")
-    assert max(sizes) <= 360  # the sample of the scales
-    assert sorted(sizes)[-2] <= 100
-    header, wanted = csv_rows(Solution(load(Path(EX3)), positions=[float(k) for k in range(360)]))
     found = list(csv.reader(io.StringIO(text)))
     assert found[0] == header
     assert [row[0] for row in found[1:]] == [str(k) for k in range(360)]

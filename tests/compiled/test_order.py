@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 from benchmarks.scenes import chain
 from planmethod.compiled import Runner, symbolic
 from planmethod.compiled.blocks import AT_HAND, BLOCK, LEAST_BLOCK, Blocks
-from planmethod.compiled.csource import _Lines
+from planmethod.compiled.csource import c_source
 from planmethod.compiled.straight import used_by
 from planmethod.compiled.symbolic import TapeProgram
 from planmethod.compiled.tape import Ref, Tape
@@ -44,7 +45,8 @@ def test_numbers_at_hand_do_not_grow_with_a_chain(
         made, results, depends = written(chain(dyads), asked, monkeypatch)
         blocks = Blocks(made.tape, results, made.guards, depends)
         live.append(blocks.live)
-        buffers.append(_Lines(made.tape, results, made.guards).buffers)
+        source = c_source(made.tape, results, made.guards, depends).text
+        buffers.append(len(re.findall(r"double b\d+\[", source)))
         assert blocks.block == BLOCK
     assert live[0] == live[1] == live[2] <= 16
     assert max(buffers) <= 24

@@ -405,9 +405,7 @@ def test_a_new_kind_of_block_is_a_function_and_its_lines(monkeypatch: pytest.Mon
         return Column([heading(f"Подпись: {solution.problem.title}", manner.text(3.5))])
 
     signed = kinds.BlockKind(lambda: {"signature": signature}, ("height",))
-    monkeypatch.setattr(kinds, "BLOCKS", {**BLOCKS, "signature": signed})
-    monkeypatch.setattr(entries, "BLOCKS", kinds.BLOCKS)
-    monkeypatch.setattr("planmethod.render.sheets.pages.BLOCKS", kinds.BLOCKS)
+    monkeypatch.setitem(BLOCKS, "signature", signed)
     text = '[[blocks]]\nkind = "scheme"\n[[blocks]]\nkind = "signature"\nheight = 5\n'
     (sheet,) = kinematics_sheets(problem_of("linkages/ex1"), layout=made(text))
     assert "Подпись:" in shown(sheet)

@@ -27,7 +27,7 @@ from planmethod.render.pictures.diagram import AXIS, CURVE
 from planmethod.render.pictures.polar import HODOGRAPH, POLE
 from planmethod.render.sheets.composition.reader import shipped
 from planmethod.render.sheets.controlled import paper_of
-from planmethod.render.sheets.cycletable import _balance_columns
+from planmethod.render.sheets.cycletable import cycle_balance_columns
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.cycle import Cycle
 from planmethod.solved.errors.forces import drawn_forces
@@ -290,7 +290,7 @@ inertia = 0.1
 def test_the_difference_has_the_digits_of_what_it_is_the_difference_of() -> None:
     """If the balance has a narrow peak, its numbers have different decimals."""
     solution = Solution(loads(FAST, name="fast"), positions=TURN)
-    (_, plans, lever, off, *_) = _balance_columns(solution, range(12), language("ru"))
+    (_, plans, lever, off, *_) = cycle_balance_columns(solution, range(12), language("ru"))
 
     def decimals(text: str) -> int:
         return len(text.partition(",")[2])

@@ -38,7 +38,7 @@ from planmethod.render.sheets.reactionerrors import (
     moment_column,
     size_columns,
 )
-from planmethod.render.sheets.reactions import _balances, reactions_block
+from planmethod.render.sheets.reactions import exact_balance_columns, reactions_block
 from planmethod.solved.errors.forces import (
     DrawnForces,
     angle_label,
@@ -126,7 +126,7 @@ def test_a_driver_that_stands_has_a_dash_for_the_lever() -> None:
     sheets = kinematics_sheets(problem, layout="forces", errors=True, sigma=True)
     assert errors_in(sheets) == []
     reading = ForceReading(Solution(problem), 0)
-    columns = balance_columns(reading, _balances(reading, RU), RU)
+    columns = balance_columns(reading, exact_balance_columns(reading, RU), RU)
     assert [cell.text for cell in columns[3].cells] == ["—", "—"]
     assert [cell.text for cell in columns[4].cells] == ["—", "—"]
     assert columns[2].cells[1].text != "—"
@@ -149,13 +149,13 @@ def test_nothing_of_it_without_the_options(monkeypatch: pytest.MonkeyPatch) -> N
     """No ellipse or error of a reaction is computed; only the error of the discrepancy is shown."""
     plain = drawn_sheets("press/press", layout="forces")
     asked: list[str] = []
-    found = Errors._spread
+    found = Errors.spread_of
 
     def spy(self: Errors, label: str) -> object:
         asked.append(label)
         return found(self, label)
 
-    monkeypatch.setattr(Errors, "_spread", spy)
+    monkeypatch.setattr(Errors, "spread_of", spy)
     monkeypatch.setattr(DrawnForces, "ellipse", lambda *_: pytest.fail("asked"))
     again = kinematics_sheets(problem_of("press/press"), layout="forces")
     assert set(asked) <= {"difference"}
@@ -286,7 +286,7 @@ def test_columns_of_the_reactions(name: str) -> None:
 
 def test_the_discrepancy_and_its_error_are_of_one_unit() -> None:
     reading = reading_of("levers/task12")
-    _, exact, plans, lever, share = balance_columns(reading, _balances(reading, RU), RU)
+    _, exact, plans, lever, share = balance_columns(reading, exact_balance_columns(reading, RU), RU)
     drawn = drawn_forces(reading.statics)
     assert exact.cells[1].text == "—"
     for column, label in ((plans, "balance"), (lever, "lever")):

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from msgspec.structs import replace
 from numpy.typing import NDArray
 from shapely import LineString, box
+from worked import forget_cached
 
 from planmethod.render.control.texts import lint
 from planmethod.render.ink.drawing import Arc, Bounds, Fill, Item, Pen, Stroke, Text
@@ -22,7 +23,6 @@ from planmethod.render.labels import (
     LabelStyle,
     Placed,
     paper,
-    place,
     place_labels,
     segment_label,
 )
@@ -153,7 +153,7 @@ def test_same_input_same_places() -> None:
     many = [label(f"P_{{{k}}}", 50 + 3 * k + 40j, 1j) for k in range(12)]
     lines: list[Item] = [Stroke((40 + 40j, 90 + 41j))]
     first = place_labels(many, lines, BOUNDS)
-    place._placed.cache_clear()
+    forget_cached()
     assert place_labels(many, lines, BOUNDS) == first
 
 
@@ -168,7 +168,7 @@ def test_places_are_those_of_the_lettering_in_use() -> None:
         slanted = place_labels(wanted, texts, BOUNDS)
         with using(upright):
             after = place_labels(wanted, texts, BOUNDS)
-            place._placed.cache_clear()
+            forget_cached()
             assert place_labels(wanted, texts, BOUNDS) == after
         differ += slanted != after
     assert differ
@@ -181,7 +181,7 @@ def test_a_style_equal_to_that_of_few_is_that_of_few() -> None:
         few = [label("B", complex(at)), label("A", complex(at) + 3)]
         same = [replace(one, manner=LabelStyle()) for one in few]
         found = [(one.at, one.ground) for one in place_labels(few, hedge, BOUNDS)]
-        place._placed.cache_clear()
+        forget_cached()
         assert [(one.at, one.ground) for one in place_labels(same, hedge, BOUNDS)] == found
 
 
@@ -203,7 +203,7 @@ def test_places_are_the_same_however_few_are_compared_at_once(
     most = largest // 4
     monkeypatch.setattr(paper, "_PAIRS", most)
     sizes.clear()
-    place._placed.cache_clear()
+    forget_cached()
     assert place_labels(labels, spokes, BOUNDS) == together
     assert max(sizes) <= most
 

@@ -297,8 +297,7 @@ def test_schemes_with_a_local_mobility_are_those_of_an_exhaustive_search(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """With the regular schemes excluded, as if there were none: those then offered for a group."""
-    monkeypatch.setattr("planmethod.solved.aligned.schemes._Search._good",
-                        lambda self, every: self._freer(every))  # fmt: skip
+    monkeypatch.setattr("planmethod.solved.aligned.schemes.TRIED", 0)
     for points, slides in (("A:01 B:12 C:23 D:03", ""), ("A:01 B:12 C:23", "3/0@C"),
                            ("A:01 B:13 C:23 D:24 E:25", "4/0@D 5/0@E")):  # fmt: skip
         problem = _bare(points, slides)
@@ -324,7 +323,8 @@ def test_schemes_with_a_local_mobility_are_those_of_an_exhaustive_search(
 
 
 def test_where_nothing_is_found_the_links_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("planmethod.solved.aligned.schemes.TRIED", 0)
+    for tried in ("TRIED", "TRIED_FREER"):
+        monkeypatch.setattr(f"planmethod.solved.aligned.schemes.{tried}", 0)
     problem = problem_of("levers/six-link")
     structure = analyse(problem.mechanism)
     record = aligned_record(found := self_aligning(problem, structure))

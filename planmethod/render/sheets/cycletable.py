@@ -31,7 +31,7 @@ def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) 
     columns = position_columns(solution, indices, words)
     for k in range(len(forces.joints)):
         columns += _reaction_columns(forces, k, indices, words.say)
-    columns += _balance_columns(solution, indices, words)
+    columns += cycle_balance_columns(solution, indices, words)
     title = manner.entry.title or words.sheets.cycle_reactions
     table = table_block(columns, height, max_width=width, leading=2, title=title)
     return Column([table, paragraph(_drawn_at(solution, words), height, table.width)], gap=3.0)
@@ -80,7 +80,7 @@ def _reaction_columns(
     return columns
 
 
-def _balance_columns(
+def cycle_balance_columns(
     solution: Solution, indices: Sequence[int], words: Language
 ) -> list[TableColumn]:
     """Return the balance: exact, by both methods, their difference and its expected size.

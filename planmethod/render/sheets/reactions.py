@@ -64,7 +64,7 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     table = table_block(columns, height, width=width, units="none", title=title)
     edges = edges_table(reading, height, width, words)
     further = [] if edges is None else [edges]
-    balances = _balances(reading, words)
+    balances = exact_balance_columns(reading, words)
     if sigma:
         balances = balance_columns(reading, balances, words)
     below = table_block(balances, height, width=width, units="none")
@@ -74,7 +74,7 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     return with_note(tables, [*columns, *balances], height, solution.profile.name, words)
 
 
-def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:
+def exact_balance_columns(reading: ForceReading, words: Language) -> list[TableColumn]:
     """Return the columns of the driver's balancing force or moment, by both methods."""
     said, say = words.sheets, words.say
     symbol = say.symbol(reading.balancing_symbol)

@@ -34,8 +34,9 @@ TOUCHING = ("4l", "5t")
 MOST = 60
 """Most schemes of a group, and of a mechanism, that are given."""
 
-TRIED = 20_000
-"""Maximum number of schemes evaluated per group; only large groups of high classes have more."""
+TRIED = TRIED_FREER = 20_000
+"""Maximum number of schemes evaluated per group, and of those that leave local mobilities; only
+large groups of high classes have more."""
 
 REGULAR = 1e-7
 """Least pivot of a regular matrix; lengths are in parts of the group's size."""
@@ -365,7 +366,7 @@ class _Search(Struct):
         tried = islice(
             ((changes, more, classes) for changes in every for more in range(1, 1 + changes * 2)
              for classes in self._made((changes,), more)),
-            TRIED,
+            TRIED_FREER,
         )  # fmt: skip
         for changes, more, classes in tried:
             best = (good[-1].changes, good[-1].local) if good else ()

@@ -302,7 +302,8 @@ class Errors:
         """Drafting error of every quantity, by its label; each is computed on request."""
         return _Spreads(self)
 
-    def _spread(self, label: str) -> Spread:
+    def spread_of(self, label: str) -> Spread:
+        """Return the drafting error of a quantity, computed anew."""
         item, first = self.items[label], self._first
         sigma = np.array(first.sigmas[label])
         strange = ~np.isfinite(sigma) | self.strained(*item.needs)
@@ -407,7 +408,7 @@ class _Spreads(Mapping[str, Spread]):
     def __getitem__(self, label: str) -> Spread:
         known("quantity", label, self._errors.items)
         if label not in self._found:
-            self._found[label] = self._errors._spread(label)
+            self._found[label] = self._errors.spread_of(label)
         return self._found[label]
 
     def __iter__(self) -> Iterator[str]:

@@ -159,8 +159,9 @@ class CheckedPositions(Struct, frozen=True):
     spoilt: tuple[str, ...]
 
 
-def blocks(count: int, size: int = BLOCK) -> Iterator[slice]:
-    """Yield consecutive slices of at most ``size`` positions."""
+def blocks(count: int, size: int | None = None) -> Iterator[slice]:
+    """Yield consecutive slices of at most ``size`` positions, by default `BLOCK`."""
+    size = size or BLOCK
     for start in range(0, count, size):
         yield slice(start, min(start + size, count))
 

@@ -159,23 +159,24 @@ class Sweep:
         return CaseTape(case, free, self._drawn, dtype, native)
 
     @property
-    def _runner(self) -> Runner:
+    def runner(self) -> Runner:
+        """What runs the tape."""
         return self._tape.runner
 
     @property
     def operations(self) -> int:
         """Real operations for one position, after folding."""
-        return self._runner.operations
+        return self.runner.operations
 
     @property
     def live(self) -> int:
         """Most numbers of a position that are in use at a time."""
-        return self._runner.live
+        return self.runner.live
 
     @property
     def uncompiled(self) -> str:
         """Reason why there is no machine code; empty if there is some."""
-        return self._runner.uncompiled
+        return self.runner.uncompiled
 
     def run(
         self,
@@ -208,13 +209,13 @@ class Sweep:
         SweepError
             The shapes do not match.
         """
-        angle = reals("positions", positions, self._runner.dtype)
+        angle = reals("positions", positions, self.runner.dtype)
         parameters = {} if parameters is None else of_type("parameters", parameters, Mapping)
         if self._untold:
             refuse_untold(self.problem, self._draft, angle)
         # A single variant has one shape: nothing needs to be checked.
         if not (self.varied or parameters) and angle.ndim == 1 and out is None and failed is None:
-            found = self._runner.few(lambda: [angle, *self._told(angle)], len(angle))
+            found = self.runner.few(lambda: [angle, *self._told(angle)], len(angle))
             if found is not None:
                 return found
         if set(parameters) != set(self.varied):
@@ -243,12 +244,12 @@ class Sweep:
             columns = self._tape.columns(cases, which, rates)
             few = None
             if failed is None and len(shape) == 1:
-                few = self._runner.few(lambda: [angle, *columns], shape[0])
+                few = self.runner.few(lambda: [angle, *columns], shape[0])
             if few is not None:
                 return few
         if out is None:
-            out = np.empty((len(self.rows), *shape), self._runner.dtype)
-        self._runner.expect(math.prod(shape))
+            out = np.empty((len(self.rows), *shape), self.runner.dtype)
+        self.runner.expect(math.prod(shape))
         one = len(cases) == 1 and len(shape) == 1
         if alike and (one or not self._case.given):
             columns = tapes[0].columns(cases, which, rates)
@@ -260,7 +261,7 @@ class Sweep:
         of = np.broadcast_to(which, shape).ravel()
         wide = {name: np.broadcast_to(rate, shape).ravel() for name, rate in rates.items()}
         gaps = None if failed is None else np.empty(whole.shape, failed.dtype)
-        values = np.empty((len(self.rows), len(whole)), self._runner.dtype)
+        values = np.empty((len(self.rows), len(whole)), self.runner.dtype)
         # Values that vary with the position are known for the positions of one case.
         apart = list(range(len(cases))) if self._case.given else [id(tape) for tape in tapes]
         for part in dict.fromkeys(apart):
@@ -269,7 +270,7 @@ class Sweep:
             tape, here = tapes[first], whole[at]
             columns = tape.columns(cases, of[at], {n: rate[at] for n, rate in wide.items()})
             told = self._typed(cases[first].at(here))
-            found = np.empty((len(self.rows), len(at)), self._runner.dtype)
+            found = np.empty((len(self.rows), len(at)), self.runner.dtype)
             codes = None if gaps is None else np.empty(len(at), gaps.dtype)
             tape.runner.run([here, *columns, *told], found, codes)
             self._number_guards(tape, codes)
@@ -334,7 +335,7 @@ class Sweep:
         """Give the guards of another tape the numbers by which `reason` knows them."""
         if failed is None or tape is self._tape or not (failed >= 0).any():
             return
-        mine = {step: number for number, step in enumerate(self._runner.guards)}
+        mine = {step: number for number, step in enumerate(self.runner.guards)}
         numbers = [
             mine.get(step, len(mine) + self._met.setdefault(step, len(self._met)))
             for step in tape.runner.guards
@@ -362,19 +363,19 @@ class Sweep:
             Function without arguments; it fills ``out`` (and ``failed``) and returns it, the same
             array every time.
         """
-        angle = reals("positions", positions, self._runner.dtype)
+        angle = reals("positions", positions, self.runner.dtype)
         sizes = {} if parameters is None else of_type("parameters", parameters, Mapping)
         given = {name: reals(name, value) for name, value in sizes.items()}
         filled = self.run(angle, given, out=out, failed=failed)
         out = np.array(filled, order="C") if out is None else out
-        self._runner.compile()
+        self.runner.compile()
         apart = bool(self._varied.sizes) or (out.ndim == 3 and bool(self._case.given))
-        if apart or not self._runner.takes(out, failed):
+        if apart or not self.runner.takes(out, failed):
             return lambda: self._again(angle, given, out, failed)
         told = self._told(angle)
         rates = {own: given[name] for name, own in self._varied.rates.items()}
         numbers = self._tape.columns([self._case], np.zeros((), np.intp), rates)
-        call = self._runner.bound([angle, *numbers, *told], out, failed)
+        call = self.runner.bound([angle, *numbers, *told], out, failed)
         if not told:
 
             def bound() -> Array:
@@ -405,7 +406,7 @@ class Sweep:
         return self._typed(self._case.at(positions))
 
     def _typed(self, columns: Sequence[Array]) -> list[Array]:
-        return [column.astype(self._runner.dtype) for column in columns]
+        return [column.astype(self.runner.dtype) for column in columns]
 
     def _shape(
         self, angle: Array, extra: list[Array], out: Array | None, failed: Array | None
@@ -454,14 +455,14 @@ class Sweep:
 
     @property
     def _guards(self) -> tuple[Name, ...]:
-        return (*self._runner.guards, *self._met)
+        return (*self.runner.guards, *self._met)
 
     def javascript(self) -> str:
         """Return the source of a function of JavaScript: of a position, branches and loads.
 
         It returns the results of one position in the order of the rows; see `Runner.javascript`.
         """
-        return self._runner.javascript()
+        return self.runner.javascript()
 
     def reason(self, guard: int) -> str:
         """Return the step behind a guard's number; empty for -1, which no guard has."""
