@@ -99,7 +99,7 @@ CASES = [
 
 
 @each("name, ratio, count, modules", CASES)
-def test_a_search_finds_what_nested_loops_find(
+def test_a_search_finds_the_choices_of_nested_loops(
     name: str, ratio: Fraction, count: int, modules: tuple[Fraction, Fraction] | None
 ) -> None:
     most, seen = some(40, 28), 0
@@ -135,7 +135,7 @@ def run(*args: str) -> Any:
     return CliRunner().invoke(cli, ["teeth", *args])
 
 
-def test_the_command_lists_writes_and_says_its_bounds(tmp_path: Path) -> None:
+def test_the_command_lists_writes_and_prints_its_bounds(tmp_path: Path) -> None:
     done = run("--U", "6.5", "--json")
     told = json.loads(done.stdout)
     assert (told["looked_at"], told["found"], len(told["sets"])) == (104 * 104, 38, 20)
@@ -163,6 +163,6 @@ def test_the_command_lists_writes_and_says_its_bounds(tmp_path: Path) -> None:
         (("--U", "6.5", "--write", "x.toml", "999"), ExitCode.USAGE),
     ],
 )
-def test_what_cannot_be_asked_is_refused(args: tuple[str, ...], code: ExitCode) -> None:
+def test_an_impossible_request_is_rejected(args: tuple[str, ...], code: ExitCode) -> None:
     done = run(*args)
     assert done.exit_code == code, done.output

@@ -89,7 +89,7 @@ def test_coaxiality_names_the_wheels_of_both_ways_and_their_axis(tmp_path: Path)
         assert told == sorted(map(sorted, ways))
 
 
-def test_coaxiality_of_an_axis_below_the_main_one_is_told_as_a_distance(tmp_path: Path) -> None:
+def test_coaxiality_of_an_axis_below_the_main_one_is_printed_as_a_distance(tmp_path: Path) -> None:
     """Wheels 1, 1' drive 2 = H and 5' from beside: 30 + 20 = 22 + 28, no sum is negative."""
     wheels = {"1": 30, "2": 20, "5": 20, "4": 30, "3": 80, "1'": 22, "5'": 28}
     meshes = [mesh("1", "2"), mesh("5", "4", carrier="H"), mesh("4", "3", "internal", "H")]
@@ -139,7 +139,7 @@ def is_apart(wheels: dict[str, int], count: int) -> bool:
 
 
 @each("wheels, kind", SETS)
-def test_assembly_and_neighbourhood_are_told_with_true_numbers(
+def test_assembly_and_neighbourhood_are_printed_with_true_numbers(
     wheels: dict[str, int], kind: str, tmp_path: Path
 ) -> None:
     whole = whole_of(wheels, kind)
@@ -169,7 +169,7 @@ def test_assembly_and_neighbourhood_are_told_with_true_numbers(
             assert re.search(rf" {held[-1]}\b", sentence(most, words))
 
 
-def test_the_inequality_says_that_the_first_number_must_be_more(tmp_path: Path) -> None:
+def test_the_inequality_requires_a_greater_first_number(tmp_path: Path) -> None:
     (apart,) = found(set_of(tmp_path, *SETS[0], 3), "neighbourhood")
     english, russian = (sentence(apart, language(lang)) for lang in ("en", "ru"))
     assert re.search(r"sin\(π/k\) = 0\.8660 must be greater than 0\.7000$", english)
@@ -189,7 +189,7 @@ def test_undercutting_names_the_teeth_there_are_and_those_that_are_needed(
     assert not found(motion, "undercutting")
 
 
-def test_interference_is_judged_by_what_is_told(tmp_path: Path) -> None:
+def test_interference_is_judged_by_the_printed_numbers(tmp_path: Path) -> None:
     """z_3 - z_2, the ring first: from 8 on where the wheel has many teeth."""
     for ring, holds in ((47, False), (48, True), (60, True)):
         text = told({"1": 40, "3": ring}, [mesh("1", "3", "internal")], "n = { 1 = 1 }")

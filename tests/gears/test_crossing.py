@@ -119,7 +119,7 @@ def test_a_ratio_of_parallel_axes_keeps_its_sign(name: str, tmp_path: Path) -> N
     assert not any(f"_{{{symbol}}}" in line for line in said)
 
 
-def test_nothing_speaks_of_a_carrier_that_is_not_there(tmp_path: Path) -> None:
+def test_no_text_mentions_a_carrier_that_does_not_exist(tmp_path: Path) -> None:
     path = tmp_path / "train.toml"
     for name in ("bevel pair", "bevel, worm", "bevel pair, wheels"):
         path.write_text(f"[gears]\n{text_of(TRAINS[name])}", encoding="utf-8")

@@ -114,7 +114,7 @@ def swept(
 
 
 @each("x", SHIFTS)
-def test_flank_and_fillet_bound_what_a_swept_rack_leaves(x: float) -> None:
+def test_flank_and_fillet_bound_the_space_of_a_swept_rack(x: float) -> None:
     """Between two positions a cusp of the order of the square of the step is left."""
     count = some(2001, few=501)
     cut = swept(x, count)
@@ -245,7 +245,7 @@ def left_by_the_rack(z: int, m: float, x: float, beta: float) -> tuple[float, fl
         return float(mpmath.sqrt(abs(tip(low)) ** 2 - base**2)), float(beyond)
 
 
-def test_undercut_leaves_what_the_rolled_rack_leaves() -> None:
+def test_undercut_leaves_the_same_tooth_as_the_rolled_rack() -> None:
     """For 72 wheels, from a trace of undercut to a deep one, straight and helical."""
     draw = np.random.default_rng(46)
     for number in range(some(72, few=18)):
@@ -296,7 +296,7 @@ def test_the_record_has_the_dimensions_and_the_cutting_of_both_wheels() -> None:
 
 
 @each("lang, words", [("ru", "за N₁: зуб подрезан"), ("en", "beyond N₁: the tooth is undercut")])
-def test_both_languages_say_where_undercut_begins(lang: str, words: str) -> None:
+def test_both_languages_state_where_undercut_begins(lang: str, words: str) -> None:
     for command in ("solve", "protocol"):
         run = CliRunner().invoke(
             cli, [command, str(FILE), "--variant", "without-shift", "--lang", lang]

@@ -196,7 +196,7 @@ def test_a_derivation_that_contradicts_the_meshes_is_a_fault(
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_solve_protocol_and_sheet_tell_it(lang: str, tmp_path: Path) -> None:
+def test_solve_protocol_and_sheet_show_the_derivation(lang: str, tmp_path: Path) -> None:
     path = str(PROBLEMS / "gears/gears-ex6.toml")
     for words in (["solve", path], ["protocol", path]):
         done = CliRunner().invoke(cli, [*words, "--lang", lang])

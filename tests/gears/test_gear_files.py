@@ -121,7 +121,7 @@ def test_pictures_are_those_of_the_worked_examples(path: Path) -> None:
 
 
 @each("path", FILES)
-def test_files_are_those_of_the_schema_and_told_in_both_languages(path: Path) -> None:
+def test_files_agree_with_the_schema_and_are_printed_in_both_languages(path: Path) -> None:
     jsonschema.validate(tomllib.loads(path.read_text("utf-8")), SCHEMA)
     for lang in ("ru", "en"):
         done = run("solve", str(path), "--lang", lang)
@@ -131,7 +131,7 @@ def test_files_are_those_of_the_schema_and_told_in_both_languages(path: Path) ->
     assert told["chebyshev"] == told["mobility"]
 
 
-def test_errors_of_the_sources_stand_beside_the_exact_values() -> None:
+def test_errors_of_the_sources_are_printed_beside_the_exact_values() -> None:
     printed = {
         (path.stem, one["name"]): (one["printed"], one["exact"])
         for path in FILES
@@ -145,7 +145,7 @@ def test_errors_of_the_sources_stand_beside_the_exact_values() -> None:
     assert printed["planetary-k10", "omega_2"] == (24, "25/1")
 
 
-def test_the_audit_compares_what_the_sources_print() -> None:
+def test_the_audit_compares_the_values_printed_in_the_sources() -> None:
     done = run("audit", *map(str, FILES), "--lang", "en")
     assert done.exit_code == ExitCode.DONE, done.output
     rows = [[cell.strip("| ") for cell in line.split(" | ")] for line in done.stdout.splitlines()]
@@ -167,7 +167,7 @@ def test_the_difference_has_the_sign_that_the_audit_gives_it() -> None:
     assert row[-1] == "2.560"
 
 
-def test_a_ratio_to_what_stands_is_null_with_a_reason(tmp_path: Path) -> None:
+def test_a_ratio_to_a_body_at_rest_is_null_with_a_reason(tmp_path: Path) -> None:
     text = FILES[1].read_text("utf-8").replace('"U_1_5"', '"U_1_5", "U_1_3"')
     path = tmp_path / "zero.toml"
     path.write_text(text, encoding="utf-8")
@@ -234,7 +234,9 @@ ROW = "wheels = { 1 = 20, 2 = 36 }\nmeshes = [{ of = [1, 2] }]\nn = { 1 = 1 }\n"
         (ROW + "[published.x]\nvalue = 1", "published.x.what: unknown quantity 'x'"),
     ],
 )
-def test_a_train_that_cannot_be_says_why(text: str, said: str, tmp_path: Path) -> None:
+def test_an_impossible_train_is_rejected_with_a_reason(
+    text: str, said: str, tmp_path: Path
+) -> None:
     path = tmp_path / "faulty.toml"
     path.write_text(f"[gears]\n{text}\n", encoding="utf-8")
     done = run("solve", str(path), "--json")
@@ -261,14 +263,14 @@ def test_options_of_linkages_are_refused() -> None:
     assert "--csv is for linkages" in done.stderr
 
 
-def test_a_kind_is_told_by_its_table_and_links_make_a_linkage(tmp_path: Path) -> None:
+def test_a_kind_is_known_by_its_table_and_links_make_a_linkage(tmp_path: Path) -> None:
     assert {kind_of(path) for path in FILES} == {KINDS[0]}
     both = tmp_path / "both.toml"
     both.write_text("[gears]\n[links]\n")
     assert kind_of(both) is None
 
 
-def test_names_that_are_asked() -> None:
+def test_names_of_requested_quantities_are_parsed() -> None:
     known = ("1", "5", "15", "H", "2'")
     assert parse("U_15", ("1", "5")).labels == ("1", "5")
     assert parse("U_1_2'^H", known).carrier == "H"

@@ -94,13 +94,13 @@ def texts(drawing: Drawing) -> str:
 
 
 @pytest.mark.parametrize("path", [*FILES, *thinned(TASKS, 23)], ids=lambda p: p.stem)
-def test_the_norm_control_has_nothing_against_the_sheets(path: Path) -> None:
+def test_the_norm_control_marks_no_sheet_of_a_problem(path: Path) -> None:
     drawing = sheet(path)
     assert not faults(drawing)
     assert paper_of(drawing) in ("A3", "A2")
 
 
-def test_nor_against_those_of_random_trains(tmp_path: Path) -> None:
+def test_the_norm_control_marks_no_sheet_of_random_trains(tmp_path: Path) -> None:
     for seed in range(some(30, 1)):
         for maker in PLANAR:
             text = maker(random.Random(100 + seed)).text
@@ -108,7 +108,7 @@ def test_nor_against_those_of_random_trains(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_trains_without_pictures_have_a_scheme_and_say_why(name: str, tmp_path: Path) -> None:
+def test_trains_without_pictures_have_a_scheme_and_a_reason(name: str, tmp_path: Path) -> None:
     drawing = sheet(written(tmp_path, OTHERS[name]))
     assert not faults(drawing)
     said = texts(drawing)
@@ -122,7 +122,7 @@ def test_trains_without_pictures_have_a_scheme_and_say_why(name: str, tmp_path: 
 
 
 @pytest.mark.parametrize("name", ["gears-ex3", "gears-ex6", "planetary-k10"])
-def test_segments_are_as_long_as_the_table_says_in_the_file(name: str) -> None:
+def test_segments_in_the_file_are_as_long_as_in_the_table(name: str) -> None:
     """Each segment is one line of the layer of vectors; its length is a number of the table."""
     drawing = sheet(PROBLEMS / f"gears/{name}.toml")
     spans = sorted(span.length for view in drawing.views for span in view.spans)
@@ -161,7 +161,7 @@ def test_a_picture_is_read_once_for_sheet_protocol_and_note(tmp_path: Path) -> N
     assert "12,00" in texts(sheet(paths[0]))
 
 
-def test_short_rays_stand_on_a_view_where_the_ruler_sees_them() -> None:
+def test_short_rays_are_on_a_view_where_the_ruler_reads_them() -> None:
     """Example 3 of the source: a ray of 1.25 mm read as 1.0 mm gave U₁₇ = 48 for 38.54."""
     drawing = sheet(PROBLEMS / "gears/gears-ex3.toml")
     (rays,) = (view for view in drawing.views if any(s.name == "o7" for s in view.spans))
@@ -175,7 +175,7 @@ def test_short_rays_stand_on_a_view_where_the_ruler_sees_them() -> None:
     assert "Б (10:1)" in said and "38,40" in said and "31,25" in said
 
 
-def test_the_picture_stands_beside_the_scheme_at_its_heights() -> None:
+def test_the_picture_is_beside_the_scheme_at_its_heights() -> None:
     drawing = sheet(PROBLEMS / "gears/gears-ex1.toml")
     strokes = [item for item in drawing.items if isinstance(item, Stroke)]
     levels = {round(s.points[0].imag, 6) for s in strokes if s.tag == "projection"}
@@ -201,7 +201,7 @@ def test_letters_along_the_axes_are_clear_of_meshes_and_axes(tmp_path: Path) -> 
     assert min(abs(letters["H"].imag - rim.centre) for rim in rims.values()) > 5.0
 
 
-def test_paper_language_and_stamp_are_as_asked(tmp_path: Path) -> None:
+def test_paper_language_and_stamp_follow_the_request(tmp_path: Path) -> None:
     def lint(*args: str) -> Any:
         return CliRunner().invoke(cli, ["lint", str(FILES[0]), *args])
 
@@ -253,7 +253,7 @@ def test_the_order_of_the_worked_examples(name: str, due: str) -> None:
 
 
 @each("seed", range(some(40, 5)))
-def test_no_body_stands_in_another_ones_way(seed: int, tmp_path: Path) -> None:
+def test_no_body_is_in_the_way_of_another(seed: int, tmp_path: Path) -> None:
     for maker in PLANAR:
         text = maker(random.Random(200 + seed)).text
         found = arrange(SchemeData(solved(tmp_path, text), 1.0))

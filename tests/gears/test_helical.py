@@ -114,7 +114,7 @@ def test_across_the_axis_it_is_a_spur_pair_of_the_transverse_rack(case: tuple[An
 
 
 @each("case", CASES)
-def test_the_base_tangent_is_so_many_base_pitches_and_a_thickness_across_the_helix(
+def test_the_base_tangent_is_a_number_of_base_pitches_and_a_thickness_across_the_helix(
     case: tuple[Any, ...],
 ) -> None:
     pair = pair_of(case)
@@ -127,7 +127,7 @@ def test_the_base_tangent_is_so_many_base_pitches_and_a_thickness_across_the_hel
     assert np.all(reach > pair.rho_l)
 
 
-def test_overlap_and_equivalent_teeth_are_told(tmp_path: Path) -> None:
+def test_overlap_and_equivalent_teeth_are_printed(tmp_path: Path) -> None:
     found = told(tmp_path, "z = [17, 40]\nm = 4\nbeta = 15\nb = 40\nx = [0.3, 0.2]")
     assert found["beta"] == pytest.approx(15)
     assert found["epsilon_beta"] == pytest.approx(40 * sin(radians(15)) / (4 * pi))
@@ -169,7 +169,7 @@ def test_the_sheet_and_the_protocol(lang: str, tmp_path: Path) -> None:
         ("z = [20, 60]\nm = 4\nb = -3\nx = [0, 0]", "meshing.b"),
     ],
 )
-def test_a_faulty_helix_is_said(tmp_path: Path, body: str, said: str) -> None:
+def test_a_faulty_helix_is_reported(tmp_path: Path, body: str, said: str) -> None:
     path = written(tmp_path, body)
     run = CliRunner().invoke(cli, ["solve", str(path), "--lang", "en"])
     assert run.exit_code == 3, run.output

@@ -239,7 +239,7 @@ def test_teeth_in_mesh_do_not_overlap(case: tuple[Any, ...]) -> None:
 
 
 @pytest.mark.usefixtures("russian")
-def test_undercut_is_drawn_and_said() -> None:
+def test_undercut_is_drawn_and_reported() -> None:
     problem = load(FILE, variant="without-shift")
     first, second = SolvedMeshing(problem).teeth
     assert first.is_cut
@@ -262,7 +262,7 @@ def test_undercut_is_drawn_and_said() -> None:
 # Limits -------------------------------------------------------------------------------------------
 
 
-def test_the_chosen_shifts_keep_all_limits_and_none_near_them_slides_less() -> None:
+def test_the_chosen_shifts_keep_all_limits_and_have_the_least_sliding_nearby() -> None:
     told = solved_json(str(FILE))
     assert told["shifts_chosen"]
     assert all(one["holds"] for one in told["conditions"])
@@ -318,7 +318,7 @@ def test_between_the_numbers_of_an_axis_of_the_contour_there_is_white(
             assert abs(other.anchor - one.anchor) >= taken + letter
 
 
-def test_the_distance_of_the_axes_tells_the_shifts(tmp_path: Path) -> None:
+def test_the_centre_distance_determines_the_shifts(tmp_path: Path) -> None:
     told = solved_json(str(written(tmp_path, "z = [20, 41]\nm = 2\na_w = 62.5\nx1 = 0.4")))
     assert told["x"][0] == 0.4
     assert told["a_w"] == pytest.approx(62.5, rel=1e-13)
@@ -350,7 +350,7 @@ def test_the_distance_of_the_axes_tells_the_shifts(tmp_path: Path) -> None:
         ("z = [12, 30]\nm = nan\nx = [0, 0]\ngamma = 3", "unknown key"),
     ],
 )
-def test_a_faulty_file_says_what_to_do(tmp_path: Path, body: str, said: str) -> None:
+def test_a_faulty_file_is_reported_with_a_remedy(tmp_path: Path, body: str, said: str) -> None:
     for command in ("solve", "sheet"):
         run = CliRunner().invoke(cli, [command, str(written(tmp_path, body)), "-o", "x"][:2])
         assert run.exit_code == 3, run.output
@@ -379,7 +379,7 @@ SHEETS: dict[str, tuple[Path | str, str | None, str]] = {
 
 
 @pytest.mark.parametrize("name", thinned([*SHEETS], 7))
-def test_a_norm_controller_marks_nothing(name: str, tmp_path: Path) -> None:
+def test_the_norm_control_marks_no_sheet(name: str, tmp_path: Path) -> None:
     told, variant, sheet = SHEETS[name]
     path = told if isinstance(told, Path) else written(tmp_path, f"{told}\n[sheet]\n{sheet}")
     drawing = drawn(path, variant)
@@ -428,7 +428,7 @@ def test_splines_of_the_dxf_are_the_exact_profile_between_their_points(tmp_path:
     assert flanks == 12 + 6  # of both wheels in mesh, and of wheel 1 as it is cut
 
 
-def test_both_languages_tell_the_same_formulas() -> None:
+def test_both_languages_have_the_same_formulas() -> None:
     texts = {}
     for lang in ("ru", "en"):
         run = CliRunner().invoke(cli, ["protocol", str(FILE), "--lang", lang])

@@ -112,7 +112,7 @@ def test_satellites_mesh_where_they_can_be_assembled(
     assert ((20 + 100) % count == 0) is fits
 
 
-def test_a_page_of_the_template_is_written_and_turns_as_the_speeds_say(tmp_path: Path) -> None:
+def test_a_page_of_the_template_is_written_and_turns_at_the_given_speeds(tmp_path: Path) -> None:
     path = tmp_path / "train.toml"
     path.write_text(template("planetary-train"), encoding="utf-8")
     done = CliRunner().invoke(cli, ["live", str(path), "-o", str(tmp_path)])
@@ -132,7 +132,7 @@ def test_text_of_a_file_is_no_source(tmp_path: Path) -> None:
     assert "default-src 'none'" in page
 
 
-def test_what_does_not_mesh_in_a_plane_is_refused_with_a_way_on(tmp_path: Path) -> None:
+def test_a_train_that_does_not_mesh_in_a_plane_is_rejected_with_advice(tmp_path: Path) -> None:
     rack = 'wheels = { 1 = 20, 2 = { r = 0.1 } }\nmeshes = [{ of = [1, 2], kind = "belt" }]\n'
     path = tmp_path / "belt.toml"
     path.write_text(f"[gears]\nmodule = 2\n{rack}n = {{ 1 = 1 }}\n", encoding="utf-8")
@@ -145,7 +145,7 @@ def test_what_does_not_mesh_in_a_plane_is_refused_with_a_way_on(tmp_path: Path) 
 
 
 @pytest.mark.skipif(PROGRAM is None, reason="chromium is absent")
-def test_the_browser_turns_the_wheels_where_the_data_says(tmp_path: Path) -> None:
+def test_the_browser_turns_the_wheels_by_the_data(tmp_path: Path) -> None:
     _, scene = made(SET % 3, tmp_path)
     page = tmp_path / "train.html"
     page.write_text(live_page(load(tmp_path / "train.toml"), "ru"), encoding="utf-8")

@@ -41,7 +41,7 @@ def test_thickness_and_space_make_the_pitch(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_the_dimension_of_the_tooth_has_metal_between_its_ends_and_that_of_the_space_has_none(
+def test_the_dimension_of_a_tooth_spans_metal_and_that_of_a_space_does_not(
     name: str,
 ) -> None:
     """The metal of wheel 1 is found by its drawn tips."""
@@ -81,7 +81,7 @@ def test_the_height_of_the_tooth_runs_from_the_tips_of_wheel_2_to_its_roots(name
     assert abs(end - start) / view.scale == pytest.approx(abs(sizes[1] - sizes[0]))
 
 
-def test_the_clearance_is_told_where_it_shows() -> None:
+def test_the_clearance_is_lettered_where_it_is_visible() -> None:
     named = [{one.name for one in mesh_dimensions(view_of(name), 5.0)[1]} for name in FILES]
     assert ["size c" in names for names in named] == [True, False]  # of the ring it is 0.05 mm
 
@@ -159,7 +159,7 @@ def test_the_radius_of_the_rack_ends_on_its_tip(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_every_dimension_of_the_rack_is_as_long_as_its_letters_say(name: str) -> None:
+def test_every_dimension_of_the_rack_is_as_long_as_its_letters_state(name: str) -> None:
     cutting = SolvedMeshing(load(path_of(name))).cuttings[0]
     assert cutting is not None
     view = cutting_view(cutting, 400.0, 300.0)

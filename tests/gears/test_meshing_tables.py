@@ -51,7 +51,7 @@ def value_of(text: str) -> float:
 
 
 @each("name", [*BODIES, "ring"])
-def test_formulas_with_their_numbers_give_what_stands_after_them(name: str, tmp_path: Path) -> None:
+def test_formulas_with_their_numbers_give_the_printed_results(name: str, tmp_path: Path) -> None:
     solved = solved_of(name, tmp_path)
     count = 0
     for key, line in solved.formulas(language("en")):
@@ -73,7 +73,7 @@ LENGTHS = {
 
 
 @each("name", [*BODIES, "ring"])
-def test_limits_are_told_by_inequalities_that_are_true(name: str, tmp_path: Path) -> None:
+def test_limits_are_printed_as_true_inequalities(name: str, tmp_path: Path) -> None:
     for lang in LANGUAGES:
         seen = set()
         for limit, holds, text in solved_of(name, tmp_path).sentences(language(lang)):
@@ -88,7 +88,7 @@ def test_limits_are_told_by_inequalities_that_are_true(name: str, tmp_path: Path
         assert any(holds for _, holds in seen)
 
 
-def test_wheel_1_stands_before_wheel_2(tmp_path: Path) -> None:
+def test_wheel_1_comes_before_wheel_2(tmp_path: Path) -> None:
     solved = solved_of("cut", tmp_path)
     assert any(not holds for _, holds, _ in solved.sentences(language("en")))
     words = language("en")
@@ -101,7 +101,7 @@ def test_wheel_1_stands_before_wheel_2(tmp_path: Path) -> None:
 
 
 @each("key", ["m", "p", "p_b", "a", "a_w"])
-def test_sizes_that_grow_with_the_module_are_told_in_mm(key: str, tmp_path: Path) -> None:
+def test_sizes_that_grow_with_the_module_are_printed_in_mm(key: str, tmp_path: Path) -> None:
     small = solved_of("shifted", tmp_path)
     path = tmp_path / "large.toml"
     path.write_text(f"[meshing]\n{BODIES['shifted'].replace('m = 5', 'm = 10')}\n", "utf-8")

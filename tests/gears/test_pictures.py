@@ -101,7 +101,9 @@ def test_fifty_digits_are_the_fractions(path: Path) -> None:
     ("name", "starts"),
     [("gears-ex1", ("1",)), ("gears-ex4", ("1", "H")), ("gears-ex6", ("3",))],
 )
-def test_what_is_laid_off(name: str, starts: tuple[str, ...]) -> None:
+def test_one_vector_is_laid_off_for_each_degree_of_freedom(
+    name: str, starts: tuple[str, ...]
+) -> None:
     """One vector for each degree of freedom; example 6 does not close from its input."""
     drawn = drawn_of(solve_motion(load(PROBLEMS / f"gears/{name}.toml")))
     assert (drawn.starts, drawn.calculated) == (starts, ())
@@ -119,7 +121,7 @@ n = { 1 = 100 }
 """
 
 
-def test_a_speed_that_does_not_follow_is_told_to_be_calculated(tmp_path: Path) -> None:
+def test_a_speed_that_does_not_follow_is_marked_as_calculated(tmp_path: Path) -> None:
     two_inputs = COUPLED.replace('fixed = ["6"]\n', "").replace("{ 1 = 100 }", "{ H = 5, 6 = 100 }")
     for text in (COUPLED, two_inputs):
         drawn = drawn_of(solved(tmp_path, text))
@@ -131,7 +133,7 @@ def test_a_speed_that_does_not_follow_is_told_to_be_calculated(tmp_path: Path) -
         assert set(drawn.calculated) == told
 
 
-def test_a_construction_that_is_wrong_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_wrong_construction_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = drawn_of(solve_motion(load(FILES[0])))
     monkeypatch.setitem(drawn.data, "mu", drawn.data["mu"] * 2)
     with pytest.raises(PictureError, match="mesh equations"):
@@ -152,7 +154,7 @@ def file(name: str) -> str:
 
 
 @pytest.mark.usefixtures("russian")
-def test_the_protocol_tells_every_point_line_and_reading() -> None:
+def test_the_protocol_describes_every_point_line_and_reading() -> None:
     words = ("protocol", file("gears-ex2"), "--lang", "ru")
     told = run(*words)
     for said in (

@@ -139,7 +139,7 @@ design = { U = 6.5 }
 
 
 @each("lang, word", [("ru", "габарит D/m = 117"), ("en", "D/m = 117")])
-def test_what_is_told_says_where_the_train_stands(tmp_path: Path, lang: str, word: str) -> None:
+def test_texts_state_the_place_of_the_train(tmp_path: Path, lang: str, word: str) -> None:
     path = written(tmp_path, RING + "design = { U = 6.5 }")
     for command in ("solve", "protocol"):
         run = CliRunner().invoke(cli, [command, str(path), "--lang", lang])
@@ -177,7 +177,7 @@ def test_a_set_that_cannot_be_assembled_is_no_variant(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_a_faulty_design_is_said(tmp_path: Path, body: str, said: str) -> None:
+def test_a_faulty_design_is_reported(tmp_path: Path, body: str, said: str) -> None:
     run = CliRunner().invoke(cli, ["solve", str(written(tmp_path, body)), "--lang", "en"])
     assert run.exit_code == 3, run.output
     assert said in run.output

@@ -164,7 +164,7 @@ def overlap(pair: Pair) -> float:
     return worst
 
 
-def test_a_pinion_turns_freely_in_its_ring_and_interference_is_told() -> None:
+def test_a_pinion_turns_freely_in_its_ring_and_interference_is_reported() -> None:
     good = load(FILE)
     solved = SolvedMeshing(good)
     assert all(value >= bound for _, value, bound in solved.judged())
@@ -189,6 +189,6 @@ def test_a_pinion_turns_freely_in_its_ring_and_interference_is_told() -> None:
         ("z = [20, 60]\nm = 5\ninternal = true\nx = [1, -1]", "cannot come so near"),
     ],
 )
-def test_a_faulty_ring_says_what_to_do(tmp_path: Path, body: str, said: str) -> None:
+def test_a_faulty_ring_is_reported_with_a_remedy(tmp_path: Path, body: str, said: str) -> None:
     run = CliRunner().invoke(cli, ["solve", str(written(tmp_path, body))])
     assert (run.exit_code, said in run.output) == (3, True), run.output

@@ -57,7 +57,7 @@ def test_rows_have_modules_of_their_own(tmp_path: Path) -> None:
     assert solved(tmp_path, as_wheels).axes == motion.axes
 
 
-def test_coaxial_rows_of_different_modules_are_told_by_radii(tmp_path: Path) -> None:
+def test_coaxial_rows_of_different_modules_are_compared_by_radii(tmp_path: Path) -> None:
     """30 and 30 teeth of 2 mm come as far as 12 and 28 of 3 mm: 60 mm."""
     wheels, meshes = {"1": 30, "2": 30, "2'": 12, "3": 28}, [mesh("1", "2"), mesh("2'", "3")]
     rest = 'coaxial = [["1", "3"]]\nn = { 1 = 1 }\n'
@@ -79,7 +79,9 @@ def test_coaxial_rows_of_different_modules_are_told_by_radii(tmp_path: Path) -> 
         ("0", "a module in mm"),
     ],
 )
-def test_modules_that_do_not_fit_the_rows_are_told(module: str, said: str, tmp_path: Path) -> None:
+def test_modules_that_do_not_fit_the_rows_are_reported(
+    module: str, said: str, tmp_path: Path
+) -> None:
     with pytest.raises(ProblemError) as error:
         solved(tmp_path, f"{TRAIN}module = {module}\n")
     assert said in str(error.value)

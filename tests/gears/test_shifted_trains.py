@@ -78,7 +78,7 @@ def height(motion: TrainMotion) -> float:
     return float(abs(motion.axes.heights[motion.train.body_of["2"]])) / 2
 
 
-def test_the_axes_of_shifted_wheels_stand_where_their_distances_say(tmp_path: Path) -> None:
+def test_the_axes_of_shifted_wheels_are_at_their_centre_distances(tmp_path: Path) -> None:
     """Speeds, a_w, the picture and its construction, of sets that only shifts bring together."""
     rng, done = random.Random(5), 0
     while done < some(40, few=10):

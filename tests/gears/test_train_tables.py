@@ -86,7 +86,9 @@ def rows_of(name: str, ruler: float) -> list[tuple[str, ...]]:
 
 
 @each("name", WITH_PICTURES)
-def test_the_difference_is_what_is_read_less_the_exact_in_per_cent_of_the_exact(name: str) -> None:
+def test_the_difference_is_the_reading_less_the_exact_value_in_per_cent_of_the_exact_one(
+    name: str,
+) -> None:
     """With a ruler of 7 mm the differences are large: neither sign nor base is in doubt."""
     assert language("en").gears["sheet"].columns_results[2:] == ("Exact", "Read", "σ", "δ, %")
     large = 0
@@ -100,7 +102,7 @@ def test_the_difference_is_what_is_read_less_the_exact_in_per_cent_of_the_exact(
 
 
 @each("name", WITH_PICTURES)
-def test_fraction_exact_and_read_stand_in_this_order(name: str) -> None:
+def test_fraction_exact_value_and_reading_are_in_this_order(name: str) -> None:
     motion = motion_of(name)
     for head, fraction, exact, seen, sigma, _ in rows_of(name, 0.5):
         assert number(exact) == pytest.approx(float(Fraction(fraction.replace("−", "-"))), rel=1e-3)
@@ -213,7 +215,7 @@ def run(*args: str) -> str:
 
 
 @each("name", ["gears-ex2", "gears-ex6", "planetary-k10"])
-def test_printed_values_are_so_many_per_cent_more_than_the_exact_ones(name: str) -> None:
+def test_the_excess_of_printed_values_over_exact_ones_is_in_per_cent(name: str) -> None:
     text = run("solve", str(PROBLEMS / f"gears/{name}.toml"))
     table = text.partition("Printed in the source\n")[2]
     assert re.match(r"quantity +printed +exact +difference, %\n", table)
@@ -232,7 +234,7 @@ FOUND = re.compile(r"(\S+) = ([\dμπ(\[].*?) = (\S+)(?: (\S+))? \(exact (\S+), 
 
 
 @each("name", WITH_PICTURES)
-def test_formulas_of_the_protocol_give_what_they_say_from_what_was_read(
+def test_formulas_of_the_protocol_give_their_results_from_the_readings(
     name: str, tmp_path: Path
 ) -> None:
     text = (PROBLEMS / f"gears/{name}.toml").read_text("utf-8")
@@ -266,7 +268,7 @@ def test_formulas_of_the_protocol_give_what_they_say_from_what_was_read(
     assert {"n", "ω"} <= letters  # required in both units
 
 
-def test_a_train_is_asked_in_both_units_and_told_in_each(tmp_path: Path) -> None:
+def test_a_speed_requested_in_both_units_is_printed_in_each(tmp_path: Path) -> None:
     wheels = told({"1": 20, "2": 40}, [mesh("1", "2")], "n = { 1 = 300 }")
     motion = solved(tmp_path, wheels)
     assert answer(motion, "omega_1").value == pytest.approx(10 * math.pi)

@@ -159,7 +159,7 @@ def test_any_one_size_of_a_set_follows_from_the_others(unknown: str, tmp_path: P
     assert motion.speed("H") == 1
 
 
-def test_what_is_said_to_be_coaxial_tells_teeth(tmp_path: Path) -> None:
+def test_coaxial_wheels_determine_unknown_teeth(tmp_path: Path) -> None:
     """2.2.2: two wheels in a ring of a train with fixed axes, a_w with the module."""
     text = "wheels = { 1 = 20, 2 = 18 }\nmeshes = [{ of = [1, 2] }, { of = [2, 3], kind = \
 'internal' }]\nunknown = ['3']\nmodule = 6\nn = { 1 = 1 }\n"
@@ -170,7 +170,7 @@ def test_what_is_said_to_be_coaxial_tells_teeth(tmp_path: Path) -> None:
     assert answer(motion, "r_3").value == 168
 
 
-def test_an_idler_between_wheels_of_one_axis_is_told_from_it(tmp_path: Path) -> None:
+def test_an_idler_between_wheels_of_one_axis_gets_its_teeth_from_it(tmp_path: Path) -> None:
     """2.2.9: 2' and 4 turn about one axis, 3 between them; z_3 = (90 - 24)/2."""
     text = "wheels = { 1 = 22, 2 = 86, \"2'\" = 24, 4 = 90 }\nmeshes = [{ of = [1, 2] }, { of = \
 [\"2'\", 3] }, { of = [3, 4], kind = 'internal' }]\nunknown = ['3']\nn = { 1 = 1240 }\n"
@@ -193,7 +193,7 @@ fixed = ['3', '6']\nunknown = ['2', '5']\nn = { 1 = 2100 }\n"
     assert motion.structure.kind is TrainKind.PLANETARY
 
 
-def test_the_kind_is_told(tmp_path: Path) -> None:
+def test_ordinary_and_planetary_trains_are_distinguished(tmp_path: Path) -> None:
     planetary = solved(tmp_path, SET + "n = { 1 = 1 }\n")
     assert planetary.structure.kind is TrainKind.PLANETARY
     assert (planetary.structure.formula, planetary.structure.redundant) == (1, 0)
@@ -213,7 +213,7 @@ def test_assembly_and_neighbourhood_of_satellites(tmp_path: Path) -> None:
     assert not any(one.holds for one in conditions(five) if one.name == "assembly")
 
 
-def test_undercutting_is_said_and_a_shift_avoids_it(tmp_path: Path) -> None:
+def test_undercutting_is_reported_and_a_shift_avoids_it(tmp_path: Path) -> None:
     text = "wheels = {{ 1 = {}, 2 = 30 }}\nmeshes = [{{ of = [1, 2] }}]\nn = {{ 1 = 1 }}\n"
     said = [one.name for one in conditions(solved(tmp_path, text.format(12)))]
     assert said == ["undercutting"]

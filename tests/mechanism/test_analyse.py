@@ -111,7 +111,7 @@ def test_hinge_is_closed_by_the_links_that_can_though_the_file_names_others_firs
     assert found.groups[1].leads[0].to == "4"
 
 
-def test_links_on_a_fixed_hinge_of_the_crank_hang_on_the_frame() -> None:
+def test_links_on_a_fixed_hinge_of_the_crank_are_joined_to_the_frame() -> None:
     found = analyse(mechanism("A:013 B:12", "2/3@B"))
     (group,) = found.groups
     assert group.leads[1].to == FRAME
@@ -123,7 +123,7 @@ def test_point_carried_by_a_known_link_for_two_later_groups() -> None:
     assert [group.leads[0].to for group in found.groups[1:]] == ["2", "2"]
 
 
-def test_groups_that_do_not_depend_on_each_other_stand_in_file_order() -> None:
+def test_independent_groups_are_in_file_order() -> None:
     found = analyse(mechanism("A:01 B:14 C:45 D:05 E:12 F:23 G:03"))
     assert found.formula == "I(0,1) → II(2,3) → II(4,5)"
 
@@ -224,7 +224,7 @@ def test_names_and_order_of_links_do_not_change_the_groups(mech: Mechanism, seed
 
 
 @given(st.sampled_from(MECHANISMS), st.integers(0, 10**6))
-def test_every_lead_hangs_on_what_is_known_before_its_group(mech: Mechanism, seed: int) -> None:
+def test_every_leg_starts_from_links_known_before_its_group(mech: Mechanism, seed: int) -> None:
     again, _ = _shuffled(mech, seed)
     known = {FRAME, again.driver}
     for group in analyse(again).groups:

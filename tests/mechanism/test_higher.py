@@ -173,7 +173,7 @@ def test_a_round_tappet_may_turn_only_where_its_face_is_oblique() -> None:
 
 
 @pytest.mark.parametrize("lang", ["ru", "en"])
-def test_the_replacement_is_told_and_drawn(lang: str) -> None:
+def test_the_replacement_is_described_and_drawn(lang: str) -> None:
     problem = _follower(ROUND + '\nroller = "3"', ASSEMBLY)
     found, words = analyse(problem.mechanism), language(lang)
     aligned = self_aligning(problem, found)

@@ -57,7 +57,7 @@ def of(point: str, t: str = "t = [0.3, 0.9, 1.7]") -> Any:
 # Wheels ------------------------------------------------------------------------------------------
 
 
-def test_a_wheel_rolls_as_the_textbook_says() -> None:
+def test_a_wheel_rolls_as_in_the_textbook() -> None:
     row = move(of('wheel = { radius = 0.5, angle = -90 }\nphi = "-2*t"')).columns
     t = row["t"]
     assert row["x"] == pytest.approx(0.5 * (2 * t - np.sin(2 * t)), abs=1e-14)  # the cycloid
@@ -160,7 +160,7 @@ def test_an_interval_of_our_own_is_one_where_everything_exists() -> None:
 
 
 @each("path", thinned(FILES, 12))
-def test_sheets_leave_the_norm_inspector_nothing_to_mark(path: Path) -> None:
+def test_the_norm_control_marks_no_sheet(path: Path) -> None:
     problem = load(path)
     (drawing,) = drawings(problem, profile=BOARD)
     assert inspect(drawing) == []
@@ -195,7 +195,7 @@ def test_formulas_are_written_as_in_a_textbook() -> None:
     assert textbook("t^((1 + t)/2)*3", ".") == "t^{((1 + t)/2)}*3"
 
 
-def test_the_protocol_reads_what_the_sheet_shows() -> None:
+def test_the_protocol_has_the_readings_of_the_sheet() -> None:
     path = PROBLEMS / "point" / "k10-satellite.toml"
     run = CliRunner().invoke(cli, ["protocol", str(path), "--lang", "en"])
     assert run.exit_code == ExitCode.DONE, run.output
@@ -210,7 +210,7 @@ def test_the_protocol_reads_what_the_sheet_shows() -> None:
     assert "lay off aⁿ_MC along it, backwards" in run.output
 
 
-def test_what_a_point_has_not_is_refused(tmp_path: Path) -> None:
+def test_options_that_a_point_does_not_have_are_rejected(tmp_path: Path) -> None:
     for args in (
         ["sheet", "--phi", "20"],
         ["lint", "--structure"],

@@ -65,7 +65,7 @@ def test_every_function_has_its_derivatives() -> None:
         ("__import__(t)", "character 1: unknown name '__import__'."),
     ],
 )
-def test_what_is_said_of_a_faulty_formula(formula: str, said: str) -> None:
+def test_a_faulty_formula_is_reported(formula: str, said: str) -> None:
     assert said in "; ".join(
         faults_of(f"[point]\nx = '{formula}'\ny = 't'\nt = 0\n")
         if "Cyrillic" in said
@@ -149,13 +149,13 @@ def test_the_longest_formulas_are_read() -> None:
         ),
     ],
 )
-def test_all_faults_of_a_file_are_told_at_once(text: str, said: list[str]) -> None:
+def test_all_faults_of_a_file_are_reported_at_once(text: str, said: list[str]) -> None:
     found = faults_of(text)
     assert len(found) == len(said), found
     assert all(one.startswith(start) for one, start in zip(found, said, strict=True)), found
 
 
-def test_strangers_get_faults_or_numbers_and_nothing_else() -> None:
+def test_a_strangers_formula_gives_faults_or_numbers_only() -> None:
     pieces = [*"+-*/^()., 0123eEt", "**", "1e308", "t", "pi", *FUNCTIONS, "х", "\t", "²", "1/0"]
     draw = random.Random(13)
     read = 0

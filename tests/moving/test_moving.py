@@ -181,14 +181,14 @@ def test_a_point_at_rest_has_no_tangent() -> None:
         assert row["a"] > 0
 
 
-def test_a_straight_line_is_told_in_spite_of_rounding() -> None:
+def test_a_straight_line_is_recognized_in_spite_of_rounding() -> None:
     found = rows('x = "0.1*sin(t)"\ny = "0.3*sin(t) + 7"\nt = { from = 0.1, to = 1.5, count = 57 }')
     assert {row["reason"] for row in found} == {"straight"}
     assert {row["a_normal"] for row in found} == {0.0}
     assert {row["rho"] for row in found} == {None}
 
 
-def test_curvature_that_is_small_is_not_taken_for_none() -> None:
+def test_small_curvature_is_not_taken_for_zero() -> None:
     (row,) = rows('x = "t"\ny = "1e-9*t^2"\nt = 1')
     assert row["rho"] == pytest.approx(5e8, rel=1e-9)
 
@@ -209,7 +209,7 @@ def test_curvature_that_is_small_is_not_taken_for_none() -> None:
         ("t^1.5", "0", "acceleration undefined", "v"),
     ],
 )
-def test_what_has_no_value_is_null_with_a_reason(
+def test_a_missing_value_is_null_with_a_reason(
     formula: str, at: str, reason: str, last: str | None
 ) -> None:
     (row,) = rows(f'x = "{formula}"\ny = "t"\nt = {at}')
@@ -278,7 +278,7 @@ def solve(*args: object) -> Any:
     return CliRunner().invoke(cli, ["solve", *map(str, args)])
 
 
-def test_solve_prints_one_object_as_the_contract_says() -> None:
+def test_solve_prints_one_object_as_agreed() -> None:
     run = solve(K11[0], "--json")
     told = json.loads(run.output)
     names = "t x y vx vy v ax ay a a_tangential a_normal rho"
@@ -294,7 +294,7 @@ def test_points_and_linkages_in_one_run() -> None:
 
 
 @pytest.mark.parametrize("lang", ["ru", "en"])
-def test_the_text_tells_formulas_with_numbers(lang: str) -> None:
+def test_the_text_has_formulas_with_numbers(lang: str) -> None:
     run = solve(K11[0], "--lang", lang)
     assert run.exit_code == ExitCode.DONE
     said = run.output.replace(",", ".")

@@ -158,7 +158,7 @@ def test_a_table_of_moments_has_each_number_under_its_head(tmp_path: Path) -> No
     assert {"v_x", "a^τ", "ρ", "v_φ", "a_r"} <= seen
 
 
-def test_a_printed_value_is_told_with_what_it_is_more_than_the_exact_one(tmp_path: Path) -> None:
+def test_a_printed_value_has_its_excess_over_the_exact_one(tmp_path: Path) -> None:
     law = '[point]\nx = "3*t"\ny = "4*t"\nt = 1\n[published]\n'
     for printed, off in ((5.5, 0.5), (4.8, -0.2)):
         told = run(tmp_path, "solve", f'{law}v = {{ value = {printed}, what = "v" }}\n')
@@ -167,7 +167,7 @@ def test_a_printed_value_is_told_with_what_it_is_more_than_the_exact_one(tmp_pat
         assert [number(cell) for cell in row.split()[2:]] == pytest.approx([printed, 5.0, off])
 
 
-def test_what_the_chords_give_is_told_as_read_less_exact(tmp_path: Path) -> None:
+def test_the_result_of_the_chords_has_its_difference_from_the_exact_one(tmp_path: Path) -> None:
     told = run(tmp_path, "protocol", f"[point]\n{LAWS['plane']}\nt = 0.5\n")
     assert language("en").point["chords"] == (
         "№", "t, s", "a exact, m/s²", "a read", "σ", "difference",

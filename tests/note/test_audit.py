@@ -113,7 +113,7 @@ def test_positions_count_from_zero() -> None:
     assert (nowhere.why, nowhere.verdict) == (NoValue.NO_POSITION, AuditVerdict.ABSENT)
 
 
-def test_a_position_that_the_problem_does_not_have_is_said() -> None:
+def test_a_position_that_the_problem_does_not_have_is_reported() -> None:
     problem = problem_of('a = { value = 0.1, what = "x B" }')
     late = replace(problem, published=(replace(problem.published[0], position=7),))
     (item,) = audit(late)
@@ -122,7 +122,7 @@ def test_a_position_that_the_problem_does_not_have_is_said() -> None:
     assert said in AuditDocument("en", 0.5).markdown([(late, [item])])
 
 
-def test_what_is_not_said_is_listed_with_its_note() -> None:
+def test_a_value_without_a_quantity_is_listed_with_its_note() -> None:
     problem = problem_of('a = { value = 0.1, note = "вторая передаточная функция" }')
     (item,) = audit(problem)
     assert item.why is NoValue.NO_WHAT
@@ -133,7 +133,7 @@ def test_what_is_not_said_is_listed_with_its_note() -> None:
 # Scales ----------------------------------------------------------------------------------------
 
 
-def test_scales_are_told_by_the_printed_values_where_the_file_has_none() -> None:
+def test_scales_are_found_from_the_printed_values_if_the_file_has_none() -> None:
     entries = (
         'l = { value = 0.1, unit = "м", per_mm = 0.004 }',
         'v = { value = 0.7, unit = "м/с", per_mm = 0.02, what = "v B3" }',
@@ -153,7 +153,7 @@ def test_scales_are_told_by_the_printed_values_where_the_file_has_none() -> None
     assert (given.mu_l, given.mu_v) == (0.002, 0.02)
 
 
-def test_the_ruler_is_that_asked_for() -> None:
+def test_the_requested_ruler_is_used() -> None:
     entry = 'v = { value = 0.7, unit = "м/с", per_mm = 0.02, what = "v B3" }'
     assert audit(problem_of(entry), ruler=5.0)[0].read == pytest.approx(0.7)
 
@@ -225,7 +225,7 @@ def test_errors_of_the_sources_differ(stem: str, name: str, reason: str) -> None
         ("press", "a_A3", "меньше собственной касательной части"),
     ],
 )
-def test_slips_smaller_than_drafting_are_told_in_the_remark(
+def test_slips_smaller_than_drafting_errors_are_in_the_remark(
     stem: str, name: str, reason: str
 ) -> None:
     """The text is wrong, but the number is as near as a drawing gives: it cannot be blamed."""
@@ -261,7 +261,7 @@ def test_the_force_plan_of_the_press_is_that_of_the_stone() -> None:
 
 
 @pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)
-def test_what_differs_has_a_reason(path: Path) -> None:
+def test_every_difference_has_a_reason(path: Path) -> None:
     for item in audited(path.stem).values():
         if item.verdict in (AuditVerdict.DIFFERS, AuditVerdict.ABSENT):
             assert item.published.note, item.published.name
@@ -329,7 +329,7 @@ def test_the_command_prints_by_default_in_russian() -> None:
     assert "ценой деления 1 мм" in result.stdout
 
 
-def test_nothing_is_written_when_a_problem_is_faulty(tmp_path: Path) -> None:
+def test_no_audit_is_written_for_a_faulty_problem(tmp_path: Path) -> None:
     faulty, target = tmp_path / "faulty.toml", tmp_path / "published.md"
     faulty.write_text('title = "x"\n', encoding="utf-8")
     result = CliRunner().invoke(cli, ["audit", str(PROBLEMS[0]), str(faulty), "-o", str(target)])

@@ -50,13 +50,13 @@ def assert_computes(lines: list[str], lang: str) -> int:
 
 @each("lang", LANGUAGES)
 @each("name", NAMES)
-def test_every_formula_gives_what_stands_after_it(name: str, lang: str) -> None:
+def test_every_formula_gives_its_printed_result(name: str, lang: str) -> None:
     assert assert_computes(lines_of(worked(str(name)), lang), lang) >= 8
 
 
 @each("lang", LANGUAGES)
 @each("seed", SEEDS)
-def test_so_does_every_formula_of_any_mechanism(seed: int, lang: str) -> None:
+def test_every_formula_of_a_random_mechanism_gives_its_printed_result(seed: int, lang: str) -> None:
     assert assert_computes(lines_of(drawn(seed), lang), lang) >= 3
 
 
@@ -94,7 +94,7 @@ _LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 
 
 @each("seed", SEEDS)
-def test_every_value_of_the_plans_is_told(seed: int) -> None:
+def test_every_value_of_the_plans_is_in_a_formula(seed: int) -> None:
     """Vectors laid off, vectors read, and angular velocities and accelerations of links."""
     solution = drawn(seed)
     names, lines = Names(solution, language("ru").note, on_sheet=True), lines_of(solution, "ru")

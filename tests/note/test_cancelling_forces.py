@@ -49,7 +49,7 @@ def texts(sheet: Drawing) -> str:
     return "".join(i.text for i in sheet.items if isinstance(i, Text)).replace(" ", "")
 
 
-def test_couples_that_cancel_on_the_crank_are_told() -> None:
+def test_couples_that_cancel_on_the_crank_are_described() -> None:
     """M_Φ1 = -1·3 and M_1 = +3 N·m: the moment that balances them is zero."""
     problem = six_link(CANCEL, epsilon="3")
     solution = Solution(problem)
@@ -71,7 +71,7 @@ def test_of_no_forces_there_are_no_plans() -> None:
     assert "ΣMp" not in sheet
 
 
-def test_a_driver_that_stands_has_no_lever_and_says_so_once(tmp_path: Path) -> None:
+def test_a_driver_at_rest_has_no_lever_and_one_remark_on_it(tmp_path: Path) -> None:
     text = template("six-link").replace("omega = 20", "omega = 0") + "[dynamics]\n"
     problem = loads(text, name="still")
     assert force_reading(Solution(problem), 0).statics.lever_plan is None
@@ -83,7 +83,7 @@ def test_a_driver_that_stands_has_no_lever_and_says_so_once(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("what", ["balance O", "lever O"])
-def test_a_force_in_the_axis_of_the_crank_balances_nothing(what: str) -> None:
+def test_a_force_along_the_axis_of_the_crank_has_no_moment(what: str) -> None:
     more = f'{CANCEL}\n[published]\n"q" = {{ value = 1.0, unit = "Н", what = "{what}" }}\n'
     (entry,) = audit(six_link(more))
     assert entry.exact is None and entry.why is not None and entry.why.value == "no arm"

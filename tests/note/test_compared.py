@@ -211,7 +211,7 @@ DRAWN = (  # problem, what draws tables that others do not have
 )
 
 
-def test_what_is_written_stands_for_a_range() -> None:
+def test_a_written_number_stands_for_a_range() -> None:
     some = written("−1,25·10^{3}")
     assert some is not None and some.low == pytest.approx(-1255.0)
     whole = written("390", -1)
@@ -220,7 +220,7 @@ def test_what_is_written_stands_for_a_range() -> None:
 
 
 @each("path", sampled(SAID, 3))
-def test_differences_follow_from_the_numbers_as_they_stand(path: Path) -> None:
+def test_differences_follow_from_the_printed_numbers(path: Path) -> None:
     told = Told()
     assert told_of(path, "en", told, "solve", "protocol") == []
 

@@ -129,7 +129,7 @@ def number(text: str) -> float:
 
 
 @pytest.mark.parametrize(("name", "lang"), SENTENCES)
-def test_says_what_a_student_writes(name: str, lang: str) -> None:
+def test_the_protocol_has_the_sentences_of_a_student(name: str, lang: str) -> None:
     text = told(name, lang)
     for sentence in SENTENCES[name, lang]:
         assert sentence in text
@@ -170,7 +170,7 @@ def computed(text: str) -> tuple[float, float]:
     return float(eval(plain)), float(eval(plain.replace("-", "+")))
 
 
-def test_every_formula_gives_what_stands_after_it() -> None:
+def test_every_formula_gives_its_printed_result() -> None:
     """Four digits of the numbers put in: of a difference as much as of its terms."""
     count = 0
     fine = [Solution(worked(name).problem, ruler=0.01) for name in LOADED]
@@ -262,7 +262,7 @@ def test_every_known_force_is_laid_off_in_the_order_of_the_polygon() -> None:
     assert count > some(300, few=150)
 
 
-def test_every_reaction_is_told_from_end_to_end() -> None:
+def test_every_reaction_is_described_from_end_to_end() -> None:
     """The protocol names its vector, or one that equals it, and then its size."""
     for solution in every():
         reading, text = ForceReading(solution, 0), forces_of(text_of(solution))
@@ -280,7 +280,7 @@ WHIRLS = re.compile(
 )
 
 
-def test_a_tangential_reaction_turns_its_link_as_told() -> None:
+def test_a_tangential_reaction_turns_its_link_in_the_stated_sense() -> None:
     count = 0
     for solution in (*map(worked, LOADED), *every()):
         reading = ForceReading(solution, 0)
@@ -305,7 +305,7 @@ ACTS = re.compile(
 AHEAD = {"вправо": 1, "влево": -1, "вверх": 1j, "вниз": -1j}
 
 
-def test_the_force_of_a_guide_acts_where_it_is_told() -> None:
+def test_the_force_of_a_guide_acts_at_the_stated_point() -> None:
     """There its moment about the pin is that of the guide."""
     count = 0
     for solution in every(1e-9):
@@ -358,7 +358,7 @@ def unloaded(*lines: str) -> Solution:
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_a_driver_that_stands_has_no_lever(lang: str) -> None:
+def test_a_driver_at_rest_has_no_lever(lang: str) -> None:
     text = protocol(six_link(("omega = -20", "omega = 0"), ("epsilon = 80", "")), lang=lang)
     said = {"ru": "рычаг не строится", "en": "there is no lever"}
     assert said[lang] in flat(text)
@@ -380,7 +380,7 @@ def test_a_couple_alone_is_carried_by_reactions_along_one_line() -> None:
 
 
 @pytest.mark.parametrize(("force", "said"), [(6000, "навстречу"), (-6000, "по")])
-def test_a_resistance_is_said_to_be_against_the_velocity(force: int, said: str) -> None:
+def test_a_resistance_is_described_as_against_the_velocity(force: int, said: str) -> None:
     text = flat(
         protocol(
             six_link(("force = 6000 # Н\nangle = -90", f'force = {force}\nagainst = "velocity"'))
@@ -389,7 +389,7 @@ def test_a_resistance_is_said_to_be_against_the_velocity(force: int, said: str) 
     assert f", {said} скорости v_H." in text
 
 
-def test_a_load_that_rests_is_said_to_rest() -> None:
+def test_a_load_at_rest_is_described_as_such() -> None:
     text = flat(protocol(six_link(("force = 6000", 'force = 6000\nphases = { moving = "down" }'))))
     assert "F_5C в этом положении не действует" in text
 
@@ -441,7 +441,7 @@ def test_each_of_many_positions_has_its_own_forces() -> None:
 
 
 @pytest.mark.parametrize("lang", ["ru", "en"])
-def test_a_shifted_force_of_inertia_is_told_where_it_acts(lang: str) -> None:
+def test_a_shifted_force_of_inertia_is_described_at_its_point_of_action(lang: str) -> None:
     """The couple, the shift laid off on the drawing, the point of the lever; no pair on that."""
     solution = six_link(("[dynamics]", "[dynamics]\nresultant = true"))
     text = flat(protocol(solution, lang=lang))

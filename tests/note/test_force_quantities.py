@@ -114,7 +114,7 @@ def test_every_force_is_tested() -> None:
     assert {parse_selector(what).kind for what in EXACT} == set(FORCES)
 
 
-def test_what_is_nothing_is_nothing_and_not_rounding() -> None:
+def test_a_force_that_is_zero_by_nature_is_exactly_zero() -> None:
     for what in ("Fn 2 1 C D", "M 2 1", "weight 2"):
         assert kulisa().exact(parse_selector(what)) == 0.0
 
@@ -130,7 +130,7 @@ def test_a_force_is_read_off_its_plan_with_the_ruler(what: str) -> None:
     assert steps * 0.5 * MU_F == pytest.approx(kulisa().exact(selector), rel=0.02, abs=1)
 
 
-def test_what_was_laid_off_is_not_read_again() -> None:
+def test_a_value_that_was_laid_off_is_not_read_again() -> None:
     """The tangential reaction is its moment over the arm CB, which was read 70.5 mm."""
     at = kulisa()
     assert at.read(parse_selector("load P")) == 100.0
@@ -254,14 +254,16 @@ def test_a_driving_slider_is_balanced_along_its_guide() -> None:
         (loaded(driver="omega = 0"), "lever", NoValue.STANDS),
     ],
 )
-def test_what_the_forces_do_not_have(problem: Problem, what: str, why: NoValue) -> None:
+def test_missing_quantities_of_forces_have_a_reason(
+    problem: Problem, what: str, why: NoValue
+) -> None:
     with pytest.raises(NoValueError) as caught:
         asked(problem, what)
     assert caught.value.why is why
     assert all(language(lang).audit["whys"][why.value] for lang in LANGUAGES)
 
 
-def test_a_force_that_is_nothing_has_no_direction() -> None:
+def test_a_zero_force_has_no_direction() -> None:
     text = KULISA + LOADS.replace("force = 100", "force = 0").replace("mass = 2", "mass = 0")
     still = loads(text.replace("inertia = 0.5", "").replace("couple = 4", "couple = 0"), name="k")
     assert asked(still, "F 3 0") == 0.0

@@ -27,7 +27,7 @@ from planmethod.note.writers.sentences import formula_alone, pieces, units_of, w
 UNITS = units_of(language("ru").note["units"])
 
 
-def test_the_tree_has_what_is_written() -> None:
+def test_the_tree_has_every_part_of_the_text() -> None:
     assert parse(r"\frac{v}{\sqrt{x}}") == (Fraction((Letters("v"),), (Root((Letters("x"),)),)),)
     assert parse(r"\bar{a}^{n}_{B}") == (
         Overline((Letters("a"),)),
@@ -39,7 +39,7 @@ def test_the_tree_has_what_is_written() -> None:
 @pytest.mark.parametrize(
     "markup", [r"\frac{a}", r"\frac{a}{}", r"\frac{a}b", r"\sqrt{a", r"\root{a}", "a_", "}"]
 )
-def test_what_does_not_pair_is_a_fault(markup: str) -> None:
+def test_unpaired_brackets_are_a_fault(markup: str) -> None:
     with pytest.raises(LayoutError):
         parse(markup)
 

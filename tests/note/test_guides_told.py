@@ -41,7 +41,7 @@ def test_only_a_guide_has_a_distance_and_a_point(index: int) -> None:
     assert [("b" in other, "point" in other) for other in reactions(index)].count((True, True)) == 1
 
 
-def test_edges_are_told_where_they_act() -> None:
+def test_forces_at_edges_are_described_at_their_places() -> None:
     assert "edges" not in guide(0)
     one = guide(1)
     assert one["b"] < -0.04
@@ -83,7 +83,7 @@ def test_the_table_has_a_column_and_a_line(lang: str, column: str, told: str) ->
         assert re.search(rf"{letter} = {re.escape(size)} \S+ \(φ = {re.escape(angle)}°\)", flat)
 
 
-def test_a_couple_at_the_edges_is_told(tmp_path: Path) -> None:
+def test_a_couple_at_the_edges_is_described(tmp_path: Path) -> None:
     text = path_of("levers/task12").read_text("utf-8")
     text = text.replace('{ on = "y-y" }', '{ on = "y-y", length = 0.12 }')
     file = tmp_path / "t.toml"

@@ -37,7 +37,7 @@ def test_a_formula_is_latex(rich: str, tex: str) -> None:
     assert latex(parse(rich)) == tex
 
 
-def test_of_a_sentence_the_formulas_stand_between_dollars() -> None:
+def test_formulas_of_a_sentence_are_between_dollars() -> None:
     text = written(document.Paragraph("Скорость v_{B} = 3,2 м/с, по рисунку *точно* $5 [1]."))
     assert text == "Скорость $v_{B} = 3{,}2\\ \\text{м/с}$, по рисунку \\*точно\\* \\$5 \\[1\\].\n"
 
@@ -48,7 +48,7 @@ def test_a_paragraph_is_no_entry_of_a_list() -> None:
     )
 
 
-def test_steps_are_numbered_through_and_what_continues_belongs_to_the_last() -> None:
+def test_steps_are_numbered_throughout_and_a_continuation_belongs_to_the_last() -> None:
     text = written(
         document.Step(("Первый", "и ещё")),
         document.Step(("дальше",), continues=True),
@@ -65,7 +65,7 @@ def test_a_table_has_pipes_and_its_numbers_on_the_right() -> None:
     assert text == "| имя | a, м/с |\n| --- | ---: |\n| x\\|y | $\\vert \\omega_{1}\\vert$ |\n"
 
 
-def test_vector_equations_say_what_is_known_and_are_a_system() -> None:
+def test_vector_equations_mark_known_terms_and_form_a_system() -> None:
     one = Equation((Term("v_{B}"),), (Term("v_{A}", 2), Term("v_{BA}", 1, "⊥ AB")))
     text = written(document.Equations((one, one), numbered=True))
     line = (

@@ -60,7 +60,7 @@ def arc(way: Way, line: str = "ray", branch: str | None = None) -> steps.MeetLin
     return steps.MeetLineCircle(*names, way, turned)
 
 
-def test_what_a_kind_says_itself_outranks_silence(narrator: BoardNarrator) -> None:
+def test_a_narrators_own_sentence_outranks_silence(narrator: BoardNarrator) -> None:
     assert narrator.tell(steps.Given(PointName("A"))) == ["mark A_{1}"]
     assert narrator.tell(steps.GivenNumber(NumberName("r"))) == []
 
@@ -80,7 +80,7 @@ def test_a_meeting_names_both_lines_and_the_point(narrator: BoardNarrator) -> No
         (arc(Way.BACKWARD, "post"), "upper"),
     ],
 )
-def test_an_arc_says_which_of_two_meetings(step: steps.Step, key: str) -> None:
+def test_an_arc_names_the_chosen_intersection(step: steps.Step, key: str) -> None:
     for lang in LANGUAGES:
         words = language(lang).note
         ways = {name: getattr(words, name) for name in ("rightmost", "leftmost", "upper", "lower")}
@@ -91,7 +91,7 @@ def test_an_arc_says_which_of_two_meetings(step: steps.Step, key: str) -> None:
 
 @pytest.mark.parametrize("branch", [None, NumberName("turned")])
 @pytest.mark.parametrize("side", list(Side))
-def test_two_arcs_say_the_side_of_the_line_of_centres(
+def test_two_arcs_name_the_side_of_the_line_of_centres(
     narrator: BoardNarrator, side: Side, branch: NumberName | None
 ) -> None:
     ends = PointName("A"), NumberName("r"), PointName("B"), NumberName("s")
@@ -102,7 +102,7 @@ def test_two_arcs_say_the_side_of_the_line_of_centres(
     assert "B_{1} with the radius 40 mm" in told
 
 
-def test_a_reading_has_what_the_hand_reads_and_the_exact_value(narrator: BoardNarrator) -> None:
+def test_a_reading_has_the_value_read_and_the_exact_one(narrator: BoardNarrator) -> None:
     (told,) = narrator.tell(steps.Measure(NumberName("read AC"), PointName("A"), PointName("C")))
     assert told == "We measure the segment AC = 25.04 mm (exactly 25.00 mm)."
 

@@ -112,7 +112,7 @@ def test_a_figure_that_ends_a_chapter_shrinks_a_little_to_stay_on_its_page(
 
 
 @pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
-def test_a_table_that_runs_on_says_so_on_each_page(tmp_path: Path) -> None:
+def test_a_table_that_runs_on_is_marked_as_continued_on_each_page(tmp_path: Path) -> None:
     rows = tuple((f"строка{k}", "1") for k in range(120))
     table = Table(("N", "v"), rows, name="Значения")
     first, *others = _pages(Document.of((Contents(), Chapter("Глава"), table)), tmp_path)[1:]

@@ -98,7 +98,7 @@ def test_chapters_parts_and_steps_are_numbered() -> None:
     ]  # fmt: skip
 
 
-def test_what_stands_apart() -> None:
+def test_blank_lines_separate_blocks() -> None:
     table = table_of(("a",), [("1",)])
     equations = Equations((Equation((Term("F"),)),))
     nodes = (
@@ -116,7 +116,7 @@ def test_what_stands_apart() -> None:
     assert parts[-1] == "end\nmore"
 
 
-def test_an_item_hangs_under_its_label() -> None:
+def test_an_item_is_indented_under_its_label() -> None:
     lines = written(Item(LONG, label="7 %"), Item("short", label="12 %")).splitlines()
     assert lines[0].startswith("    7 %  word")
     assert lines[1].startswith(" " * 9 + "word")
@@ -134,7 +134,7 @@ def test_wide_tables_are_cut_where_they_may_be() -> None:
     assert len(written(whole).splitlines()) == 3
 
 
-def test_units_stand_in_the_heads() -> None:
+def test_units_are_in_the_heads() -> None:
     table = table_of_quantities([("t", "s", ["0"]), ("No.", "", ["1"])], repeated=1)
     assert table.head == ("t, s", "No.")
     assert table.rows == (("0", "1"),)
@@ -161,7 +161,7 @@ def test_a_number_and_its_unit_are_not_parted(lang: str) -> None:
     assert text == "  1) a b"
 
 
-def test_text_of_a_file_stands_as_it_is() -> None:
+def test_text_of_a_file_is_printed_unchanged() -> None:
     text = r"a_{b}^2 \ {c}"
     assert written(Paragraph(escape(text))) == text
 
@@ -205,7 +205,7 @@ def test_items_below_a_caption_are_indented_and_others_are_not() -> None:
     assert written(Item("one"), Caption("Checks"), Item("two")).splitlines()[-1] == "  two"
 
 
-def test_nothing_has_no_sign() -> None:
+def test_zero_has_no_sign() -> None:
     say = language("ru").say
     assert [say.number(text) for text in ("-0.00", "-0", "0.0", "-0.01")] == [
         "0,00",

@@ -83,7 +83,7 @@ SENTENCES = {
 
 
 @pytest.mark.parametrize(("name", "lang"), SENTENCES)
-def test_says_what_a_student_writes(name: str, lang: str) -> None:
+def test_the_protocol_has_the_sentences_of_a_student(name: str, lang: str) -> None:
     text = told(name, lang)
     for sentence in SENTENCES[name, lang]:
         assert sentence in text
@@ -113,7 +113,7 @@ def test_the_random_mechanisms_have_every_dyad_and_step() -> None:
 
 
 @pytest.mark.parametrize("name", SIX)
-def test_every_point_of_the_plans_is_told(name: str) -> None:
+def test_every_point_of_the_plans_is_described(name: str) -> None:
     text = told(name, "ru")
     solution = worked(name)
     for plan in solution.construction.plans:
@@ -130,7 +130,7 @@ OFFSET = re.compile(
 )
 
 
-def test_offsets_lie_on_the_side_that_is_told() -> None:
+def test_offsets_are_on_the_stated_side() -> None:
     checked = 0
     for seed in SEEDS:
         solution = drawn(seed)
@@ -151,7 +151,7 @@ def test_offsets_lie_on_the_side_that_is_told() -> None:
     assert checked > 30
 
 
-def test_the_equation_stands_over_its_underlines() -> None:
+def test_the_equation_is_printed_over_its_underlines() -> None:
     lines = protocol(worked("linkages/ex3")).splitlines()
     at = next(i for i, line in enumerate(lines) if line.strip().startswith("a_B3 = a_B +"))
     assert lines[at + 1].split() == ["═══", "══════", "──────"]

@@ -101,7 +101,7 @@ def test_the_hand_reads_along_its_own_chain() -> None:
         assert kulisa().read(parse_selector(what)) == pytest.approx(value, rel=1e-12), what
 
 
-def test_the_hand_reads_what_its_results_say() -> None:
+def test_the_hand_reads_its_stated_results() -> None:
     hand = kulisa().solution.read_off
     expected = {
         "a D": hand("a_D")[0],
@@ -129,7 +129,7 @@ def test_an_angle_is_not_read_with_a_ruler() -> None:
         ("v D / v A", NoValue.ZERO_DIVISOR),
     ],
 )
-def test_what_the_solution_does_not_have(what: str, why: NoValue) -> None:
+def test_quantities_that_the_solution_does_not_have_are_rejected(what: str, why: NoValue) -> None:
     with pytest.raises(NoValueError) as caught:
         kulisa().exact(parse_selector(what))
     assert caught.value.why is why

@@ -30,7 +30,7 @@ def test_sizes_of_a_mesh_are_those_of_its_tables(name: str) -> None:
         assert isinstance(one["symbol"], list) == isinstance(told["meshing"][key], list)
 
 
-def test_speeds_and_what_is_asked_of_a_train_have_letters_and_units() -> None:
+def test_speeds_and_requested_quantities_of_a_train_have_letters_and_units() -> None:
     told = train_record(load_train(PROBLEMS / "gears" / "gears-ex6.toml"), "ru")
     assert {*told["gears"]["asked"]} <= {*told["legend"]}
     speeds = {name[2:] for name in told["legend"] if name.startswith("n_")}

@@ -15,7 +15,9 @@ from planmethod.solved.solution import Solution
     ("lang", "word", "value"),
     [("ru", "арбитр", "15,4767088364120"), ("en", "referee", "15.4767088364120")],
 )
-def test_every_moving_result_stands_beside_the_referee(lang: str, word: str, value: str) -> None:
+def test_every_moving_result_is_beside_that_of_the_referee(
+    lang: str, word: str, value: str
+) -> None:
     text = referee_tables(Solution(problem_of("linkages/ex3")), 50, lang)
     assert word in text and value in text
     assert "\nv_A " not in text  # the pivot does not move

@@ -30,7 +30,7 @@ def test_tables_of_any_mechanism_fit_the_terminal(seed: int, lang: str) -> None:
     assert_readable(result_tables(drawn(seed), lang))
 
 
-def test_says_values_senses_and_readings() -> None:
+def test_the_tables_have_values_senses_and_readings() -> None:
     lines = result_tables(worked("linkages/ex3"), "ru").splitlines()
     rows = [line.split() for line in lines]
     assert "Формула строения: I(0,1) → II(2,3) → II(4,5)" in lines
@@ -133,6 +133,6 @@ def test_a_given_number_has_the_digits_that_it_was_given_with(value: float, told
     assert trimmed(value) == told
 
 
-def test_a_position_is_told_as_it_was_asked() -> None:
+def test_a_position_is_printed_as_requested() -> None:
     solution = Solution(problem_of("linkages/ex1"), positions=[89.999999])
     assert "φ₁ = 89,999999°" in result_tables(solution)

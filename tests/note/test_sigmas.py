@@ -147,7 +147,7 @@ def test_every_reading_has_its_error_beside_it(name: str, lang: str) -> None:
             assert any(row[at : at + 1] == [exact] and row[at + 2] == error for row in rows)
 
 
-def test_says_how_far_off_the_readings_of_a_worked_example_are() -> None:
+def test_the_errors_of_a_worked_examples_readings_are_printed() -> None:
     solution = worked("linkages/ex3")
     rows = rows_of(result_tables(solution, "ru", sigma=True))
     for header in (
@@ -167,7 +167,7 @@ def test_says_how_far_off_the_readings_of_a_worked_example_are() -> None:
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_what_was_found_by_draws_is_marked_and_told(lang: str) -> None:
+def test_errors_found_by_draws_are_marked_and_explained(lang: str) -> None:
     words = wording(lang)
     note = words.drawn_note
     starred = result_tables(near_dead(), lang, sigma=True)
@@ -189,12 +189,12 @@ def test_what_was_found_by_draws_is_marked_and_told(lang: str) -> None:
     ("lang", "profile", "said"),
     [("ru", "board", "«чертёжная доска»"), ("ru", "coarse", "«грубо»"), ("en", "cad", "“CAD”")],
 )
-def test_the_profile_is_told(lang: str, profile: str, said: str) -> None:
+def test_the_profile_is_named(lang: str, profile: str, said: str) -> None:
     solution = Solution(problem_of("linkages/ex1"), profile=PROFILES[profile])
     assert said in result_tables(solution, lang, sigma=True)
 
 
-def test_digits_stand_under_each_other_where_some_are_marked() -> None:
+def test_digits_are_aligned_where_some_are_marked() -> None:
     lines = result_tables(worked("press/press"), "ru", sigma=True).splitlines()
     start = next(k for k, line in enumerate(lines) if line.startswith("a_A "))
     cells = [line[: lines[start - 2].index("  по снятому")] for line in lines[start : start + 12]]
@@ -236,7 +236,7 @@ def test_no_causes_of_many_positions() -> None:
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_tables_without_errors_ask_for_none(lang: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tables_without_errors_compute_none(lang: str, monkeypatch: pytest.MonkeyPatch) -> None:
     once = Solution.once
     monkeypatch.setattr(
         Solution,
@@ -285,7 +285,7 @@ def test_the_largest_causes_of_the_worst_result(name: str, lang: str) -> None:
 
 @each("lang", LANGUAGES)
 @each("name", [*SIX, *range(some(25, few=10))])
-def test_every_stroke_can_be_told(name: str | int, lang: str) -> None:
+def test_every_stroke_has_a_name(name: str | int, lang: str) -> None:
     """Every cause of every quantity has a name that a reader knows."""
     solution = drawn(name) if isinstance(name, int) else worked(name)
     causes = Causes(Names(solution, wording(lang)))
@@ -301,7 +301,7 @@ def test_every_stroke_can_be_told(name: str | int, lang: str) -> None:
         assert said.endswith(")"), said  # which plan it is on
 
 
-def test_causes_are_named_by_what_is_drawn() -> None:
+def test_causes_are_named_by_the_drawn_item() -> None:
     solution = worked("linkages/ex3")
     causes, velocity = (
         Causes(Names(solution, wording("ru"))),

@@ -223,7 +223,7 @@ def test_every_problem_of_a_kind_is_rebuilt(kind: Any, path: Path, tmp_path: Pat
 
 
 @each("kind,text", [(kind, text) for kind in KINDS for text in OWN.get(kind.table, ())])
-def test_what_no_shipped_problem_has_is_rebuilt(kind: Any, text: str, tmp_path: Path) -> None:
+def test_data_that_no_shipped_problem_has_are_rebuilt(kind: Any, text: str, tmp_path: Path) -> None:
     path = tmp_path / "own.toml"
     path.write_text(f"[{kind.table}]\n{text}", "utf-8")
     assert_rebuilt(kind, path, None, tmp_path / "again.toml")

@@ -94,7 +94,7 @@ def facts_of(problem: Problem, words: Language, positions: Sequence[float]) -> l
 
 
 @each("path", FILES + STATED)
-def test_every_problem_is_rebuilt_of_what_is_given(path: Path) -> None:
+def test_every_problem_is_rebuilt_from_its_stated_data(path: Path) -> None:
     for problem in load_each(path, [None]):
         for words in (RU, EN):
             facts = facts_of(problem, words, problem.drive.positions)
@@ -112,7 +112,7 @@ def test_every_variant_is_rebuilt(path: Path) -> None:
 
 
 @each("train", ("n = { 1 = -960 }", "omega = { 1 = -100 }"))
-def test_what_a_train_drives_is_rebuilt_with_its_teeth(train: str) -> None:
+def test_a_linkage_driven_by_a_train_is_rebuilt_with_its_teeth(train: str) -> None:
     text = TEMPLATE.read_text("utf-8").replace("n = { 1 = -960 }", train)
     problem = loads(text, name="driven")
     for words in (RU, EN):

@@ -75,7 +75,7 @@ def test_the_numbers_of_pairs_have_one_notation(
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("name", [*SIX, "levers/task-13", "levers/task-33", "levers/task-49"])
-def test_schemes_without_redundant_constraints_are_told(name: str, lang: str) -> None:
+def test_schemes_without_redundant_constraints_are_described(name: str, lang: str) -> None:
     problem, words = problem_of(name), language(lang)
     structure = analyse(problem.mechanism)
     aligned = self_aligning(problem, structure)
@@ -93,7 +93,7 @@ def test_schemes_without_redundant_constraints_are_told(name: str, lang: str) ->
     assert flat.count("q = 0.") == len(structure.groups)
 
 
-def test_what_is_right_by_count_alone_is_named() -> None:
+def test_a_scheme_that_is_right_by_count_only_is_named() -> None:
     problem, words = problem_of("levers/six-link"), language("ru")
     structure = analyse(problem.mechanism)
     aligned = self_aligning(problem, structure)
@@ -141,7 +141,7 @@ def test_pairs_and_links_are_listed() -> None:
     assert ["5", "slider", "translation", "E,", "E(0,5)"] in rows
 
 
-def test_a_group_of_class_three_is_told() -> None:
+def test_a_group_of_class_three_is_described() -> None:
     base = Revolute("A", ("0", "1"))
     pins = [("B", "1", "3"), ("C", "0", "4"), ("D", "0", "5")]
     outer = [Revolute(p, tuple(sorted((a, b)))) for p, a, b in pins]

@@ -48,7 +48,7 @@ def test_columns_of_many_positions_are_those_of_their_heads(name: str) -> None:
 
 
 @each("name", ["linkages/ex3", "linkages/ex2"])
-def test_places_are_told_so_that_links_have_their_lengths(name: str) -> None:
+def test_printed_places_give_links_their_lengths(name: str) -> None:
     """The crank's pin by its angle: x = l cos φ, y = l sin φ from the pivot."""
     problem = problem_of(name)
     solution = Solution(problem, positions=[20.0 + 45.0 * k for k in range(8)])
@@ -93,7 +93,7 @@ def test_the_columns_of_a_turn_are_derivatives_of_one_another() -> None:
 
 
 @each("name", ["linkages/ex3", "levers/task12"])
-def test_the_causes_of_an_error_are_told_the_largest_first(name: str) -> None:
+def test_the_causes_of_an_error_are_listed_the_largest_first(name: str) -> None:
     solution = Solution(problem_of(name))
     errors = drafting_of(solution)
     for label in ("v_B", "v_C", "v_E", "omega_2", "omega_3"):

@@ -102,7 +102,7 @@ def test_an_equation_without_directions_is_one_line() -> None:
     assert "mr(" not in text and text.endswith('"\u00a0=\u00a0"0') and text.startswith("Σbartop(F)")
 
 
-def test_a_long_sum_is_cut_at_a_sign_that_stands_again() -> None:
+def test_a_long_sum_is_cut_at_a_sign_that_is_repeated() -> None:
     forces = tuple(Term(f"F_{{{k}{k + 1}}}", 1, "∥ x-x") for k in range(12))
     equation = omml.vector_equations([Equation(forces)], 27.0)
     lines = equation.findall(f"{M}eqArr/{M}e")
@@ -128,7 +128,7 @@ def test_points_are_italic_with_an_index_and_without() -> None:
     assert not list(opened(english).element.body.iter(f"{M}oMath"))
 
 
-def test_what_leads_to_a_formula_stays_with_it() -> None:
+def test_the_lead_in_of_a_formula_stays_with_it() -> None:
     written = (
         Paragraph("Отсюда"), Formula("v_{B} = 5"), Paragraph("Свободен."),
         Step(("Вычисляем", "v_{B} = 5 м/с.", "Конец.")), Paragraph("Данные:"), Item("одно"),
@@ -190,7 +190,7 @@ def texts_of(file: Any) -> list[str]:
     return [text.text or "" for text in file.element.body.iter(f"{W}t")]
 
 
-def test_a_text_of_nothing_is_written() -> None:
+def test_a_text_without_characters_is_written() -> None:
     assert word_document(Document.of([Paragraph("")]), RU)
 
 
@@ -235,7 +235,7 @@ ORDER = ("tblStyle", "tblW", "jc", "tblInd", "tblBorders", "tblLayout", "tblCell
 """Order of the properties of a table in the schema: Word accepts no other."""
 
 
-def test_properties_stand_in_the_order_of_the_schema() -> None:
+def test_properties_are_in_the_order_of_the_schema() -> None:
     file = opened(word_document(note(), RU, frame=True))
     feet = [section.first_page_footer for section in file.sections[1:2]]
     for table in (*file.tables, *(foot.tables[0] for foot in feet)):
@@ -345,7 +345,7 @@ SERVES = ("a size of letters that is none", "a flag that is none", "settings of 
 
 
 @pytest.mark.parametrize("how", BROKEN)
-def test_a_broken_template_is_told_in_one_way_or_serves(how: str, tmp_path: Path) -> None:
+def test_a_broken_template_is_reported_in_one_way_or_works(how: str, tmp_path: Path) -> None:
     """Without a section, types or a page width it ended with exit code 5."""
     part, old, new = BROKEN[how]
 
@@ -389,7 +389,7 @@ def test_a_template_is_looked_through_before_it_is_read(
         word_document(note(), RU, template=template)
 
 
-def test_what_fails_without_the_template_too_is_no_fault_of_it(
+def test_a_failure_without_the_template_is_not_blamed_on_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_: object, **__: object) -> None:
@@ -400,7 +400,7 @@ def test_what_fails_without_the_template_too_is_no_fault_of_it(
         word_document(note(), RU, template=changed(tmp_path, lambda name, data: data))
 
 
-def test_what_is_referred_to_must_be_there() -> None:
+def test_referenced_targets_must_exist() -> None:
     with pytest.raises(LayoutError, match="speed"):
         word_document(Document.of([Paragraph(r"По формуле (\ref{speed})")]), RU)
 

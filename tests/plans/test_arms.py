@@ -83,7 +83,7 @@ def test_an_arm_is_laid_off_by_its_angle_and_length(
         assert abs(one - other) <= 1e-12 * math.hypot(0.3, 0.12)
 
 
-def test_the_protocol_tells_an_arm_by_what_is_given(tmp_path: Path) -> None:
+def test_the_protocol_describes_an_arm_by_the_given_data(tmp_path: Path) -> None:
     """100 degrees and 45 mm, not 7.8142 mm along and 44.316 mm across."""
     points, sizes, _ = TOLD["three letters"]
     path = tmp_path / "lever.toml"

@@ -100,7 +100,7 @@ def rule_of(seed: int, keep: str = "") -> str:
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_a_change_point_that_is_passed_is_told_with_its_angle(seed: int) -> None:
+def test_a_passed_change_point_is_reported_with_its_angle(seed: int) -> None:
     problem, at = four_bar(seed, rule_of(seed))
     (start,) = problem.drive.positions
     inside = [place for place in at if start < place < start + 359]
@@ -114,7 +114,7 @@ def test_a_change_point_that_is_passed_is_told_with_its_angle(seed: int) -> None
     assert changed_branches(Solution(problem)) == []
 
 
-def test_a_mechanism_without_change_points_is_told_of_none() -> None:
+def test_a_mechanism_without_change_points_gives_no_warning() -> None:
     for seed in range(8):
         problem, _ = four_bar(seed, rule_of(seed))
         text = FOUR_BAR.format(
@@ -206,7 +206,7 @@ def test_a_slider_crank_of_equal_links_goes_through_its_pivot(seed: int) -> None
     assert changed_branches(Solution(smooth, positions=(angle + asked).tolist())) == []
 
 
-def test_a_pin_that_passes_through_the_pivot_of_its_slotted_link_is_told_of() -> None:
+def test_a_pin_passing_through_the_pivot_of_its_slotted_link_is_reported() -> None:
     text = (CASES / "arm-nothing.toml").read_text("utf-8").replace("0.1005", "0.1")
     problem = loads(text.replace("phi = 0", "phi = 300"), name="through")
     (said,) = map(str, changed_branches(Solution(problem, positions=[420.0])))
@@ -236,7 +236,7 @@ def faulty(problem: Problem) -> str:
     return str(fault)
 
 
-def test_what_is_no_parallelogram_cannot_be_kept_one() -> None:
+def test_a_linkage_that_is_not_a_parallelogram_cannot_be_kept_parallel() -> None:
     text = FOUR_BAR.format(
         k=[0.7, -0.2], ab=0.1, bc=0.41, kc=0.1, phi=20.0, rule='{ keep = "parallel" }'
     )

@@ -136,11 +136,11 @@ def _compared(solution: Solution, terms: list[Vector]) -> set[Relation]:
 
 
 @each("name", SIX)
-def test_vectors_of_the_worked_mechanisms_lie_as_their_equations_say(name: str) -> None:
+def test_vectors_of_the_worked_mechanisms_have_the_directions_of_their_equations(name: str) -> None:
     assert Relation.ACROSS in assert_directions(Solution(problem_of(name)))
 
 
-def test_vectors_of_the_tasks_lie_as_their_equations_say() -> None:
+def test_vectors_of_the_tasks_have_the_directions_of_their_equations() -> None:
     seen = set()
     for path in thinned(every_task(), 3):
         seen |= assert_directions(Solution(load(path)))
@@ -148,7 +148,7 @@ def test_vectors_of_the_tasks_lie_as_their_equations_say() -> None:
 
 
 @each("seed", range(some(60, 12)))
-def test_vectors_of_random_mechanisms_lie_as_their_equations_say(seed: int) -> None:
+def test_vectors_of_random_mechanisms_have_the_directions_of_their_equations(seed: int) -> None:
     assert_directions(Solution(loads(random_problem(seed)[0], name="random")))
 
 
@@ -164,7 +164,7 @@ def test_vectors_of_random_mechanisms_lie_as_their_equations_say(seed: int) -> N
         (-60, "∠ -60° CD", "∠ 30° CD"),
     ],
 )
-def test_a_slot_beside_the_axis_is_told_by_the_axis_of_its_link(
+def test_a_slot_beside_the_axis_is_described_by_the_axis_of_its_link(
     angle: float, along: str, across: str
 ) -> None:
     """The relative vectors run along the slot, the Coriolis acceleration across it."""
@@ -183,7 +183,7 @@ def test_a_slot_beside_the_axis_is_told_by_the_axis_of_its_link(
 
 
 @each("angle", [0, 90, 30, -120])
-def test_a_slot_through_the_pin_is_told_by_the_points_on_it(angle: float) -> None:
+def test_a_slot_through_the_pin_is_described_by_the_points_on_it(angle: float) -> None:
     solution = Solution(slot(angle, offset=0.0))
     assert_directions(solution)
     for term in terms(solution):
@@ -205,7 +205,7 @@ def test_a_slot_that_joins_no_two_letters_has_a_name_that_the_statement_gives() 
     assert "n_{2}–n_{2} — направляющая звена 3 для звена 2, проходит через C" in given_texts
 
 
-def test_a_direction_stands_under_its_own_term() -> None:
+def test_a_direction_is_printed_under_its_own_term() -> None:
     """In the text the note begins where the term begins, below its underline."""
     solution = Solution(slot(90))
     names = Names(solution, wording("en"))

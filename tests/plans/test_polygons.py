@@ -73,7 +73,7 @@ def test_edges_are_the_loads_and_the_reactions(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", LOADED)
-def test_moments_give_what_they_say(name: str) -> None:
+def test_moment_equations_give_their_results(name: str) -> None:
     statics = statics_of(name)
     for plan in statics.board.plans:
         for equation in plan.moments:

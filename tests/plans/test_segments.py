@@ -85,7 +85,7 @@ def test_no_segment_is_read_twice(what: str | int) -> None:
 
 
 @pytest.mark.parametrize("what", EVERY)
-def test_nothing_follows_from_a_reading_of_what_was_laid_off(what: str | int) -> None:
+def test_no_result_follows_from_a_reading_of_a_laid_off_segment(what: str | int) -> None:
     solution = solved(what)
     steps = program(solution).steps
     extra = idle(solution)

@@ -162,7 +162,7 @@ def test_the_driver_reversed_or_at_another_speed(name: str, times: float) -> Non
 
 
 @pytest.mark.parametrize("name", SIX)
-def test_a_driver_at_rest_moves_nothing(name: str) -> None:
+def test_a_driver_at_rest_gives_zero_velocities(name: str) -> None:
     """Velocities are zero; accelerations are the velocities of a driver with this speed."""
     problem = problem_of(name)
     still = Solution(replace(problem, drive=replace(problem.drive, rate=0.0, acceleration=-4.0)))

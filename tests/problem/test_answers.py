@@ -55,7 +55,7 @@ def test_every_key_is_read_and_the_order_is_that_of_the_file() -> None:
     )
 
 
-def test_a_file_without_answers_asks_nothing_of_its_own() -> None:
+def test_a_file_without_answers_requires_none_of_its_own() -> None:
     assert read().answers == ()
 
 
@@ -108,7 +108,7 @@ def test_every_name_is_understood_and_means_the_same(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
-def test_every_force_can_be_asked_for_by_its_name(path: Path) -> None:
+def test_every_force_can_be_required_by_its_name(path: Path) -> None:
     problem = load(path)
     if problem.dynamics is None:
         pytest.skip("no masses and no loads")
@@ -151,20 +151,20 @@ def test_an_answer_of_a_position_has_it_in_its_id() -> None:
         ("lever B", "true", AskedSense.DIRECTION),
     ],
 )
-def test_the_sense_is_asked_as_the_quantity_has_it(
+def test_a_sense_is_required_only_if_the_quantity_has_one(
     what: str, sense: str, wanted: AskedSense | None
 ) -> None:
     (answer,) = read(f'what = "{what}"\nsense = {sense}', variants=LOADED).answers
     assert answer.sense is wanted
 
 
-def test_what_balances_a_driving_slider_is_a_force_with_a_direction() -> None:
+def test_the_balance_of_a_driving_slider_is_a_force_with_a_direction() -> None:
     load_ = '[[loads]]\nlink = "2"\nat = "C"\nforce = 1\nangle = 0\n'
     (answer,) = read('what = "F_dr"\nsense = true', base=SLIDER, variants=load_).answers
     assert (answer.what, answer.sense) == ("balance", AskedSense.DIRECTION)
 
 
-def test_variants_change_one_key_or_ask_for_something_else() -> None:
+def test_variants_change_one_key_or_require_other_answers() -> None:
     variants = (
         '[variants.a]\nanswers.0.points = 3\n"answers.w2.digits" = 2\nlinks.1.AB = 0.09\n'
         '[variants.b]\nanswers = [{ what = "a C" }]\n'
@@ -176,7 +176,7 @@ def test_variants_change_one_key_or_ask_for_something_else() -> None:
     assert [a.points for a in read(*asked, variants=variants).answers] == [1.0, 1.0]
 
 
-def test_a_variant_cannot_change_what_is_not_asked() -> None:
+def test_a_variant_cannot_change_an_answer_that_is_not_required() -> None:
     with pytest.raises(ProblemError) as caught:
         read('what = "v C"', variants="[variants.a]\nanswers.0.point = 3\nanswers.4.points = 1\n")
     assert [str(fault) for fault in caught.value.faults] == [
@@ -425,7 +425,7 @@ FAULTS = {
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_every_fault_is_told_with_its_place_and_what_to_do(name: str) -> None:
+def test_every_fault_is_reported_with_its_place_and_remedy(name: str) -> None:
     text, wanted = FAULTS[name]
     assert messages(text, CRANK) == wanted
 
@@ -453,7 +453,7 @@ def schema_faults(text: str) -> int:
     return sum(1 for _ in schema.iter_errors(tomllib.loads(CRANK + text)))
 
 
-def test_the_schema_takes_what_the_reader_takes_and_refuses_what_it_can() -> None:
+def test_the_schema_accepts_what_the_reader_accepts_and_rejects_what_it_can() -> None:
     good = "id = 'скорость_C'\nletters = ['v']\nsense = true\nform = 'mm'\ntolerance = 5\n"
     assert loads(CRANK + A + V + good, name="asked").answers
     assert not schema_faults(A + V + good)

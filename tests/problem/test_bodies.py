@@ -50,7 +50,7 @@ def test_two_distances_and_a_side(side: str, sign: int) -> None:
     assert points(link)["D"] == pytest.approx(complex(0.18, sign * 0.24), abs=1e-15)
 
 
-def test_the_side_may_be_told_from_the_other_end() -> None:
+def test_the_side_may_be_given_from_the_other_end() -> None:
     link = 'points = ["B", "C", "D"]\nBC = 0.5\nBD = 0.3\nCD = 0.4\nD.side = "left of CB"'
     assert points(link)["D"] == pytest.approx(0.18 - 0.24j, abs=1e-15)
 

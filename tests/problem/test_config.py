@@ -43,7 +43,7 @@ def test_both_tables(tmp_path: Path) -> None:
     )
 
 
-def test_an_empty_file_says_nothing(tmp_path: Path) -> None:
+def test_an_empty_file_has_no_settings(tmp_path: Path) -> None:
     config = load_config(written(tmp_path, "\ufeff# ничего\n"))
     assert (config.stamp, config.sheet) == ({}, SheetSettings())
 

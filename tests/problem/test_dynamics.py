@@ -47,7 +47,7 @@ def force(text: str, base: str = CRANK) -> Load:
 # What is read ------------------------------------------------------------------------------------
 
 
-def test_a_file_with_neither_has_none() -> None:
+def test_a_file_without_masses_and_loads_has_no_dynamics() -> None:
     assert read("").dynamics is None
     assert "dynamics" not in read("").tables
 

@@ -391,7 +391,7 @@ def schema_faults(text: str) -> list[Any]:
     return list(schema.iter_errors(tomllib.loads(CRANK + text)))
 
 
-def test_the_schema_takes_what_the_reader_takes() -> None:
+def test_the_schema_accepts_all_that_the_reader_accepts() -> None:
     assert schema_faults(LOADED.replace("[variants]", "")) == []
     couple = '[[loads]]\nlink = "1"\ncouple = { over = "position", values = [1, 2, 3, 4] }\n'
     rest = 'against = "rotation"\nphases = { phi = [[300, 30]], turning = "cw" }\n'
@@ -434,5 +434,5 @@ SEEN = [
 
 
 @pytest.mark.parametrize("name", SEEN)
-def test_the_schema_finds_what_it_can(name: str) -> None:
+def test_the_schema_finds_all_faults_that_it_can(name: str) -> None:
     assert schema_faults(FAULTS[name][0])

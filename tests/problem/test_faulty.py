@@ -45,7 +45,7 @@ def test_there_are_many_cases_and_some_have_five_faults() -> None:
     assert counts.count(5) >= 3
 
 
-def test_all_faults_stand_in_one_message() -> None:
+def test_all_faults_are_in_one_message() -> None:
     message = message_of(FAULTY / "five-of-all-kinds.toml")
     assert message.splitlines()[0] == "5 faults in the problem file"
     assert len(message.splitlines()) == 6
@@ -64,7 +64,7 @@ def test_missing_file_names_the_nearest(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("typed", ["t40", "t40.tom", "T40"])
-def test_a_name_without_its_ending_is_told_with_it(typed: str, tmp_path: Path) -> None:
+def test_a_name_without_its_ending_is_reported_with_it(typed: str, tmp_path: Path) -> None:
     for name in ("t40.toml", "t41.toml", "t400.toml"):
         (tmp_path / name).write_text("", encoding="utf-8")
     assert message_of(tmp_path / typed).endswith(f"Did you mean '{tmp_path / 't40.toml'}'?")
@@ -106,7 +106,7 @@ def test_utf_16(tmp_path: Path) -> None:
     assert message_of(path).endswith("the file is in UTF-16, expected UTF-8. Save it as UTF-8.")
 
 
-def test_a_byte_order_mark_says_nothing_more(tmp_path: Path) -> None:
+def test_a_byte_order_mark_adds_no_further_fault(tmp_path: Path) -> None:
     path = tmp_path / "bom.toml"
     path.write_bytes(b'\xef\xbb\xbftitle = "x"')
     assert "links: missing" in message_of(path)
@@ -201,7 +201,7 @@ def test_a_list_of_numbers_may_be_longer_than_a_line() -> None:
     ],
     ids=lambda value: value[:30] if isinstance(value, str) and len(value) < 90 else "",
 )
-def test_bounds_are_told_with_numbers(text: str, wanted: str) -> None:
+def test_bounds_are_reported_with_numbers(text: str, wanted: str) -> None:
     base = '\n[frame]\nA = [0, 0]\n[links.1]\npoints = ["A", "B"]\nAB = 1\n'
     if text.startswith("[driver]"):
         text = text.replace("[driver]", '[driver]\nlink = "1"\nomega = 1') + base

@@ -48,7 +48,7 @@ def run(*args: str) -> Any:
     return CliRunner().invoke(cli, args)
 
 
-def test_the_crank_turns_as_the_train_says(path: Path) -> None:
+def test_the_crank_turns_at_the_speed_of_the_train(path: Path) -> None:
     """U_1H = 1 + 96/24 = 5."""
     drive = load(path).drive
     assert drive.rate == pytest.approx(-1440 / 5 * math.pi / 30)
@@ -87,7 +87,9 @@ def test_plans_sheets_and_keys_have_that_speed(path: Path, tmp_path: Path) -> No
         ("phi = 20", "s = 0.1", "driver.s: does not go with a crank"),
     ],
 )
-def test_a_train_that_cannot_drive_says_why(old: str, new: str, said: str, path: Path) -> None:
+def test_a_train_that_cannot_drive_is_rejected_with_a_reason(
+    old: str, new: str, said: str, path: Path
+) -> None:
     path.write_text(TEXT.replace(old, new), encoding="utf-8")
     done = run("solve", str(path))
     assert done.exit_code == ExitCode.PROBLEM, done.output

@@ -73,7 +73,7 @@ def test_the_worked_examples_are_here() -> None:
     ],
     ids=lambda value: value.stem if isinstance(value, Path) else "",
 )
-def test_every_printed_value_is_listed_and_says_what_it_is(path: Path, count: int) -> None:
+def test_every_printed_value_is_listed_with_its_quantity_or_a_note(path: Path, count: int) -> None:
     published = load(path).published
     assert len(published) == count
     for item in published:
@@ -187,7 +187,7 @@ SCHEMA_TABLES = {
 }
 
 
-def test_what_follows_from_declared_keys_is_current() -> None:
+def test_files_generated_from_declared_keys_are_current() -> None:
     assert reference.SCHEMA.read_text("utf-8") == reference.schema_text(), "run make schema"
     russian = reference.RUSSIAN_SCHEMA.read_text("utf-8")
     assert russian == reference.russian_schema_text(), "run make schema"
@@ -195,7 +195,7 @@ def test_what_follows_from_declared_keys_is_current() -> None:
     assert reference.RUSSIAN.read_text("utf-8") == reference.russian_text(), "run make schema"
 
 
-def test_the_russian_schema_tells_every_key_in_russian_and_differs_in_nothing_else() -> None:
+def test_the_russian_schema_describes_every_key_and_differs_only_in_language() -> None:
     def told(node: Any, found: list[str]) -> Any:
         if isinstance(node, dict):
             said = node.get("description")
@@ -233,7 +233,7 @@ def test_declared_keys_agree_with_the_types_of_their_fields(kind: str) -> None:
 
 
 @each("kind", keys.KINDS)
-def test_every_key_stands_in_the_references_of_both_languages(kind: str) -> None:
+def test_every_key_is_in_the_references_of_both_languages(kind: str) -> None:
     docs = Path(__file__).parents[2] / "docs"
     english = (docs / "problem-file.md").read_text("utf-8")
     russian = (docs / "ru" / "keys.md").read_text("utf-8")

@@ -99,6 +99,6 @@ def test_a_link_and_a_point_may_have_one_name() -> None:
     assert parse_selector("Ft A B A B").names == ("A", "B", "A", "B")
 
 
-def test_what_is_a_force() -> None:
+def test_selectors_of_forces_are_recognized() -> None:
     told = {"v B": False, "F 2 1": True, "v B / v C": False, "v B / F 2 1": True}
     assert {text: is_force(parse_selector(text)) for text in told} == told

@@ -45,7 +45,7 @@ def test_on_a_translating_host_the_angle_is_from_the_x_axis(angle: float, own: f
     assert (slide.label, slide.towards) == ("B", None)
 
 
-def test_along_is_geometry_of_the_host_whatever_its_motion() -> None:
+def test_along_is_geometry_of_the_host_in_any_motion() -> None:
     slide = yoke('along = "DB", offset = 0.05')
     assert (slide.angle, slide.base, slide.offset) == (180, 0.2, 0.05)
     assert (slide.label, slide.through, slide.towards) == ("DB", "D", "B")

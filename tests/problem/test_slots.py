@@ -39,7 +39,7 @@ omega = 16
 """
 
 
-def test_the_file_is_solved_when_it_has_what_the_message_says() -> None:
+def test_the_file_is_solved_after_the_advised_change() -> None:
     with pytest.raises(ProblemError, match=re.escape(HINT)):
         load(SLOT)
     text = re.sub(r"(?m)^# .*\n", "", SLOT.read_text("utf-8"))

@@ -24,7 +24,7 @@ def told(path: Path, mark: str) -> list[str]:
 
 
 @pytest.mark.parametrize("path", [p for p in FILES if p not in FAULTY], ids=lambda p: p.stem)
-def test_what_is_given_is_told_as_given_and_understood(path: Path) -> None:
+def test_stated_data_are_printed_as_given_and_read_back(path: Path) -> None:
     problem = load(path, variant=next(iter(told(path, "variant")), None))
     solution = Solution(problem)
     said = [
@@ -42,7 +42,7 @@ def test_what_is_given_is_told_as_given_and_understood(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", FAULTY, ids=lambda p: p.stem)
-def test_its_faults_are_told_with_their_place(path: Path) -> None:
+def test_faults_of_a_statement_are_reported_with_their_place(path: Path) -> None:
     with pytest.raises(PlanMethodError) as caught:
         load(path) and Solution(load(path))
     error = caught.value

@@ -95,7 +95,7 @@ def test_sheets_of_tasks_have_no_errors(path: Path) -> None:
 
 
 @each("lang", LANGUAGES)
-def test_a_scheme_that_is_one_of_several_readings_says_so_and_on_no_sheet(lang: str) -> None:
+def test_a_scheme_with_several_readings_is_marked_but_not_on_a_sheet(lang: str) -> None:
     """Said by the list, by ``solve`` with the other readings, in JSON; of no other task."""
     several = [name for name, task in TASKS.items() if task.reading]
     assert len([name for name in several if name.startswith("levers-")]) == 17
@@ -124,7 +124,7 @@ def test_a_scheme_that_is_one_of_several_readings_says_so_and_on_no_sheet(lang: 
 
 
 @each("path", [path for path in every_task() if path.stem.startswith("task-")])
-def test_lever_tasks_ask_for_motion_and_for_forces_where_there_are_masses(path: Path) -> None:
+def test_lever_tasks_require_motion_and_with_masses_forces(path: Path) -> None:
     """The list is the same in all variants."""
     problem = load(path)
     kinds = [parse_selector(one.what).kind for one in problem.answers]

@@ -87,7 +87,7 @@ def test_a_number_with_its_unit_is_that_number(key: str, text: str) -> None:
         ('omega = "40/s"\nepsilon = "3 с⁻²"', 40.0),
     ],
 )  # fmt: skip
-def test_speeds_are_told_in_either_unit(text: str, rate: float) -> None:
+def test_speeds_are_given_in_either_unit(text: str, rate: float) -> None:
     drive = loads(CRANK.format(**{**PLAIN, "rate": text}), name="crank").drive
     assert drive.rate == pytest.approx(rate, rel=1e-15)
     assert drive.acceleration == (3.0 if "epsilon" in text else 0.0)
@@ -112,7 +112,7 @@ def test_speeds_are_told_in_either_unit(text: str, rate: float) -> None:
         ("oa", "4 foot", "foot is none of them"),
     ],
 )
-def test_a_unit_of_another_quantity_is_told(key: str, text: str, said: str) -> None:
+def test_a_unit_of_another_quantity_is_reported(key: str, text: str, said: str) -> None:
     with pytest.raises(ProblemError, match=re.escape(said)):
         loads(CRANK.format(**{**PLAIN, key: f'"{text}"'}), name="crank")
 
@@ -123,7 +123,7 @@ def test_a_second_alone_is_no_number_of_turns() -> None:
 
 
 @pytest.mark.parametrize("text", ["30", "1/18", "2*pi", "0:360:30", "60, 90", "sqrt(2)/2", "1e3"])
-def test_what_has_no_unit_is_read_as_ever(text: str) -> None:
+def test_a_key_without_a_unit_is_read_as_before(text: str) -> None:
     assert measured(text) is None
 
 
@@ -182,7 +182,7 @@ def test_numbers_of_cams_trains_and_meshes_have_units(tmp_path: Path) -> None:
         assert found.a_w == pytest.approx(wanted.a_w, rel=1e-14)
 
 
-def test_the_unit_of_a_file_is_that_of_what_loads_hang_on() -> None:
+def test_the_unit_of_a_file_applies_to_the_lengths_that_loads_depend_on() -> None:
     """Radii of pins, places of bearings; moments stay N·m, inertia kg·m²."""
     more = "[friction]\nf = 0.1\nradius = {r}\n[bearings.O]\nat = [{a}, {b}]\nplane = {c}\n"
     found = []
@@ -201,7 +201,7 @@ def test_the_unit_of_a_file_is_that_of_what_loads_hang_on() -> None:
         assert bearing.plane == pytest.approx(found[0].bearings["O"].plane, rel=1e-14)
 
 
-def test_a_file_in_inches_is_told_in_inches() -> None:
+def test_a_file_in_inches_is_printed_in_inches() -> None:
     text = path_of("linkages/ex2").read_text("utf-8")
     bad = loads('units = "in"\n' + text.replace("OA = 0.05", "OA = 2"), name="x")
     assert bad.unit == "in"

@@ -144,7 +144,7 @@ def test_a_note_begins_with_the_title_page_and_ends_with_the_list_of_sheets() ->
     assert len(sheets.rows) == len(project_of("shaper").parts)
 
 
-def test_the_subject_tells_a_project_from_a_homework() -> None:
+def test_the_subject_of_a_project_differs_from_that_of_a_homework() -> None:
     page, other = (note_of(name).nodes[0] for name in ("shaper", "homework"))
     assert isinstance(page, document.TitlePage)
     assert isinstance(other, document.TitlePage)
@@ -164,14 +164,14 @@ def test_no_chapter_and_no_part_is_empty(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_both_languages_say_the_same_in_the_same_order(name: str) -> None:
+def test_both_languages_state_the_same_facts_in_the_same_order(name: str) -> None:
     kinds = [[type(node) for node in note_of(name, lang).nodes] for lang in LANGUAGES]
     assert kinds[0] == kinds[1]
 
 
 @pytest.mark.parametrize("name", FILES)
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_nothing_of_the_markup_is_left(name: str, lang: str) -> None:
+def test_no_markup_is_left(name: str, lang: str) -> None:
     text = text_of(name, lang)
     assert not re.findall(r"[\\{}]|\bNone\b|\bnan\b| ,|\. \.", text)
     title = plain_text(project_of(name).problem.title)
@@ -184,7 +184,7 @@ def test_nothing_of_the_markup_is_left(name: str, lang: str) -> None:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_every_figure_and_table_is_told_of_and_has_a_number(name: str) -> None:
+def test_every_figure_and_table_is_referred_to_and_has_a_number(name: str) -> None:
     written = note_of(name)
     referred = set(re.findall(r"\\ref\{([^}]*)\}", " ".join(texts(written))))
     shown = [n for n in written.nodes if isinstance(n, document.Figure | document.Table)]
@@ -206,7 +206,7 @@ def test_every_source_is_cited_by_its_number(name: str, lang: str) -> None:
     assert any("13755" in entry for entry in listed) == (name == "template")
 
 
-def test_no_point_of_the_steps_of_the_cam_stands_alone() -> None:
+def test_points_in_the_steps_of_the_cam_do_not_part_from_their_letters() -> None:
     steps = [n for n in note_of("template").nodes if isinstance(n, document.Step)]
     lines = [line for step in steps for line in step.lines]
     assert len([line for line in lines if "точка\u00a0" in line]) > 8
@@ -319,7 +319,7 @@ def half_a_digit(cell: str) -> float:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_differences_of_tables_are_what_the_plans_give_less_what_is_exact(name: str) -> None:
+def test_differences_of_tables_are_readings_of_the_plans_less_exact_values(name: str) -> None:
     count = 0
     for key in ("compared", "reactions", "train_results"):
         table = tables_of(name).get(key)
@@ -362,7 +362,7 @@ def test_the_largest_differences_are_those_of_the_position_that_is_named(name: s
 
 
 @pytest.mark.parametrize("name", ["shaper", "engine"])
-def test_the_error_of_the_flywheel_is_what_is_drawn_less_what_is_exact(name: str) -> None:
+def test_the_error_of_the_flywheel_is_the_drawn_value_less_the_exact_one(name: str) -> None:
     said = " ".join(texts(note_of(name))).replace(",", ".").replace("−", "-").replace("\u00a0", " ")
     exact = re.search(r": J_{м} = ([\d.]+) кг·м\^\{2\}. Значение. найденное построением. "
                       r"отличается от него на ([-+\d.]+) %", said)  # fmt: skip
@@ -373,7 +373,7 @@ def test_the_error_of_the_flywheel_is_what_is_drawn_less_what_is_exact(name: str
     assert abs(off) > 1.0
 
 
-def test_the_tables_of_all_positions_have_what_the_plans_give() -> None:
+def test_the_tables_of_all_positions_have_the_readings_of_the_plans() -> None:
     project = project_of("shaper")
     tables = {n.key: n for n in note_of("shaper").nodes if isinstance(n, document.Table)}
     every = project.solution
@@ -407,7 +407,7 @@ def test_strokes_and_scales_are_those_of_the_project() -> None:
     assert dict(plans) == {x: say.given(getattr(project.scales, f"mu_{x}")) for x in "va"}
 
 
-def test_by_mertsalov_the_chapter_of_the_flywheel_says_nothing_of_tangents() -> None:
+def test_by_mertsalov_the_chapter_of_the_flywheel_does_not_mention_tangents() -> None:
     problem = load(FILES["engine"])
     assert problem.machine is not None
     machine = replace(problem.machine, method=FlywheelMethod.MERTSALOV)
@@ -436,7 +436,7 @@ def test_the_flywheel_is_that_of_the_diagrams_in_the_formula_and_in_the_conclusi
 
 @pytest.mark.parametrize("name", FILES)
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_what_is_led_in_follows(name: str, lang: str) -> None:
+def test_a_colon_is_followed_by_a_formula_or_a_list(name: str, lang: str) -> None:
     """After a colon stands a formula, a list; a list has more than one entry."""
     follows = (document.Formula, document.Equations, document.Item)
     nodes = note_of(name, lang).nodes
@@ -476,7 +476,7 @@ def test_the_strokes_of_an_engine_are_four_of_which_the_expansion_works() -> Non
     assert "холост" not in text and "преодолев" not in text
 
 
-def test_couples_of_one_sense_are_told_together() -> None:
+def test_couples_of_one_sense_are_described_together() -> None:
     for name in ("shaper", "engine", "forces"):
         for sentence in told_of(name).split(". "):
             assert len(re.findall(r"направлен[аы]? (?:по|против) час", sentence)) < 2, sentence
@@ -575,7 +575,7 @@ def test_the_wheels_of_the_train_are_those_of_the_meshing() -> None:
     assert "z₂ = 20 меньше" not in text
 
 
-def test_which_wheels_mesh_is_told_by_their_teeth() -> None:
+def test_meshing_wheels_are_named_with_their_teeth() -> None:
     parts = project_of("template").parts
     train = next(x.problem.train for x in parts if isinstance(x.problem, GearProblem))
     pair = next(x.problem for x in parts if isinstance(x.problem, MeshingProblem))
@@ -635,7 +635,7 @@ def test_the_data_of_the_note_name_the_teeth_the_input_and_the_flywheel() -> Non
     assert "Частота вращения кривошипа" not in text  # that of the wheel 1 is none of the crank
 
 
-def test_the_flywheel_stands_on_a_shaft(changed_template: str) -> None:
+def test_the_flywheel_is_on_a_shaft(changed_template: str) -> None:
     text = " ".join(template_of().split())
     found = re.search(r"момент инерции самого маховика J_м/i² = (\S+)/5² = (\S+) кг", text)
     assert found is not None
@@ -705,7 +705,7 @@ def test_the_list_of_sheets_has_the_numbers_titles_and_formats_of_the_title_bloc
     assert len(listed) == len(sheets[0])
 
 
-def test_friction_has_a_sheet_beside_that_of_the_forces_and_is_told_of() -> None:
+def test_friction_has_a_sheet_beside_that_of_the_forces_and_is_described() -> None:
     project = project_of("rubbing")
     (forces,) = (part for part in project.parts if part.name is PartName.FORCES)
     sheets = part_drawings(project, forces, {})
@@ -737,7 +737,7 @@ def test_friction_has_a_sheet_beside_that_of_the_forces_and_is_told_of() -> None
     assert "friction" not in " ".join(texts(note_of("forces"))).lower()
 
 
-def test_what_balances_has_the_size_that_the_equations_beside_it_have(tmp_path: Path) -> None:
+def test_the_balance_has_the_size_that_the_equations_beside_it_give(tmp_path: Path) -> None:
     path = tmp_path / "six.toml"
     text = path_of("levers/six-link").read_text("utf-8")
     rubs = "[friction]\nf = 0.1\nf_pin = 0.12\nradius = 0.01\n"
@@ -773,7 +773,7 @@ def test_figures_are_legible_at_the_width_of_a_page(name: str) -> None:
             assert np.median(heights) * factor > 0.6 * LETTER
 
 
-def test_a_figure_is_drawn_when_a_writer_asks_for_it() -> None:
+def test_a_figure_is_drawn_only_when_a_writer_needs_it() -> None:
     made: list[float] = []
 
     def picture(letter: float) -> None:
@@ -809,7 +809,7 @@ def test_the_title_page_has_the_city_and_the_year_of_the_stamp(
 
 
 @each("name", ["engine", "shaper", "template"])
-def test_what_is_given_has_the_tables_of_the_loads(name: str) -> None:
+def test_the_stated_data_have_the_tables_of_the_loads(name: str) -> None:
     project = project_of(name)
     front = list(note_of(name).nodes)
     dynamics = project.problem.dynamics

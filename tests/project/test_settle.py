@@ -105,7 +105,7 @@ def test_the_way_of_assembly_is_that_of_the_file() -> None:
 # The calculated position -------------------------------------------------------------------------
 
 
-def test_the_calculated_position_is_the_asked_one() -> None:
+def test_the_calculated_position_is_the_requested_one() -> None:
     assert project_of("shaper").calculated == 4
 
 
@@ -239,7 +239,7 @@ def test_small_paper_takes_more_sheets_at_the_same_scales() -> None:
     assert {view.per_mm for view in plans} == {project.scales.mu_v}
 
 
-def test_parts_are_those_that_project_asks_for() -> None:
+def test_parts_are_those_that_project_selects() -> None:
     problem = scaled("shaper")
     some = replace(problem, project=ProjectTask(parts=("kinematics", "gears")))
     found = settle(some, file_of("shaper"))
@@ -290,7 +290,7 @@ def test_a_part_that_there_is_not_is_a_fault_of_the_file(
         ("position = 4", "project.position"),
     ],
 )
-def test_faults_of_the_table_are_told(line: str, said: str) -> None:
+def test_faults_of_the_table_are_reported(line: str, said: str) -> None:
     text = file_of("homework").read_text("utf-8") + f"\n[project]\n{line}\n"
     with pytest.raises(ProblemError) as error:
         loads(text, name="my")

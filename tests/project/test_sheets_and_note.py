@@ -226,7 +226,7 @@ PROJECTS = [
 ]
 
 
-def test_a_project_says_every_number_once(tmp_path: Path) -> None:
+def test_a_project_gives_every_number_one_value(tmp_path: Path) -> None:
     """All sheets and the note of one project: nothing smaller has both, so it takes its time."""
     path = tmp_path / "shaper.toml"
     path.write_text(FILES["shaper"].read_text("utf-8") + CAM, "utf-8")
@@ -238,7 +238,7 @@ def test_a_project_says_every_number_once(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(some(1, few=0) == 0, reason="takes two minutes: with --thorough")
 @each("path", PROJECTS)
-def test_every_project_says_every_number_once(path: Path) -> None:
+def test_every_project_gives_every_number_one_value(path: Path) -> None:
     counts, others = compared(settle(load(path), path))
     assert others == []
     if path == TEMPLATE:
