@@ -209,7 +209,7 @@ def test_an_unknown_variant_is_code_3() -> None:
 
 
 @pytest.mark.parametrize("command", ["sheet", "solve", "protocol"])
-def test_what_cannot_be_assembled_is_code_4(command: str, open_chain: str) -> None:
+def test_an_impossible_assembly_is_code_4(command: str, open_chain: str) -> None:
     refused = run(command, open_chain)
     assert refused.exit_code == 4
     assert (
@@ -220,7 +220,7 @@ def test_what_cannot_be_assembled_is_code_4(command: str, open_chain: str) -> No
     assert not Path("out").exists()
 
 
-def test_the_structure_of_what_cannot_be_assembled_is_told(open_chain: str) -> None:
+def test_the_structure_of_an_impossible_assembly_is_printed(open_chain: str) -> None:
     told = run("structure", open_chain, "--no-drawing")
     assert told.exit_code == 0
     assert "I(0,1) → II(2,3)" in told.output
@@ -518,7 +518,7 @@ def test_a_new_project_has_all_parts_and_its_train_drives_the_crank() -> None:
     assert made.strokes is not None and (made.strokes.K_v or 0.0) > 1
 
 
-def test_a_new_problem_is_told_in_the_language_that_is_spoken() -> None:
+def test_a_new_problem_is_reported_in_the_current_language() -> None:
     for family in (*FAMILIES, *OTHER_FAMILIES):
         texts = {}
         for lang in LANGUAGES:
@@ -535,7 +535,7 @@ def test_a_new_problem_is_told_in_the_language_that_is_spoken() -> None:
         assert russian == english, family
 
 
-def test_a_new_problem_has_the_familys_name_and_spares_what_is_there() -> None:
+def test_a_new_problem_has_the_familys_name_and_overwrites_no_file() -> None:
     assert run("new", "four-bar").exit_code == 0
     assert files(".") == ["four-bar.toml"]
     Path("four-bar.toml").write_text("mine", "utf-8")
@@ -557,7 +557,7 @@ def test_a_mistyped_family_comes_with_the_nearest() -> None:
 # Files --------------------------------------------------------------------------------------------
 
 
-def test_sheets_are_written_where_they_are_asked() -> None:
+def test_sheets_are_written_to_the_requested_folder() -> None:
     done = run("sheet", EX1, "-o", "a/b", "--format", "SVG, pdf,svg")
     assert done.exit_code == 0
     assert files("a/b") == ["ex1.pdf", "ex1.svg"]
@@ -579,7 +579,7 @@ def test_the_paper_may_be_named_in_cyrillic() -> None:
     assert b'width="594mm"' in latin
 
 
-def test_an_unknown_format_is_told_with_the_known_ones() -> None:
+def test_an_unknown_format_is_reported_with_the_known_ones() -> None:
     refused = run("sheet", EX1, "--format", "svg,dwg")
     assert refused.exit_code == 2
     assert "'dwg' is not one of svg, pdf, png, dxf" in refused.output.replace("\n", " ")
@@ -633,7 +633,7 @@ def test_writing_again_gives_the_same_bytes() -> None:
     assert {name: (Path("out") / name).read_bytes() for name in files("out")} == before
 
 
-def test_write_is_what_the_commands_write_with(tmp_path: Path) -> None:
+def test_write_creates_the_folders_of_a_file(tmp_path: Path) -> None:
     write(tmp_path / "x" / "y.txt", b"text")
     assert (tmp_path / "x" / "y.txt").read_bytes() == b"text"
 
@@ -674,7 +674,7 @@ def test_no_traceback_reaches_a_user(faulty: str, open_chain: str) -> None:
         assert "Error: " in done.stderr
 
 
-def test_a_mistake_of_ours_is_code_5(tmp_path: Path) -> None:
+def test_an_internal_error_is_code_5(tmp_path: Path) -> None:
     """Any internal error is reported in one line."""
     done = subprocess.run(
         [
@@ -757,7 +757,7 @@ def test_consoles_with_few_letters(encoding: str) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
-def test_a_full_device_is_told() -> None:
+def test_a_full_device_is_reported() -> None:
     with Path("/dev/full").open("w") as full:
         result = subprocess.run(
             [sys.executable, str(ROOT / "cli.py"), "solve", EX1],
@@ -770,7 +770,7 @@ def test_a_full_device_is_told() -> None:
     assert result.stderr.startswith("Error: cannot write the output: no space left")
 
 
-def test_variants_in_one_csv_tell_themselves_apart() -> None:
+def test_variants_in_one_csv_are_distinguished() -> None:
     result = run("solve", VARIANTS, "--all-variants", "--csv")
     rows = list(csv.DictReader(result.stdout.splitlines()))
     assert [row["variant"] for row in rows] == ["А", "Б", "В", "Г", "Д", "Е"]

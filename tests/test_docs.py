@@ -148,7 +148,7 @@ def test_python_examples_run(name: str, desk: Path, capsys: pytest.CaptureFixtur
 
 
 @pytest.mark.parametrize("name", ("docs/how-it-works.md", "docs/ru/how-it-works.md"))
-def test_what_the_page_about_its_working_shows_is_so(name: str, desk: Path) -> None:
+def test_the_page_on_how_it_works_is_right(name: str, desk: Path) -> None:
     pytest.importorskip("mpmath")
     text = "\n".join(blocks(name, "pycon"))
     test = doctest.DocTestParser().get_doctest(text, {}, name, name, 0)

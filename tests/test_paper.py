@@ -52,7 +52,7 @@ def test_an_elongated_format_is_its_short_side_taken_many_times(lying: Format) -
     assert lying.width == pytest.approx(int(times) * exact, abs=1.5)
 
 
-def test_every_size_belongs_to_one_format_and_a4_only_stands() -> None:
+def test_every_size_belongs_to_one_format_and_only_a4_is_upright() -> None:
     assert len({(fmt.width, fmt.height) for fmt in FORMATS.values()}) == len(FORMATS)
     assert [name for name in FORMATS if name.startswith("A4") and "x" not in name] == ["A4"]
     for fmt in FORMATS.values():
@@ -93,7 +93,7 @@ def test_names_are_forgiving(typed: str, name: str) -> None:
         ("", "Unknown paper format ''"),
     ],
 )
-def test_what_there_is_not(typed: str, said: str) -> None:
+def test_unknown_formats_are_rejected(typed: str, said: str) -> None:
     with pytest.raises(LayoutError, match=said) as caught:
         paper_format(typed)
     assert caught.value.exit_code is ExitCode.USAGE

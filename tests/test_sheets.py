@@ -66,7 +66,7 @@ def texts(drawing: Drawing) -> str:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_the_lint_has_nothing_to_say(name: str) -> None:
+def test_the_lint_finds_no_faults(name: str) -> None:
     for variant in [None, *variant_names(FILES[name])]:
         sheets = drawn_sheets(name, variant=variant)
         assert len(sheets) == 1
@@ -75,7 +75,7 @@ def test_the_lint_has_nothing_to_say(name: str) -> None:
 
 @pytest.mark.parametrize("paper", ["A4", "A3", "A2", "A1"])
 @pytest.mark.parametrize("name", FILES)
-def test_an_asked_paper_is_taken_or_refused(name: str, paper: str) -> None:
+def test_requested_paper_is_taken_or_rejected(name: str, paper: str) -> None:
     try:
         sheets = kinematics_sheets(problem_of(name), paper=paper)
     except LayoutError as error:
@@ -136,7 +136,7 @@ def test_sheets_and_numbers_speak_of_the_same_scales(count: int) -> None:
         assert {view.kind: view.per_mm for view in sheet.views} == pytest.approx(told)
 
 
-def test_forces_of_36_positions_stand_on_one_a1() -> None:
+def test_forces_of_36_positions_are_on_one_a1() -> None:
     (sheet,) = drawn_sheets("press/press", range(0, 360, 10), layout="forces-cycle")
     assert size(sheet) == (841, 594)
 
@@ -202,7 +202,7 @@ def test_the_paper_of_the_file_sets_the_scales_of_sheet_and_numbers(paper: str) 
     assert {view.kind: view.per_mm for view in sheet.views} == scales
 
 
-def test_fields_asked_outrank_the_files() -> None:
+def test_requested_fields_outrank_those_of_the_file() -> None:
     (sheet,) = kinematics_sheets(problem_of("linkages/ex1"), fields={"author": "Кузнецова"})
     assert "Кузнецова" in texts(sheet)
 
@@ -274,7 +274,7 @@ for _, found in printed():
 """
 
 
-def test_sheets_are_the_same_whatever_was_drawn_before_them() -> None:
+def test_sheets_do_not_depend_on_earlier_drawings() -> None:
     """Cached inscriptions, places and texts never differ from newly made ones."""
     paths = [str(path_of(name)) for name in ("linkages/ex3", "linkages/ex1")]
     fresh, after = (
@@ -327,7 +327,7 @@ def test_the_page_is_the_format(paper: str) -> None:
     ("layout", "positions"),
     [("many-positions", ALL_ROUND), ("forces", None), ("forces-cycle", ALL_ROUND)],
 )
-def test_a_drawn_solution_is_kept_by_nobody(layout: str, positions: list[float] | None) -> None:
+def test_a_drawn_solution_is_not_kept_in_memory(layout: str, positions: list[float] | None) -> None:
     def solutions() -> list[Solution]:
         gc.collect()
         return [one for one in gc.get_objects() if type(one) is Solution]

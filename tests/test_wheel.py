@@ -30,13 +30,13 @@ def test_every_kind_of_file_of_the_package_goes_into_the_wheel() -> None:
 
 
 @pytest.mark.parametrize("line", COMMANDS[1:])
-def test_what_is_tried_of_a_wheel_is_a_command(line: str) -> None:
+def test_each_line_tried_with_a_wheel_is_a_command(line: str) -> None:
     command, *rest = shlex.split(line)
     command_of(command).make_context(command, rest)
 
 
 @pytest.mark.parametrize("name", ["README.md", "README.ru.md"])
-def test_what_is_tried_of_a_wheel_are_the_first_commands_of_the_readme(name: str) -> None:
+def test_the_lines_tried_with_a_wheel_are_the_first_commands_of_the_readme(name: str) -> None:
     text = (ROOT / name).read_text("utf-8")
     told = [line for line in re.findall(r"(?m)^planmethod (.*?) *#", text) if "my.toml" in line]
     assert len(told) >= 5
@@ -52,7 +52,7 @@ def test_the_readme_names_the_wheel_that_is_built(name: str) -> None:
     assert not re.search(r"(?m)^py -m pip install planmethod\b", text)
 
 
-def test_what_messages_say_to_install_is_a_package_that_there_is() -> None:
+def test_packages_that_messages_advise_to_install_exist() -> None:
     """An index that does not have the program cannot install its extras."""
     known = {re.split(r"[\s;<>=]", one)[0] for one in requires("planmethod") or ()}
     known |= {one.partition("[")[0] for one in known}

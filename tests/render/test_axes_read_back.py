@@ -132,7 +132,7 @@ def _middle(text: Text) -> tuple[float, float]:
 
 
 @each("kind, name, positions", BLOCKS)
-def test_numbers_stand_at_their_ticks_and_those_of_ordinates_in_proportion_to_height(
+def test_numbers_are_at_their_ticks_and_ordinates_in_proportion_to_height(
     kind: str, name: str, positions: tuple[float, ...] | None
 ) -> None:
     found = axes_of(kind, name, positions)
@@ -152,7 +152,7 @@ def test_numbers_stand_at_their_ticks_and_those_of_ordinates_in_proportion_to_he
 
 @each("kind, name, positions", [block for block in BLOCKS if block[0] not in
                                 ("run-up-diagrams", "load-diagram", "load-curves")])  # fmt: skip
-def test_the_number_of_a_position_stands_where_the_crank_has_turned_so_far(
+def test_the_number_of_a_position_is_at_the_rotation_of_the_crank(
     kind: str, name: str, positions: tuple[float, ...] | None
 ) -> None:
     for axes in axes_of(kind, name, positions):

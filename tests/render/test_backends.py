@@ -406,7 +406,7 @@ def test_bytes_are_the_same_in_every_process() -> None:
         ("dxf", {"reportlab", "svgwrite", "matplotlib"}),
     ],
 )
-def test_a_format_imports_only_what_it_uses(fmt: str, absent: set[str]) -> None:
+def test_a_format_imports_only_modules_that_it_uses(fmt: str, absent: set[str]) -> None:
     code = (
         "import sys\n"
         "from planmethod.render.backends import render\n"
@@ -461,7 +461,7 @@ def test_svg_knows_a_run_again_however_its_height_and_turn_were_computed() -> No
     assert render(sheet_of(*odd), "svg") == render(sheet_of(*plain), "svg")
 
 
-def test_svg_letters_advance_as_the_lettering_says() -> None:
+def test_svg_letters_have_the_advance_of_the_lettering() -> None:
     text = Text(1 + 1j, "План ab", 3.5)
     root = ET.fromstring(render(sheet_of(text), "svg"))
     unit = text.height / in_use().cap_height
@@ -659,7 +659,7 @@ def test_pdf_words_have_the_width_of_the_lettering(tmp_path: FilePath) -> None:
 
 
 @needs("pdfinfo")
-def test_pdf_says_what_it_is(pdf_file: FilePath) -> None:
+def test_pdf_has_its_metadata(pdf_file: FilePath) -> None:
     info = run("pdfinfo", pdf_file)
     assert re.search(r"Title:\s+Проба «А» & <б>\n", info)
     assert re.search(r"Author:\s+Иванов И\. И\.\n", info)

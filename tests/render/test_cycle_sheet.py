@@ -143,7 +143,7 @@ def _across(positions: Sequence[float], per: float) -> list[float]:
 
 
 @pytest.mark.parametrize(("name", "positions"), SHEETS)
-def test_the_marks_are_what_both_methods_give_on_paper(
+def test_the_marks_are_the_results_of_both_methods_on_paper(
     name: str, positions: tuple[float, ...]
 ) -> None:
     sheet = drawn(name, positions)
@@ -215,7 +215,7 @@ def test_the_table_has_every_position() -> None:
     assert "планы сил" in texts and "рычаг" in texts
 
 
-def test_what_cannot_be_drawn_is_said() -> None:
+def test_a_diagram_that_cannot_be_drawn_is_reported() -> None:
     with pytest.raises(LayoutError, match="needs several positions"):
         draw(problem_of("press/press"), [98.9])
     with pytest.raises(ProblemError, match="no forces to analyse"):
@@ -226,7 +226,7 @@ def test_what_cannot_be_drawn_is_said() -> None:
     assert run.exit_code == 2 and "--phi 0:360:30" in run.output
 
 
-def test_chords_are_told() -> None:
+def test_chords_are_named() -> None:
     from planmethod import loads
 
     text = path_of("press/press").read_text("utf-8")
@@ -287,7 +287,7 @@ inertia = 0.1
 """
 
 
-def test_the_difference_has_the_digits_of_what_it_is_the_difference_of() -> None:
+def test_the_difference_has_the_digits_of_its_operands() -> None:
     """If the balance has a narrow peak, its numbers have different decimals."""
     solution = Solution(loads(FAST, name="fast"), positions=TURN)
     (_, plans, lever, off, *_) = cycle_balance_columns(solution, range(12), language("ru"))
@@ -318,7 +318,7 @@ def test_a_smaller_paper_keeps_the_letters_of_the_positions(name: str, wide: flo
     assert sheet.width == wide
 
 
-def test_sheets_are_small_where_nothing_is_left_out_on_them() -> None:
+def test_sheets_are_small_where_no_block_is_left_out() -> None:
     """A short calculation of forces takes A2, whose diagrams are as large as it has room for."""
     (sheet,) = kinematics_sheets(problem_of("machines/engine"), layout="forces-cycle")
     assert (sheet.width, sheet.is_cut_down) == (594.0, False)

@@ -83,7 +83,7 @@ def program(*args: object) -> Result:
     ("name", "options"),
     [*((name, TEXT) for name in FILES), *((name, STROKES) for name in thinned([*FILES], 4))],
 )
-def test_the_audit_of_every_sheet_has_nothing_to_say(name: str, options: Options) -> None:
+def test_the_audit_of_every_sheet_finds_no_faults(name: str, options: Options) -> None:
     for drawing in drawn_sheets(name):
         document = read(render(drawing, "dxf", options=options))
         found = document.audit()
@@ -95,7 +95,7 @@ def test_the_audit_of_every_sheet_has_nothing_to_say(name: str, options: Options
         assert layers <= set(LAYERS)
 
 
-def test_the_audit_of_sheets_with_a_dozen_positions_has_nothing_to_say() -> None:
+def test_the_audit_of_sheets_with_a_dozen_positions_finds_no_faults() -> None:
     asked = [30.0 * k for k in range(12)]
     for drawing in drawn_sheets("linkages/ex1", asked):
         found = read(render(drawing, "dxf")).audit()
@@ -179,7 +179,7 @@ def turn(angle: float) -> complex:
 
 @pytest.mark.dear
 @pytest.mark.parametrize("name", SIX)
-def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
+def test_a_segment_of_a_plan_is_one_line_as_long_as_in_the_table(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # As the command draws for DXF: by a hand that lays off to 0.01 mm.
@@ -476,7 +476,7 @@ def test_the_option_chooses_the_letters(tmp_path: Path) -> None:
     assert program("sheet", ex3, "--dxf-text", "shx").exit_code == 2
 
 
-def test_without_its_library_it_is_told_what_to_install(tmp_path: Path) -> None:
+def test_without_its_library_the_install_command_is_named(tmp_path: Path) -> None:
     code = (
         "import importlib.util as u, sys\n"
         "found = u.find_spec\n"
@@ -504,7 +504,7 @@ def test_the_document_lists_the_layers_as_they_are() -> None:
     assert rows == [(name, f"{PENS[pen].width:g}") for name, pen in LAYERS.items()]
 
 
-def test_a_dxf_is_laid_off_as_cad_does_unless_another_hand_is_asked(tmp_path: Path) -> None:
+def test_a_dxf_is_laid_off_as_by_cad_unless_another_profile_is_requested(tmp_path: Path) -> None:
     command = ["sheet", str(path_of("linkages/ex3")), "--format", "svg,dxf", "-o", str(tmp_path)]
 
     def lengths(*more: str) -> list[float]:

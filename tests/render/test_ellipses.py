@@ -131,7 +131,7 @@ def test_every_letter_point_has_its_ellipse(name: str) -> None:
                 assert any(abs(middle(stroke) - at) < 0.05 for stroke in view.strokes)
 
 
-def test_of_random_drawings_so_many_fall_into_an_ellipse() -> None:
+def test_the_expected_share_of_random_drawings_falls_into_an_ellipse() -> None:
     solution = solved("linkages/ex3")
     drawn = drafting_of(solution).sample(0, draws=20_000)
     mu = solution.scales[PlanKind.POSITION].per_mm
@@ -146,7 +146,7 @@ def test_of_random_drawings_so_many_fall_into_an_ellipse() -> None:
         assert inside.mean() == pytest.approx(1 - exp(-(SIGMAS**2) / 2), abs=0.01)
 
 
-def test_what_is_thinner_than_the_pen_is_not_drawn() -> None:
+def test_an_ellipse_thinner_than_the_pen_is_not_drawn() -> None:
     solution = solved("linkages/ex1", "cad")
     for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
         assert error_ellipses(solution, kind, 0).strokes == ()
@@ -155,7 +155,7 @@ def test_what_is_thinner_than_the_pen_is_not_drawn() -> None:
         assert "САПР" in line
 
 
-def test_what_is_larger_than_half_the_plan_is_not_drawn_but_told() -> None:
+def test_an_ellipse_larger_than_half_the_plan_is_mentioned_but_not_drawn() -> None:
     solution, kind = solved("levers/six-link", many=True), PlanKind.ACCELERATION
     for index in range(12):
         view = error_ellipses(solution, kind, index)
@@ -228,6 +228,6 @@ def test_ellipses_are_part_of_the_picture_and_letters_stay_out_of_them(name: str
 
 
 @pytest.mark.parametrize("kind", [PlanKind.VELOCITY, PlanKind.ACCELERATION])
-def test_a_plan_without_ellipses_has_none(kind: PlanKind) -> None:
+def test_a_plan_without_ellipses_has_no_inscription_of_them(kind: PlanKind) -> None:
     picture = plan_picture(solved("linkages/ex3"), kind, 0)
     assert not [item for item in picture.items if getattr(item, "tag", "") == TAG]

@@ -54,7 +54,7 @@ def bare(problem: Problem, lang: str) -> Problem:
     return replace(problem, title="", stamp={}, stamp_in={}, sheet=sheet)
 
 
-def test_a_title_block_has_the_texts_of_its_language_where_the_file_says_them() -> None:
+def test_a_title_block_has_the_texts_given_for_its_language() -> None:
     """For a Russian file with ``stamp.en``; texts given in one language are not translated."""
     russian = problem_of("linkages/ex3")
     english = replace(russian, sheet=replace(russian.sheet, lang="en"))
@@ -113,7 +113,7 @@ def test_every_shipped_layout_is_among_the_cases() -> None:
 
 
 @pytest.mark.parametrize("loads", ["gravity = false", "[dynamics.links.2]\nmass = 2"])
-def test_nothing_russian_is_said_where_nothing_moves_or_acts(loads: str) -> None:
+def test_no_russian_text_is_on_sheets_without_motion_or_forces(loads: str) -> None:
     text = template("six-link").replace("omega = 20", "omega = 0")
     problem = bare(parsed(f"{text}[dynamics]\n{loads}\n", name="six-link"), "en")
     (sheet,) = kinematics_sheets(problem, layout="forces")

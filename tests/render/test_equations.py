@@ -69,7 +69,7 @@ def inside(block: EquationBlock, corner: complex, items: list[Item]) -> bool:
     return True
 
 
-def test_underlines_tell_what_is_known() -> None:
+def test_underlines_mark_known_terms() -> None:
     items = equation_block(EQUATION).place(0j)
     by_left: dict[float, int] = {}
     for line in underlines(items):
@@ -130,7 +130,7 @@ equations = st.builds(
 
 @settings(deadline=None)
 @given(equations, st.sampled_from([None, 60.0, 90.0, 150.0]), st.sampled_from([3.5, 5.0, 7.0]))
-def test_nothing_in_an_equation_overlaps(
+def test_no_parts_of_an_equation_overlap(
     equation: VectorEquation, width: float | None, height: float
 ) -> None:
     block = equation_block(equation, height, width=width)

@@ -37,7 +37,7 @@ def count_ellipses(sheet: Drawing) -> int:
     ("name", "many"),
     [*((name, False) for name in SIX), *((name, True) for name in thinned(SIX, 2))],
 )
-def test_the_lint_has_nothing_to_say(name: str, many: bool) -> None:
+def test_the_lint_finds_no_faults(name: str, many: bool) -> None:
     positions = MANY[name] if many else None
     alone = ((True, False), (False, True)) if not many and name in thinned(SIX, 3) else ()
     for errors, sigma in ((True, True), *alone):
@@ -57,7 +57,7 @@ def test_the_lint_has_nothing_to_say(name: str, many: bool) -> None:
 
 @pytest.mark.parametrize("profile", ["cad", "coarse"])
 @pytest.mark.parametrize("name", SIX)
-def test_the_lint_has_nothing_to_say_of_other_profiles(name: str, profile: str) -> None:
+def test_the_lint_finds_no_faults_with_other_profiles(name: str, profile: str) -> None:
     sheets = kinematics_sheets(problem_of(name), errors=True, sigma=True, profile=PROFILES[profile])
     assert marks(sheets) == []
 
@@ -105,7 +105,7 @@ def assert_tables_inside(sheets: list[Drawing]) -> None:
     ("name", "many"),
     [*((name, False) for name in SIX), *((name, True) for name in SIX[: some(6, few=2)])],
 )
-def test_nothing_of_it_without_the_options(
+def test_no_errors_are_computed_without_the_options(
     name: str, many: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The display list does not depend on the profile, and no drafting errors are computed."""
@@ -218,7 +218,7 @@ def test_an_exact_value_has_no_fewer_digits_than_its_error() -> None:
         assert len(exact.text.partition(",")[2]) >= len(error.text.partition(",")[2])
 
 
-def test_what_the_mark_means_is_told_where_it_is() -> None:
+def test_the_mark_is_explained_where_it_is_used() -> None:
     name = "linkages/ex3"
     for sheet in kinematics_sheets(problem_of(name), positions=MANY[name], sigma=True):
         shown = re.sub(r"\s+", " ", texts(sheet))

@@ -106,7 +106,7 @@ def test_positions_that_do_not_exist_are_left_out_and_the_crank_goes_to_and_fro(
     assert "from -100 to 100" in film.skipped
 
 
-def test_the_command_writes_every_frame_and_says_what_is_wrong(tmp_path: Path) -> None:
+def test_the_command_writes_every_frame_and_reports_faults(tmp_path: Path) -> None:
     path = tmp_path / "rockers.toml"
     path.write_text(ROCKERS, "utf-8")
     args = ["animate", str(path), "-o", str(tmp_path), "--frames", "8", "--dpi", "40"]

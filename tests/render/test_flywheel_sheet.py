@@ -93,18 +93,18 @@ def test_by_mertsalov_the_sheet_has_three_curves_of_energy_and_their_segment(
 
 
 @each("name", thinned(FILES, 3))
-def test_the_lint_finds_nothing_on_the_sheet(name: str) -> None:
+def test_the_lint_finds_no_faults_on_the_sheet(name: str) -> None:
     run = CliRunner().invoke(cli, ["lint", str(path_of(name)), "--layout", "flywheel"])
     assert run.exit_code == ExitCode.DONE, run.output
 
 
-def test_the_sheet_says_what_the_construction_is_off_by() -> None:
+def test_the_sheet_has_the_error_of_the_construction() -> None:
     texts = "".join(item.text for item in sheet("press/flywheel").items if isinstance(item, Text))
     for said in ("−6,50", "−6,63", "2,550", "2,384", "0,055556"):
         assert said in texts
 
 
-def test_a_file_without_a_machine_is_told() -> None:
+def test_a_file_without_a_machine_is_reported() -> None:
     run = CliRunner().invoke(cli, ["sheet", str(path_of("press/press")), "--layout", "flywheel"])
     assert run.exit_code == ExitCode.USAGE or run.exit_code == ExitCode.PROBLEM, run.output
     assert "needs [machine]" in run.output

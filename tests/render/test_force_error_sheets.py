@@ -88,7 +88,7 @@ def ellipses_in(sheet: Drawing) -> list[Stroke]:
         *product(thinned(LOADED, 2), [other for other in PROFILES if other != "board"]),
     ],
 )
-def test_the_lint_has_nothing_to_say(name: str, profile: str) -> None:
+def test_the_lint_finds_no_faults(name: str, profile: str) -> None:
     one = profile == "board" and name in thinned(LOADED, 2)
     alone = ((True, False), (False, True)) if one else ()
     for errors, sigma in ((True, True), *alone):
@@ -121,7 +121,7 @@ def test_other_dyads_and_a_driving_slider(name: str) -> None:
     assert ellipses_in(sheets[0])
 
 
-def test_a_driver_that_stands_has_a_dash_for_the_lever() -> None:
+def test_a_driver_at_rest_has_a_dash_for_the_lever() -> None:
     problem = loaded_template("four-bar", "B", "3", "C", omega="0")
     sheets = kinematics_sheets(problem, layout="forces", errors=True, sigma=True)
     assert errors_in(sheets) == []
@@ -145,7 +145,9 @@ def test_a_problem_without_any_force_has_no_errors_to_show() -> None:
     assert "*" not in shown(sheets[0])
 
 
-def test_nothing_of_it_without_the_options(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_errors_of_reactions_are_computed_without_the_options(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """No ellipse or error of a reaction is computed; only the error of the discrepancy is shown."""
     plain = drawn_sheets("press/press", layout="forces")
     asked: list[str] = []
@@ -242,7 +244,7 @@ def test_dashed_are_vertices_where_first_order_does_not_hold() -> None:
     assert Pen.HIDDEN in pens
 
 
-def test_what_is_larger_than_half_the_plan_is_told() -> None:
+def test_an_ellipse_larger_than_half_the_plan_is_mentioned() -> None:
     (sheet,) = kinematics_sheets(
         problem_of("levers/six-link"), layout="forces", errors=True, positions=NEAR_DEAD[:1]
     )
@@ -314,7 +316,7 @@ def test_the_table_is_no_wider_than_it_may_be(seed: int, height: float) -> None:
 
 
 @pytest.mark.parametrize("name", LOADED)
-def test_table_and_record_tell_the_same_errors(name: str) -> None:
+def test_table_and_record_have_the_same_errors(name: str) -> None:
     solution = Solution(problem_of(name))
     drawn = drawn_forces(statics_of(solution))
     entry = record(solution)["positions"][0]["forces"]

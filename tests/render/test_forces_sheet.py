@@ -249,7 +249,7 @@ def test_segments_of_the_plans_are_the_forces_to_scale(name: str) -> None:
         assert abs(one.force[0]) < 1.0 or symbols & seen or parts & lines or symbols & inner
 
 
-def test_vectors_on_one_line_are_drawn_apart_and_it_is_said() -> None:
+def test_vectors_on_one_line_are_drawn_apart_and_the_sheet_mentions_it() -> None:
     sheet = sheet_of("levers/task12")
     assert RU.sheets.apart in shown(sheet)
     view = views(sheet, "forces")[0]  # all of its forces are vertical
@@ -274,7 +274,7 @@ def test_arrows_at_one_point_do_not_lie_on_one_another() -> None:
 # Equations ----------------------------------------------------------------------------------------
 
 
-def test_underlines_tell_what_is_known() -> None:
+def test_underlines_mark_known_terms() -> None:
     terms = (Term("F_{21}", 2), Term("F^{n}_{30}", 1, "∥ DC"), Term("F_{23}"))
     balance = Equation(terms, name="Σ_{2}\\bar{F}")
     items = equation_block(balance).place(0j)
@@ -302,7 +302,7 @@ def test_the_moments_of_the_textbook() -> None:
     )
 
 
-def test_what_is_given_and_the_computed_loads() -> None:
+def test_stated_data_and_the_computed_loads() -> None:
     reading = reading_of("levers/six-link")
     facts = [fact.text for fact in statement(reading, RU)]
     load = "F_{5C} = 6000 Н (в точке H звена 5, вниз)"
@@ -411,7 +411,7 @@ def test_a_driving_slider_is_balanced_by_a_force() -> None:
     assert "F_ур" in [span.name for plan in views(sheet, "forces") for span in plan.spans]
 
 
-def test_a_driver_that_stands_has_no_lever() -> None:
+def test_a_driver_at_rest_has_no_lever() -> None:
     problem = loaded_template("four-bar", "B", "3", "C", omega="0")
     (sheet,) = kinematics_sheets(problem, layout="forces")
     assert views(sheet, "velocity") == []
@@ -441,7 +441,7 @@ def test_every_position_has_a_sheet_of_its_own() -> None:
         assert {span.position for span in spans} == {positions.index(phi)}
 
 
-def test_without_masses_and_loads_it_is_told() -> None:
+def test_missing_masses_and_loads_are_reported() -> None:
     with pytest.raises(ProblemError, match=r"dynamics: missing.*\[dynamics\]"):
         kinematics_sheets(problem_of("linkages/ex1"), layout="forces")
     result = CliRunner().invoke(cli, ["sheet", str(path_of("linkages/ex1")), "--layout", "forces"])
@@ -456,7 +456,7 @@ def test_norm_control_of_the_command_is_clean(name: str) -> None:
     assert result.exit_code == ExitCode.DONE, result.output
 
 
-def test_more_arms_than_a_reader_can_tell_apart_are_left_to_the_equations() -> None:
+def test_arms_that_a_reader_cannot_distinguish_are_left_to_the_equations() -> None:
     say = language("en").say
     arms = [ForceArm(f"Q{k}", 0j, 10.0 + k + 5j, 10.0) for k in range(25)]
     items, labels = arm_items(arms[1:], [], 3.5, "lever", say)

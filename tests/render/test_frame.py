@@ -184,7 +184,7 @@ def test_the_documents_have_every_field_and_where_it_goes() -> None:
     assert set(there) == set(keys.known("sheet"))
 
 
-def test_unknown_field_is_told_with_the_nearest() -> None:
+def test_an_unknown_field_is_reported_with_the_nearest() -> None:
     with pytest.raises(LayoutError, match="Did you mean 'designation'"):
         title_block({"desigantion": "x"})
 
@@ -248,7 +248,7 @@ def test_graph_26_is_the_designation_turned(
     assert made.taken == (box,)
 
 
-def test_graph_26_goes_with_form_1_unless_it_is_asked_for() -> None:
+def test_graph_26_goes_with_form_1_unless_requested() -> None:
     paper = FORMATS["A3"]
     assert list(Furniture().graphs(paper)) == ["26"]
     assert list(Furniture(form="2").graphs(paper)) == []
@@ -275,7 +275,7 @@ def test_graphs_27_to_30_of_form_1() -> None:
     }
 
 
-def test_graphs_27_to_30_of_form_2_stand_above_it() -> None:
+def test_graphs_27_to_30_of_form_2_are_above_it() -> None:
     graphs = Furniture(form="2", graphs_27_30=True).graphs(FORMATS["A4"])
     widths = {number: (box[2] - box[0], box[3] - box[1]) for number, box in graphs.items()}
     assert widths == {"30": (120, 8), "27": (14, 14), "28": (53, 14), "29": (53, 14)}
@@ -383,7 +383,7 @@ def test_an_unknown_form() -> None:
         Furniture(form="3")
 
 
-def test_only_the_first_sheet_says_how_many_there_are() -> None:
+def test_only_the_first_sheet_has_the_number_of_sheets() -> None:
     assert Furniture().numbers(1, 1) == {}
     for fields, told in (({}, "1"), ({"sheet": "2", "sheets": "4"}, "4")):
         (run,) = shown(sheet_frame("A4", fields).items, (191, 20, 205, 25))
@@ -403,7 +403,7 @@ def test_names_of_sheets_have_one_height_wrapped_or_not() -> None:
 # Fields ------------------------------------------------------------------------------------------
 
 
-def test_a_field_has_one_place_whatever_it_is_called() -> None:
+def test_a_field_has_one_place_under_any_of_its_names() -> None:
     assert merged({"material": "Сталь"}, {"subject": "ТММ"}) == {"material": "ТММ"}
     assert merged({"date": "01.02"}, {"author_date": ""}) == {}
     assert merged({"author": "А"}, {"author": "Б", "group": "В"}) == {"author": "Б", "group": "В"}
@@ -469,7 +469,7 @@ def test_a_date_too_wide_for_its_cell_goes_on_two_lines() -> None:
         assert lint(items) == []
 
 
-def test_what_cannot_fit_is_cut_and_told() -> None:
+def test_a_text_that_does_not_fit_is_cut_and_reported() -> None:
     items = title_block({"author": "Преображенский-Вознесенский"})
     findings = lint(items)
     assert [f.code for f in findings] == ["PM-D06"]
@@ -493,7 +493,7 @@ def test_no_text_ever_leaves_its_cell(fields: Mapping[str, str], form: str, name
 
 @settings(deadline=None)
 @given(texts_of_fields, st.floats(6, 90), st.floats(6, 40), st.sampled_from([3.5, 5.0, 7.0]))
-def test_fit_keeps_every_sign_unless_it_says_so(
+def test_fit_keeps_every_character_unless_it_marks_a_cut(
     text: str, width: float, height: float, size: float
 ) -> None:
     items = fit(text, (0, 0, width, height), (size, 2.5))

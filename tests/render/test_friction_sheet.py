@@ -170,7 +170,7 @@ def by_hand(solution: Solution, f: float) -> dict[str, complex]:
     return {**whole, "guide": complex(-rub * way, x[6]), "moment": complex(x[8])}
 
 
-def test_friction_in_a_guide_is_told_of_every_reaction() -> None:
+def test_friction_in_a_guide_is_shown_for_every_reaction() -> None:
     phi, sheet = 70.0, dict[str, dict[str, Any]]()
     solution = Solution(loads(GUIDE.format(phi=phi, f=0.34), name="guide"))
     (entry,) = record(solution)["positions"]
@@ -198,7 +198,7 @@ def test_friction_in_a_guide_is_told_of_every_reaction() -> None:
     assert sum(head.endswith("with friction") for head in heads) == 5
 
 
-def test_the_spreadsheet_has_what_converged(solution: Solution) -> None:
+def test_the_spreadsheet_has_the_converged_values(solution: Solution) -> None:
     columns = csv_columns(solution)
     assert columns["efficiency"][0] == pytest.approx(0.9454, abs=1e-4)
     assert columns["driving.force.rubbed"][0] > columns["driving.force"][0]
@@ -222,6 +222,6 @@ def test_friction_that_cannot_be(table: str, told: str) -> None:
         loads(f"{text}\n[friction]\n{table}\n", name="faulty")
 
 
-def test_a_driver_that_stands_has_no_sense_of_friction() -> None:
+def test_a_driver_at_rest_has_no_sense_of_friction() -> None:
     with pytest.raises(ProblemError, match="no sense"):
         loads(TEXT.replace("omega = 10 ", "omega = 0 "), name="still")

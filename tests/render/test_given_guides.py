@@ -43,7 +43,7 @@ B = "right of A"
         ('"O"', "горизонтальная направляющая x-x отстоит от точки O на 0,05 м вверх", 0.05),
     ],
 )
-def test_a_guide_is_lettered_where_it_is_told_to_be(through: str, told: str, metres: float) -> None:
+def test_a_guide_is_lettered_at_its_stated_place(through: str, told: str, metres: float) -> None:
     problem = loads(MECHANISM.format(through=through), name="beside")
     assert told in [fact.text for fact in given(problem, language("ru"))]
     solution = Solution(problem)

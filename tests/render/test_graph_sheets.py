@@ -62,7 +62,7 @@ def test_a_sheet_of_graphs_is_drawn_and_clean(name: str) -> None:
     assert not lint(drawing.items)
 
 
-def test_the_file_or_the_caller_asks_for_graphs() -> None:
+def test_the_file_or_the_caller_selects_graphs() -> None:
     problem = problem_of("linkages/ex3")
     asked = replace(problem, cycle=CycleTask("E", graphs=("omega_3",)))
     curves = {

@@ -19,7 +19,7 @@ def unit(left: float, low: float, right: float, high: float, share: float) -> Un
     return leaf, (left, low, right, high)
 
 
-def test_blocks_that_can_stand_on_one_line_do() -> None:
+def test_blocks_are_aligned_where_possible() -> None:
     column = [unit(20, 200, 150, 290, 0.5), unit(20, 100, 150, 190, 0.9), unit(20, 5, 150, 90, 0.7)]
     moved = [box_of(one) for one in on_grid(column, 400 + 60j, [])]
     assert len({round(box[0], 6) for box in moved}) == 1
@@ -33,7 +33,7 @@ def test_the_lines_of_the_last_block_are_lines_of_the_grid() -> None:
     assert box_of(moved)[0] == 404
 
 
-def test_a_block_keeps_clear_of_what_must_stay_free() -> None:
+def test_a_block_keeps_clear_of_reserved_areas() -> None:
     graph = (20.0, 401.0, 90.0, 415.0)
     one, two = unit(25, 300, 200, 410, 0.5), unit(210, 300, 400, 410, 0.9)
     for moved in on_grid([one, two], 404 + 120j, [graph]):

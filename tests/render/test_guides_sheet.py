@@ -218,9 +218,7 @@ PLACE = re.compile(r"^\S+ = [^=]+ = (?P<numbers>[\d,()·/+− ]+) = (?P<value>[\
         (template("swinging-block", "3", "C", 15, 0.05), 0, 3),
     ],
 )
-def test_formulas_of_places_compute_to_what_they_say(
-    problem: Problem, index: int, count: int
-) -> None:
+def test_formulas_of_places_give_their_results(problem: Problem, index: int, count: int) -> None:
     at = reading(problem, index)
     lines = [line for plan in at.plans for line in place_lines(at, plan)]
     matches = [match for line in lines if (match := PLACE.match(line))]
@@ -250,7 +248,7 @@ def test_a_force_through_the_joint_has_no_distance() -> None:
     assert place_lines(at, at.plans[0]) == ["l_{42} = l_{50} = 0"]
 
 
-def test_the_table_tells_distances_and_edges() -> None:
+def test_the_table_has_distances_and_edges() -> None:
     first, second = (shown(sheet) for sheet in sheets_of())
     at = reading(crosshead())
     b = [abs(float(value)) for value in next(iter(at.statics.contacts.values())).b()]

@@ -79,7 +79,7 @@ def test_a_label_avoids_lines_arcs_and_texts() -> None:
     assert lint([*items, *placed.items()]) == []
 
 
-def test_a_line_is_crossed_only_where_nothing_is_free() -> None:
+def test_a_line_is_crossed_only_if_no_place_is_free() -> None:
     narrow = (0.0, 0.0, 12.0, 12.0)
     grid: list[Item] = [Stroke((complex(x, 0), complex(x, 12))) for x in range(13)]
     (placed,) = place_labels([label("B", 6 + 6j)], grid, narrow)
@@ -88,7 +88,7 @@ def test_a_line_is_crossed_only_where_nothing_is_free() -> None:
 
 
 @pytest.mark.parametrize("prefer", [1j, -1j])
-def test_a_segment_label_is_beside_the_middle_on_the_asked_side(prefer: complex) -> None:
+def test_a_segment_label_is_beside_the_middle_on_the_requested_side(prefer: complex) -> None:
     wanted = segment_label("2", 20 + 50j, 120 + 50j, 5, prefer=prefer)
     (placed,) = place_labels([wanted], [Stroke((20 + 50j, 120 + 50j))], BOUNDS)
     assert middle(placed).real == pytest.approx(70)
@@ -117,7 +117,7 @@ def test_a_far_label_gets_a_leader_line_that_ends_at_both() -> None:
     assert isinstance(placed.items()[0], Stroke)
 
 
-def test_a_leader_may_start_inside_what_it_names() -> None:
+def test_a_leader_may_start_inside_the_named_item() -> None:
     hedge: list[Item] = [Stroke((complex(40, y), complex(60, y))) for y in range(40, 61)]
     pin = [*slider(50 + 50j), *revolute(50 + 50j)]
     (placed,) = place_labels([label("B", 50 + 50j)], [*hedge, *pin], BOUNDS)
@@ -293,7 +293,7 @@ def test_far_points_of_a_series_have_their_labels_beside_them() -> None:
     assert all(p.bounds[0] == pytest.approx(41.0) for p in placed)  # all on the preferred side
 
 
-def test_a_column_keeps_clear_of_what_is_there() -> None:
+def test_a_column_keeps_clear_of_existing_items() -> None:
     points = [90 + 70j + 1j * k for k in range(8)]
     wall: list[Item] = [Stroke((96 + 20j, 96 + 130j)), *slider(80 + 74j, length=12, width=16)]
     placed = place_labels([of_a_series(k, z) for k, z in enumerate(points)], wall, BOUNDS)
@@ -349,7 +349,7 @@ def test_a_letter_at_the_end_of_a_long_leader_line_comes_near_on_a_thin_line() -
     assert abs(far.leader[1] - far.leader[0]) > 30
 
 
-def test_the_name_of_a_segment_does_not_stand_at_another_one() -> None:
+def test_the_name_of_a_segment_is_not_at_another_one() -> None:
     manner = replace(CROWDED, stranger=25.0)
     one, two = (50 + 50j, 80 + 50j), (50 + 62j, 80 + 62j)
     # There is no space under either: between them the upper one's name is nearer to its own.

@@ -219,7 +219,7 @@ def area(style: str, char: str) -> MultiPolygon | Polygon:
 
 
 @each_style
-def test_outlines_are_what_the_pen_leaves(style: str) -> None:
+def test_outlines_are_the_envelopes_of_the_pen(style: str) -> None:
     used = lettering(style)
     for char in NEEDED:
         strokes = used.strokes(char)
@@ -292,7 +292,7 @@ def test_font_and_data_agree(style: str) -> None:
             assert (box.xMin, box.yMin, box.xMax, box.yMax) == glyph[1:5], name
 
 
-def test_fonts_are_named_as_ours() -> None:
+def test_fonts_have_the_names_of_the_package() -> None:
     ttlib = pytest.importorskip("fontTools.ttLib")
     families = set()
     for style in STYLES.values():

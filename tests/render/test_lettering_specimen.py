@@ -33,7 +33,7 @@ def test_specimen_shows_every_letter_and_is_clean(style: str) -> None:
         assert [finding.message for finding in lint(drawing.items, inner)] == []
 
 
-def test_letters_stand_on_their_grid() -> None:
+def test_letters_are_on_their_grid() -> None:
     drawing = lettering_sheet({}, RU)
     first = next(i for i in drawing.items if isinstance(i, Text) and i.height == HEIGHT)
     lines = [i for i in drawing.items if isinstance(i, Stroke) and i.tag == GRID]

@@ -72,7 +72,7 @@ def test_its_arms_are_read_with_the_ruler_where_they_are_drawn(crowded: ForceRea
     assert sum(moments) == pytest.approx(0.0, abs=1e-6 * max(map(abs, moments)))
 
 
-def test_the_sheet_tells_the_scale_and_the_lengths_of_the_lever(crowded: ForceReading) -> None:
+def test_the_sheet_has_the_scale_and_the_lengths_of_the_lever(crowded: ForceReading) -> None:
     sheet, *_ = kinematics_sheets(crowded.solution.problem, layout="forces")
     levers = [view for view in sheet.views if view.kind == "velocity"]
     plan, own = crowded.solution.scales[PlanKind.VELOCITY], LeverReading(crowded).scale

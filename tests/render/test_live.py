@@ -250,7 +250,9 @@ def test_the_speed_of_a_machine_has_a_diagram_and_is_followed(page: Page, tmp_pa
 
 
 @needs_chromium
-def test_what_does_not_exist_is_said_and_play_turns_back(page: Page, tmp_path: Path) -> None:
+def test_a_position_that_does_not_exist_is_reported_and_play_turns_back(
+    page: Page, tmp_path: Path
+) -> None:
     opened(page, watt(), tmp_path, "en")
     assert page.ask("document.title").startswith("</script><script>alert(1)")
     assert page.ask("document.scripts.length") == 2
@@ -318,7 +320,7 @@ def test_a_triad_keeps_its_assembly_on_the_page(page: Page, tmp_path: Path) -> N
 # The file ---------------------------------------------------------------------------------------
 
 
-def test_the_page_asks_for_nothing_and_runs_nothing_of_strangers() -> None:
+def test_the_page_requests_no_resources_and_runs_no_foreign_scripts() -> None:
     text = live_page(watt(), "en")
     assert "default-src 'none'" in text
     assert "unsafe" not in text
@@ -335,7 +337,7 @@ def test_the_page_asks_for_nothing_and_runs_nothing_of_strangers() -> None:
         ("no-such.toml", ExitCode.PROBLEM, "no-such"),
     ],
 )
-def test_what_does_not_move_on_a_page_is_refused(
+def test_a_problem_without_motion_is_rejected(
     name: str, code: ExitCode, said: str, tmp_path: Path
 ) -> None:
     run = CliRunner().invoke(cli, ["live", str(PROBLEMS / name), "-o", str(tmp_path)])

@@ -42,9 +42,7 @@ def corner(items: list[Item]) -> complex:
 
 @pytest.mark.parametrize("turned", [0.0, 40.0, 130.0, 300.0])
 @pytest.mark.parametrize("interpolation", Interpolation)
-def test_a_ring_stands_on_the_curve_where_the_load_is(
-    turned: float, interpolation: Interpolation
-) -> None:
+def test_a_ring_marks_the_load_on_the_curve(turned: float, interpolation: Interpolation) -> None:
     """Wherever the rows of a turn begin, the axis is from 0 to 360 degrees."""
     at = (turned, turned + 90.0, turned + 200.0)
     items = with_table(SizeTable(Over.PHI, at, (100.0, 500.0, 300.0), interpolation), 250.0)

@@ -29,7 +29,7 @@ def table_of(sheet: Drawing) -> list[str]:
     ]
 
 
-def test_what_is_laid_off_stands_under_the_table_and_not_in_it() -> None:
+def test_laid_off_values_are_under_the_table_and_not_in_it() -> None:
     (sheet,) = kinematics_sheets(problem_of("linkages/ex3"), positions=THREE)
     table = table_of(sheet)
     known = "".join(table[next(k for k, t in enumerate(table) if t.startswith("Известно")) :])
@@ -37,7 +37,7 @@ def test_what_is_laid_off_stands_under_the_table_and_not_in_it() -> None:
     assert sum(text == "3,200" for text in table) == 0  # the pin of the crank has no column
 
 
-def test_what_turns_alike_has_one_column() -> None:
+def test_equal_rotations_share_one_column() -> None:
     (sheet,) = kinematics_sheets(problem_of("linkages/ex3"), positions=THREE)
     heads = table_of(sheet)
     for letter in "ωε":  # of links 2 and 3 together, measured of them, of link 4, measured of it
@@ -45,7 +45,7 @@ def test_what_turns_alike_has_one_column() -> None:
         assert sum(f"= {letter}" in text for text in heads) == 1
 
 
-def test_what_a_proportion_gives_hangs_on_a_reading_but_is_none() -> None:
+def test_a_value_by_proportion_depends_on_a_reading_but_is_not_one() -> None:
     solution = Solution(problem_of("linkages/ex3"), positions=THREE)
     read = read_names(solution)
     quantities = {one.label: one for one in told(solution, *MOTION_KINDS)}
@@ -65,7 +65,7 @@ def test_the_table_leaves_the_sheet_one(name: str, count: int) -> None:
     assert len(sheets) == 1
 
 
-def test_what_is_measured_ends_with_no_zeros_of_a_finer_ruler() -> None:
+def test_measured_values_have_no_zeros_of_a_finer_ruler() -> None:
     """At 0.002 (m/s)/mm half a millimetre is 0.001 m/s."""
     problem = loads(random_problem(91303)[0], name="random")
     (sheet,) = kinematics_sheets(problem, positions=[26.8464 + 30.0 * k for k in range(12)])
@@ -73,7 +73,7 @@ def test_what_is_measured_ends_with_no_zeros_of_a_finer_ruler() -> None:
     assert {"0,057", "0,062"} <= {*texts} and not {"0,05700", "0,06200"} & {*texts}
 
 
-def test_what_is_laid_off_exactly_has_no_zeros_behind_it() -> None:
+def test_values_laid_off_exactly_have_no_trailing_zeros() -> None:
     (sheet,) = kinematics_sheets(problem_of("linkages/ex3"))
     texts = [item.text for item in sheet.items if isinstance(item, Text)]
     assert "3,200" in texts  # an exact value has four digits

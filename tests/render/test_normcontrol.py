@@ -232,7 +232,7 @@ def test_a_sheet_that_shows_it_and_one_that_does_not(code: str) -> None:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("code", SHOWN)
-def test_a_finding_says_what_where_and_what_next(code: str, lang: str) -> None:
+def test_a_finding_has_its_fault_its_place_and_its_remedy(code: str, lang: str) -> None:
     (finding,) = found(SHOWN[code][0])
     told = finding.what(lang)
     x, y = (f"{part:.1f}" for part in (finding.where.real, finding.where.imag))
@@ -245,7 +245,7 @@ def test_a_finding_says_what_where_and_what_next(code: str, lang: str) -> None:
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_every_code_is_said_in_every_language(lang: str) -> None:
+def test_every_code_has_its_text_in_every_language(lang: str) -> None:
     words = language(lang).control
     assert list(words.remarks) == list(REMARKS)
     assert set(words.severities) == {severity.value for severity in Severity}
@@ -296,7 +296,7 @@ def test_a_finding_knows_its_view() -> None:
         (Stroke((18 + 290j, 40 + 270j)), 5.0),
     ],
 )
-def test_ink_in_a_graph_is_told(item: Item, depth: float) -> None:
+def test_ink_in_a_graph_is_reported(item: Item, depth: float) -> None:
     findings = [f for f in found(sheet(item)) if f.code == "PM-D13"]
     assert [f.value for f in findings] == [pytest.approx(depth, abs=1.0)]
 
@@ -317,7 +317,7 @@ def test_white_and_furniture_are_no_ink_in_a_graph() -> None:
         Disc(22 + 150j, 10.0, Ink.BLACK),
     ],
 )
-def test_every_ink_outside_the_frame_is_told(item: Item) -> None:
+def test_every_ink_outside_the_frame_is_reported(item: Item) -> None:
     (finding,) = found(sheet(item))
     assert (finding.code, finding.limit) == ("PM-D07", 0.0)
     assert finding.value == pytest.approx(8.0, abs=0.1)
@@ -328,7 +328,7 @@ def test_white_and_the_frame_itself_are_not_outside() -> None:
     assert codes(sheet(Disc(22 + 150j, 10.0, Ink.WHITE))) == []
 
 
-def test_a_view_that_leaves_the_frame_is_told_once() -> None:
+def test_a_view_that_leaves_the_frame_is_reported_once() -> None:
     lines = [Stroke((50 + y * 1j, 15 - y / 100 + y * 1j)) for y in (150, 160, 170)]
     (finding,) = found(sheet(*lines, *SCALE, views=(VIEW,)))
     assert finding.view == "velocity"
@@ -365,7 +365,7 @@ def test_of_one_position_short_segments_are_seen_on_enlarged_views(name: str) ->
     assert "PM-D08" not in [finding.code for finding in whole.findings]
 
 
-def test_the_advised_scale_does_mend_it() -> None:
+def test_the_advised_scale_removes_the_fault() -> None:
     problem = problem_of("linkages/ex1")
     assert problem.scales.mu_a is not None
     finer = replace(problem, scales=replace(problem.scales, mu_a=4.0))
@@ -401,7 +401,7 @@ def short_segments(whole: Controlled) -> list[Finding]:
     return [finding for finding in whole.findings if finding.code == "PM-D08"]
 
 
-def test_force_plans_are_told_the_scale_that_mends_them() -> None:
+def test_force_plans_get_the_scale_that_removes_the_fault() -> None:
     (finding,) = short_segments(forces_at("press/press", 10.0))
     assert (finding.code, finding.view) == ("PM-D08", "forces")
     assert finding.action("en").startswith("Write mu_F = 4 into [scales]: ")
@@ -420,7 +420,7 @@ def test_a_length_just_below_its_limit_does_not_look_like_it() -> None:
     assert "4,996 мм, предел 5 мм" in control_text("press", [told], "ru")
 
 
-def test_one_scale_is_told_for_all_force_plans() -> None:
+def test_one_scale_is_advised_for_all_force_plans() -> None:
     """At 50 N/mm one plan needs 40 N/mm and another 4: both get the advice 4, which fixes both."""
     whole = forces_at("press/press", 50.0)
     values = [round(finding.value, 2) for finding in whole.findings]
@@ -429,7 +429,7 @@ def test_one_scale_is_told_for_all_force_plans() -> None:
     assert forces_at("press/press", 4.0).findings == ()
 
 
-def test_a_scale_of_forces_is_told_in_the_convention_of_the_file() -> None:
+def test_a_scale_of_forces_is_advised_in_the_convention_of_the_file() -> None:
     (finding,) = forces_at("levers/six-link", 250.0).findings
     assert finding.value < 5.0
     assert "mu_F = 0.01 into [scales]" in finding.action("en")  # mm/N
@@ -475,7 +475,7 @@ def test_the_largest_empty_rectangle() -> None:
     assert 62 < left <= 62 + CELL
 
 
-def test_a_format_too_large_is_told_and_their_own_is_not() -> None:
+def test_a_requested_format_that_is_too_large_is_marked_and_the_default_is_not() -> None:
     problem = problem_of("linkages/ex1")
     (large,) = controlled_kinematics(problem, paper="A1")
     (own,) = controlled_kinematics(problem)
@@ -483,7 +483,7 @@ def test_a_format_too_large_is_told_and_their_own_is_not() -> None:
     assert "PM-D10" not in {finding.code for finding in own.findings}
 
 
-def test_the_frame_fills_nothing() -> None:
+def test_the_frame_does_not_count_as_filled_area() -> None:
     finding, _ = unused_paper(sheet(ground=False).items, A4.inner)
     assert finding.value > 70
     assert "%" in finding.what("ru")
@@ -513,7 +513,7 @@ def test_dashes_that_show(item: Stroke | Arc, is_seen: bool) -> None:
         assert finding.value < finding.limit
 
 
-def test_a_line_that_ends_in_a_gap_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_line_that_ends_in_a_gap_is_marked(monkeypatch: pytest.MonkeyPatch) -> None:
     """A pattern that runs on without looking at the end of the line."""
     line, arc = Stroke((AT, AT + 20), Pen.HIDDEN), Arc(AT, 20.0, 0.0, 1.0, pen=Pen.HIDDEN)
     assert codes(sheet(line)) == codes(sheet(arc)) == []

@@ -16,7 +16,7 @@ def names(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
-def test_writes_the_bytes_and_leaves_nothing_else(tmp_path: Path) -> None:
+def test_write_leaves_the_bytes_and_no_other_file(tmp_path: Path) -> None:
     write(tmp_path / "лист 1.svg", b"\x00\r\n<svg/>")
     assert (tmp_path / "лист 1.svg").read_bytes() == b"\x00\r\n<svg/>"
     assert names(tmp_path) == ["лист 1.svg"]
@@ -62,7 +62,7 @@ def test_symbolic_link_is_followed(tmp_path: Path) -> None:
     assert (tmp_path / "real.svg").read_bytes() == b"new"
 
 
-def test_a_link_that_leads_nowhere_makes_nothing_outside(tmp_path: Path) -> None:
+def test_a_dangling_link_creates_no_file_elsewhere(tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
     for name, target in (("a.svg", "else/new/a.svg"), ("b.svg", "b.svg"), ("pages", "else/pages")):
         (tmp_path / "out" / name).symlink_to(tmp_path / target)

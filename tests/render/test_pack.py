@@ -76,7 +76,7 @@ def test_blocks_keep_clear_of_each_other_and_of_the_frame() -> None:
     check(found)
 
 
-def test_the_last_block_stands_on_the_title_block_a_wide_and_low_one_beside_it() -> None:
+def test_the_last_block_is_on_the_title_block_and_a_wide_low_one_beside_it() -> None:
     high = Group((*ONE_POSITION.members[:-1], part(260, 130)))
     for whole, right, low in (
         (ONE_POSITION, STAMP[0] - GAP / 2, INNER[1] + EDGE),
@@ -89,7 +89,7 @@ def test_the_last_block_stands_on_the_title_block_a_wide_and_low_one_beside_it()
         assert found[-1][2] == pytest.approx(right)
 
 
-def test_no_block_stands_among_those_of_a_group() -> None:
+def test_no_block_is_among_those_of_a_group() -> None:
     found = boxes(ONE_POSITION)
     assert found is not None
     groups = [found[:2], found[2:5], found[5:8]]
@@ -117,7 +117,7 @@ def test_texts_side_by_side_have_one_upper_edge() -> None:
 
 
 @pytest.mark.parametrize(("arrange", "axis"), [("row", 0), ("column", 1)])
-def test_a_group_is_arranged_as_asked(arrange: Arrange, axis: int) -> None:
+def test_a_group_is_arranged_as_requested(arrange: Arrange, axis: int) -> None:
     members = (part(60, 40), part(50, 60), part(70, 30))
     whole = Group((Group(members, arrange), part(180, 30)))
     found = boxes(whole)
@@ -129,7 +129,7 @@ def test_a_group_is_arranged_as_asked(arrange: Arrange, axis: int) -> None:
             assert after[3] <= before[1] - GAP + 1e-6
 
 
-def test_what_does_not_fit_is_none() -> None:
+def test_a_group_that_does_not_fit_gives_none() -> None:
     assert boxes(Group((part(600, 50), part(180, 20)))) is None
     assert boxes(Group((part(300, 300), part(300, 300), part(180, 20)))) is None
     row = Group((part(300, 50), part(300, 50)), "row")
@@ -147,7 +147,7 @@ def test_a_group_taken_apart_is_a_sequence_of_its_parts() -> None:
 
 
 @pytest.mark.parametrize("taken", [(LEFT,), (RIGHT,), (LEFT, RIGHT)])
-def test_blocks_keep_clear_of_what_is_taken(taken: tuple[Bounds, ...]) -> None:
+def test_blocks_keep_clear_of_occupied_areas(taken: tuple[Bounds, ...]) -> None:
     found = boxes(ONE_POSITION, taken=taken)
     assert found is not None
     check(found, taken=taken)
@@ -177,7 +177,7 @@ def test_a_block_that_is_clear_of_the_corner_stays() -> None:
     assert boxes(whole, taken=(LEFT,)) == boxes(whole)
 
 
-def test_all_blocks_keep_clear_when_none_can_move() -> None:
+def test_all_blocks_keep_clear_if_none_can_move() -> None:
     """The room of the corner's block is full: the strip beside the box is left free."""
     whole = Group((part(480, 395), part(50, 200), part(180, 30)))
     narrow = Group((part(270, 395), part(180, 30)))
@@ -195,7 +195,7 @@ def test_all_blocks_keep_clear_when_none_can_move() -> None:
     cuts=st.sets(st.integers(1, 6), max_size=3),
     taken=st.sampled_from([(), (LEFT,), (RIGHT,), (LEFT, RIGHT)]),
 )
-def test_whatever_fits_stands_apart(
+def test_any_blocks_that_fit_are_apart(
     sizes: list[tuple[float, float, bool]], cuts: set[int], taken: tuple[Bounds, ...]
 ) -> None:
     parts = [part(width, height, text=text) for width, height, text in sizes]
@@ -226,7 +226,7 @@ def test_a_block_is_laid_out_in_the_way_that_has_room() -> None:
     assert pack(Group((Packed(wide), *others)), INNER, STAMP) is None
 
 
-def test_something_stands_beside_the_last_block_above_a_title_block_as_wide_as_the_sheet() -> None:
+def test_a_block_may_be_beside_the_last_one_above_a_title_block_as_wide_as_the_sheet() -> None:
     inner, stamp = (20.0, 5.0, 205.0, 292.0), (20.0, 5.0, 205.0, 60.0)  # A4
     placed = pack(Group((part(80.0, 200.0), part(80.0, 200.0))), inner, stamp)
     assert placed is not None
@@ -234,7 +234,7 @@ def test_something_stands_beside_the_last_block_above_a_title_block_as_wide_as_t
 
 
 @pytest.mark.parametrize(("grows", "wide"), [(True, 200.0), (False, 100.0)])
-def test_blocks_that_grow_stand_in_the_largest_way_that_has_room(grows: bool, wide: float) -> None:
+def test_growing_blocks_take_the_largest_size_that_fits(grows: bool, wide: float) -> None:
     ways = [Spacer(width, 0.8 * width) for width in (100.0, 200.0, 600.0)]
     picture = Packed(Shapes(tuple(ways), grows))
     whole = Group((Group((picture, part(250.0, 60.0))), part(180.0, 100.0)))
@@ -245,7 +245,7 @@ def test_blocks_that_grow_stand_in_the_largest_way_that_has_room(grows: bool, wi
 
 
 @pytest.mark.parametrize("high", [250.0, 330.0])
-def test_a_block_alone_stands_in_the_middle_beside_a_graph_too(high: float) -> None:
+def test_a_single_block_is_in_the_middle_beside_a_graph_too(high: float) -> None:
     """On a standing A3 the graph lies along the right edge: a high block stands left of it."""
     inner, stamp = (20.0, 5.0, 292.0, 415.0), (107.0, 5.0, 292.0, 60.0)
     graph = (278.0, 345.0, 292.0, 415.0)

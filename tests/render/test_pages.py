@@ -61,7 +61,7 @@ def test_no_sheet_at_all() -> None:
         render_pages([])
 
 
-def test_a_point_that_does_not_exist_is_told_on_any_page() -> None:
+def test_a_point_that_does_not_exist_is_reported_on_any_page() -> None:
     bad = Drawing(10.0, 10.0, "Четвёртый", [Stroke((0j, complex("nan")))])
     with pytest.raises(PlanMethodError, match="'Четвёртый' has a coordinate that is not finite"):
         render_pages([SHEETS[0], bad])

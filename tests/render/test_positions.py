@@ -190,7 +190,9 @@ def test_of_many_positions_every_other_one_has_a_letter() -> None:
         ("S3", ["4", "8"], True, "S_{3} (4, 8)"),
     ],
 )
-def test_what_is_written(point: str, numbers: list[str], bold: bool, text: str) -> None:
+def test_the_label_of_a_point_has_its_position_numbers(
+    point: str, numbers: list[str], bold: bool, text: str
+) -> None:
     assert written(point, numbers, bold=bold) == text
 
 
@@ -223,7 +225,7 @@ def test_a_point_of_the_coupler_moves_on_a_smooth_curve_through_its_places() -> 
     assert places[0] == pytest.approx(places[-1])
 
 
-def test_what_moves_straight_has_no_line_of_its_own() -> None:
+def test_a_point_in_straight_motion_has_no_line_of_its_own() -> None:
     assert strokes(drawn("linkages/ex1").items, f"{TRAJECTORY} C") == []
 
 
@@ -326,7 +328,7 @@ def test_the_sheet_of_the_press_has_twelve_positions_on_one_scheme() -> None:
 
 
 @pytest.mark.parametrize("name", ["levers/task-49", "linkages/2.1.2"])
-def test_the_scale_stands_once_under_the_heading_of_the_plans(name: str) -> None:
+def test_the_scale_is_given_once_under_the_heading_of_the_plans(name: str) -> None:
     positions = [30.0 * k for k in range(11)]
     (sheet,) = kinematics_sheets(problem_of(name), positions=positions)
     for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):

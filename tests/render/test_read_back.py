@@ -40,7 +40,7 @@ CASES += [(name, "one-position") for name in thinned(OTHERS, 12)]
 
 
 @pytest.mark.parametrize(("name", "layout"), CASES)
-def test_a_ruler_finds_on_the_sheet_what_the_calculation_says(name: str, layout: str) -> None:
+def test_a_ruler_on_the_sheet_reads_the_calculated_values(name: str, layout: str) -> None:
     """The vectors are found in the SVG, from tail to tip, and compared with every number."""
     problem = pose(problem_of(name))
     at = problem.drive.positions[:1]

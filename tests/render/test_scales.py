@@ -54,7 +54,7 @@ def test_scales_of_trains_are_of_the_series(path: object) -> None:
 LENGTHS = 'zero = "extreme"\nlength = 288\npole = { v = 36, a = 36 }\n'
 
 
-def test_what_the_file_gives_in_millimetres_is_kept_and_its_scale_is_inscribed() -> None:
+def test_lengths_given_in_millimetres_are_kept_and_their_scale_is_inscribed() -> None:
     text = (PROBLEMS / "press/press.toml").read_text("utf-8")
     problem = loads(f"{text}\n[cycle]\n{LENGTHS}", name="press")
     (sheet,) = kinematics_sheets(problem, layout="coursework")
@@ -101,7 +101,7 @@ def test_scales_that_a_layout_has_taken_are_kept_when_they_are_decided(layout: s
                 assert view.per_mm in (decided.mu_v, decided.mu_a)
 
 
-def test_the_bold_position_has_its_joints_apart_and_no_vector_of_a_plan_is_nothing() -> None:
+def test_the_bold_position_has_its_joints_apart_and_no_zero_vector_on_a_plan() -> None:
     """D comes to O in one position of twelve, and the output turns back in others."""
     problem = loads(OVER, name="over")
     solution = Solution(problem)

@@ -18,7 +18,7 @@ NAMES = [
 
 
 @each("name", NAMES)
-def test_arrows_and_letters_of_a_scheme_mislead_nobody(name: str) -> None:
+def test_arrows_and_letters_of_a_scheme_do_not_mislead(name: str) -> None:
     solution = Solution(problem_of(name), views=Views.for_paper("A2", 1))
     picture = scheme_picture(solution, 0)
     found = misleading(

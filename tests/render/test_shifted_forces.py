@@ -141,7 +141,7 @@ def test_the_arm_is_that_of_force_and_couple(name: str) -> None:
     assert found * per_mm == pytest.approx(expected, rel=1e-9)
 
 
-def test_texts_tell_the_shift_and_what_stays() -> None:
+def test_texts_describe_the_shift_and_the_remaining_couple() -> None:
     loads = load_lines(reading_of("levers/six-link"))
     h, _ = shift_and_force("levers/six-link")
     (line,) = (line for line in loads if line.startswith("h_{2} = M_{Φ2}/Φ_{2} = "))

@@ -32,7 +32,7 @@ RU = language("ru")
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("name", SPECIMENS)
-def test_the_norm_control_has_nothing_to_say(name: str, lang: str) -> None:
+def test_the_norm_control_finds_no_faults(name: str, lang: str) -> None:
     assert inspect(SPECIMENS[name]({}, language(lang))) == []
 
 
@@ -62,7 +62,7 @@ def test_every_symbol_has_a_name_and_a_clause_of_its_own() -> None:
         )
 
 
-def test_the_symbols_asked_for_are_there() -> None:
+def test_the_requested_symbols_are_there() -> None:
     told = " ".join(RU.specimens["cells"][cell.name].lower() for cell in symbol_cells())
     for name in (
         "неподвижная опора",
@@ -117,7 +117,7 @@ def test_every_pen_but_the_doubles_has_its_line() -> None:
 
 
 @pytest.mark.parametrize("kind", TYPES, ids=lambda kind: kind.name)
-def test_what_is_said_of_strokes_is_what_is_drawn(kind: LineType) -> None:
+def test_strokes_are_drawn_as_described(kind: LineType) -> None:
     (line,) = sample(kind, 10 + 10j)
     assert isinstance(line, Stroke)
     assert line.pen is kind.pen

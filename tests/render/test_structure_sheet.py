@@ -202,7 +202,7 @@ def drawn(name: str) -> Drawing:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_nothing_overlaps(name: str) -> None:
+def test_no_items_overlap(name: str) -> None:
     drawing = drawn(name)
     assert lint(drawing.items, _format(drawing).inner) == []
 
@@ -233,7 +233,7 @@ def test_larger_mechanisms_take_a_larger_sheet() -> None:
     assert _format(drawn("four groups")).name == "A2"
 
 
-def test_asked_format() -> None:
+def test_requested_format() -> None:
     problem, structure = _case("ex1")
     assert structure_sheet(problem, structure, paper="А2").width == 594
     with pytest.raises(LayoutError, match=r"4 groups does not fit A3. Take --paper A2"):
@@ -318,7 +318,7 @@ def _letters(picture: Picture) -> Iterator[Text]:
     return (item for item in picture.items if isinstance(item, Text))
 
 
-def test_the_sheet_has_both_schemes_and_what_the_pairs_become() -> None:
+def test_the_sheet_has_both_schemes_and_the_replacement_of_the_pairs() -> None:
     told = _texts(drawn("six-link"))
     assert "Схема без избыточных связей" in told
     assert [text for text in told if text in PRINTED.values()] == [
@@ -360,7 +360,7 @@ def _cross(a: complex, b: complex, c: complex, d: complex) -> bool:
     return turn(a, b, c) * turn(a, b, d) < 0 and turn(c, d, a) * turn(c, d, b) < 0
 
 
-def test_open_joints_of_a_group_tell_the_neighbours() -> None:
+def test_open_joints_of_a_group_name_the_neighbours() -> None:
     problem, structure = _case("ex3")
     picture = group_picture(problem.mechanism, structure.groups[0], width=70, height=60)
     told = _writings([item for item in picture.items if isinstance(item, Text)])
@@ -369,7 +369,7 @@ def test_open_joints_of_a_group_tell_the_neighbours() -> None:
     assert len(dashed) == 2
 
 
-def test_driver_stands_on_the_frame() -> None:
+def test_the_driver_is_on_the_frame() -> None:
     mechanism = MADE["driving slider"]
     chain = driver_chain(mechanism)
     assert [slide.far for slide in chain.slides] == [Far.FRAME]
@@ -392,7 +392,7 @@ def test_hinge_of_three_links_is_a_double_joint() -> None:
 
 
 @pytest.mark.parametrize("name", WORKED)
-def test_dyads_stand_as_in_the_textbook(name: str) -> None:
+def test_dyads_are_placed_as_in_the_textbook(name: str) -> None:
     problem, structure = _case(name)
     for group in structure.groups:
         chain = group_chain(problem.mechanism, group)

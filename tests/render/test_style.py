@@ -131,7 +131,7 @@ def test_smooth_curve_is_dashed_by_its_length() -> None:
     assert [length(line) for line in ring] == pytest.approx([length(ring[0])] * len(ring))
 
 
-def test_lines_without_length_leave_nothing() -> None:
+def test_lines_without_length_leave_no_ink() -> None:
     for points in ((), (1 + 1j,), (1 + 1j, 1 + 1j)):
         assert dashed(points, DASHED[0]) == []
         assert dashed(points, DASHED[0], closed=True) == []

@@ -43,7 +43,7 @@ def lines_of(items: Sequence[Item], pen: Pen | None = None) -> BaseGeometry:
 # Supports ----------------------------------------------------------------------------------------
 
 
-def test_a_support_stands_down_where_it_can() -> None:
+def test_a_support_points_down_where_it_can() -> None:
     (support,) = stand([0j], [bar(0j, 30 + 20j)])
     assert (support.places, support.direction, support.factor) == ((0j,), DOWN, 1.0)
     (alone,) = stand([3 + 4j], [])
@@ -149,7 +149,7 @@ def test_no_hatching_runs_over_links_or_neighbours(name: str, turn: float | None
 
 
 @pytest.mark.parametrize("name", SIX)
-def test_supports_of_the_shipped_schemes_stand_free(name: str) -> None:
+def test_supports_of_the_shipped_schemes_are_free_of_other_items(name: str) -> None:
     scheme = Scheme(Solution(problem_of(name)), 0, 5.0)
     scheme.draw()
     scheme.draw_joints()

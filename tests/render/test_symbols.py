@@ -34,7 +34,7 @@ def test_revolute_pair_is_a_white_circle_of_3_mm() -> None:
     assert isclose(sweep(arc), tau)
 
 
-def test_fixed_pivot_stands_on_a_hatched_base_of_14_mm() -> None:
+def test_a_fixed_pivot_is_on_a_hatched_base_of_14_mm() -> None:
     items = symbols.fixed_pivot(10 + 20j)
     legs, base = (i for i in items if isinstance(i, Stroke) and i.pen is Pen.MAIN)
     assert legs.points == pytest.approx((5.5 + 11j, 10 + 20j, 14.5 + 11j))
@@ -300,7 +300,7 @@ def test_every_arrowhead_has_one_shape() -> None:
 # Hatching that gives way -------------------------------------------------------------------------
 
 
-def test_hatching_gives_way_to_what_lies_in_it() -> None:
+def test_hatching_gives_way_to_items_in_it() -> None:
     corners = (0j, 40 + 0j, 20 + 25j)
     joint = symbols.revolute(20 + 10j)
     free = symbols.hatch(corners)

@@ -93,7 +93,7 @@ def heads_of(columns: Sequence[Told]) -> dict[str, Told]:
 # Motion ------------------------------------------------------------------------------------------
 
 
-def test_beside_each_exact_value_stand_what_is_read_and_its_difference_in_per_cent() -> None:
+def test_each_exact_value_has_its_reading_and_the_difference_in_per_cent() -> None:
     solution = solution_of("linkages/ex3", THREE)
     quantities = {one.symbol: one for one in quantities_of(solution)}
     columns = columns_of("measured-results", "linkages/ex3", THREE)[2:]
@@ -117,7 +117,7 @@ def quantities_of(solution: Solution) -> list[Quantity]:
 
 
 @pytest.mark.parametrize("kind", ["results", "transfer-table"])
-def test_one_position_has_rows_of_what_is_exact_read_and_off(kind: str) -> None:
+def test_one_position_has_rows_of_exact_values_readings_and_differences(kind: str) -> None:
     solution = solution_of("linkages/ex3")
     transfers = transfers_of(solution)
     assert transfers is not None

@@ -65,7 +65,7 @@ def test_a_head_without_unit_takes_both_rows() -> None:
     assert number.box[3] - number.box[1] == pytest.approx(16)
 
 
-def test_decimal_commas_stand_under_one_another() -> None:
+def test_decimal_commas_are_aligned() -> None:
     items = table_block(COLUMNS).place(0j)
     ends = [
         run.at.real + in_use().width(run.text.split(",")[0], run.height)
@@ -128,7 +128,7 @@ def test_too_wide_a_table_shrinks_first_and_then_is_cut_into_parts() -> None:
     assert lint(items) == []
 
 
-def test_a_table_is_not_cut_within_what_is_joined() -> None:
+def test_a_table_is_not_cut_within_joined_cells() -> None:
     columns = [TableColumn("№", ("1",))]
     for k in range(7):
         columns += [TableColumn(f"v_{k}", ("1,00",)), TableColumn("Δ", ("0,1",), joined=True)]
@@ -154,7 +154,7 @@ def test_unlike_columns_are_an_error(columns: tuple[TableColumn, ...]) -> None:
         table_block(columns)
 
 
-def test_blocks_stack_and_stand_in_rows() -> None:
+def test_blocks_are_stacked_and_set_in_rows() -> None:
     one, two = Spacer(10, 4), Picture((Stroke((0j, 6 + 8j)),), (0, 0, 6, 8))
     column = Column([one, two], gap=3, align="right")
     assert (column.width, column.height) == (10, 15)

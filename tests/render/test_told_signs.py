@@ -93,7 +93,7 @@ def test_absolute_vectors_are_thick_and_components_thin(name: str) -> None:
 
 
 @each("name, positions", [("levers/task-49", [30.0, 150.0, 270.0]), ("linkages/ex3", [20.0])])
-def test_a_segment_stands_for_its_velocity_at_its_own_share_of_the_scale(
+def test_a_segment_represents_its_velocity_at_its_own_multiple_of_the_scale(
     name: str, positions: list[float]
 ) -> None:
     """Length times scale over share is the size of the vector, in SI."""
@@ -120,7 +120,7 @@ def test_a_segment_stands_for_its_velocity_at_its_own_share_of_the_scale(
     assert shares == {1.0}
 
 
-def test_an_enlarged_segment_stands_for_its_vector_at_its_share() -> None:
+def test_an_enlarged_segment_represents_its_vector_at_its_multiple() -> None:
     problem = problem_of("levers/task-57")
     solution = Solution(problem)
     (sheet,) = drawn_sheets("levers/task-57")[:1]
@@ -144,7 +144,7 @@ def test_an_enlarged_segment_stands_for_its_vector_at_its_share() -> None:
 
 
 @each("name", ["linkages/ex1", "levers/six-link", "press/press", "levers/task12", "linkages/ex2"])
-def test_radii_of_extreme_positions_are_as_long_as_their_names_say(name: str) -> None:
+def test_radii_of_extreme_positions_are_as_long_as_their_names_state(name: str) -> None:
     made = extreme_construction(Solution(problem_of(name)))
     if made is None or made.locus is Locus.TANGENTS:
         pytest.skip("no arcs")

@@ -102,7 +102,7 @@ def test_every_trace_goes_on_beyond_the_head_of_its_vector_and_not_back_over_it(
     assert beyond or name == "linkages/ex1"
 
 
-def test_traces_are_those_of_one_position_unless_they_are_asked_or_forbidden() -> None:
+def test_traces_are_those_of_one_position_unless_requested_or_forbidden() -> None:
     problem = problem_of("levers/six-link")
     one, many = Solution(problem), Solution(problem, positions=[150.0, 170.0])
     assert [shown_traces(s, None, room=True) for s in (one, many)] == [True, False]

@@ -46,7 +46,7 @@ def diagrams(solution: Solution) -> Diagrams:
     return found
 
 
-def test_the_points_of_the_diagrams_stand_where_the_numbers_say() -> None:
+def test_the_points_of_the_diagrams_are_at_their_values() -> None:
     solution = press()
     told = cycle_record(solution)["diagrams"]
     items = kinematic_picture(diagrams(solution), 3.5, RU.say).items
@@ -89,7 +89,7 @@ def test_sigmas_of_the_ordinates_are_those_of_random_sheets() -> None:
         assert sigma == pytest.approx(drawn, rel=0.06)
 
 
-def test_the_protocol_tells_poles_and_scales_in_both_languages() -> None:
+def test_the_protocol_has_poles_and_scales_in_both_languages() -> None:
     solution = press()
     for lang, words in (
         ("ru", ("Из полюса P_v (K₁ = 19,5 мм)", "по хордам")),
@@ -152,7 +152,7 @@ def test_positions_that_the_cycle_does_not_number_are_refused() -> None:
     assert numbering.counting(numbered, [phi - 360.0 for phi in own]) is numbered
 
 
-def test_chosen_plans_are_those_that_are_asked() -> None:
+def test_chosen_plans_are_the_requested_ones() -> None:
     coursework = composition("coursework", "ru")
 
     def shown(**asked: object) -> list[int]:

@@ -95,12 +95,12 @@ def test_smaller_heights_end_at_the_smallest_of_drawings() -> None:
 
 
 @given(st.text(alphabet="aБ_^{}\\ 1", max_size=12))
-def test_escaped_text_shows_as_it_stands(text: str) -> None:
+def test_escaped_text_is_shown_literally(text: str) -> None:
     assert "".join(run.text for run in typeset(escape(text), 3.5).runs) == text
 
 
 @pytest.mark.parametrize("markup", ["v_{C", "v}", "{v", "v_", "v_{}", "v^ ", r"\foo", r"\bar{v"])
-def test_faulty_markup_is_told_with_its_place(markup: str) -> None:
+def test_faulty_markup_is_reported_with_its_place(markup: str) -> None:
     with pytest.raises(LayoutError, match=r"Cannot set the inscription .* \(sign \d+\)"):
         typeset(markup, 5)
 

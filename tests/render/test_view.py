@@ -19,7 +19,7 @@ def drawing() -> Drawing:
 
 
 @pytest.mark.parametrize("box", [None, (5.0, 5.0, 45.0, 25.0)])
-def test_each_format_is_as_large_as_what_is_shown(
+def test_each_format_is_as_large_as_the_view(
     box: tuple[float, float, float, float] | None,
 ) -> None:
     view = DrawingView(drawing(), box)
@@ -31,6 +31,6 @@ def test_each_format_is_as_large_as_what_is_shown(
     assert np.asarray(pixels).min() < 50
 
 
-def test_what_is_outside_the_box_is_left_out() -> None:
+def test_items_outside_the_box_are_left_out() -> None:
     shown = DrawingView(drawing(), (5.0, 5.0, 45.0, 25.0)).shown()
     assert shown.items == [Stroke((5 + 5j, 25 + 5j))]

@@ -264,7 +264,7 @@ angle = 0
         ("[balancing]\n", "balancing"),
     ],
 )
-def test_what_is_of_a_crank_that_turns_is_refused(table: str, path: str) -> None:
+def test_tables_for_a_rotating_crank_are_rejected(table: str, path: str) -> None:
     with pytest.raises(ProblemError) as caught:
         loads(SCISSOR.replace("CYLINDER", "") + table, name="scissor")
     told = [fault for fault in caught.value.faults if fault.path == path]
@@ -286,7 +286,7 @@ def test_friction_wants_the_speed_of_the_actuator_itself() -> None:
         loads(rubs.replace("v_PQ = 20", "v_PQ = 0"), name="scissor")
 
 
-def test_what_drives_is_said_where_something_else_tells_the_position() -> None:
+def test_the_actuator_is_named_as_driver_if_another_quantity_gives_the_position() -> None:
     actuated = loads(SCISSOR.replace("CYLINDER", ""), name="scissor")
     told = SCISSOR.replace("CYLINDER", "").replace("PQ = 400\nv_PQ = 20", "phi_2_3 = 60\nomega = 1")
     posed = loads(told, name="scissor")
@@ -305,7 +305,7 @@ def test_what_drives_is_said_where_something_else_tells_the_position() -> None:
 
 
 @each("seed", SEEDS[:: some(1, few=4)])
-def test_it_is_told_and_drawn_wherever_it_acts(seed: int) -> None:
+def test_actuator_force_is_reported_and_drawn_wherever_it_acts(seed: int) -> None:
     """The protocol, and the sheet's lever, cut groups and plans, of any mechanism with one."""
     statics, (_, _, ((one, _), (two, _))) = solved(seed), drawn(seed)
     text = " ".join(protocol(statics.solution, lang="en").split())

@@ -213,7 +213,7 @@ def test_groups_of_any_class_without_sizes(points: str, slides: str, changes: in
     assert all(_is_true(rank_of(scheme, places)) for scheme in found.schemes)
 
 
-def test_what_jams_in_the_position_of_the_file_is_left_out() -> None:
+def test_a_scheme_that_jams_in_the_position_of_the_file_is_left_out() -> None:
     text = (PROBLEMS / "linkages/ex1.toml").read_text("utf-8")
     every = []
     for phi in ("phi = 0", "phi = 33"):
@@ -264,7 +264,7 @@ def _touched(text: str) -> str:
     return text.replace("'", '"')
 
 
-def test_a_link_on_three_profiles_keeps_a_local_mobility_which_is_told() -> None:
+def test_a_link_on_three_profiles_keeps_a_local_mobility_which_is_reported() -> None:
     problem = loads(_touched(TRIAD), name="touched")
     found = self_aligning(problem, structure := analyse(problem.mechanism))
     assert structure.higher_pairs == 3 and [group.links for group in found.groups] == [("3",)]
@@ -322,7 +322,7 @@ def test_schemes_with_a_local_mobility_are_those_of_an_exhaustive_search(
         assert [one.changes for one in schemes] == sorted(one.changes for one in schemes)
 
 
-def test_where_nothing_is_found_the_links_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_if_no_scheme_is_found_the_links_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     for tried in ("TRIED", "TRIED_FREER"):
         monkeypatch.setattr(f"planmethod.solved.aligned.schemes.{tried}", 0)
     problem = problem_of("levers/six-link")
@@ -384,7 +384,7 @@ def test_the_rank_of_all_constraints_is_that_of_the_contours(name: str) -> None:
         assert constraint_rank(found.pairs, classes, pose) == rows - told.redundant, classes
 
 
-def test_a_driver_alone_has_nothing_redundant() -> None:
+def test_a_driver_alone_has_no_redundant_constraints() -> None:
     problem = _bare("A:01")
     assert self_aligning(problem, analyse(problem.mechanism)).schemes == ({"A 0-1": "1v"},)
 

@@ -145,7 +145,7 @@ def test_the_nearer_closing_is_taken(near: str, wanted: complex) -> None:
     assert place(four_bar(f"C = {{ near = {near} }}"), "C") == pytest.approx(wanted, abs=1e-4)
 
 
-def test_a_closing_without_a_rule_is_asked_for_with_both_places() -> None:
+def test_a_missing_rule_is_requested_with_both_places() -> None:
     (fault,) = faulty(four_bar(""))
     assert fault == (
         "assembly.C: links 2, 3 close in two ways, with C at (0.2826, 0.2761) or at "
@@ -158,7 +158,7 @@ def test_a_closing_without_a_rule_is_asked_for_with_both_places() -> None:
     )
 
 
-def test_missing_rules_of_all_groups_are_told_at_once() -> None:
+def test_missing_rules_of_all_groups_are_reported_at_once() -> None:
     problem = replace(problem_of("levers/six-link"), assembly=())
     (fault,) = faulty(problem)
     assert fault.startswith("assembly.C: links 2, 3 close in two ways")
@@ -172,7 +172,7 @@ def test_missing_rules_of_all_groups_are_told_at_once() -> None:
     ]
 
 
-def test_a_rule_that_does_not_tell() -> None:
+def test_a_rule_that_does_not_distinguish() -> None:
     """The slider's two places are at one height."""
     (fault,) = faulty(slider_crank('C = "above B"'))
     assert fault == (
@@ -186,7 +186,7 @@ def test_a_rule_that_does_not_tell() -> None:
     )
 
 
-def test_a_rule_about_a_line_is_told_as_it_was_written() -> None:
+def test_a_rule_about_a_line_is_reported_as_it_was_written() -> None:
     message = refused(far())
     assert message.startswith("'C left of FG' holds for neither closing at phi = 60 deg:")
 
@@ -235,7 +235,7 @@ def test_a_rule_of_the_first_position_holds_for_all() -> None:
         ("right of B", "above A", "below A"),
     ],
 )
-def test_a_rule_that_both_closings_satisfy_is_refused_with_one_that_tells(
+def test_a_rule_that_both_assemblies_satisfy_is_rejected_with_one_that_distinguishes(
     rule: str, first: str, second: str
 ) -> None:
     assert faulty(four_bar(f'C = "{rule}"')) == [
@@ -247,7 +247,7 @@ def test_a_rule_that_both_closings_satisfy_is_refused_with_one_that_tells(
     assert place(four_bar(f'C = "{second}"'), "C") == pytest.approx(LOWER, abs=1e-4)
 
 
-def test_where_no_point_is_between_two_closings_a_line_or_a_place_tells_them() -> None:
+def test_without_a_point_between_two_assemblies_a_line_or_a_place_distinguishes_them() -> None:
     """Both closings are right of and above every fixed point and B: a line parts them."""
     text = FOUR_BAR.replace("D = [0.4, 0.0]", "D = [-0.1, -0.06]")
     problem = loads(text.format(rule='C = "right of A"', bc=0.1, dc=0.31, phi=30), name="four-bar")
@@ -270,7 +270,7 @@ def test_the_first_position_that_closes_decides() -> None:
 # Slotted links ------------------------------------------------------------------------------------
 
 
-def test_a_slotted_link_points_at_its_slider_when_no_rule_says_else() -> None:
+def test_a_slotted_link_points_at_its_slider_by_default() -> None:
     solution = Solution(slotted())
     b, c, d = (complex(solution.points[p].place[0]) for p in "BCD")
     assert ((d - c) / (b - c)).imag == pytest.approx(0.0, abs=1e-12)
@@ -339,7 +339,7 @@ def test_an_arc_that_does_not_reach_the_guide() -> None:
     )
 
 
-def test_a_slotted_link_that_stands_off_too_far() -> None:
+def test_a_slotted_link_with_too_large_an_offset() -> None:
     problem = slotted('D = "above C"', offset=0.25, phi=90)
     message = refused(problem, [270.0])
     assert message.startswith("Cannot turn the slotted link about C at phi = 270 deg:")
@@ -377,7 +377,7 @@ def test_parallel_guides() -> None:
     )
 
 
-def test_a_dead_position_is_told_with_its_reason() -> None:
+def test_a_dead_position_is_reported_with_its_reason() -> None:
     """BC = 4, DC = 1: at phi = 0, |BD| = 3, the links 2 and 3 lie on one line."""
     exact = FOUR_BAR.replace("0.4", "4.0").replace("AB = 0.1", "AB = 1.0")
     problem = loads(exact.format(rule='C = "above D"', bc=4.0, dc=1.0, phi=60), name="dead")
@@ -516,7 +516,7 @@ def test_a_structure_that_does_not_move() -> None:
     assert error.value.exit_code == 3
 
 
-def test_wheels_on_links_are_told_to_be_no_pairs() -> None:
+def test_wheels_on_links_are_rejected_as_pairs() -> None:
     """A five-bar whose two cranks mesh: W = 2, and nothing counts the mesh."""
     text = """
 [frame]

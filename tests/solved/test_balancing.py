@@ -36,7 +36,7 @@ def balanced(text: str, variant: str | None = None) -> Balancing:
         CRANK.replace('on = "AB", at = 0.16', 'on = "AB", at = -0.05, across = 0.02'),
     ],
 )
-def test_nothing_is_left_of_a_mechanism_balanced_in_full(text: str) -> None:
+def test_full_balancing_leaves_no_force(text: str) -> None:
     made = balanced(text)
     before, after = made.largest
     assert before > 100.0
@@ -81,14 +81,16 @@ def test_half_of_the_slider_is_the_first_harmonic_of_a_central_crank() -> None:
         "no link has a mass": (BAR[BAR.index("[dynamics") : BAR.index("[balancing]")], ""),
     }.items(),
 )
-def test_what_cannot_be_balanced_is_told(message: str, change: tuple[str, str]) -> None:
+def test_a_mechanism_that_cannot_be_balanced_is_reported(
+    message: str, change: tuple[str, str]
+) -> None:
     assert change[0] in BAR
     with pytest.raises(ProblemError) as told:
         balanced(BAR.replace(*change))
     assert message in str(told.value)
 
 
-def test_six_links_are_told() -> None:
+def test_six_links_are_reported() -> None:
     text = path_of("linkages/ex3").read_text("utf-8").partition("[variants")[0]
     text += '\n[dynamics.links.4]\nmass = 1\ncentre = "D"\n[balancing]\n'
     with pytest.raises(ProblemError, match="neither a four-bar nor a slider-crank"):

@@ -85,7 +85,7 @@ def test_along_the_crank_it_has_no_arm() -> None:
         statics_of(Solution(along)).si  # noqa: B018
 
 
-def test_it_is_read_and_hangs_on_the_lever() -> None:
+def test_the_balancing_force_is_read_and_acts_on_the_lever() -> None:
     reading = force_reading(Solution(pushed(stone(), angle=60.0)), 0)
     lever = LeverReading(reading)
     force = next(one for one in lever.forces if one.symbol == "balancing force")
@@ -116,7 +116,7 @@ def test_selectors_and_questions() -> None:
         ('at = "A"\nangle = "x"', "expected an angle"),
     ],
 )
-def test_what_it_refuses(table: str, told: str) -> None:
+def test_faulty_tables_are_rejected(table: str, told: str) -> None:
     with pytest.raises(ProblemError, match=told):
         stone(f"\n[balancing_force]\n{table}\n")
 
@@ -124,7 +124,7 @@ def test_what_it_refuses(table: str, told: str) -> None:
 MASS = '[dynamics.links.3]\nmass = 1\ncentre = "C"\n'
 
 
-def test_a_driving_slider_has_none() -> None:
+def test_a_driving_slider_has_no_balancing_force() -> None:
     with pytest.raises(ProblemError, match="slides and has no turn"):
         loads(SLIDER + MASS + '\n[balancing_force]\nat = "B"\n', name="slider")
 

@@ -59,7 +59,7 @@ def four_bar(shape: str, phi: float) -> str:
 
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("phi", [0.01, 0.2, 1.0, 35.0])
-def test_no_result_is_off_by_more_than_is_told(shape: str, phi: float) -> None:
+def test_no_error_of_a_result_exceeds_the_reported_bound(shape: str, phi: float) -> None:
     problem = loads(four_bar(shape, phi), name="x")
     (bound,) = error_bound(Solution(problem))
     (found,) = examine(problem, [phi], closely=False)
@@ -76,7 +76,7 @@ def test_no_result_is_off_by_more_than_is_told(shape: str, phi: float) -> None:
     assert max(errors) <= bound
 
 
-def test_what_is_told_is_of_the_largest_of_a_kind() -> None:
+def test_the_reported_bound_is_relative_to_the_largest_of_a_kind() -> None:
     """The coupler of a parallelogram does not turn: its computed acceleration is all noise."""
     solution = Solution(loads(four_bar("parallelogram", 0.01), name="x"))
     (doubt,) = doubts(solution)

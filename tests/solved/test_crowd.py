@@ -31,14 +31,14 @@ def test_a_scheme_is_crowded_at_a_coarse_scale_only(name: str) -> None:
     assert any(crowded)
 
 
-def test_points_that_stand_together_have_one_letter() -> None:
+def test_points_close_together_have_one_letter() -> None:
     solution = Solution(load(path_of("press/press")), positions=ALL_ROUND)
     points = solution.construction.draft.points()
     assert len(points) < CROWD
     assert not is_crowded(solution.construction, solution.si, 1e3)
 
 
-def test_a_crowded_scheme_takes_what_was_to_spare() -> None:
+def test_a_crowded_scheme_takes_the_spare_space() -> None:
     """At 0.005 m/mm most letters of the press had to be left out, and its sheet had room."""
     solution = Solution(load(path_of("press/press")), positions=ALL_ROUND)
     assert is_crowded(solution.construction, solution.si, 0.005)

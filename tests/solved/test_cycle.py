@@ -39,7 +39,7 @@ def sampled(cycle: Cycle) -> list[tuple[float, complex]]:
 
 
 @pytest.mark.parametrize("name", ["levers/task12", "press/press", "press/press-stone"])
-def test_curves_go_through_the_asked_positions_and_are_exact_between(name: str) -> None:
+def test_curves_go_through_the_requested_positions_and_are_exact_between(name: str) -> None:
     solution = Solution(problem_of(name), positions=[12.0 + phi for phi in TURN])
     cycle = Cycle(solution)
     assert cycle.smooth and cycle.course.closed
@@ -165,7 +165,7 @@ def test_random_mechanisms(seed: int) -> None:
         assert found[position] == pytest.approx(value, rel=1e-9, abs=1e-9 * np.abs(balance).max())
 
 
-def test_the_course_keeps_what_is_asked() -> None:
+def test_the_course_keeps_the_requested_positions() -> None:
     solution = Solution(problem_of("levers/task12"), positions=[10.0, 10.0, 40.0, 25.0])
     course = Travel(solution, step=1.0, least=120)
     assert course.drawn.tolist() == [10.0, 25.0, 40.0] and not course.closed
@@ -201,7 +201,7 @@ def test_positions_are_added_at_the_corners_alone() -> None:
     assert (np.abs((way * chord.conj()).imag) / np.abs(chord)).max() < 1e-3
 
 
-def test_nothing_is_added_at_a_jump() -> None:
+def test_no_position_is_added_at_a_jump() -> None:
     even = np.linspace(0.0, 360.0, 361)
     jump = np.where(even < 180.0, 1.0 + 0j, 5j)[np.newaxis]
     positions, _, jumps = without_corners(even, jump, spike, np.abs(np.diff(jump[0])) > 1.0)

@@ -45,7 +45,7 @@ def parallelogram(phi: str, more: str = "") -> Solution:
     return Solution(loads(PARALLELOGRAM.format(phi=phi, more=more), name="par"))
 
 
-def test_far_from_the_change_point_nothing_is_said() -> None:
+def test_far_from_the_change_point_there_is_no_warning() -> None:
     solution = parallelogram("50")
     verify(solution)
     assert warnings(solution) == []
@@ -62,7 +62,7 @@ def test_near_the_change_point_the_estimate_covers_the_error(phi: str) -> None:
     assert error <= 20 * error_bound(solution)[0]
 
 
-def test_a_doubtful_position_is_told_with_its_margin() -> None:
+def test_a_doubtful_position_is_reported_with_its_margin() -> None:
     (said,) = map(str, warnings(parallelogram("[50, 0.02]")))
     assert said.startswith("position 1 (phi = 0.02 deg) is next to a dead position (margin ")
 
@@ -107,7 +107,7 @@ C = {{ near = [{7}, {8}] }}
 
 @each("turn", [0.0, 90.0, 37.0, 211.3])
 @each("rod, arm", [(3.0, 2.0), (3.0, 9.0), (0.7, 5.7)])  # touching from outside, from inside
-def test_where_arcs_touch_the_place_is_told_and_no_motion(
+def test_where_arcs_touch_the_place_is_given_without_motion(
     turn: float, rod: float, arm: float
 ) -> None:
     way = cmath.rect(1.0, math.radians(turn))
@@ -125,7 +125,7 @@ def test_where_arcs_touch_the_place_is_told_and_no_motion(
             act()
 
 
-def test_the_closing_is_told_by_the_first_position_that_can() -> None:
+def test_the_assembly_is_determined_by_the_first_position_that_can() -> None:
     solution = parallelogram("[0, 50]")
     with pytest.raises(AssemblyError, match=r"at position 0 .* stands in a dead position"):
         _ = solution.si

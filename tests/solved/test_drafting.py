@@ -97,7 +97,7 @@ def test_where_first_order_is_given_up_sigma_is_that_of_the_sheets(name: str) ->
     assert max(np.abs(np.log(found))) < 0.1
 
 
-def test_errors_are_spread_alike_whatever_turn_the_eigenvectors_have(
+def test_errors_are_spread_alike_for_any_rotation_of_the_eigenvectors(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The last bit decides their signs, and any turn where two eigenvalues are equal."""
@@ -138,7 +138,7 @@ def sigma_of(program: Program, out: str, **data: complex | float) -> complex:
 
 
 @pytest.mark.parametrize("name", SIX)
-def test_how_many_errors_there_are_is_told_by_the_steps_and_what_is_free(name: str) -> None:
+def test_the_number_of_errors_depends_only_on_the_steps_and_free_points(name: str) -> None:
     """In no position, where nothing closes, as in one that does."""
     drawing = drafting_of(drawn(name, "board")).drawing
     data = drawing.data(np.zeros(1, dtype=int))
@@ -198,7 +198,7 @@ def test_lines_that_meet_at_an_angle(gamma: float) -> None:
     assert sigma.imag == pytest.approx(math.hypot(s1, PROFILE.point), rel=1e-9)
 
 
-def test_nothing_laid_off_has_no_error() -> None:
+def test_no_laid_off_value_has_an_error() -> None:
     b = Builder()
     p, angle, length = b.given("P"), b.known("angle"), b.known("length")
     b.lay_off("X", p, b.at_angle(p, None, angle), length)
@@ -261,7 +261,7 @@ def test_a_quantity_read_once_errs_once() -> None:
     assert one_error(drafting_of(solution), segment.label, "omega_4")
 
 
-def test_what_follows_by_similarity_errs_with_its_side() -> None:
+def test_a_result_by_similarity_errs_with_its_side() -> None:
     """v_S3 is v_D·CS3/CD: the point s3 is laid off, without another reading."""
     assert one_error(drafting_of(drawn("levers/task12", "board")), "v_D", "v_S3")
 
@@ -289,7 +289,7 @@ def test_a_better_hand_errs_less() -> None:
                 assert cad[label].sigma[0] < spread.sigma[0] < coarse[label].sigma[0]
 
 
-def test_what_a_drawing_does_not_give() -> None:
+def test_quantities_that_a_drawing_does_not_give_are_rejected() -> None:
     with pytest.raises(UnknownItemError, match="does not give v_Z"):
         drafting_of(drawn("linkages/ex1", "board")).covariance(["v_Z"])
 
@@ -343,7 +343,7 @@ class Told(Counted):
         return length
 
 
-def test_the_documented_strokes_err_by_what_they_do() -> None:
+def test_the_documented_strokes_make_the_documented_errors() -> None:
     for _, name, errors in rows_of("Strokes"):
         pencil = Told()
         stroke = getattr(pencil, name.strip("`"))

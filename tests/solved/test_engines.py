@@ -326,7 +326,7 @@ FAULTS = {
 
 
 @each("message, second", FAULTS.items())
-def test_what_a_diagram_is_like_is_told(message: str, second: str) -> None:
+def test_a_faulty_reference_to_a_diagram_is_reported(message: str, second: str) -> None:
     with pytest.raises(ProblemError) as told:
         flywheel_of(in_line(second))
     assert message in str(told.value)

@@ -63,7 +63,7 @@ def test_every_short_segment_is_in_one_knot_and_long_enough_there() -> None:
     assert count >= 6
 
 
-def test_what_is_read_on_a_view_is_read_to_five_per_cent_and_the_calculation_says_where() -> None:
+def test_segments_on_a_view_are_read_to_five_per_cent_and_the_calculation_names_the_view() -> None:
     """Half a division of the ruler is less than that of the segment as it is enlarged."""
     seen = 0
     for solution in solutions():
@@ -83,7 +83,7 @@ def test_what_is_read_on_a_view_is_read_to_five_per_cent_and_the_calculation_say
     assert seen >= 3
 
 
-def test_what_is_less_than_half_a_division_is_told_to_be_nothing() -> None:
+def test_a_segment_below_half_a_division_is_called_zero() -> None:
     solution = Solution(problem_of("levers/task-33"))
     lines = calculation(solution, PlanKind.ACCELERATION, 0, language("ru"))
     (nothing,) = (line for line in lines if "≈ 0" in line)

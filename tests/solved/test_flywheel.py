@@ -144,7 +144,7 @@ def drawn_by_mertsalov(path: Path) -> FlywheelDrawing:
 
 @each("path", ["problems/press/flywheel", "problems/machines/compressor",
                "tests/data/turn/crusher"])  # fmt: skip
-def test_by_mertsalov_the_flywheel_has_what_is_left_of_the_energy(path: str) -> None:
+def test_by_mertsalov_the_flywheel_has_the_rest_of_the_energy(path: str) -> None:
     """In the crusher T_II is at least 900 J: its axis does not begin at zero."""
     drawing = drawn_by_mertsalov(ROOT / f"{path}.toml")
     wheel = drawing.flywheel
@@ -164,7 +164,7 @@ def test_by_mertsalov_the_flywheel_has_what_is_left_of_the_energy(path: str) -> 
         assert np.allclose(np.real(got), np.linspace(0.0, drawing.length, drawing.count + 1))
 
 
-def test_by_mertsalov_the_record_and_the_split_are_of_his_construction() -> None:
+def test_by_mertsalov_the_record_and_the_split_belong_to_that_construction() -> None:
     drawing = drawn_by_mertsalov(path_of("press/flywheel"))
     wheel = drawing.flywheel
     parts = split(drawing)
@@ -181,7 +181,7 @@ def test_by_mertsalov_the_record_and_the_split_are_of_his_construction() -> None
     assert all(near(row["dT_I"], row["dT"] - row["T_II"]) for row in rows)
 
 
-def test_what_a_source_by_mertsalov_prints_is_compared_with_his_construction() -> None:
+def test_values_printed_by_a_source_are_compared_with_mertsalovs_construction() -> None:
     text = path_of("press/flywheel").read_text("utf-8").replace("machine KL", "machine AB")
     problem = loads(text.replace("[machine]", '[machine]\nmethod = "mertsalov"', 1), name="printed")
     drawing = FlywheelDrawing(Flywheel(problem), PROFILES["board"])
@@ -291,7 +291,7 @@ FAULTS = {
 
 
 @each("message, change", FAULTS.items())
-def test_wrong_data_are_told(message: str, change: tuple[str, str]) -> None:
+def test_wrong_data_are_reported(message: str, change: tuple[str, str]) -> None:
     assert change[0] in PRESS
     with pytest.raises(ProblemError) as told:
         Flywheel(loads(PRESS.replace(*change), name="wrong"))
@@ -329,7 +329,7 @@ def test_a_driving_slider_has_no_flywheel_and_loads_are_needed() -> None:
         loads(text, name="bare")
 
 
-def test_the_record_has_what_is_promised() -> None:
+def test_the_record_has_the_agreed_keys() -> None:
     run = CliRunner().invoke(cli, ["solve", str(path_of("press/flywheel")), "--json"])
     assert run.exit_code == 0, run.output
     record = json.loads(run.stdout)["machine"]
@@ -350,7 +350,7 @@ def test_the_record_has_what_is_promised() -> None:
     }
 
 
-def test_what_the_source_prints_stands_beside_what_it_should_be() -> None:
+def test_the_values_of_the_source_are_beside_the_right_ones() -> None:
     found = {item.published.name: item for item in audit(load(path_of("press/flywheel")))}
     assert len(found) == 71
     assert all(item.why is None for item in found.values())

@@ -143,7 +143,7 @@ def at_the_limit(problem: Problem) -> list[float]:
 
 
 @each("seed", range(some(60, few=8)))
-def test_no_force_is_off_by_more_than_is_told(seed: int) -> None:
+def test_no_error_of_a_force_exceeds_the_reported_bound(seed: int) -> None:
     problem, _ = loaded_problem(seed)
     rng = random.Random(seed)
     for at in at_the_limit(problem):
@@ -155,7 +155,7 @@ def test_no_force_is_off_by_more_than_is_told(seed: int) -> None:
         assert bound > 1e-9 or bound <= 2e3 * max(error, 1e-14)
 
 
-def test_forces_are_told_where_the_motion_is_plain() -> None:
+def test_doubtful_forces_are_reported_where_the_motion_is_certain() -> None:
     solution = Solution(loads(rod(1e-12), name="rod"))
     assert not warnings(solution)
     (doubt,) = warnings(solution, forces=True)
@@ -204,7 +204,9 @@ def test_forces_that_rounding_spoils_are_refused_wherever_they_are_read() -> Non
         "live rod.toml",
     ],
 )
-def test_every_command_tells_and_refuses(command: str, tmp_path: Path) -> None:
+def test_every_command_reports_doubts_and_rejects_spoilt_forces(
+    command: str, tmp_path: Path
+) -> None:
     for gap, code, said in ((1e-12, 0, "are good to about"), (1e-16, 4, "rounding spoils its")):
         result = run(tmp_path, rod(gap), command)
         assert result.exit_code == code, result.output
@@ -223,7 +225,7 @@ def test_the_record_has_the_bounds_and_the_referee_the_forces(tmp_path: Path) ->
     assert {"M_dr", "M_lever", "F_O_1/0"} <= judged["results"].keys()
 
 
-def test_a_partial_record_keeps_what_exists(tmp_path: Path) -> None:
+def test_a_partial_record_keeps_existing_results(tmp_path: Path) -> None:
     result = run(tmp_path, rod(1e-16, [20, 30]), "solve rod.toml --json --partial")
     entries = json.loads(result.stdout)["positions"]
     assert all(entry["points"]["E"]["v"] > 0 and "spoils" in entry["reason"] for entry in entries)

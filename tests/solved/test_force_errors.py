@@ -92,7 +92,7 @@ def test_covariance_of_a_vertex_is_that_of_random_sheets(name: str | int) -> Non
     ("name", "profile"),
     [("levers/six-link", "cad"), *((name, "board") for name in LOADED[1:])],
 )
-def test_of_random_sheets_so_many_fall_into_two_sigmas(name: str, profile: str) -> None:
+def test_the_expected_share_of_random_sheets_falls_into_two_sigmas(name: str, profile: str) -> None:
     """At the vertices where first order is believed."""
     statics, told = statics_with(name, profile), 0
     for end in ends_of(statics):
@@ -183,7 +183,7 @@ def test_only_prismatic_pairs_have_moments_and_these_have_errors(name: str | int
 # Where first order is given up --------------------------------------------------------------------
 
 
-def test_a_reaction_that_is_nothing_has_the_sigma_of_the_sheets() -> None:
+def test_a_zero_reaction_has_the_sigma_of_the_sheets() -> None:
     """The guide of task 12 holds no force: a length near zero does not err normally."""
     drawn = drawn_forces(statics_with("levers/task12"))
     spread = drawn.spreads["F_5_0"]
@@ -204,7 +204,7 @@ def test_a_size_is_not_believed_where_its_direction_is_not() -> None:
     assert spread.sigma[0] == pytest.approx((high - low) / 2, rel=0.1)
 
 
-def test_what_follows_from_a_strained_step_is_not_believed() -> None:
+def test_a_result_of_a_strained_step_is_not_believed() -> None:
     statics = statics_with("levers/six-link", "board", NEAR_DEAD)
     kinematic = drafting_of(statics.solution).spreads["x_H"].drawn
     assert kinematic.any()

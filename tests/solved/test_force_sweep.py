@@ -181,7 +181,7 @@ def test_loads_over_the_place_of_a_driving_slider() -> None:
 
 
 @pytest.mark.parametrize("text", ["", CHANGING], ids=["steady", "changing"])
-def test_a_driver_that_stands(text: str) -> None:
+def test_a_driver_at_rest(text: str) -> None:
     """Without a lever."""
     still = mechanisms.CRANK.replace("omega = 10", "omega = 0") + (text or "[dynamics]\n")
     sweep = agree(loads(still, name="still"), np.linspace(10.0, 80.0, 50))
@@ -223,7 +223,7 @@ def test_a_load_over_positions_is_known_there_only() -> None:
 # Requested quantities -----------------------------------------------------------------------------
 
 
-def test_forces_stand_among_other_results_as_they_are_asked() -> None:
+def test_forces_are_among_other_results_in_the_requested_order() -> None:
     sweep = Sweep(changing(), ["M_dr", "v_C", "F_C_2/3", "B", "M_C_3/0"])
     names = [row.name for row in sweep.rows]
     force = ["F.C.2-3.x", "F.C.2-3.y", "F.C.2-3"]

@@ -197,7 +197,7 @@ def test_random_mechanisms_against_all_links_at_once() -> None:
 
 
 @each("seed", SEEDS)
-def test_the_driver_gives_what_friction_takes(seed: int) -> None:
+def test_the_driver_supplies_the_friction_losses(seed: int) -> None:
     _, _, found = random_friction(seed)
     for forces in (found.corrected, found.converged):
         lost = sum(
@@ -274,7 +274,7 @@ def test_a_wedge_locks_itself() -> None:
     assert wedge(PHI - 0.5, inwards=True).efficiency[0] == 0.0
 
 
-def test_without_friction_nothing_changes() -> None:
+def test_without_friction_results_are_unchanged() -> None:
     problem = rubbed(problem_of("levers/task12"), FrictionTask())
     found = friction_of(Solution(problem))
     assert not found.pairs

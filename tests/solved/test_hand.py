@@ -191,7 +191,7 @@ def test_a_coincident_point_found_by_similarity(step: float) -> None:
     assert complex(np.ravel(trace[PointName("v:H")])[0]) == pytest.approx(h, rel=1e-9)
 
 
-def test_what_the_textbook_prints_for_the_third_example() -> None:
+def test_the_textbooks_numbers_of_the_third_example_come_out() -> None:
     """A ruler of 1 mm gives its BC of 72 mm, its 46 mm of b-b3 and its 160 of a_B."""
     got = read("linkages/ex3", 1.0, PlanKind.POSITION)
     assert got["B-C"] == 72.0
@@ -244,7 +244,7 @@ def test_the_drawing_is_read_to_half_a_mark(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", SIX)
-def test_what_is_laid_off_follows_from_what_was_read(name: str) -> None:
+def test_laid_off_segments_follow_from_the_readings(name: str) -> None:
     """Every normal component is omega²·l/mu with the hand's omega; Coriolis' is 2·omega·v/mu."""
     solution = drawn(name, 1.0)
     mu = solution.scales[A].per_mm

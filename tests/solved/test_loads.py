@@ -99,7 +99,7 @@ inertia = 7
 """
 
 
-def test_nothing_acts_on_a_file_without_masses_and_loads() -> None:
+def test_no_load_acts_in_a_file_without_masses_and_loads() -> None:
     assert applied(Solution(read(""))) == ()
     assert applied(Solution(read("[dynamics]\n"))) == ()
 
@@ -143,7 +143,7 @@ def test_the_couple_of_the_connecting_rod_by_hand() -> None:
     assert not couple.force.any()
 
 
-def test_what_is_zero_by_nature_is_left_out() -> None:
+def test_loads_that_are_zero_by_nature_are_left_out() -> None:
     # the crank turns evenly, the slider does not turn
     names = ["G_{1}", "Φ_{1}", "G_{2}", "Φ_{2}", "M_{Φ2}", "G_{3}", "Φ_{3}"]
     assert list(by_name(read(MASSES))) == names
@@ -197,7 +197,7 @@ def test_a_couple() -> None:
     assert not load.force.any()
 
 
-def test_a_resistance_is_zero_where_its_point_stands() -> None:
+def test_a_resistance_is_zero_where_its_point_is_at_rest() -> None:
     # C is at rest at 0 and 180 degrees; it moves left between them and right after
     assert up('force = 100\nagainst = "velocity"') == [0, *[100] * 5, 0, *[-100] * 5]
     assert up('force = -100\nagainst = "velocity"') == [0, *[-100] * 5, 0, *[100] * 5]

@@ -94,7 +94,7 @@ OUTPUT
         (", eta = 0.8", "", None),
     ],
 )
-def test_efficiencies_that_are_given_are_used_or_told(
+def test_given_efficiencies_are_used_or_reported(
     tmp_path: Path, second: str, output: str, value: float | None
 ) -> None:
     path = tmp_path / "train.toml"

@@ -139,7 +139,7 @@ def test_a_machine_and_its_cycle_cannot_contradict_each_other() -> None:
     assert told.numbered[0] == 15.0
 
 
-def test_positions_are_numbered_against_the_crank_where_the_file_says_so() -> None:
+def test_positions_are_numbered_against_the_crank_if_the_file_requires_it() -> None:
     problem = read(without_phi(SHAPER), ('zero = "extreme"', 'zero = "extreme"\ndirection = "cw"'))
     assert np.diff(problem.numbered) == pytest.approx([-30.0] * 11)
     told = cycle_record(Solution(problem))
@@ -197,7 +197,7 @@ def test_a_cycle_of_two_turns_has_the_positions_and_the_forces_of_both() -> None
     assert diagrams.x(diagrams.shares)[-1] * diagrams.mu_phi == pytest.approx(radians(720))
 
 
-def test_angles_of_two_turns_are_written_within_one_and_the_number_tells_the_turn() -> None:
+def test_angles_of_two_turns_are_written_within_one_and_the_number_distinguishes_the_turn() -> None:
     problem = read(without_phi(ENGINE))
     shown = [problem.shown(position) for position in problem.numbered]
     assert shown[:6] == [90.0, 60.0, 30.0, 0.0, 330.0, 300.0]
@@ -309,7 +309,7 @@ def test_a_sense_that_the_output_has_not_is_a_fault() -> None:
 # Accelerations -----------------------------------------------------------------------------------
 
 
-def test_with_an_epsilon_the_table_has_both_parts_and_the_sheet_says_so() -> None:
+def test_with_an_epsilon_the_table_and_the_sheet_have_both_parts() -> None:
     problem = read(EPSILON)
     told = cycle_record(Solution(problem))
     assert told["acceleration"][2] == pytest.approx(55.60, abs=0.01)

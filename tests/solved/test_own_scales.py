@@ -27,7 +27,7 @@ def test_plans_of_several_positions_have_one_scale(name: str) -> None:
         assert size.max() / solution.scales[kind].per_mm < 400.0
 
 
-def test_plans_have_their_own_scales_where_the_file_asks() -> None:
+def test_plans_have_their_own_scales_if_the_file_requires_it() -> None:
     """Each fills its room, is read at its scale, and its errors are those at that scale."""
     problem = problem_of("levers/task-49")
     positions, kind = [30.0, 150.0, 270.0], PlanKind.ACCELERATION

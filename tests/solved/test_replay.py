@@ -88,7 +88,7 @@ def changed(before: Trace, after: Trace) -> set[Name]:
 
 
 @pytest.mark.parametrize("name", EVERY)
-def test_its_own_value_changes_nothing_to_the_bit(name: str) -> None:
+def test_replacing_a_reading_by_its_own_value_has_no_effect(name: str) -> None:
     sheet = drawn(name)
     for step in sheet.program.steps:
         if isinstance(step, Measure | MeasureAlong | MeasureArm | Compute):
@@ -97,7 +97,7 @@ def test_its_own_value_changes_nothing_to_the_bit(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", EVERY)
-def test_another_reading_changes_what_depends_on_it_and_nothing_else(name: str) -> None:
+def test_another_reading_changes_only_dependent_steps(name: str) -> None:
     """It changes every dependent step, except zeros and steps that do not depend on its size."""
     sheet = drawn(name)
     program, before = sheet.program, sheet.trace

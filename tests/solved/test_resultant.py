@@ -116,7 +116,7 @@ def test_links_of_all_dyads_and_drivers_have_their_force_shifted() -> None:
 
 
 @each("seed", SEEDS[::10])
-def test_on_the_lever_it_hangs_at_the_velocity_of_its_point(seed: int) -> None:
+def test_on_the_lever_the_force_acts_at_the_velocity_of_its_point(seed: int) -> None:
     """The velocity of T as a point of its link, from Newton's motion."""
     problem, pose = loaded_problem(seed)
     statics = both(seed)[1]
@@ -139,7 +139,7 @@ def test_on_the_lever_it_hangs_at_the_velocity_of_its_point(seed: int) -> None:
 
 
 @pytest.mark.parametrize("name", ["levers/six-link", "press/press"])
-def test_the_hand_lays_off_what_it_computed_and_reads_other_numbers(name: str) -> None:
+def test_the_hand_lays_off_its_computed_lengths_and_reads_other_numbers(name: str) -> None:
     couples, shifted = both(name)
     solution = shifted.solution
     (shift,) = shifted.board.shifts.values()
@@ -204,7 +204,7 @@ def test_shipped_problems_that_keep_couples() -> None:
     assert far.reach > 0.35  # |D S3|, the largest length
 
 
-def test_what_is_not_asked_is_not_told() -> None:
+def test_shifts_that_are_not_requested_are_not_reported() -> None:
     couples = both("levers/six-link")[0]
     assert (couples.unshifted, couples.board.shifts) == ((), {})
 
@@ -259,7 +259,7 @@ def test_a_crank_is_shifted_when_it_turns_unevenly() -> None:
     assert length == pytest.approx(0.05 * 40 / (3 * np.hypot(0.1 * 100, 0.1 * 40)))
 
 
-def test_links_that_do_not_turn_and_drivers_that_stand_have_nothing_to_shift() -> None:
+def test_links_that_do_not_turn_and_drivers_at_rest_have_no_couple_to_shift() -> None:
     slider = "[dynamics.links.3]\nmass = 3\ninertia = 5\n"
     assert single(slider, CRANK).unshifted == ()
     stands = single(ROD.format("S2"), CRANK.replace("omega = 10", "omega = 0"))

@@ -97,7 +97,7 @@ def test_the_plate_of_a_motor_gives_its_characteristic() -> None:
     assert motor.at(motor.idle) == 0.0
 
 
-def test_a_motor_that_is_too_weak_is_told() -> None:
+def test_a_motor_that_is_too_weak_is_reported() -> None:
     weak = press("{ line = { M_start = 3, n_idle = 145 } }")
     assert isinstance(weak.failure, StalledError)
     assert weak.failure.turned > 0.0
@@ -125,7 +125,7 @@ def test_a_motor_that_is_too_weak_is_told() -> None:
         "machine.motor: expected a table": "5",
     }.items(),
 )
-def test_wrong_motors_are_told(message: str, motor: str) -> None:
+def test_wrong_motors_are_reported(message: str, motor: str) -> None:
     with pytest.raises(ProblemError) as told:
         press(motor)
     assert message in str(told.value)

@@ -170,7 +170,7 @@ def test_the_lever_is_the_balance(seed: int) -> None:
 
 
 @each("seed", SEEDS)
-def test_virtual_power_is_nothing(seed: int) -> None:
+def test_virtual_power_is_zero(seed: int) -> None:
     """Newton's velocities; d'Alembert's forces are among the loads."""
     given = sum(power_of(loaded(seed), moving(seed), acting(seed)))
     balance = solved(seed).balance[0] * loaded(seed).drive.rate
@@ -411,7 +411,7 @@ def test_forces_of_masses_and_loads_add_up(seed: int) -> None:
 
 
 @each("seed", SOME)
-def test_nothing_acts_and_nothing_reacts(seed: int) -> None:
+def test_without_loads_there_are_no_reactions(seed: int) -> None:
     for dynamics in (None, Dynamics(9.81, {}, ())):
         statics = with_loads(loaded(seed), dynamics)
         for r in statics.reactions:

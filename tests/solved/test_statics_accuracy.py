@@ -190,7 +190,7 @@ def judge(statics: Statics) -> list[Verdict]:
 
 
 @pytest.mark.parametrize("which", [*WORKED, *SEEDS[::4]])
-def test_errors_are_a_few_units_of_what_the_data_allow(which: int | str) -> None:
+def test_errors_are_a_few_units_of_the_accuracy_that_the_data_allow(which: int | str) -> None:
     for verdict in judge(statics_of(which)):
         assert verdict.multiple <= MULTIPLE, verdict
 

@@ -95,7 +95,7 @@ def expected(solution: Solution) -> Iterator[tuple[str, str, Array]]:
 
 
 @each("name", NAMES)
-def test_a_sweep_gives_what_a_solution_gives(name: str) -> None:
+def test_a_sweep_gives_the_results_of_a_solution(name: str) -> None:
     sweep, positions = sweep_of(name), near(name, 2 * FEW)
     found, failed = failures(sweep, positions)
     able = failed < 0
@@ -161,7 +161,7 @@ def test_directions_are_above_minus_180_degrees(seed: int) -> None:
 
 
 @each("name", NAMES)
-def test_a_line_of_python_gives_what_blocks_give(name: str) -> None:
+def test_a_line_of_python_gives_the_results_of_blocks(name: str) -> None:
     sweep, positions = sweep_of(name), near(name, FEW)
     blocks, failed = failures(sweep, positions)
     positions, blocks = positions[failed < 0], blocks[:, failed < 0]
@@ -188,7 +188,7 @@ def test_borders_of_blocks(count: int) -> None:
 
 
 @pytest.mark.parametrize("name", TURNS)
-def test_equal_steps_give_what_any_order_gives(name: str) -> None:
+def test_equal_steps_give_the_results_of_any_order(name: str) -> None:
     sweep = sweep_of(name)
     positions = np.arange(0.0, 360.0, 0.03)
     order = np.random.default_rng(1).permutation(len(positions))
@@ -202,7 +202,7 @@ def test_equal_steps_give_what_any_order_gives(name: str) -> None:
         assert np.nanmax(np.abs(apart)) <= 4e-15 * np.nanmax(np.abs(one)), row.name
 
 
-def test_steps_that_are_nearly_equal_are_told_from_equal_ones() -> None:
+def test_nearly_equal_steps_are_distinguished_from_equal_ones() -> None:
     sweep = sweep_of("ex1")
     positions = np.arange(0.0, 90.0, 0.1)
     positions[450] += 1e-6
@@ -257,7 +257,7 @@ def test_a_table_is_by_name() -> None:
 # Requested quantities -----------------------------------------------------------------------------
 
 
-def test_what_is_asked_needs_fewer_steps_and_comes_in_order() -> None:
+def test_a_request_needs_fewer_steps_and_keeps_its_order() -> None:
     sweep = Sweep(problem_of("ex3"), ["omega_3", "v_E", "B"])
     assert sweep.rows == (
         SweepRow("3.omega", "omega_3"),
@@ -276,7 +276,7 @@ def test_what_is_asked_needs_fewer_steps_and_comes_in_order() -> None:
 
 @pytest.mark.parametrize("asked", [["A"], ["v_A"], ["omega_1"], ["phi_5"], ["A", "B"], []])
 @pytest.mark.parametrize("count", [0, 1, FEW, FEW + 1])
-def test_what_does_not_move_may_be_asked(asked: list[str], count: int) -> None:
+def test_immobile_quantities_may_be_requested(asked: list[str], count: int) -> None:
     found = Sweep(problem_of("ex3"), asked).run(np.linspace(0.0, 9.0, count))
     assert found.shape[1] == count
     assert np.isfinite(found).all()
@@ -412,7 +412,7 @@ def test_variants_of_one_problem_are_one_sweep(count: int) -> None:
         assert found[:, k] == pytest.approx(wanted, rel=1e-11, abs=1e-13)
 
 
-def test_variants_that_differ_in_the_asked_position_only_are_alike() -> None:
+def test_variants_that_differ_only_in_the_requested_position_give_equal_results() -> None:
     path = path_of("levers/task12-variants")
     problems = [load(path, variant=name) for name in "АБВ"]
     _, found = sweep_variants(problems, [10.0, 20.0])
@@ -438,7 +438,7 @@ def test_variants_may_have_their_fixed_points_elsewhere() -> None:
 
 
 @pytest.mark.parametrize("count", [12, 500])
-def test_impossible_positions_are_empty_and_told(count: int) -> None:
+def test_impossible_positions_are_empty_and_reported(count: int) -> None:
     """The six-link mechanism closes in a part of the turn."""
     sweep, positions = sweep_of("six-link"), np.linspace(0.0, 360.0, count, endpoint=False)
     found, failed = failures(sweep, positions)
@@ -457,7 +457,7 @@ def test_impossible_positions_are_empty_and_told(count: int) -> None:
     assert sweep.explain(float(positions[failed < 0][0])) == ""
 
 
-def test_what_is_asked_fails_only_where_it_depends_on() -> None:
+def test_a_request_fails_only_where_its_operands_do() -> None:
     """The crank of the six-link mechanism has places where the others have none."""
     positions = np.arange(0.0, 360.0, 0.5)
     for asked, can_fail in ((["B", "v_B"], False), (["C"], True), (["B", "omega_3"], True)):

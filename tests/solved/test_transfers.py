@@ -95,7 +95,7 @@ def test_the_hand_takes_them_from_segments_with_their_sigma() -> None:
         assert abs(value - transfers.exact(quantities[label])[0]) < 3 * sigma
 
 
-def test_there_are_none_where_no_crank_turns() -> None:
+def test_there_are_none_without_a_rotating_crank() -> None:
     problem = problem_of("levers/six-link")
     still = replace(problem, drive=replace(problem.drive, rate=0.0, acceleration=0.0))
     assert transfers_of(Solution(replace(still, dynamics=None))) is None

@@ -196,7 +196,7 @@ def test_without_a_rule_all_assemblies_are_named() -> None:
     assert "near = [0.1096, 0.2329]" in fault.hint
 
 
-def test_another_rule_tells_the_assembly_where_one_alone_holds_it() -> None:
+def test_another_rule_distinguishes_the_assembly_if_one_alone_satisfies_it() -> None:
     chosen = Solution(fixture('D = "right of F"\nC = "above E"\nB = { near = [0.3, 0] }'))
     assert chosen.points["D"].place[0].real > 0.16
     with pytest.raises(ProblemError, match="does not tell the assemblies"):
@@ -217,7 +217,7 @@ TURNING = TEXT.replace("OA = 0.06", "OA = 0.01").replace("phi = 50", "phi = [50,
 
 
 @pytest.mark.parametrize(("phi", "count"), [(57.3, 4), (57.30856, 4), (57.32, 2)])
-def test_two_assemblies_next_to_each_other_are_told_apart(phi: float, count: int) -> None:
+def test_two_assemblies_next_to_each_other_are_distinguished(phi: float, count: int) -> None:
     """They become one in the dead position, at 57.308569 degrees."""
     made = not_chosen(fixture())
     env = env_of(made.step, made.read(np.array([phi])), 0)
@@ -261,7 +261,7 @@ def test_positions_alone_and_in_a_batch_and_in_any_order_are_the_same() -> None:
 
 
 @pytest.mark.parametrize("native", [False, True])
-def test_a_sweep_gives_what_the_positions_give(native: bool) -> None:
+def test_a_sweep_gives_the_results_of_the_positions(native: bool) -> None:
     problem = fixture("B = { near = [0.2, 0.05] }", TURNING)
     way = np.linspace(0.0, 360.0, 5000)
     sweep = Sweep(problem, native=native)
@@ -527,7 +527,7 @@ def _iv(links: str, fixed: str, slider: str = "") -> str:
         ("AB BCD CE DF GEF BHI HJ IK LJK", "AGL", "", "class 4, order 2 (links 2, 3, 4, 5)", ""),
     ],
 )
-def test_groups_of_class_four_are_refused_with_what_is_true(
+def test_groups_of_class_four_are_rejected_with_the_reason(
     links: str, fixed: str, slider: str, refused: str, able: str
 ) -> None:
     problem = loads(_iv(links, fixed, slider), name="iv")
@@ -553,7 +553,7 @@ def test_groups_of_class_four_are_refused_with_what_is_true(
         verify(solution)
 
 
-def test_a_refusal_names_the_links_that_may_drive_and_sends_nobody_in_a_circle() -> None:
+def test_an_error_names_the_links_that_may_drive_and_never_leads_in_a_circle() -> None:
     with pytest.raises(AssemblyError) as caught:
         Solution(loads(CLASS_IV, name="iv"))
     assert "class 4, order 2 (links 2, 3, 4, 5)" in str(caught.value)

@@ -330,13 +330,13 @@ def test_positions_of_two_turns_are_those_of_a_cycle_of_two(positions: Any) -> N
         counting(problem, (np.arange(9) * 40.0).tolist())
 
 
-def test_what_goes_round_once_is_not_gone_through_twice() -> None:
+def test_a_motion_of_one_turn_is_not_gone_through_twice() -> None:
     turn = Turn(Solution(loads(SQUARE.replace("PHI", "0").replace("OMEGA", "1")
                                .replace("0.04", "0.03"), name="one")))  # fmt: skip
     assert (turn.period, turn.turns, turn.count) == (360.0, 1, 12)
 
 
-def test_a_machine_is_told_that_its_cycle_is_of_two_turns() -> None:
+def test_a_machine_reports_that_its_cycle_has_two_turns() -> None:
     text = (
         SQUARE.replace("PHI", "30").replace("OMEGA", "10")
         + """
@@ -367,7 +367,7 @@ ALIKE = SQUARE.replace("0.06", "0.1").replace("0.04", "0").replace("OMEGA", "-4"
     np.arange(12) * 30.0, np.arange(12) * -30.0, np.arange(6) * 60.0 + 30.0,
     np.arange(24) * 15.0, np.arange(24) * 30.0, np.arange(8) * 45.0 + 360.0,
 ])  # fmt: skip
-def test_a_dead_position_of_an_even_turn_is_told_with_one_without(positions: Any) -> None:
+def test_a_dead_position_of_an_even_turn_is_reported_with_one_without(positions: Any) -> None:
     problem = loads(ALIKE.replace("PHI", "15"), name="alike")
     with pytest.raises(PositionError) as told:
         verify(Solution(problem, positions=positions))
@@ -389,14 +389,14 @@ def test_a_dead_position_of_an_even_turn_is_told_with_one_without(positions: Any
 
 
 @each("positions", [[0.0, 90.0], [90.0], np.arange(12) * 25.0 + 15.0])
-def test_no_other_turn_is_told_for_positions_that_are_none(positions: Any) -> None:
+def test_no_other_turn_is_advised_for_positions_that_are_not_numbers(positions: Any) -> None:
     problem = loads(ALIKE.replace("PHI", "15"), name="alike")
     with pytest.raises(PositionError) as told:
         verify(Solution(problem, positions=positions))
     assert told.value.failure.instead is None
 
 
-def test_what_does_not_go_round_is_not_told_another_turn() -> None:
+def test_no_other_turn_is_advised_for_a_driver_that_does_not_go_round() -> None:
     text = SQUARE.replace("PHI", "0").replace("OMEGA", "4").replace("0.04", "0.07")
     with pytest.raises(PositionError) as told:
         verify(Solution(loads(text, name="short"), positions=np.arange(12) * 30.0))

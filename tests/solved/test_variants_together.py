@@ -156,7 +156,7 @@ def test_arrays_of_few_positions_are_those_of_a_sweep() -> None:
 
 
 @each("file", sampled(thinned([PROBLEMS / "linkages" / "ex3.toml", *loaded_files()], 12), 2))
-def test_the_key_of_a_variant_is_among_others_what_it_is_alone(file: Path) -> None:
+def test_the_key_of_a_variant_is_the_same_among_others_and_alone(file: Path) -> None:
     problems = varied(file, 4)
     found = keys_together(problems, DEFAULT)
     assert len(found) > 1, file.name
@@ -175,7 +175,7 @@ def test_three_hundred_variants_have_the_bytes_of_each_alone() -> None:
             assert found[k] == encoded(record_in_columns(Solution(problems[k]))), (file.name, k)
 
 
-def test_most_variants_are_read_together_whatever_their_order() -> None:
+def test_most_variants_are_read_together_in_any_order() -> None:
     problems = varied(PROBLEMS / "linkages" / "ex3.toml", 12)
     assert len(together(problems)) == 12
     found, turned = together(problems), together(problems[::-1])
@@ -210,7 +210,7 @@ def test_one_that_cannot_be_assembled_is_named_and_the_others_go_on(tmp_path: Pa
         assert msgspec.json.decode(run.stdout) == one
 
 
-def test_what_is_doubtful_is_warned_of_as_alone(tmp_path: Path) -> None:
+def test_doubtful_variants_give_the_same_warnings_as_alone(tmp_path: Path) -> None:
     # The arc of the first touches the guide but for 2e-13 m: next to a dead position.
     near = {"8": "links.4.DE = 0.090171477781", "9": "driver.phi = 35", "10": "driver.phi = 36"}
     file = tmp_path / "doubt.toml"

@@ -143,7 +143,7 @@ def test_an_acceleration_that_the_file_leaves_out_has_steps_of_its_own() -> None
         assert column == pytest.approx(Sweep(own, ["a_B"]).run([20.0])[:, 0], rel=1e-12)
 
 
-def test_what_was_replaced_in_a_problem_is_not_varied() -> None:
+def test_a_replaced_value_of_a_problem_is_not_varied() -> None:
     problem = problem_of("linkages/ex3")
     other = replace(problem, drive=replace(problem.drive, rate=1.0))
     found = Sweep(other, ["v_B"], varied=["l_AB"]).run([20.0], {"l_AB": 0.05})
@@ -152,7 +152,7 @@ def test_what_was_replaced_in_a_problem_is_not_varied() -> None:
         Sweep(other, ["v_B"], varied=["omega_1"])
 
 
-def test_a_closing_is_chosen_anew_with_each_size() -> None:
+def test_an_assembly_is_chosen_again_for_each_size() -> None:
     """With keep = "continuous" and in groups of class III, too."""
     folder = Path(path_of("linkages/ex3")).parent
     problem = load(folder / "triad.toml")

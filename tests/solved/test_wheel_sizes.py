@@ -30,7 +30,7 @@ def test_steel_runs_quicker_than_cast_iron() -> None:
 
 
 @pytest.mark.parametrize("shape", WheelShape)
-def test_a_flywheel_wider_than_usual_is_told_with_what_gives_usual_sizes(shape: WheelShape) -> None:
+def test_a_flywheel_wider_than_usual_is_reported_with_a_remedy(shape: WheelShape) -> None:
     task = replace(SLOW, shape=shape)
     said = too_wide(task, INERTIA, OMEGA)
     assert said is not None
@@ -42,7 +42,7 @@ def test_a_flywheel_wider_than_usual_is_told_with_what_gives_usual_sizes(shape: 
         assert other.width < 0.21 * other.diameter, key
 
 
-def test_what_is_held_a_little_is_not_told() -> None:
+def test_a_slight_limit_by_the_speed_of_the_rim_is_not_reported() -> None:
     free = size_of(FlywheelTask(), INERTIA, OMEGA)
     assert free is not None
     task = FlywheelTask(speed=0.9 * free.speed)
@@ -54,7 +54,7 @@ def test_what_is_held_a_little_is_not_told() -> None:
     assert too_wide(SLOW, 0.0, OMEGA) is None
 
 
-def test_solve_and_the_sheet_of_the_flywheel_tell_it(tmp_path: Path) -> None:
+def test_solve_and_the_sheet_of_the_flywheel_report_it(tmp_path: Path) -> None:
     text = path_of("machines/engine").read_text("utf-8")
     path = tmp_path / "engine.toml"
     path.write_text(text.replace("[machine]", "[machine]\nflywheel.speed = 20"), "utf-8")

@@ -102,7 +102,7 @@ def test_its_answers_are_those_of_the_server(tmp_path: Path) -> None:
             assert one == other, do
 
 
-def test_files_that_were_made_are_given_and_none_beside_them() -> None:
+def test_made_files_are_served_and_no_others() -> None:
     alone, found = answered("command", what="svg")
     (made,) = found["files"]
     status, data = alone.answer("GET", f"{found['files_at']}{made['name']}?download", b"", silent)
@@ -137,7 +137,7 @@ def test_its_folder_goes_with_it() -> None:
     assert not folder.exists()
 
 
-def test_more_memory_than_there_is_is_told() -> None:
+def test_a_request_beyond_the_memory_is_reported() -> None:
     def spent(asked: object, tell: object) -> dict[str, Any]:
         raise MemoryError
 
@@ -148,7 +148,7 @@ def test_more_memory_than_there_is_is_told() -> None:
 # The folder --------------------------------------------------------------------------------------
 
 
-def test_the_pages_say_what_they_may_do_and_ask_nobody_else(folder: Path) -> None:
+def test_the_pages_state_their_policy_and_contact_no_other_host(folder: Path) -> None:
     for name, lang in (("index.html", "ru"), ("en.html", "en")):
         text = (folder / name).read_text("utf-8")
         (policy,) = re.findall(r'Content-Security-Policy" content="([^"]+)"', text)
@@ -165,7 +165,7 @@ def test_the_pages_say_what_they_may_do_and_ask_nobody_else(folder: Path) -> Non
     assert transport == (ROOT / "planmethod/studio/page/alone.js").read_text("utf-8")
 
 
-def test_the_policy_lets_the_runtime_in_and_nothing_beside(tmp_path: Path) -> None:
+def test_the_policy_admits_the_runtime_and_no_other_source(tmp_path: Path) -> None:
     address = OFFICIAL.format(VERSION)
     text = (written(tmp_path / "s", runtime_of(None)) / "index.html").read_text("utf-8")
     (policy,) = re.findall(r'Content-Security-Policy" content="([^"]+)"', text)
@@ -193,7 +193,7 @@ def test_the_archive_is_the_project_with_its_tasks(folder: Path, tmp_path: Path)
     assert done.stdout.split()[0] == str(tmp_path / "planmethod/problems")
 
 
-def test_what_a_folder_has_of_the_runtime_is_copied(tmp_path: Path) -> None:
+def test_the_runtime_is_copied_from_a_folder(tmp_path: Path) -> None:
     core = tmp_path / "core"
     core.mkdir()
     with pytest.raises(LookupError, match=r"pyodide\.mjs"):
@@ -217,7 +217,7 @@ def test_what_a_folder_has_of_the_runtime_is_copied(tmp_path: Path) -> None:
     assert {path.name for path in (site / "pyodide").iterdir()} == {*found.copied}
 
 
-def test_a_folder_with_other_files_is_left_alone_and_an_own_one_written_anew(
+def test_a_folder_with_other_files_is_left_alone_and_an_own_one_is_rewritten(
     folder: Path, tmp_path: Path
 ) -> None:
     before = (folder / "planmethod.zip").read_bytes()
@@ -238,7 +238,7 @@ def test_a_folder_with_other_files_is_left_alone_and_an_own_one_written_anew(
         (("--static", "new", "--pyodide", "."), "pyodide.mjs"),
     ],
 )
-def test_what_does_not_go_together_is_told(
+def test_incompatible_options_are_reported(
     args: tuple[str, ...], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -274,7 +274,7 @@ chromium = pytest.mark.skipif(PROGRAM is None, reason="Chromium looks at the pag
 
 
 @chromium
-def test_without_its_runtime_the_page_says_so_and_shows_the_tasks(
+def test_without_its_runtime_the_page_reports_it_and_shows_the_tasks(
     folder: Path, tmp_path: Path
 ) -> None:
     with hosted(folder) as address, browsing(tmp_path) as page:
@@ -306,7 +306,7 @@ def drawn(page: Page) -> None:
 
 @chromium
 @pytest.mark.skipif(not PYODIDE, reason="PLANMETHOD_PYODIDE names no folder of a runtime")
-def test_python_in_the_browser_does_what_the_commands_do(tmp_path: Path) -> None:
+def test_python_in_the_browser_does_the_work_of_the_commands(tmp_path: Path) -> None:
     site = written(tmp_path / "site", runtime_of(PYODIDE))
     with hosted(site) as address, browsing(tmp_path / "browser") as page:
         page.open(f"{address}#task=linkages-ex3", width=1360)

@@ -88,7 +88,7 @@ BODY = b"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 5000\r\n\r\nx"
 WHOLE = b"GET / HTTP/1.1\r\nHost: a\r\n\r\n"
 
 
-def test_who_does_not_finish_is_cut_off_and_others_are_answered(port: int) -> None:
+def test_a_client_that_does_not_finish_is_cut_off_and_others_are_answered(port: int) -> None:
     with contextlib.ExitStack() as stack:
         slow = [connected(stack, port, said) for said in (b"", HEAD, BODY) for _ in range(70)]
         other = connected(stack, port, WHOLE)
@@ -103,7 +103,7 @@ def test_who_does_not_finish_is_cut_off_and_others_are_answered(port: int) -> No
         wait_until(are_cut_off)
 
 
-def test_who_goes_on_is_not_cut_off_however_long_it_takes(port: int) -> None:
+def test_a_client_that_continues_is_never_cut_off(port: int) -> None:
     with contextlib.ExitStack() as stack:
         one = connected(stack, port, BODY)
         for _ in range(8):
@@ -115,7 +115,7 @@ def test_who_goes_on_is_not_cut_off_however_long_it_takes(port: int) -> None:
         assert answered(one, b"0")
 
 
-def test_who_takes_no_answer_is_cut_off_and_a_slow_reader_is_not(port: int) -> None:
+def test_a_client_that_takes_no_answer_is_cut_off_and_a_slow_reader_is_not(port: int) -> None:
     with contextlib.ExitStack() as stack:
         asks = WHOLE.replace(b"/ ", b"/large ", 1)
         never, slowly = connected(stack, port, asks), connected(stack, port, asks)

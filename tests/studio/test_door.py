@@ -84,7 +84,7 @@ def sessions(client: TestClient) -> int:
 
 
 @pytest.mark.parametrize("cookie", [None, "", "wrong", "\u043d\u0435\u0442", f"{TOKEN}x"])
-def test_nothing_is_told_and_nothing_done_without_the_cookie(
+def test_without_the_cookie_no_request_is_answered_or_carried_out(
     own: TestClient, cookie: str | None
 ) -> None:
     before, stranger = sessions(own), TestClient(own.app, base_url=HOME)
@@ -136,7 +136,7 @@ FOREIGN = (
 )  # fmt: skip
 
 
-def test_what_another_site_asks_for_changes_nothing(own: TestClient, served: TestClient) -> None:
+def test_a_request_of_another_site_changes_no_state(own: TestClient, served: TestClient) -> None:
     for client, heads in product((own, served), FOREIGN):
         before = sessions(client)
         for method, address in addresses(client):
@@ -158,7 +158,7 @@ def test_its_own_page_is_let_in_also_behind_a_server_of_another_name(served: Tes
 KINDS = ("text/plain", "", "application/x-www-form-urlencoded", "multipart/form-data", "text/json")
 
 
-def test_what_is_posted_is_json(own: TestClient, served: TestClient) -> None:
+def test_posted_data_must_be_json(own: TestClient, served: TestClient) -> None:
     for client, kind in product((own, served), KINDS):
         for method, address in addresses(client):
             if method == "POST":
@@ -167,7 +167,7 @@ def test_what_is_posted_is_json(own: TestClient, served: TestClient) -> None:
     assert right.status_code == 200
 
 
-def test_neither_strangers_nor_pages_of_his_own_lock_the_owner_out(own: TestClient) -> None:
+def test_neither_strangers_nor_the_owners_pages_lock_the_owner_out(own: TestClient) -> None:
     stranger = TestClient(own.app, base_url=HOME)
     codes = {stranger.post("/api/session", json={}).status_code for _ in range(2 * FEW)}
     assert codes == {403}
@@ -229,7 +229,7 @@ TRIED = """
 
 
 @pytest.mark.skipif(PROGRAM is None, reason="Chromium looks at the page")
-def test_a_page_of_elsewhere_reads_nothing_and_does_nothing(page: Page, tmp_path: Path) -> None:
+def test_a_foreign_page_can_neither_read_nor_act(page: Page, tmp_path: Path) -> None:
     with studio() as (address,), another_site(tmp_path) as port:
         come_in(page, address)
         entered = (
@@ -249,7 +249,7 @@ def test_a_page_of_elsewhere_reads_nothing_and_does_nothing(page: Page, tmp_path
 
 
 @pytest.mark.skipif(PROGRAM is None or os.name == "nt", reason="Chromium looks at the page")
-def test_open_tells_the_token_to_the_browser_and_to_no_list_of_processes(
+def test_open_passes_the_token_to_the_browser_and_not_to_the_list_of_processes(
     page: Page, tmp_path: Path
 ) -> None:
     opener, told = tmp_path / "xdg-open", tmp_path / "told"

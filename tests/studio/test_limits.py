@@ -76,7 +76,9 @@ def three_processes(folder: Path) -> Iterator[TestClient]:
         yield client
 
 
-def test_what_takes_too_long_is_stopped_and_another_process_goes_on(hurried: TestClient) -> None:
+def test_a_request_that_takes_too_long_is_stopped_and_another_process_goes_on(
+    hurried: TestClient,
+) -> None:
     said = found(hurried, enter(hurried), "burn 60")["refused"]
     assert said.startswith("This takes more than 0.5 s of a processor")
     who = enter(hurried, TOKEN)
@@ -91,7 +93,7 @@ def test_an_instructor_has_more_time(hurried: TestClient) -> None:
     assert len(shares) == 10
 
 
-def test_time_is_that_of_a_processor_and_waiting_costs_nothing(hurried: TestClient) -> None:
+def test_time_is_that_of_a_processor_and_waiting_is_free(hurried: TestClient) -> None:
     assert found(hurried, enter(hurried), "sleep 1")["said"] == "sleep 1"
 
 
@@ -126,7 +128,7 @@ def test_memory_is_bounded(client: TestClient) -> None:
     [("die 1", "code 1)"), ("kill SIGKILL", "code SIGKILL)"), ("kill SIGSEGV", "SIGSEGV)"),
      ("fill 600", "more memory"), ("nest", "nested too deep")],
 )  # fmt: skip
-def test_a_process_that_ends_is_replaced_and_why_is_told_as_far_as_it_is_known(
+def test_a_process_that_ends_is_replaced_and_the_known_reason_is_reported(
     client: TestClient, text: str, why: str
 ) -> None:
     who = enter(client)
@@ -163,7 +165,7 @@ def waiting(client: TestClient) -> int:
     return int(client.get("/health").json()["waiting"])
 
 
-def test_who_waits_is_told_the_place_and_quick_things_go_first(
+def test_a_waiting_client_gets_its_place_and_quick_requests_go_first(
     client: TestClient, tmp_path: Path
 ) -> None:
     def ask(do: str, name: str) -> Asking:
@@ -189,9 +191,7 @@ def test_who_waits_is_told_the_place_and_quick_things_go_first(
     assert all("said" in one.told[-1]["found"] for one in (*long, *quick))  # none is lost
 
 
-def test_what_is_typed_later_takes_the_place_of_what_waits(
-    client: TestClient, tmp_path: Path
-) -> None:
+def test_later_typing_replaces_a_waiting_request(client: TestClient, tmp_path: Path) -> None:
     who, gate = enter(client), tmp_path / "gate"
     at_work = [Asking(client, enter(client), f"hold {gate}", "sketched") for _ in range(2)]
     old = Asking(client, who, "old", "sketched")
@@ -226,7 +226,7 @@ def test_one_session_cannot_fill_the_queue(client: TestClient, tmp_path: Path) -
     assert found(client, who, "x", "sheets")["said"] == "x"
 
 
-def test_who_asks_too_often_is_told_to_wait(client: TestClient) -> None:
+def test_a_client_that_asks_too_often_has_to_wait(client: TestClient) -> None:
     who = enter(client)
     codes = [
         client.post("/api/do/sketched?lang=en", headers=who, json={"text": "x"}).status_code
@@ -259,7 +259,7 @@ def test_no_address_leads_out(client: TestClient, address: str) -> None:
     assert client.get(address.format(key=who["x-studio"])).status_code == 404
 
 
-def test_nothing_is_done_without_a_key_and_nothing_for_instructors_without_the_token(
+def test_requests_need_a_key_and_those_of_instructors_the_token(
     client: TestClient,
 ) -> None:
     assert client.post("/api/do/sketched", json={"text": ""}).status_code == 401
@@ -308,7 +308,7 @@ def test_names_of_files_are_plain(client: TestClient) -> None:
 # Sessions ----------------------------------------------------------------------------------------
 
 
-def test_sessions_end_and_leave_nothing(tmp_path: Path) -> None:
+def test_sessions_end_and_leave_no_files(tmp_path: Path) -> None:
     now = [0.0]
     sessions = Sessions(tmp_path, replace(LIMITS, idle=100.0), clock=lambda: now[0])
     first, second = sessions.enter("a", trusted=False), sessions.enter("a", trusted=False)
@@ -379,7 +379,7 @@ def test_a_bucket_leaks() -> None:
 # One's own file ----------------------------------------------------------------------------------
 
 
-def test_what_another_editor_wrote_is_not_written_over(tmp_path: Path) -> None:
+def test_a_file_changed_by_another_editor_is_not_overwritten(tmp_path: Path) -> None:
     path = tmp_path / "my.toml"
     path.write_text("a = 1\n")
     settings = StudioSettings(limits=LIMITS, token=TOKEN, processes=1, desk=Desk(path))

@@ -13,7 +13,7 @@ pytest.importorskip("uvicorn", reason="the studio's extra is not installed")
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is read from /proc")
-def test_nothing_is_lost_where_many_type_at_once_and_memory_is_bounded() -> None:
+def test_no_request_is_lost_where_many_type_at_once_and_memory_is_bounded() -> None:
     with served("--serve") as (address, server):
         told = dict(zip(HEADS, row(address, server, 12, 2, 0.5), strict=True))
     assert (told["asked"], told["drawn"], told["refused"], told["lost"]) == ("24", "24", "0", "0")

@@ -216,7 +216,7 @@ def test_variants_and_questions_are_made_and_downloaded_by_clicks(
     assert page.said == []
 
 
-def test_an_address_opens_a_task_and_replaces_nothing_typed_since(page: Page, address: str) -> None:
+def test_an_address_opens_a_task_and_keeps_text_typed_since(page: Page, address: str) -> None:
     begin(page, address)
     page.open("about:blank")
     page.open(f"{address}?lang=en#task=linkages-ex3&view=sheets", width=1360)
@@ -301,7 +301,9 @@ def test_everything_has_a_name_and_tabs_are_turned_by_arrows(page: Page, address
     assert page.ask("document.querySelector('#work').hidden") is False
 
 
-def test_a_file_is_saved_and_another_editor_is_told_of(page: Page, tmp_path: Path) -> None:
+def test_a_file_is_saved_and_changes_by_another_editor_are_reported(
+    page: Page, tmp_path: Path
+) -> None:
     file = tmp_path / "my.toml"
     file.write_text("title = 'a'\n")
     with studio(str(file)) as (address,):
@@ -412,7 +414,7 @@ def open_file(page: Page, name: str) -> None:
     page.wait(f"studio.text() === \"title = '{name[0]}'\\n\"")
 
 
-def test_what_is_undone_in_one_file_brings_back_nothing_of_another(page: Page, desk: Path) -> None:
+def test_undo_in_one_file_restores_no_text_of_another(page: Page, desk: Path) -> None:
     open_file(page, "a.toml")
     open_file(page, "b.toml")
     undo(page)
@@ -456,9 +458,7 @@ def test_what_is_undone_in_one_file_brings_back_nothing_of_another(page: Page, d
     assert page.said == []
 
 
-def test_a_text_is_saved_to_the_file_that_it_came_from_or_it_is_asked(
-    page: Page, desk: Path
-) -> None:
+def test_a_text_is_saved_to_its_own_file_or_the_user_is_asked(page: Page, desk: Path) -> None:
     def named(name: str) -> None:
         page.ask(
             f"{{ const box = document.querySelector('#name'); box.value = {name!r};"
@@ -542,7 +542,7 @@ def filled(page: Page, work: Path) -> None:
     page.wait("document.querySelector('#desk > .made a')")
 
 
-def test_nothing_that_was_made_for_a_task_is_shown_under_the_next_one(
+def test_results_of_a_task_are_not_shown_under_the_next_one(
     page: Page, address: str, tmp_path: Path
 ) -> None:
     whole = (PROBLEMS / "groups/ex3.csv").read_text("utf-8-sig").splitlines()
@@ -604,7 +604,9 @@ def test_an_answer_that_comes_late_is_not_shown_under_the_next_task(
     assert page.said == []
 
 
-def test_a_pane_says_what_a_kind_of_problem_has_not(page: Page, address: str) -> None:
+def test_a_pane_names_results_that_a_kind_of_problem_does_not_have(
+    page: Page, address: str
+) -> None:
     begin(page, address, lang="en")
     open_task(page, "moving-point")
     for view, words in (

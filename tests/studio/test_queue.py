@@ -69,7 +69,7 @@ class Desk:
         await self.settle()
 
 
-def test_of_what_waits_the_quick_go_first_and_the_slow_last(
+def test_waiting_requests_run_the_quick_first_and_the_slow_last(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     async def play() -> Desk:

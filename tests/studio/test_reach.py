@@ -154,7 +154,7 @@ def test_every_control_has_a_role_and_a_name_and_is_come_to_by_tab(
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_letters_stand_out_from_what_is_behind_them(page: Page, address: str, theme: str) -> None:
+def test_letters_contrast_with_their_background(page: Page, address: str, theme: str) -> None:
     faint: dict[str, Any] = {}
 
     def look(name: str) -> None:

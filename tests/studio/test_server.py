@@ -61,7 +61,9 @@ def run(folder: Path, *args: str) -> str:
 
 
 @pytest.mark.parametrize("lang", ["ru", "en"])
-def test_the_page_is_in_a_language_and_lets_nothing_else_in(client: TestClient, lang: str) -> None:
+def test_the_page_is_in_a_language_and_admits_no_other_sources(
+    client: TestClient, lang: str
+) -> None:
     answer = client.get(f"/?lang={lang}")
     words = language(lang).studio["page"]
     policy = answer.headers["content-security-policy"]
@@ -86,7 +88,7 @@ def test_every_word_of_the_page_is_used_and_every_word_it_uses_is_there() -> Non
     assert (used - known, known - used) == (set(), set())
 
 
-def test_the_scripts_ask_no_other_host_and_make_no_source_of_text() -> None:
+def test_the_scripts_contact_no_other_host_and_turn_no_text_into_markup_or_code() -> None:
     for path in (ROOT / "planmethod/studio/page").glob("*.*"):
         text = path.read_text("utf-8")
         if path.name.startswith("codemirror"):
@@ -157,7 +159,9 @@ def test_a_scheme_has_the_language_of_the_page(client: TestClient) -> None:
     assert not re.search("[а-яё]{3}", found["svg"])
 
 
-def test_what_a_kind_of_problem_has_not_is_said_in_a_sentence(client: TestClient) -> None:
+def test_results_that_a_kind_of_problem_does_not_have_are_named_in_a_sentence(
+    client: TestClient,
+) -> None:
     acts = ("assemblies", "questions", "verdicts", "checked")
     alike = ("note", "project", "assemblies")
     answers = ("form", "key", "questions", "verdicts", "checked")
@@ -212,7 +216,7 @@ def test_the_ruler_knows_the_segments_of_the_plans(client: TestClient) -> None:
     assert abs(complex(z - x, t - y)) * view["per_mm"] == pytest.approx(3.2, abs=1e-9)
 
 
-def test_a_project_tells_how_far_it_is_and_is_one_archive(client: TestClient) -> None:
+def test_a_project_reports_its_progress_and_is_one_archive(client: TestClient) -> None:
     told = {"text": EX3, "name": "ex3", "what": "project"}
     lines = client.post("/api/do/command?lang=ru", json=told).text.splitlines()
     shares = [one["share"] for one in map(json.loads, lines) if "share" in one]
@@ -265,7 +269,7 @@ def test_both_assemblies_are_offered(client: TestClient) -> None:
         ("epsilon = 0", "‸epsilom = 0"),
     ],
 )
-def test_a_fault_is_told_where_it_stands(client: TestClient, old: str, new: str) -> None:
+def test_a_fault_is_shown_at_its_place(client: TestClient, old: str, new: str) -> None:
     assert EX3.count(old) == 1
     above = EX3.replace(old, new).partition("‸")[0].split("\n")
     for lang in ("ru", "en"):
@@ -304,7 +308,7 @@ def test_most_faults_of_faulty_files_are_placed_at_a_key_of_their_path() -> None
     assert placed > 0.8 * all_of_them
 
 
-def test_an_array_is_counted_from_nought() -> None:
+def test_an_array_is_counted_from_zero() -> None:
     text = '[[answers]]\nwhat = "a"\n\n[[answers]]\nwhat = "b"\n[answers.inner]\nc = 1\n'
     assert place_of(text, Fault("answers.1.what", "m")) == (5, 1)
     assert place_of(text, Fault("answers[1]", "m")) == (4, 1)
@@ -315,7 +319,7 @@ def test_an_array_is_counted_from_nought() -> None:
 # Answers and works -------------------------------------------------------------------------------
 
 
-def test_the_form_asks_and_does_not_answer(client: TestClient) -> None:
+def test_the_form_has_questions_and_no_answers(client: TestClient) -> None:
     found = do(client, "questions", EX3)
     first = found["rows"][0]
     assert (first["id"], first["unit"], first["scale"], first["mm"]) == ("v_B", "м/с", "mu_v", True)
@@ -393,7 +397,7 @@ def test_variants_are_made_with_questions(client: TestClient) -> None:
     assert len(tomllib.loads(made)["variants"]) == 2
 
 
-def test_no_message_tells_where_the_server_keeps_files(client: TestClient) -> None:
+def test_no_message_shows_where_the_server_keeps_files(client: TestClient) -> None:
     client.put("/api/works/bad.json", content=b"{")
     found = do(client, "checked", EX3, by_hand=[])
     client.delete("/api/works/all")

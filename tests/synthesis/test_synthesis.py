@@ -70,7 +70,7 @@ def run(*args: str) -> Result:
 
 
 @each("name", ASKED)
-def test_what_was_asked_is_measured_back(name: str) -> None:
+def test_the_requirements_are_measured_on_the_result(name: str) -> None:
     kind, asked = ASKED[name]
     found, problem = made(kind, asked)
     measured = checks(found, problem)
@@ -161,7 +161,7 @@ def test_the_pairs_of_angles_satisfy_freudenstein() -> None:
 
 
 @each("name", ASKED)
-def test_float64_reads_what_fifty_digits_read(name: str) -> None:
+def test_float64_reads_the_values_of_fifty_digits(name: str) -> None:
     found, _ = made(*ASKED[name])
     board = found.board
     fine = adjudicate(found.program, scaled(board, 1.0))
@@ -171,7 +171,7 @@ def test_float64_reads_what_fifty_digits_read(name: str) -> None:
 
 
 @each("name", ASKED)
-def test_every_point_is_told_in_every_language(name: str) -> None:
+def test_every_point_is_described_in_every_language(name: str) -> None:
     found, _ = made(*ASKED[name])
     for lang in LANGUAGES:
         told = " ".join(
@@ -191,7 +191,7 @@ def test_the_hand_finds_the_lengths_within_its_errors(name: str) -> None:
         assert off <= room + drawn.profile.ruler * drawn.mu
 
 
-def test_what_the_hand_cannot_find_is_null() -> None:
+def test_values_that_the_hand_cannot_find_are_null() -> None:
     # The line only just meets the circle; with the radius that was read it does not.
     line = ["slider-crank", "--stroke", "0.2", "--lambda", "0.28", "--offset", "0.16457126"]
     done = run(*line, "--json")
@@ -204,7 +204,7 @@ def test_what_the_hand_cannot_find_is_null() -> None:
 
 
 @each("name", ("slotted", "shaper", "best", "loci", "rocker", "positions", "angles"))
-def test_a_norm_inspector_finds_nothing(name: str) -> None:
+def test_the_norm_control_marks_at_most_empty_paper(name: str) -> None:
     kind, asked = ASKED[name]
     found, problem = made(kind, asked)
     measured = {**checks(found, problem), **found.facts}
@@ -251,7 +251,7 @@ REFUSED = {
 
 
 @each("line", REFUSED)
-def test_what_is_not_possible_is_refused_with_the_limit(line: str) -> None:
+def test_an_impossible_requirement_is_rejected_with_the_limit(line: str) -> None:
     code, said = REFUSED[line]
     done = run(*line.split())
     assert done.exit_code == code, done.output
@@ -270,7 +270,7 @@ def test_positions_that_are_not_passed_are_findings() -> None:
 # The command -----------------------------------------------------------------------------------
 
 
-def test_the_command_prints_lengths_and_checks_and_writes_what_solves(tmp_path: Path) -> None:
+def test_the_command_prints_lengths_and_checks_and_writes_a_solvable_file(tmp_path: Path) -> None:
     file = tmp_path / "my.toml"
     args = ("slotted", "--K_v", "1.6", "--centres", "0.4", "--stroke", "0.3", "-o", str(file))
     done = run(*args, "--json", "--sheet", "--lang", "en")
@@ -288,7 +288,7 @@ def test_the_command_prints_lengths_and_checks_and_writes_what_solves(tmp_path: 
     assert run(*args, "--force").exit_code == 0
 
 
-def test_every_kind_tells_its_construction_and_is_documented() -> None:
+def test_every_kind_describes_its_construction_and_is_documented() -> None:
     text = (ROOT / "docs" / "synthesis.md").read_text(encoding="utf-8")
     for kind in KINDS:
         assert f"| `{kind}` |" in text

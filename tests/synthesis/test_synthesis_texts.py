@@ -70,7 +70,7 @@ def two_points(text: str, at: dict[str, complex]) -> tuple[str, str]:
 TURNED = re.compile(r"from point (\S+) at ([\d.]+)° to (\S+) \(to the (left|right) as")
 
 
-def test_a_line_is_turned_to_the_side_that_is_told() -> None:
+def test_a_line_is_turned_to_the_stated_side() -> None:
     count = 0
     for name in ("slotted", "shaper", "quick", "loci", "angles", "offset", "positions"):
         for said, at in sentences(name):
@@ -93,7 +93,7 @@ def test_a_line_is_turned_to_the_side_that_is_told() -> None:
 ENDS = {"upper": 1j, "lower": -1j, "right-hand": 1.0, "left-hand": -1.0}
 
 
-def test_of_two_meetings_of_an_arc_and_a_line_the_one_is_taken_that_is_told() -> None:
+def test_an_arc_and_a_line_intersect_at_the_stated_point() -> None:
     """The other one is its mirror image in the foot of the perpendicular from the centre."""
     seen = set()
     for name in ASKED:
@@ -120,7 +120,7 @@ def test_of_two_meetings_of_an_arc_and_a_line_the_one_is_taken_that_is_told() ->
     assert {"upper", "right-hand", "left-hand"} <= seen
 
 
-def test_of_two_meetings_of_arcs_the_one_is_taken_on_the_side_that_is_told() -> None:
+def test_arcs_intersect_on_the_stated_side() -> None:
     count = 0
     for name in ASKED:
         for said, at in sentences(name):
@@ -138,7 +138,7 @@ def test_of_two_meetings_of_arcs_the_one_is_taken_on_the_side_that_is_told() -> 
     assert count
 
 
-def test_points_are_laid_off_in_the_directions_that_are_told() -> None:
+def test_points_are_laid_off_in_the_stated_directions() -> None:
     """Lines at an angle to the x axis, parallel to it and perpendicular to it."""
     count = 0
     for name in ASKED:
@@ -265,7 +265,7 @@ def supports(drawing: Drawing, found: Synthesis) -> Iterator[tuple[str, complex,
 
 
 @each("name", ("slotted", "shaper", "offset", "below", "rocker", "beyond", "positions", "angles"))
-def test_supports_stand_away_from_the_links_with_the_hatching_behind_their_base(name: str) -> None:
+def test_supports_point_away_from_the_links_with_the_hatching_behind_their_base(name: str) -> None:
     drawing, found = sheet_of(name)
     strokes = [item for item in drawing.items if isinstance(item, Stroke)]
     for pivot, at, drawn in supports(drawing, found):

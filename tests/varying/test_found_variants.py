@@ -136,7 +136,7 @@ def test_variants_of_a_linkage_assemble_and_are_long_enough_by_its_own_formulas(
             ]
 
 
-def test_every_position_of_the_crank_is_judged_as_its_own_formulas_say() -> None:
+def test_every_position_of_the_crank_is_judged_by_independent_formulas() -> None:
     source = VariantCandidates(EX3, None)
     (main,) = source.read({})
     assert isinstance(main, Problem)
@@ -184,7 +184,7 @@ def test_the_program_reads_the_table_and_finds_the_same(of_ex3: tuple[Path, str]
 
 
 @pytest.mark.parametrize("problem", [EX3, PLANETARY, POINT], ids=lambda path: path.stem)
-def test_who_copies_a_variant_loses_most_points(problem: Path, tmp_path: Path) -> None:
+def test_copying_a_variant_loses_most_points(problem: Path, tmp_path: Path) -> None:
     table = tmp_path / "table.csv"
     assert run(problem, "--count", 5, "--seed", 3, "-o", table, "--lang", "en").exit_code == 0
     keys = [key_of_task(task) for task in tasks_of(beside(tmp_path, problem, table))]
@@ -202,7 +202,9 @@ def test_who_copies_a_variant_loses_most_points(problem: Path, tmp_path: Path) -
         assert lost >= 0.6 * whole - 1e-9
 
 
-def test_a_mistake_that_a_variant_tells_is_off_by_more_than_a_pencil(tmp_path: Path) -> None:
+def test_a_mistake_that_a_variant_distinguishes_is_off_by_more_than_a_pencil(
+    tmp_path: Path,
+) -> None:
     source, found = choose(EX3, count=4, seed=5)
     path = tmp_path / EX3.name
     path.write_text(source.with_variants({one.name: one.own for one in found.variants}), "utf-8")
@@ -248,7 +250,7 @@ def test_a_linkage_with_loads_has_its_reactions_judged(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["linkages/ex3", "levers/task-12", "levers/task-1"])
-def test_candidates_judged_together_are_what_each_is_alone(name: str) -> None:
+def test_candidates_judged_together_are_judged_as_alone(name: str) -> None:
     path = path_of(name)
     source = VariantCandidates(path, None)
     chosen = with_followers(source.table, usual(source.table, 0.1))
@@ -320,7 +322,7 @@ def test_the_same_seed_gives_the_same_and_another_one_others() -> None:
     assert [v.own for v in one.variants] != [v.own for v in other.variants]
 
 
-def test_what_was_thrown_away_adds_up(of_ex3: tuple[Path, str]) -> None:
+def test_rejected_candidates_add_up(of_ex3: tuple[Path, str]) -> None:
     tried = int(*re.findall(r"(\d+) candidates were looked at", of_ex3[1]))
     thrown = sum(map(int, re.findall(r"(?m)^(\d+): ", of_ex3[1])))
     assert thrown + 6 == tried
@@ -378,7 +380,7 @@ def test_a_file_with_variants_is_written_whole_with_others(tmp_path: Path) -> No
     assert one == two
 
 
-def test_too_few_are_said_by_the_exit_code(tmp_path: Path) -> None:
+def test_too_few_variants_are_reported_by_the_exit_code(tmp_path: Path) -> None:
     done = run(EX3, "--count", 30, "--tries", 20, "--lang", "en", "-o", tmp_path / "t.csv")
     assert done.exit_code == 1
     assert "of 30; 20 candidates" in done.output
@@ -393,13 +395,13 @@ def test_too_few_are_said_by_the_exit_code(tmp_path: Path) -> None:
         (" , ", "nothing is to be varied"),
     ],
 )
-def test_what_cannot_be_varied_is_said(vary: str, said: str) -> None:
+def test_a_value_that_cannot_be_varied_is_reported(vary: str, said: str) -> None:
     done = run(EX3, "--vary", vary, "--lang", "en")
     assert done.exit_code == 2
     assert said in done.output
 
 
-def test_a_file_with_nothing_to_vary_is_said_so() -> None:
+def test_a_file_without_values_to_vary_is_reported() -> None:
     done = run(PROBLEMS / "meshing/z12-30.toml", "--lang", "en")
     assert done.exit_code == 2 and "nothing is to be varied" in done.output
 
