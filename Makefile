@@ -44,7 +44,8 @@ test-lowest: $(VENV)/.ready
 	$(VENV)/lowest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
 	$(VENV)/lowest/bin/python -m pytest -n 2 --dist loadfile -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning
 
-# What differs from the outputs that were taken; SHOW=pattern shows how, TAKE=1 takes it.
+# What differs from the outputs that were taken; SHOW=pattern shows how, TAKE=1 takes it, sums and facts. Where many facts
+# change it wants REASON="a sentence", which make hands on in the environment.
 outputs: $(VENV)/.ready
 	PYTHONPATH=$(CURDIR):$(CURDIR)/tests:$(CURDIR)/tests/outputs $(BIN)/python tests/outputs/look.py \
 	  $(if $(SHOW),--show '$(SHOW)') $(if $(TAKE),--take)

@@ -40,7 +40,7 @@ def pytest_configure(config: pytest.Config) -> None:
     gc.set_threshold(100_000)
 
 
-WHOLE = ("contracts/", "construct/", "note/test_messages.py")
+WHOLE = ("contracts/", "construct/", "note/test_messages.py", "outputs/")
 """Tests each of whose cases makes its own claim; elsewhere many cases of a test show the same."""
 
 MANY = 4

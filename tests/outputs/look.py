@@ -1,7 +1,8 @@
 """Look at what differs from the outputs that were taken, and take it: ``make outputs``.
 
 ``--show PATTERN`` computes the outputs whose names have the pattern, alone, and shows how those
-that differ differ from the revision that last took sums; ``--take`` takes what differs.
+that differ differ from the revision that last took sums; ``--take`` takes what differs, sums and
+facts. Where the facts of many outputs change it wants a reason, which goes into ``reasons.txt``.
 """
 
 from __future__ import annotations
@@ -16,21 +17,26 @@ from functools import partial
 from multiprocessing import Pool
 from pathlib import Path
 
-from produced import ROOT, groups
-from sums import (
-    SUMS,
-    WHOLE,
-    compared,
-    difference,
-    kept_sums,
-    sum_of,
-    text_file,
-    texts_of,
-    write_sums,
+from facts import (
+    changes,
+    chosen,
+    differing,
+    facts_of,
+    make_facts,
+    read_facts,
+    write_facts,
 )
+from produced import ROOT, groups
+from sums import SUMS, compared, difference, kept_sums, sum_of, texts_of, write_sums
 
 SHOWN = 200
 """Most lines of the difference of one output."""
+
+FREE = 10
+"""Outputs whose facts may change without a reason."""
+
+REASONS = SUMS.with_name("reasons.txt")
+"""How many outputs changed their facts, and why."""
 
 
 def produced(pattern: str) -> dict[str, str]:
@@ -78,16 +84,56 @@ def write(folder: Path, names: list[str]) -> None:
             (folder / str(number)).write_bytes(texts[name].encode())
 
 
+def refusal(count: int, reason: str) -> str:
+    """Return why facts of so many outputs are not taken; nothing if they are."""
+    if count <= FREE or reason.strip():
+        return ""
+    return (
+        f"Nothing is taken: the facts of {count} outputs change, of more than {FREE}. "
+        'Say why in a sentence: make outputs TAKE=1 REASON="...".'
+    )
+
+
+def report_facts(old: dict[str, list[str]], new: dict[str, list[str]], reason: str) -> int:
+    """Print what facts change and return of how many outputs; end where a reason is missing."""
+    names = differing(old, new)
+    for name in names:
+        print(name, *changes(old.get(name, []), new.get(name, [])), sep="\n")
+    if message := refusal(len(names), reason):
+        sys.exit(message)
+    return len(names)
+
+
+def take(sums: dict[str, str], texts: dict[str, str], reason: str) -> None:
+    """Take sums, and the facts of the outputs that have some now."""
+    old = read_facts()
+    names = chosen(sums)
+    new = {name: facts_of(name, texts[name]) for name in names if name in texts}
+    new |= {name: old[name] for name in names if name in old and name not in new}
+    new |= make_facts(name for name in names if name not in new)
+    count = report_facts(old, new, reason)
+    write_sums(sums)
+    write_facts(new)
+    if reason.strip():
+        with REASONS.open("a", encoding="utf-8") as file:
+            file.write(f"{count} outputs: {' '.join(reason.split())}\n")
+
+
 def main() -> None:
     """Look, show, take."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--show", default="", metavar="PATTERN")
     parser.add_argument("--take", action="store_true")
+    # What is given to make is in the environment, with all its quotes.
+    parser.add_argument("--reason", default=os.environ.get("REASON", ""))
     parser.add_argument("--write", nargs="+", metavar=("FOLDER", "NAME"), help=argparse.SUPPRESS)
     asked = parser.parse_args()
     if asked.write:
         write(Path(asked.write[0]), asked.write[1:])
         return
+    if asked.take and not asked.reason.strip():  # facts are there in a tenth of the time
+        old = {name: one for name, one in read_facts().items() if re.search(asked.show, name)}
+        report_facts(old, make_facts(old), asked.reason)
     texts, kept = produced(asked.show), kept_sums()
     sums = {name: sum_of(text) for name, text in texts.items()}
     looked_at = {name: one for name, one in kept.items() if re.search(asked.show, name)}
@@ -96,14 +142,14 @@ def main() -> None:
         print(f"{what:8} {name}")
     print(f"{len(sums)} outputs, {len(found)} differ")
     if asked.show and found and kept:
-        old = before(list(found))
+        texts_before = before(list(found))
         for name in found:
-            print(*difference(name, old.get(name, ""), texts.get(name, ""), SHOWN), sep="\n")
+            print(
+                *difference(name, texts_before.get(name, ""), texts.get(name, ""), SHOWN), sep="\n"
+            )
     if asked.take:
-        write_sums({**{name: one for name, one in kept.items() if name not in looked_at}, **sums})
-        for name in WHOLE:
-            if name in texts:
-                text_file(name).write_bytes(texts[name].encode())
+        unseen = {name: one for name, one in kept.items() if name not in looked_at}
+        take({**unseen, **sums}, texts, asked.reason)
 
 
 if __name__ == "__main__":

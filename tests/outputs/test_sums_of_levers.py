@@ -1,4 +1,4 @@
-"""The net over the problems of levers: every output is what was taken."""
+"""Every output of the problems of levers has the sum that was taken."""
 
 from __future__ import annotations
 
@@ -7,8 +7,11 @@ from cases import is_thinned
 from produced import groups
 from sums import complaint
 
+if is_thinned():
+    pytest.skip("sums are compared where every case is taken", allow_module_level=True)
+
 
 @pytest.mark.parametrize("group", [one for one in groups() if one.startswith("levers/")])
 def test_outputs(group: str) -> None:
-    said = complaint(group, is_thinned=is_thinned())
-    assert not said, said
+    message = complaint(group)
+    assert not message, message
