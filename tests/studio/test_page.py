@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import json
 import re
 import shutil
 import subprocess
@@ -13,7 +14,9 @@ import pytest
 from browser import PROGRAM, Page, browsing
 from studying import DRAWN, at, begin, click, come_in, fetched, studio, take, text, works
 from waiting import wait_until
-from worked import PROBLEMS
+from worked import PROBLEMS, path_of, problem_of
+
+from planmethod.solved.solution import Solution
 
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
 pytest.importorskip("uvicorn", reason="the studio's extra is not installed")
@@ -108,6 +111,34 @@ def test_a_segment_is_measured_in_mm_and_in_its_unit(page: Page, address: str) -
     assert "64 мм × μv 0,05 = 3,2 м/с" in text(page, "#measured")
 
 
+def test_on_a_segment_drawn_larger_than_its_plan_the_ruler_gives_the_value_of_the_vector(
+    page: Page, address: str
+) -> None:
+    """Task 27: (de) has a scale of its own, ten times finer; its value is |v_D - v_E|."""
+    points = Solution(problem_of("levers/task-27")).points
+    exact = abs(complex(points["D"].velocity[0] - points["E"].velocity[0]))
+    begin(page, address)
+    take(page, "linkages-ex3")
+    page.ask(f"studio.put({json.dumps(path_of('levers/task-27').read_text('utf-8'))})")
+    page.wait("document.querySelector('#scheme').classList.contains('old')")
+    page.wait(DRAWN)
+    click(page, "#to-sheets")
+    page.wait(
+        "[...document.querySelector('#spans').options].some(one => /^de +μ_v/.test(one.text))"
+    )
+    page.ask(
+        "{ const all = document.querySelector('#spans');"
+        " all.value = [...all.options].find(one => /^de +μ_v/.test(one.text)).value;"
+        " all.dispatchEvent(new Event('change')); }"
+    )
+    told = text(page, "#measured").replace("\u00a0", " ")
+    found = re.search(r"([\d,]+) мм × μv ([\d,]+) = ([\d,]+) м/с$", told)
+    assert found is not None, told
+    mm, scale, value = (float(one.replace(",", ".")) for one in found.groups())
+    assert value == pytest.approx(exact, rel=2e-3)
+    assert mm * scale == pytest.approx(10.0 * value, rel=2e-3)
+
+
 def test_positions_move_with_their_plans(page: Page, address: str) -> None:
     begin(page, address)
     take(page, "linkages-ex3")
@@ -139,6 +170,16 @@ def test_answers_are_compared_while_one_types_and_judged(page: Page, address: st
     fill("#rows tr:nth-child(1) td:nth-of-type(3) input", "3,3")
     assert "≠" in text(page, "#rows tr:nth-child(1)")
     fill("#rows tr:nth-child(1) td:nth-of-type(3) input", "3,2")
+    assert "сходится" in text(page, "#rows tr:nth-child(1)")
+    # in another unit the product is in that, and what is written is read in it
+    page.ask(
+        "{ const box = document.querySelector('#rows tr:nth-child(1) select');"
+        " box.value = 'мм/с'; box.dispatchEvent(new Event('input', { bubbles: true })); }"
+    )
+    product = text(page, "#rows tr:nth-child(1) td:nth-of-type(2)")
+    assert re.sub(r"\s", "", product) == "3200"
+    assert "≠" in text(page, "#rows tr:nth-child(1)")
+    fill("#rows tr:nth-child(1) td:nth-of-type(3) input", "3200")
     assert "сходится" in text(page, "#rows tr:nth-child(1)")
     click(page, "#judge")
     page.wait("document.querySelector('#verdicts iframe')")
