@@ -202,6 +202,8 @@ def _room(centre: complex, lines: Sequence[Segment]) -> tuple[float, complex, fl
     """
     best = (-1e9, 0.0, 0.0)
     for radius in _RADII:
+        if _MATTERS + 1.5 - 0.1 * radius <= best[0]:  # with white all around
+            break
         near = [
             line
             for line in lines
@@ -211,10 +213,13 @@ def _room(centre: complex, lines: Sequence[Segment]) -> tuple[float, complex, fl
         for middle in range(0, 360, 15):
             turns = [middle + _SWEEP * (k / 8 - 0.5) for k in range(9)]
             places = [centre + radius * cis(turn) for turn in turns]
-            gaps = [min((distance(p, line) for line in near), default=5.0) for p in places]
-            worth = (
-                sum(min(gap, _MATTERS) for gap in gaps) / 9 + 0.5 * min(*gaps, 3.0) - 0.1 * radius
-            )
+            gaps: list[float] = []
+            for place in places:
+                gaps.append(min((distance(place, line) for line in near), default=5.0))
+                white = sum(min(gap, _MATTERS) for gap in gaps) + _MATTERS * (9 - len(gaps))
+                worth = white / 9 + 0.5 * min(*gaps, 3.0) - 0.1 * radius
+                if worth <= best[0]:  # whatever white the places have that are left
+                    break
             if worth > best[0] + 1e-9:
                 best = (worth, radius, float(middle))
     return best[0], centre, best[1], best[2]

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from math import inf
 from typing import NamedTuple, TypeAlias
 
 from planmethod.render.ink.drawing import Bounds
@@ -98,11 +99,14 @@ def _packed(
         return None
     found.sort(key=lambda option: option.cost)
 
-    def cost(option: _Option) -> float:
+    best, least = found[0], inf
+    for option in found[:_LOOKED_AT]:
+        if option.cost >= least:  # and so are all that follow
+            break
         boxes = [box_of(unit) for unit in option.units[:-1]]
-        return option.cost + VOID * emptiest_share([*boxes, option.last, stamp, *taken], inner)
-
-    best = min(found[:_LOOKED_AT], key=cost)
+        void = VOID * emptiest_share([*boxes, option.last, stamp, *taken], inner)
+        if option.cost + void < least:
+            best, least = option, option.cost + void
     ways = [some if one.grows else () for one, some in zip(whole.parts(), best.ways, strict=True)]
     larger = _units(grown(best.node, ways, _room(inner)), inner, best.last, taken)
     *units, end = larger or best.units

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -85,7 +86,7 @@ def controlled_kinematics(
         When the sheets cannot be drawn.
     """
 
-    def draw(asked: Problem, on: str | None) -> list[Drawing]:
+    def draw(asked: Problem, on: str | None, *, advised: bool = True) -> list[Drawing]:
         return kinematics_sheets(
             asked,
             paper=on,
@@ -95,10 +96,11 @@ def controlled_kinematics(
             errors=errors,
             sigma=sigma,
             layout=layout,
+            advised=advised,
         )
 
     drawings = draw(problem, paper)
-    trial = _Trial(problem, drawings, draw)
+    trial = _Trial(problem, drawings, partial(draw, advised=False))
     return [
         Controlled(
             drawing,

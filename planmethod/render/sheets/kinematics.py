@@ -76,6 +76,7 @@ def kinematics_sheets(
     layout: str | Path | Composition | None = None,
     most: int | None = None,
     asked: Sequence[str] = (),
+    advised: bool = True,
 ) -> list[Drawing]:
     """Draw the kinematic analysis in the language of ``problem.sheet``, a dozen positions a sheet.
 
@@ -105,6 +106,8 @@ def kinematics_sheets(
     asked : sequence of str
         Labels of quantities for the composition's block of graphs. Default: those of the block or
         of ``[cycle]``.
+    advised : bool
+        On failure, try larger papers so that the error names one that fits.
 
     Raises
     ------
@@ -159,7 +162,7 @@ def kinematics_sheets(
             return False
         return True
 
-    misfit = replace(_misfit(problem), fits=fits)
+    misfit = replace(_misfit(problem), fits=fits if advised else None)
     drawings = compose(problem, strategy, misfit, fields=fields, furniture=furniture)
     _refuse_many(strategy.solution, len(drawings), most)
     return drawings

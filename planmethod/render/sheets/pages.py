@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from itertools import combinations, groupby, pairwise
 from math import inf
 from typing import TypeAlias
@@ -269,14 +270,18 @@ def _divided(
         broken = sum(made[k - 1].entry.group == made[k].entry.group != () for k in cuts)
         return broken, max(sum(areas[i:j]) for i, j in pairwise(edges))
 
+    @cache
+    def page(room: Room, i: int, j: int, apart: int) -> list[Placed] | None:
+        whole = grouped(made[i:j] if apart != 1 else _loosened(made[i:j]), arranged)
+        group = (whole, whole, whole.inner(), whole.flat())[apart]
+        return packed(group, room)
+
     for apart in taken_apart:
         every = combinations(range(1, len(made)), len(rooms) - 1)
         for cuts in sorted(every, key=worth)[:MOST_TURNS]:
             pages: Parts = []
             for room, (i, j) in zip(rooms, pairwise((0, *cuts, len(made))), strict=True):
-                whole = grouped(made[i:j] if apart != 1 else _loosened(made[i:j]), arranged)
-                group = (whole, whole, whole.inner(), whole.flat())[apart]
-                placed = packed(group, room)
+                placed = page(room, i, j, apart)
                 if placed is None:
                     break
                 pages.append(placed)
