@@ -390,7 +390,7 @@ class _Drawing:
     # Rule of assembly
 
     def _write_rule(self, point: str, mirror: complex, known: list[str]) -> None:
-        """Say which closing is meant in words that are true of it and not of the other one."""
+        """Write an assembly rule that holds for the chosen assembly and not for the other one."""
         draft, rng = self.draft, self.rng
         z = draft.place[point]
         phrases: list[str | complex] = []

@@ -47,7 +47,7 @@ class Draft:
     known: list[str] = field(default_factory=list)
 
     def copy(self) -> Draft:
-        """Return a copy that shares nothing."""
+        """Return a deep copy."""
         return copy.deepcopy(self)
 
     def add(self, *points: str) -> Link:

@@ -154,7 +154,7 @@ def _sense(number: int, answer: WrittenAnswer) -> str:
 
 
 def table(problem: Path = PROBLEM) -> bytes:
-    """Return the file: what a spreadsheet program saves as CSV in UTF-8."""
+    """Return the file as a spreadsheet program saves CSV in UTF-8."""
     text = io.StringIO()
     csv.writer(text, delimiter=";", lineterminator="\r\n").writerows([HEAD, *rows(problem)])
     return text.getvalue().encode("utf-8-sig")

@@ -69,7 +69,7 @@ class HardCase:
     title : str
         What is hard.
     parameter : str
-        What the labels of the rows say, with its unit; empty where they say it themselves.
+        Meaning of the labels of the rows, with its unit; empty if they include it.
     rows : tuple of HardInput
     """
 
@@ -138,7 +138,7 @@ class HardRow:
 
     @property
     def underrated(self) -> bool:
-        """Tell whether the user is warned of less than the error."""
+        """Return whether the user is warned of less than the error."""
         return self.outcome is Outcome.WARNED and not self.error <= self.warned
 
     @property
@@ -157,7 +157,7 @@ def _examine_row(case: str, row: HardInput, digits: int) -> HardRow:
     try:
         problem = loads(row.text, name=case)
         positions = row.positions or problem.drive.positions
-        # Whether NumPy warns about what does not exist is the matter of another test.
+        # Another test checks NumPy's warnings about results that do not exist.
         with np.errstate(all="ignore"):
             judged = _judge_positions(blank, row, problem, positions, digits)
     except PlanMethodError as error:

@@ -33,7 +33,7 @@ def _vary(text: Callable[[float], str], values: Iterable[float]) -> tuple[HardIn
 
 
 def _approach(text: str, at: Callable[[float], float], alone: str = "") -> tuple[HardInput, ...]:
-    """Return rows that come nearer to a position and reach it; ``alone``: asked in the file."""
+    """Return rows that approach a position and reach it; ``alone``: it is in the file."""
     rows = [HardInput(_label(d), text, (at(d),)) for d in (*NEARER, 0.0)]
     if alone:
         rows.append(HardInput("exactly, alone in the file", alone))

@@ -163,7 +163,7 @@ def slotted(
     origin: complex = 0j,
     size: float = 1.0,
 ) -> str:
-    """Return a slotted link (кулиса) about C, its stone on the pin A of a crank of 0.125 m."""
+    """Return a slotted link (кулиса) about C, its sliding block on the pin A of a 0.125 m crank."""
     return f"""
 [frame]
 O = {_pair(cis(turn) * origin * size)}
@@ -212,7 +212,7 @@ slides = {{ on = "2", along = "AK" }}
 
 
 def tangent_slide(*, phi: float = 40.0, turn: float = 0.0, omega: float = 12.0) -> str:
-    """Return a stone on a crank's line and on a guide (PRP), parallel to it at phi = 0."""
+    """Return a sliding block on a crank's line and on a guide (PRP), parallel at phi = 0."""
     return f"""
 [frame]
 O = [0.0, 0.0]
@@ -259,7 +259,7 @@ def cross_slide(
     origin: complex = 0j,
     size: float = 1.0,
 ) -> str:
-    """Return a bar on a guide, and in its slot, at an angle to it, a stone on the crank (RPP)."""
+    """Return a bar on a guide with an inclined slot for a sliding block on the crank (RPP)."""
     return f"""
 [frame]
 O = {_pair(origin)}

@@ -36,14 +36,14 @@ TOLD = 70
 
 
 def table(*results: Sequence[HardRow], folded: bool = True) -> str:
-    """Return a table in Markdown: a line for each row, or for neighbours that ended alike.
+    """Return a table in Markdown: a line for each row, or for neighbours of the same outcome.
 
     Parameters
     ----------
     *results : sequences of HardRow
-        What `run` returned for some cases.
+        Results of `run` for some cases.
     folded : bool
-        Show neighbouring rows of one case that ended alike as one line with the worst of each.
+        Show neighbouring rows of one case and outcome as one line with the worst of each.
     """
     lines = [_line(HEAD), _line(["---"] * len(HEAD))]
     for rows in results:
@@ -53,7 +53,7 @@ def table(*results: Sequence[HardRow], folded: bool = True) -> str:
 
 
 def _end(row: HardRow) -> tuple[Outcome, bool, str]:
-    """Return what rows of one line have in common: refusals by their nature."""
+    """Return the outcome that the rows of one line share: rejections by their kind."""
     if row.outcome is not Outcome.REFUSED:
         return row.outcome, row.silently_wrong, ""
     nature = "dead position"

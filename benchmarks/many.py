@@ -1,4 +1,4 @@
-"""Many positions and variants: how cost grows, what processes are worth, what a kill costs."""
+"""Many positions and variants: growth of cost, gain of processes, cost of a kill."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ def _environment() -> dict[str, str]:
 
 
 def exponent(grown: Sequence[Grown], cost: str) -> float:
-    """Return the exponent of growth beyond what the first costs anyway; 0 where little does."""
+    """Return the exponent of growth beyond the cost of the first; 0 if it hardly grows."""
     first, *more = grown
     always = getattr(first, cost)
     costs = {one.count - first.count: getattr(one, cost) - always for one in more}
@@ -169,7 +169,7 @@ def exponent(grown: Sequence[Grown], cost: str) -> float:
 
 
 def in_processes(count: int, folder: Path) -> tuple[float, float, bool]:
-    """Return seconds of PDF sheets of variants by one and two processes; whether they are alike."""
+    """Return seconds of PDF sheets of variants by one and two processes; whether these agree."""
     one = two = 0.0
     for name in variants(count, folder):  # taking turns
         words = ["sheet", name, "--all-variants", "--format", "pdf"]
@@ -179,13 +179,13 @@ def in_processes(count: int, folder: Path) -> tuple[float, float, bool]:
 
 
 def alike(one: Path, other: Path) -> bool:
-    """Tell whether every sheet of a folder is in another one, byte for byte."""
+    """Return whether every sheet of a folder is in another one, byte for byte."""
     names = [path.name for path in one.glob("*.pdf")]
     return all((other / name).read_bytes() == (one / name).read_bytes() for name in names)
 
 
 def killed(words: Sequence[str], folder: Path) -> str:
-    """Make a batch in ``out`` by two processes, one of which is lost; return what it says."""
+    """Make a batch in ``out`` by two processes, one of which is lost; return its output."""
     program = folder / "program.py"
     program.write_text(KILLED)
     done = subprocess.run(

@@ -40,16 +40,16 @@ SOURCE = Path(__file__).with_name("fourbar.c")
 
 @dataclass(frozen=True)
 class Peer:
-    """Somebody else who solves the four-bar.
+    """A peer that solves the four-bar.
 
     Attributes
     ----------
     name : str
-        What to call it in a table.
+        Name in a table.
     computes : str
-        What it computes and how.
+        Results and method.
     rows : tuple of int
-        Which of the 20 rows of a solution its answer consists of, in its order.
+        Rows of the 20 of a solution that its answer has, in its order.
     run : callable
         From crank angles (degrees) to an array of ``len(rows)`` rows, or None where the peer
         needs equally spaced angles and these are not. An array of angles is examined when it is
@@ -63,7 +63,7 @@ class Peer:
     run: Callable[[Floats], Floats | None]
 
     def error(self, phi: Floats, expected: Floats) -> float | None:
-        """Return how far the answer is from a solution known to be right.
+        """Return the error of the answer against a solution known to be right.
 
         Parameters
         ----------
@@ -90,17 +90,17 @@ Call: TypeAlias = Callable[[], Floats]
 
 
 def peers() -> list[Peer]:
-    """Return those who can run here, warm."""
+    """Return the peers that can run here, warmed up."""
     return list(_found()[0])
 
 
 def missing() -> list[str]:
-    """Return a sentence for each one who cannot run here."""
+    """Return a sentence for each peer that cannot run here."""
     return list(_found()[1])
 
 
 class _Unavailable(Exception):  # noqa: N818 - a finding, not an error
-    """Says in a sentence what was not found."""
+    """A missing requirement, named in a sentence."""
 
 
 @cache
@@ -225,7 +225,7 @@ def _pointer(values: Floats) -> ctypes.c_void_p:
 
 
 def _touched(n: int) -> Floats:
-    """Return room for a solution, every page of it written to: calls do not pay for that."""
+    """Return memory for a solution with every page written to, at no cost to the calls."""
     return np.full((ROWS, n), np.nan)
 
 

@@ -1,4 +1,4 @@
-"""Whole commands: cold and warm time, what they import, how much memory they take."""
+"""Whole commands: cold and warm time, imports, memory."""
 
 from __future__ import annotations
 
@@ -131,7 +131,7 @@ def commands(*, runs: int = 5) -> list[Command]:
 
 
 def _looked_at(arguments: list[str]) -> tuple[tuple[str, ...], int, float]:
-    """Return what one run of a command imports and how large it gets."""
+    """Return the imports and the peak memory of one run of a command."""
     said = run_python(
         "import contextlib, io, sys\n"
         f"sys.argv = ['planmethod', *{arguments!r}]\n"
@@ -188,7 +188,7 @@ PEAK = (
     "lines = status.read_text().splitlines() if status.exists() else []\n"
     "peak = max((int(s.split()[1]) / 1024 for s in lines if s.startswith('VmHWM')), default=0.0)"
 )
-"""Lines that find the peak of a process itself, MB; what came before it started is not counted."""
+"""Lines that find the peak of a process itself, MB, without memory from before its start."""
 
 MEMORY = (
     ("interpreter and NumPy", "import numpy"),
@@ -200,7 +200,7 @@ MEMORY = (
 
 
 def memory() -> list[tuple[str, float]]:
-    """Return (what, peak megabytes), each in a process of its own."""
+    """Return (subject, peak megabytes), each in a process of its own."""
     head = (
         "import numpy as np\n"
         "from benchmarks.scenes import slotted\n"
@@ -219,8 +219,8 @@ def memory() -> list[tuple[str, float]]:
 def clock_processes(commands: Sequence[Sequence[str]], *, runs: int = 5) -> list[Timing]:
     """Time whole processes, taking turns so that a slow moment falls on all of them.
 
-    The first round warms the disk and lets Python cache what it compiled, as an installed package
-    has it kept.
+    The first round warms the disk and lets Python cache compiled files, as for an installed
+    package.
     """
     times: list[list[float]] = [[] for _ in commands]
     for turn in range(runs + 1):

@@ -7,7 +7,7 @@ from planmethod.bench.report import Table, number, table
 
 
 def random_section(tally: Tally, branches: tuple[int, int]) -> Table:
-    """Return what became of random mechanisms and of crank-rockers."""
+    """Return the outcomes of random mechanisms and of crank-rockers."""
     total = tally.results
     shares = []
     names = [f"up to {bound:g}" for bound in BOUNDS] + [f"above {BOUNDS[-1]:g}"]

@@ -28,7 +28,7 @@ def _rate(timing: Timing, count: int) -> str:
 
 
 def machine() -> str:
-    """Return what the figures were measured on."""
+    """Return the machine on which the figures were measured."""
     name = platform.processor() or platform.machine()
     info = Path("/proc/cpuinfo")
     if info.exists():
@@ -142,7 +142,7 @@ def growth_section(
 
 
 def _others(found: Sequence[growth.Cost]) -> Table:
-    """Return what loads, wheels and answers cost."""
+    """Return the cost of loads, wheels and answers."""
     if not found:
         return []
     return [
@@ -162,7 +162,7 @@ def _others(found: Sequence[growth.Cost]) -> Table:
 
 
 def scenes_section(scenes: Sequence[tuple[str, int, int, float, float]]) -> Table:
-    """Return what asking for less saves."""
+    """Return the saving of smaller requests."""
     return [
         "## Only what a scene needs",
         "",
@@ -282,7 +282,7 @@ class Measured:
         return [*rivals_section(self.compared), *held]
 
     def size(self) -> Table:
-        """Return cost against size, and what asking for less saves."""
+        """Return cost against size, and the saving of smaller requests."""
         scenes = scenes_section(rivals.by_scene())
         return [*growth_section(self.positions, self.links, self.others), "", *scenes]
 
@@ -296,7 +296,7 @@ class Measured:
         ]  # fmt: skip
 
     def many(self) -> Table:
-        """Return how variants and positions grow, and what processes are worth."""
+        """Return the growth with variants and positions, and the gain of processes."""
         return many_section(quick=self.quick)
 
     def figure(self) -> bytes:

@@ -22,7 +22,7 @@ SIZES = (12, 10_000, 1_000_000)
 
 @dataclass(frozen=True, slots=True)
 class Rival:
-    """Somebody who solves the four-bar, at the sizes of the table.
+    """A peer that solves the four-bar, at the sizes of the table.
 
     Attributes
     ----------

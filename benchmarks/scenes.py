@@ -49,7 +49,7 @@ def chain(dyads: int) -> Problem:
     """Return a crank and a chain of RRR dyads: 1 + 2·dyads moving links.
 
     Each rocker drives the next through a coupler of the length of the frame between them, so all
-    of them swing alike and the chain assembles at every angle of the crank.
+    of them swing equally and the chain assembles at every angle of the crank.
     """
     lines = ['title = "Chain"', "[frame]", "A = [0, 0]"]
     lines += [f"D{k} = [{0.4 * k:.1f}, 0]" for k in range(1, dyads + 1)]

@@ -43,11 +43,11 @@ FAR = 10.0
 """Paper so far from all ink is white, mm: half of it belongs to the drawing as its margin."""
 
 SEEN = 1 / 30
-"""The same as a part of the shorter side of the paper: a sheet is looked at from where all of it is
-seen."""
+"""The same as a part of the shorter side of the paper: a sheet is viewed as
+a whole."""
 
 CELL = 2.5
-"""Side of the squares that the paper is looked at in, mm."""
+"""Side of the squares into which the paper is divided, mm."""
 
 TOGETHER = 8.0
 """Ink that is nearer to one another belongs to one block, mm."""
@@ -269,7 +269,7 @@ def _reached(problem: Problem, tried: Sequence[float]) -> list[float]:
     from planmethod.solved.solution import Solution
 
     try:
-        Solution(problem, positions=tuple(tried)).si  # noqa: B018 - read when asked
+        Solution(problem, positions=tuple(tried)).si  # noqa: B018 - computed on access
     except PlanMethodError:
         found = []
         for phi in tried:

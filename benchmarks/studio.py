@@ -49,7 +49,7 @@ THINGS = {
 
 
 class Visitor:
-    """One page that is open (посетитель): asks, and keeps the session and the connection."""
+    """An open page (посетитель): sends requests, and keeps the session and the connection."""
 
     def __init__(self, address: str) -> None:
         self._door = http.client.HTTPConnection(urlsplit(address).netloc, timeout=60)
@@ -66,7 +66,7 @@ class Visitor:
         self._door.close()
 
     def ask(self, do: str, text: str, **more: Any) -> dict[str, Any]:
-        """Return the last line of an answer; an empty one where it is refused."""
+        """Return the last line of an answer; an empty one if it is rejected."""
         told = json.dumps({"text": text, "name": "load", **more})
         self._door.request("POST", f"/api/do/{do}", told, self._heads)
         answer = self._door.getresponse()
@@ -76,14 +76,14 @@ class Visitor:
 
 
 class TypingStudent(threading.Thread):
-    """One who types (студент за клавиатурой).
+    """A typing student (студент за клавиатурой).
 
     Attributes
     ----------
     times : list of tuple of float
         From the last letter to the scheme, of it in the queue, and at work, s.
     refused, lost : int
-        What was not drawn, and not answered.
+        Numbers of requests rejected, and not answered.
     """
 
     def __init__(self, address: str, number: int, changes: int, pause: float) -> None:

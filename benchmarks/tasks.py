@@ -59,7 +59,7 @@ def _order(task: ShippedTask) -> tuple[object, ...]:
 
 
 def name_of(file: str) -> str:
-    """Return what a file below the problems is called: ``levers-13`` for levers/task-13.toml."""
+    """Return the name of a file below the problems: ``levers-13`` for levers/task-13.toml."""
     folder, stem = file.split("/")[0], Path(file).name.removesuffix(".toml")
     stem = stem.removeprefix("task-")
     return stem if stem.startswith(folder) else f"{folder}-{stem}"
@@ -86,7 +86,7 @@ def index() -> list[ShippedTask]:
 
 
 def index_text(tasks: list[ShippedTask]) -> str:
-    """Return the index as it is kept: a line for each task."""
+    """Return the text of the index: a line for each task."""
     rows = (json.dumps(asdict(task), ensure_ascii=False) for task in tasks)
     return "[\n" + ",\n".join(rows) + "\n]\n"
 

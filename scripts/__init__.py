@@ -1,1 +1,1 @@
-"""Tools that make files of the package, by hand; beside it, not in the wheel."""
+"""Tools run by hand that generate files of the package; they are not in the wheel."""

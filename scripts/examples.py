@@ -1,4 +1,4 @@
-"""Write what commands print into the documentation, as Markdown.
+"""Write the output of commands into the documentation, as Markdown.
 
 ``make examples`` looks for such blocks in the pages of ``docs/`` and runs the command of each::
 
@@ -37,7 +37,7 @@ def filled(page: str) -> str:
 
 
 def _printed(command: str) -> str:
-    """Return what a command prints, its headings a level lower than the page's title."""
+    """Return the output of a command, its headings a level below the page's title."""
     with chdir(ROOT):
         run = CliRunner().invoke(cli, shlex.split(command), catch_exceptions=False)
     if run.exit_code:

@@ -56,12 +56,12 @@ KERNED = (
 def leant(strokes: Strokes, style: Style) -> Strokes:
     """Return the strokes slanted if the style is."""
     lean = style.lean
-    waist = style.proportions.small / 2  # what leans to the right above it leans to the left below
+    waist = style.proportions.small / 2  # ink leaning right above it leans left below
     return tuple(tuple(p + lean * (p.imag - waist) for p in line) for line in strokes)
 
 
 def outline(strokes: Strokes) -> list[Polygon]:
-    """Return what the pen leaves along the strokes, d."""
+    """Return the outline of a pen drawn along the strokes, d."""
     parts = [
         LineString([(p.real, p.imag) for p in line]).buffer(0.5, quad_segs=ROUND)
         for line in strokes

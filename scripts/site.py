@@ -1,4 +1,4 @@
-"""Hook of MkDocs: the README as first page, and what pages link to beside docs/."""
+"""Hook of MkDocs: the README as first page, and links from pages to files outside docs/."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def _targets(text: str, uri: str) -> set[str]:
 
 
 def _from_root(link: str, uri: str) -> str:
-    """Return what a page links to as a path from the root of the repository."""
+    """Return the target of a page's link as a path from the root of the repository."""
     folder = "" if uri in FIRST.values() else posixpath.join("docs", posixpath.dirname(uri))
     return posixpath.normpath(posixpath.join(folder, link))
 

@@ -25,7 +25,7 @@ COMMANDS = (
     "new linkages-2.1.45 task.toml",
     "solve task.toml --json",
 )
-"""What must work of an installed program: the five commands of the README, and a shipped task.
+"""Commands that an installed program must run: five of the README, and a shipped task.
 
 Each begins where the one before ended.
 """

@@ -13,7 +13,7 @@ _INSCRIBED = re.compile(r"^ ?= ([\d,]+)(?:·10)? .*(?:/мм|мм/)")
 
 
 def is_round(per_mm: float) -> bool:
-    """Tell whether a scale, or its inverse, is of the series."""
+    """Return whether a scale, or its inverse, is of the series."""
     return any(
         abs(one / 10 ** floor(log10(one) + 1e-9) - member) < 1e-6
         for one in (per_mm, 1.0 / per_mm)

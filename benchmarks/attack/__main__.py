@@ -163,7 +163,7 @@ def attempt(made: Made, folder: Path) -> tuple[object, float]:
             code = end.code
         except _LateError:
             code = f"over {SECONDS:g} s"
-        except BaseException:  # what the last net let through
+        except BaseException:  # an error that no handler caught
             code = traceback.format_exc(limit=-3)
         finally:
             signal.setitimer(signal.ITIMER_VIRTUAL, 0)
@@ -185,7 +185,7 @@ def _child(door: str, seeds: Sequence[int], pipe: Connection, place: Path) -> No
     signal.signal(signal.SIGVTALRM, _late)
     resource.setrlimit(resource.RLIMIT_AS, (4 * 2**30, 4 * 2**30))
     warnings.simplefilter("ignore")
-    # What the process that forks has kept is none of the file's.
+    # Memory kept by the parent process does not count for the file.
     before = max(0.0, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024 - OWN)
     home = Path.cwd()
     for seed in seeds:
@@ -206,7 +206,7 @@ def _child(door: str, seeds: Sequence[int], pipe: Connection, place: Path) -> No
 
 
 def attack(door: str, seeds: Sequence[int], *, jobs: int = 1) -> Found:
-    """Give files to a door and return what came of them."""
+    """Give files to an entry point and return the outcome."""
     found = Found(door)
     left = [list(seeds[start : start + CHUNK]) for start in range(0, len(seeds), CHUNK)]
     running: list[tuple[Iterator[None], list[int]]] = []
@@ -280,7 +280,7 @@ def row(found: Found) -> str:
 
 
 def main() -> None:
-    """Attack every door and print the table; exit code 1 where something fell."""
+    """Attack every entry point and print the table; exit code 1 if a file failed."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.attack", description=__doc__)
     parser.add_argument("--door", choices=DOORS, action="append", help="these alone")
     parser.add_argument("--files", type=int, help="how many, for each door")

@@ -60,7 +60,7 @@ def run(command: Sequence[str], out: Path, killed_after: float | None = None) ->
 
 
 def faults(found: dict[str, bytes], whole: dict[str, bytes], *, ended: bool) -> Iterator[str]:
-    """Yield what of a folder is not as the whole run has it."""
+    """Yield the files of a folder that differ from those of the whole run."""
     for name, data in found.items():
         base = name.rpartition("/")[2]
         if base.startswith(".planmethod-"):
@@ -83,7 +83,7 @@ def faults(found: dict[str, bytes], whole: dict[str, bytes], *, ended: bool) -> 
 
 def killed(command: Sequence[str], times: int, luck: random.Random, place: Path) -> Iterator[str]:
     """Kill a command ``times`` times; yield the row of the table, then the incomplete files."""
-    run(command, place / "first")  # what is compiled and cached is there from now on
+    run(command, place / "first")  # from now on compiled and cached files exist
     seconds = run(command, place / "whole")
     whole = files_of(place / "whole")
     middle, there, bad = 0, [], []

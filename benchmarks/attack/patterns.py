@@ -63,7 +63,7 @@ def _of_module(module: ModuleType) -> Iterator[tuple[str, bool]]:
             case ast.Call(ast.Attribute(ast.Name("re"), name), [first, *_]) if name in _CALLS:
                 try:
                     value = eval(compile(ast.Expression(first), file, "eval"), vars(module))
-                except NameError:  # of a function's own; where it comes from is looked at
+                except NameError:  # a function's own; its source is examined
                     continue
                 if isinstance(value, str):
                     yield value, name not in ("match", "fullmatch")
@@ -90,7 +90,7 @@ def hostile(pattern: str, length: int) -> Iterator[str]:
 
 
 def _runs(parsed: Any, before: str) -> Iterator[tuple[str, str]]:
-    """Yield what leads to each repeat without an end, and what it repeats."""
+    """Yield the prefix of each unbounded repeat, and the pattern that it repeats."""
     for op, value in parsed:
         name = str(op)
         if name in ("MAX_REPEAT", "MIN_REPEAT", "POSSESSIVE_REPEAT"):

@@ -27,7 +27,7 @@ def task_of(name: str) -> Task:
 
 
 def work_of(task: Task, values: Mapping[str, float], *, digits: int = 4) -> Work:
-    """Return the work of somebody who found certain values, rounded to some digits."""
+    """Return a submission with certain values, rounded to some digits."""
     return Work("s", tuple(_written(task, values, digits)))
 
 

@@ -250,7 +250,7 @@ def test_positions_of_a_cycle_are_judged_each_by_itself() -> None:
 
 
 def test_a_slip_in_one_number_does_not_affect_values_measured_beside_it() -> None:
-    """a_N is measured on the line of a_S3; ten times a_S3 says nothing of that line."""
+    """a_N is measured on the line of a_S3; ten times a_S3 does not affect that line."""
     task = task_of("press/press")
     values = dict(exact(task))
     values["a_S3"] *= 10.0

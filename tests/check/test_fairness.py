@@ -156,7 +156,7 @@ def test_the_chance_of_a_likeness_is_that_of_honest_works() -> None:
 
 
 def test_a_mark_does_not_depend_on_a_neighbour() -> None:
-    """Before: 100 % alone, and 58 % beside somebody who answered forces."""
+    """Before: 100 % alone, and 58 % beside a student who answered forces."""
     path = ROOT / "problems/levers/six-link.toml"
     task = Variants(path).task(None)
     assert not task.declared
@@ -413,7 +413,7 @@ def test_an_answer_that_a_mistake_leaves_alone_does_not_follow_from_it() -> None
     assert inherited and "v_B3" not in inherited and "v_B3" in told.roots
 
 
-# What pages say ------------------------------------------------------------------------------
+# Pages ---------------------------------------------------------------------------------------
 
 
 def sentences(found: CheckedWork, hidden: tuple[str, ...] = ()) -> tuple[str, list[str]]:
@@ -487,7 +487,7 @@ def test_two_mistakes_at_once_are_both_named(name: str, codes: str) -> None:
 
 
 def _differ(task: Task, one: Explanation, two: Explanation, least: int) -> bool:
-    """Tell whether some answers are surely others."""
+    """Return whether some answers are surely different."""
     limits = {e.id: max(3 * e.sigma, e.tolerance) for e in key_of_task(task).entries}
     pairs = [(limits[i.id], *(e.values[i.question.id] for e in (one, two))) for i in task.usual()]
     return sum(abs(abs(a) - abs(b)) > limit for limit, a, b in pairs) >= least

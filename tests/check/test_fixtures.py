@@ -70,7 +70,7 @@ def asked(case: Case) -> tuple[Task, dict[str, str]]:
 
 
 def named(task: Task, text: str) -> str:
-    """Return what the checking calls an answer of the table, ``balance @1`` in position 1."""
+    """Return the name in checking of an answer of the table, ``balance @1`` in position 1."""
     what, _, position = text.partition(" @")
     try:
         return task.find(WrittenAnswer(what, position=int(position) if position else None)).id

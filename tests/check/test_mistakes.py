@@ -1,4 +1,4 @@
-"""Mistakes as rewrites of the program: what they give, and where they can be made."""
+"""Mistakes as rewrites of the program: their results, and the places where they can be made."""
 
 from __future__ import annotations
 

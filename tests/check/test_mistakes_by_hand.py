@@ -25,7 +25,7 @@ def every(name: str) -> list[Explanation]:
 
 
 def sizes(name: str, code: str, key: str, where: str | None = None) -> list[float]:
-    """Return what a mistake makes of a quantity, its size, at each place where it can be made."""
+    """Return the size that a mistake gives a quantity, for each place where it can be made."""
     return [
         abs(one.values[key])
         for one in every(name)
@@ -44,7 +44,7 @@ V_B, A_B = 1j * OMEGA * PIN, -(OMEGA**2) * PIN
 
 
 def on_axis(start: complex, way: complex, height: float = 0.0) -> complex:
-    """Return where a line through a point comes to so high over the axis x."""
+    """Return the point of a line at a height over the axis x."""
     return start + way * (height - start.imag) / way.imag
 
 
@@ -67,7 +67,7 @@ def test_the_right_answers_are_those_of_complex_numbers() -> None:
 CORIOLIS = 2.0 * abs(OMEGA_2) * abs(V_C)
 
 BY_HAND = (
-    # code, where, quantity, what it can become
+    # code, where, quantity, possible values
     ("V1", None, "v_C", [on_axis(V_B, ALONG)]),  # v_CB along the rod
     ("V1", None, "omega_2", [(on_axis(V_B, ALONG) - V_B) / ROD]),
     ("V2", None, "v_C", [-V_C]),

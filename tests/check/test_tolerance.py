@@ -133,7 +133,7 @@ def test_a_result_of_a_value_that_the_drawing_cannot_show_is_inherited() -> None
     for value, follows, due in (
         (1.3, True, Verdict.INHERITED),
         (1.3, False, Verdict.WRONG),
-        (1.0, True, Verdict.WRONG),  # from a parent that is right nothing wrong follows
+        (1.0, True, Verdict.WRONG),  # a right parent gives no inherited mistake
     ):
         parent = Examined(item, WrittenAnswer(id="a_B"), UNSEEN, value, signed=False, step=0.0)
         parent.right = value == 1.0

@@ -1,4 +1,4 @@
-"""Command ``check`` of a group: what fails in one work, or one file, stops no other."""
+"""Command ``check`` of a group: a failure in one work, or one file, stops no other."""
 
 from __future__ import annotations
 
@@ -217,7 +217,7 @@ def test_a_work_of_a_list_that_cannot_be_read_stops_no_other(tmp_path: Path) -> 
     }  # fmt: skip
 
 
-# What cannot be read in a work ---------------------------------------------------------------
+# Unreadable entries --------------------------------------------------------------------------
 
 ASKED = ("v B", "v B3", "v D", "v E", "omega 3", "a B", "a B3", "epsilon 3")
 
@@ -281,7 +281,7 @@ def test_a_mark_with_open_answers_is_provisional_until_the_instructor_has_looked
     rows = by_hand.read_text("utf-8-sig").splitlines()
     assert rows[0] == "student;id;points;remark;of;written;where"
     assert rows[1] == "s;v_D;;;1;x;x.csv:4, value" and len(rows) == 7
-    # As they stand they decide nothing; filled in, they do.
+    # Unchanged rows have no effect; filled in, they apply.
     again = run(EX3, path, "-o", str(out), "--gradebook")
     assert book(out)["s"]["Mark"] == "2 (provisional)" and again.stderr == first.stderr
     decided = [rows[0], *(row.replace(";;;", ";0,5;;") for row in rows[1:])]

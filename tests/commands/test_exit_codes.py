@@ -87,7 +87,7 @@ CASES: dict[str, dict[ExitCode, list[tuple[str, ...]]]] = {
         DONE: [(EX1,)],
         USAGE: [(EX1, "--format", "dwg")],
         PROBLEM: [("absent.toml",), (EX1, "absent.toml"), ("absent.toml", EX1)],
-        ASSEMBLY: [("open.toml",)],  # it is drawn, and said
+        ASSEMBLY: [("open.toml",)],  # it is drawn, with a warning
     },
     "lint": {
         DONE: [(EX2,), (EX2, "--strict"), (EX1, "--phi", "30,60,90")],
@@ -112,7 +112,7 @@ CASES: dict[str, dict[ExitCode, list[tuple[str, ...]]]] = {
         ASSEMBLY: [("open.toml",)],
     },
     "audit": {
-        DONE: [(EX1,), ("open.toml",)],  # whose source prints nothing
+        DONE: [(EX1,), ("open.toml",)],  # whose source prints no values
         USAGE: [(EX1, "--nonsense")],
         PROBLEM: [("faulty.toml",)],
     },
@@ -140,7 +140,7 @@ CASES: dict[str, dict[ExitCode, list[tuple[str, ...]]]] = {
     },
     "check": {
         DONE: [(EX3, "--key")],
-        FINDINGS: [(VARIANTS, "group.csv")],  # of one student's variant there is none
+        FINDINGS: [(VARIANTS, "group.csv")],  # one student's variant does not exist
         USAGE: [(EX3,), (EX3, "absent.csv")],
         PROBLEM: [("faulty.toml", "--key")],
         ASSEMBLY: [("open.toml", "--key")],

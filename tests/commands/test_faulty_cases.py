@@ -1,4 +1,4 @@
-"""Files on which something fell once: what every command now makes of them."""
+"""Files on which a command once failed: the present output of every command."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def numbers(value: Any, path: str = "") -> dict[str, Any]:
     return {path: value}
 
 
-# An arm that reads nothing ------------------------------------------------------------------------
+# An arm that is read as zero ----------------------------------------------------------------------
 
 
 @pytest.mark.usefixtures("russian")
@@ -134,7 +134,7 @@ def test_no_python_traceback_reaches_a_terminal(command: tuple[str, ...]) -> Non
         assert "σ = —" not in found.stdout and "—*" not in found.stdout
 
 
-# Closings -----------------------------------------------------------------------------------------
+# Assemblies ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

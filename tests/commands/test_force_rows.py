@@ -129,7 +129,7 @@ def read(statics: Statics) -> Iterator[tuple[str, npt.NDArray[Any]]]:
 
 
 def is_force(name: str) -> bool:
-    """Tell the column of a force from those of points (also of one called F), links, plans."""
+    """Return whether a column is of a force, not of a point (one is called F), link or plan."""
     return re.match(r"(driving|lever)\.(moment|force)|[FM]\.[^.]+\.[^.]+-", name) is not None
 
 
@@ -240,7 +240,7 @@ def test_unknown_forces() -> None:
 
 
 def test_a_large_table_is_the_small_ones_beside_each_other(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One scale of forces in all blocks: what the ruler gives does not depend on them."""
+    """All blocks have one scale of forces: readings do not depend on the blocks."""
     problem = load(Path(PRESS))
     whole = Solution(problem, positions=[float(k) for k in range(0, 360, 2)])
     wanted = dict(exact(statics_of(whole))) | dict(read(statics_of(whole)))

@@ -74,7 +74,7 @@ OF_NO_PROBLEM = (
 
 
 def said(command: str, folder: Path) -> str:
-    """Run a command; return what it prints and what it writes as text."""
+    """Run a command; return its output and the texts that it writes."""
     before = {*folder.rglob("*")}
     done: Result = CliRunner().invoke(cli, command.split())
     assert done.exit_code in (0, 1), done.output
@@ -98,7 +98,7 @@ def _text(data: bytes) -> str:
 
 
 def is_russian(text: str) -> bool:
-    """Tell whether a text has a Russian word of some letters; two letters may be a symbol."""
+    """Return whether a text has a Russian word of some letters; two letters may be a symbol."""
     return re.search("[а-яё]{4}", text, re.IGNORECASE) is not None
 
 

@@ -1,4 +1,4 @@
-"""``layouts`` and ``--layout``: from the list to a sheet drawn as one's own file says."""
+"""``layouts`` and ``--layout``: from the list to a sheet drawn by a layout file of the user."""
 
 from __future__ import annotations
 

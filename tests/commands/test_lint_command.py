@@ -34,7 +34,7 @@ def record(*args: str) -> Any:
 
 
 THREE = ("--phi", "30,60,90")
-"""Positions of one of which a segment is short; of one position it would be enlarged."""
+"""Positions, one of which has a short segment; for a single position it would be enlarged."""
 
 
 def test_a_clean_sheet_is_done(tmp_path: Path) -> None:
@@ -61,7 +61,7 @@ def test_errors_are_findings() -> None:
     done = run(EX2, "--stamp", LONG)
     assert done.exit_code == ExitCode.FINDINGS
     assert "PM-D06 ошибка: основная надпись\n" in done.stdout
-    # Every problem is looked at, and one with errors is enough.
+    # Every problem is checked, and one with errors is enough.
     both = run(EX2, EX1, "--stamp", LONG)
     assert both.exit_code == ExitCode.FINDINGS
     assert {"ex1", "ex2"} <= set(re.findall(r"(?m)^(\w+):", both.stdout))
@@ -151,7 +151,7 @@ def test_faults_outrank_findings(tmp_path: Path) -> None:
     (tmp_path / "faulty.toml").write_text("title = 1\n", "utf-8")
     done = run("faulty.toml", EX2, "--stamp", LONG)
     assert done.exit_code == ExitCode.PROBLEM
-    assert "PM-D06" in done.stdout  # the others are looked at all the same
+    assert "PM-D06" in done.stdout  # the others are checked all the same
     assert run(EX3, "--paper", "A9").exit_code == ExitCode.USAGE
 
 

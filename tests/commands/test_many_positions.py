@@ -56,7 +56,7 @@ def done(*args: str) -> str:
 
 
 def refused(code: int, *args: str) -> str:
-    """Run a command that is refused; return what it says, in one line."""
+    """Run a command that is rejected; return its message, in one line."""
     before = sorted(path.name for path in Path().iterdir())
     result = run(*args)
     assert result.exit_code == code, result.output
@@ -259,7 +259,7 @@ def test_other_commands_do_not_speak_of_partial() -> None:
 
 
 def warned(*args: str) -> tuple[str, str]:
-    """Run a command that warns once; return what it prints and the warning."""
+    """Run a command that warns once; return its output and the warning."""
     result = run(*args)
     assert result.exit_code == 0, result.output
     (line,) = result.stderr.splitlines()

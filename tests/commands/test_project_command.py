@@ -41,7 +41,7 @@ def run(*args: str) -> Result:
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """Return what makes a project, once, and returns its folder."""
+    """Return a function that makes a project, once, and returns its folder."""
 
     @cache
     def folder(name: str) -> Path:
@@ -338,7 +338,7 @@ def test_a_train_alone_is_no_project(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_if_a_part_fails_no_file_is_written(jobs: str, tmp_path: Path) -> None:
-    """A scheme of a metre has no room on A4."""
+    """A scheme of a metre does not fit A4."""
     scales = "\n[scales]\nmu_l = 0.0002\nmu_v = 0.01\nmu_a = 0.1\n"
     text = (FILES / "homework.toml").read_text("utf-8") + scales + '[sheet]\npaper = "A4"\n'
     file, out = tmp_path / "my.toml", tmp_path / "out"

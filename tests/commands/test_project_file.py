@@ -121,7 +121,7 @@ def test_lint_looks_over_the_sheets_of_the_project(
     assert one["kind"] == "kinematics" and len(one["sheets"]) == 1
 
 
-# What is left out --------------------------------------------------------------------------------
+# Parts left out ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -167,7 +167,7 @@ def test_forces_without_masses_are_warned_of(kept: str, said: str, tmp_path: Pat
     assert said in done.stderr and "массы" not in run("structure", SHAPER, "--no-drawing").stderr
 
 
-# What is decided for nothing ---------------------------------------------------------------------
+# Unnecessary decisions ---------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

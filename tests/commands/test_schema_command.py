@@ -1,4 +1,4 @@
-"""``schema``: what an editor completes problem files by."""
+"""``schema``: the schema by which an editor completes problem files."""
 
 from __future__ import annotations
 

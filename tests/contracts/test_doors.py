@@ -81,7 +81,7 @@ def test_no_pattern_takes_a_power_of_the_length_of_its_text() -> None:
     every = 8 if is_thinned() else 1
     bad = [(where, p, slow(p, anywhere, 1 << 14)) for where, p, anywhere in found[::every]]
     assert not [one for one in bad if one[2]]
-    assert slow(r"(?m)^[ \t]*\[?[ \t]*x", True, 1 << 16)  # what it finds
+    assert slow(r"(?m)^[ \t]*\[?[ \t]*x", True, 1 << 16)  # its result
     assert slow(r"[^\W_]+(?:[- ]?[^\W_]+)*\Z", False, 100)
 
 
@@ -129,7 +129,7 @@ def test_a_cam_is_designed_once_for_all_positions(
     assert 0 < len(made) <= 5
 
 
-# What is found late -------------------------------------------------------------------------------
+# Late errors --------------------------------------------------------------------------------------
 
 
 def test_a_late_error_names_the_file(tmp_path: Path) -> None:
@@ -294,7 +294,7 @@ def press(event, args, pressed=[]):
 
 sys.addaudithook(press)
 """
-"""Presses Ctrl+C in a process as soon as it does something, whatever time that takes."""
+"""Code that presses Ctrl+C in its process at a certain event, whenever that happens."""
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals")
@@ -317,7 +317,7 @@ def test_ctrl_c_is_one_line_and_130(event: str, word: str, tmp_path: Path) -> No
         env={**os.environ, "PYTHONPATH": paths},
         capture_output=True,
         check=False,
-        # Who runs the tests in the background may have left the signal ignored.
+        # If the tests run in the background, the signal may be ignored.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )  # fmt: skip
     assert done.returncode == 130, done.stderr

@@ -55,7 +55,7 @@ def test_forces_of_the_press_with_a_stone() -> None:
         force = complex(joint.force[0])
         found[f"{joint.on} {joint.by}"] = force
         found[f"{joint.by} {joint.on}"] = -force
-        assert abs(joint.moment[0]) <= 1e-9  # all forces of a stone go through its pin
+        assert abs(joint.moment[0]) <= 1e-9  # all forces on a sliding block go through its pin
     largest = max(abs(complex(*pair)) for pair in wanted["reactions"].values())
     assert len(statics.reactions) == len(wanted["reactions"])
     for joint_, pair in wanted["reactions"].items():

@@ -1,4 +1,4 @@
-"""Threads and processes that use the package at once, and what of it goes from one to the other."""
+"""Threads and processes that use the package at once, and objects passed between them."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def problems() -> list[Problem]:
 
 
 def numbers(problem: Problem) -> dict[str, Any]:
-    """Return what several parts of the package find, which keep what they found last."""
+    """Return results of parts of the package that keep their last results."""
     solution = planmethod.solve(problem)
     found: dict[str, Any] = {name: one.velocity for name, one in solution.points.items()}
     found |= {name: link.epsilon for name, link in solution.links.items()}
@@ -111,7 +111,7 @@ def kinds(of: type[PlanMethodError]) -> Iterator[type[PlanMethodError]]:
 
 
 def made(kind: type[PlanMethodError]) -> PlanMethodError:
-    """Return an error as it is raised."""
+    """Return an error as the package raises it."""
     place = Place.of(planmethod.load(path_of("linkages/ex3")), np.array([30.0]), 0)
     if issubclass(kind, ProblemError):
         return kind("a.toml", [Fault("links.2", "the link is too short", "Lengthen it", ("a",))])

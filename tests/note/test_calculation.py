@@ -34,7 +34,7 @@ def lines_of(solution: Solution, lang: str) -> list[str]:
 
 
 def assert_computes(lines: list[str], lang: str) -> int:
-    """Four digits of the numbers put in, of a difference too; returns how many formulas."""
+    """Check to four digits of the numbers put in, of a difference too; return the count."""
     count, decimal = 0, language(lang).say.decimal
     for line in map(inlined, lines):
         *_, numbers, result = ["", *line.split(" = ")]

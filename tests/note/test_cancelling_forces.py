@@ -1,4 +1,4 @@
-"""Forces that are nothing, and moments that cancel: told, and no formula left without its end."""
+"""Zero forces, and moments that cancel: described, without unfinished formulas."""
 
 from __future__ import annotations
 

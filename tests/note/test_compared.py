@@ -1,4 +1,4 @@
-"""Numbers beside those they are judged by: in every table Δ follows from the two as they stand."""
+"""Numbers beside reference values: in every table Δ follows from the two printed numbers."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -77,7 +77,7 @@ def names(lang: str) -> tuple[set[str], set[str], set[str]]:
 
 
 def lines_of(table: TablePart | Table) -> list[Line]:
-    """Return the columns of a table; its rows where their names stand before them."""
+    """Return the columns of a table, or its rows if their names come first."""
     if isinstance(table, Table):
         columns = [
             Line(head, [(row[k], None) for row in table.rows]) for k, head in enumerate(table.head)
@@ -126,7 +126,7 @@ class Told(Struct):
 
 
 def judge(lines: Sequence[Line], lang: str, told: Told) -> list[str]:
-    """Return the differences that the two numbers beside them do not give."""
+    """Return the differences that do not follow from the two numbers beside them."""
     wrong, looked = [], False
     # The σ of a difference is not the difference of the two σ above it.
     heads = lines[0].cells if lines and not lines[0].name else []

@@ -190,7 +190,7 @@ EXACTLY = re.compile(
 
 
 def test_with_a_fine_ruler_all_forces_are_exact() -> None:
-    """All that was read comes to the exact value, whichever way it went."""
+    """Every reading gives the exact value, by any route."""
     count = 0
     for solution in (Solution(worked(name).problem, ruler=1e-9) for name in LOADED):
         for found in EXACTLY.finditer(forces_of(text_of(solution))):
@@ -245,7 +245,7 @@ def test_every_known_force_is_laid_off_in_the_order_of_the_polygon() -> None:
                 for edge in plan.polygon
                 if edge.symbol not in unknown and reading.length(edge, k) > 0.0
             ]
-            # What a stone passes on to the base link of a triad is found by moments.
+            # The force of a block on the base link of a triad is found by moments.
             weighed = {one.force.symbol for one in plan.moments if one.force is not None}
             passed = [e for e in plan.inner if e.symbol in weighed and reading.length(e, k) > 0.0]
             asked += passed

@@ -41,7 +41,7 @@ name = "M_{2}"
 link = "2"
 couple = 4
 """
-"""The kulisa at 45 degrees with a force across it at its end, and a couple on the stone."""
+"""The slotted link at 45 degrees with a transverse force at its end, and a couple on its block."""
 
 MU_F = 2.0
 
@@ -59,7 +59,7 @@ def kulisa() -> SelectorValues:
 # Across the kulisa: the load, the inertia of a^t = 3 and the weight; along it: a^n = 7.5.
 ACROSS = 100 + 6 + 20 * R
 ALONG = 15 - 20 * R
-PRESSURE = (0.3 * ACROSS + 5 - 4) / (0.2 * R)  # moments of stone and kulisa about C
+PRESSURE = (0.3 * ACROSS + 5 - 4) / (0.2 * R)  # moments of the block and the slotted link about C
 INERTIA = hypot(15, 6)
 
 EXACT = {
@@ -195,7 +195,7 @@ def test_arms_are_those_of_the_shifted_line() -> None:
     )
 
 
-# What there is not -----------------------------------------------------------------------------
+# Missing quantities ----------------------------------------------------------------------------
 
 SLIDER = """
 title = "Кулиса"

@@ -170,7 +170,7 @@ def test_sections_are_the_whole_program_in_order() -> None:
     steps = tuple(step for section in found for step in section.steps)
     program = solution.construction.program
     assert steps == program.steps[: len(steps)]
-    # What comes after them serves the tables of results: no plan gets a point more.
+    # Later steps serve the tables of results and add no point to a plan.
     assert not [step for step in program.steps[len(steps) :] if makes(step) is PointName]
     assert [s.kind for s in found] == [
         *[PlanKind.POSITION] * 4,

@@ -1,4 +1,4 @@
-"""Drafting errors in the terminal tables: columns, marks, what they come from."""
+"""Drafting errors in the terminal tables: columns, marks, causes."""
 
 from __future__ import annotations
 
@@ -232,7 +232,7 @@ def test_no_causes_of_many_positions() -> None:
     assert wording("ru").table_causes not in result_tables(around("linkages/ex3", 12), sigma=True)
 
 
-# Nothing without the option -----------------------------------------------------------------------
+# Tables without the option ------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)

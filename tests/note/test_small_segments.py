@@ -1,4 +1,4 @@
-"""Segments too small to draw are not laid off, and the protocol says that."""
+"""Segments too small to draw are not laid off, and the protocol mentions it."""
 
 from __future__ import annotations
 

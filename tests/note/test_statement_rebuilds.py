@@ -1,4 +1,4 @@
-"""From the statement alone the mechanism can be built again, and its text says what its data do."""
+"""The mechanism can be rebuilt from the statement alone, and its text agrees with its data."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def assert_printed(problem: Problem, facts: Sequence[GivenFact], say: Notation) 
 
 
 def is_said_in_words(key: str, number: float) -> bool:
-    """Tell whether words say a number: level, upright, square to, const, the origin."""
+    """Return whether words give a number: level, upright, square to, const, the origin."""
     if key.endswith(".angle"):
         return number % 90.0 == 0
     return key in ("driver.epsilon", "machine.delta") or number == 0.0

@@ -1,4 +1,4 @@
-"""Tables of many positions and of a turn: each column is what its head says, in its unit."""
+"""Tables of many positions and of a turn: each column agrees with its head and unit."""
 
 from __future__ import annotations
 

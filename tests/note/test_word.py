@@ -160,7 +160,7 @@ def test_no_row_of_a_table_is_left_alone(rows: int) -> None:
 
 @pytest.mark.parametrize(("rows", "strips"), [(3, 0), (12, 1)])
 def test_a_table_that_may_be_cut_has_its_continuation_in_the_head(rows: int, strips: int) -> None:
-    """The strip repeats with the head; where the table begins its name stands, and a cover."""
+    """The strip repeats with the head; at the start of the table its name covers it."""
     table = Table(("N", "v"), tuple((str(k), "1") for k in range(rows)), name="Значения")
     file = opened(word_document(Document.of([Contents(), Chapter("Глава"), table]), RU))
     made = file.tables[0]

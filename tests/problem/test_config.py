@@ -1,4 +1,4 @@
-"""The user's config file: where it is, what it says, and its faults."""
+"""The user's config file: its place, its settings, and its faults."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ def force(text: str, base: str = CRANK) -> Load:
     return found
 
 
-# What is read ------------------------------------------------------------------------------------
+# Reading -----------------------------------------------------------------------------------------
 
 
 def test_a_file_without_masses_and_loads_has_no_dynamics() -> None:

@@ -1,4 +1,4 @@
-"""Faulty files: every fault is reported, with exactly this message, and nothing else is."""
+"""Faulty files: every fault is reported, with exactly this message, and no other."""
 
 from __future__ import annotations
 

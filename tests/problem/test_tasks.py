@@ -96,7 +96,7 @@ def test_sheets_of_tasks_have_no_errors(path: Path) -> None:
 
 @each("lang", LANGUAGES)
 def test_a_scheme_with_several_readings_is_marked_but_not_on_a_sheet(lang: str) -> None:
-    """Said by the list, by ``solve`` with the other readings, in JSON; of no other task."""
+    """Marked in the list, in ``solve`` with the other readings, in JSON; only for these tasks."""
     several = [name for name, task in TASKS.items() if task.reading]
     assert len([name for name in several if name.startswith("levers-")]) == 17
     assert len([name for name in several if name.startswith("linkages-")]) == 12 + 4

@@ -437,7 +437,7 @@ def test_the_flywheel_is_that_of_the_diagrams_in_the_formula_and_in_the_conclusi
 @pytest.mark.parametrize("name", FILES)
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_a_colon_is_followed_by_a_formula_or_a_list(name: str, lang: str) -> None:
-    """After a colon stands a formula, a list; a list has more than one entry."""
+    """A colon comes before a formula or a list; a list has more than one entry."""
     follows = (document.Formula, document.Equations, document.Item)
     nodes = note_of(name, lang).nodes
     for before, after in pairwise(nodes):
@@ -632,7 +632,7 @@ def test_the_data_of_the_note_name_the_teeth_the_input_and_the_flywheel() -> Non
         "ω₁ 8,378 с⁻¹ (постоянна)",
     ):
         assert row in text, row
-    assert "Частота вращения кривошипа" not in text  # that of the wheel 1 is none of the crank
+    assert "Частота вращения кривошипа" not in text  # the speed of wheel 1 is not that of the crank
 
 
 def test_the_flywheel_is_on_a_shaft(changed_template: str) -> None:

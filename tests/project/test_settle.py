@@ -96,7 +96,7 @@ def test_a_homework_of_one_position_is_a_project_of_that_position() -> None:
 
 
 def test_the_way_of_assembly_is_that_of_the_file() -> None:
-    """The rules of the file are true of its own positions, not of the first one of the cycle."""
+    """The rules of the file hold for its own positions, not for the first one of the cycle."""
     asked = problem_of("crusher")
     one, two = Solution(asked, positions=[30.0]), project_of("crusher").solution.moved([30.0])
     assert one.place("D")[0] == pytest.approx(two.place("D")[0])  # type: ignore[arg-type]
@@ -200,7 +200,7 @@ def test_hodographs_have_the_scale_of_the_plans_or_are_larger(name: str) -> None
         at_common = max(widths) * made.scale.per_mm / common.per_mm
         if SMALL * MOST <= at_common <= MOST:
             assert made.scale == common
-        else:  # the next larger one would have no room
+        else:  # the next larger one would not fit
             finer = next_scale(made.scale.per_mm, finer=True)
             assert max(widths) * made.scale.per_mm / finer > MOST
 

@@ -37,7 +37,7 @@ pressure = 30
 
 
 class Reading(Struct, frozen=True):
-    """A number as it is written, and the quantity that it is of."""
+    """A number as it is written, and its quantity."""
 
     symbol: str
     position: int
@@ -66,7 +66,7 @@ def span(text: str) -> tuple[float, float]:
 
 
 def named(symbol: str) -> str:
-    """Return a symbol whose lower indices stand before the upper ones."""
+    """Return a symbol with its lower indices before the upper ones."""
     indices = sorted(INDEX.findall(symbol), key=lambda index: index[0] == "^")
     return INDEX.sub("", symbol) + "".join(indices)
 
@@ -120,7 +120,7 @@ OF_PLANS = ("velocities", "accelerations")
 
 
 def tabled(grids: Iterable[Grid], position: int) -> Iterator[Reading]:
-    """Yield what columns of tables say was read; in the position where they have none."""
+    """Yield the readings in columns of tables; ``position`` applies to tables without positions."""
     for grid in grids:
         heads = [head for head, _ in grid.columns]
         places = dict(grid.columns).get("№")
@@ -144,7 +144,7 @@ def tabled(grids: Iterable[Grid], position: int) -> Iterator[Reading]:
 
 
 def on_sheets(project: Project) -> dict[PartName, list[Reading]]:
-    """Return what the sheets of each part say."""
+    """Return the readings on the sheets of each part."""
     found: dict[PartName, list[Reading]] = {}
     place = TablePart.place
     placed: list[TablePart] = []
@@ -188,7 +188,7 @@ def in_note(project: Project) -> Iterator[Reading]:
                 pass
 
 
-# What is compared --------------------------------------------------------------------------------
+# Comparison --------------------------------------------------------------------------------------
 
 
 def compared(project: Project) -> tuple[dict[PartName, int], list[str]]:
@@ -227,7 +227,7 @@ PROJECTS = [
 
 
 def test_a_project_gives_every_number_one_value(tmp_path: Path) -> None:
-    """All sheets and the note of one project: nothing smaller has both, so it takes its time."""
+    """All sheets and the note of one project: no smaller part has both, so the test is slow."""
     path = tmp_path / "shaper.toml"
     path.write_text(FILES["shaper"].read_text("utf-8") + CAM, "utf-8")
     counts, others = compared(settle(load(path), path))

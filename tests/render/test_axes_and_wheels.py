@@ -32,7 +32,7 @@ from planmethod.render.symbols.gears import (
 
 
 def pieces(items: list[Item]) -> list[LineString]:
-    """Return what the pens leave on the paper."""
+    """Return the lines that the pens draw on the paper."""
     return [
         LineString([(p.real, p.imag) for p in path])
         for item in items
@@ -42,7 +42,7 @@ def pieces(items: list[Item]) -> list[LineString]:
 
 
 def inked(items: list[Item], place: complex, room: float = 0.9) -> bool:
-    """Tell whether a place lies in a stroke, as far from its ends as ``room`` mm."""
+    """Return whether a place is in a stroke, at least ``room`` mm from its ends."""
     here = Point(place.real, place.imag)
     return any(
         piece.distance(here) < 1e-6
@@ -76,7 +76,7 @@ def test_an_axis_too_short_for_its_pattern_is_solid() -> None:
 
 
 def test_centre_lines_of_small_circles_are_solid() -> None:
-    for radius in (1.5, 5.9, 8.9):  # the last one has no room for strokes on both sides
+    for radius in (1.5, 5.9, 8.9):  # strokes do not fit on both sides of the last one
         one, two = centre_lines(0j, radius)
         assert isinstance(one, Stroke)
         assert isinstance(two, Stroke)

@@ -1,4 +1,4 @@
-"""Axes of all diagrams read back: the k-th number stands k steps from their crossing."""
+"""Axes of all diagrams read back: the k-th number is k steps from their crossing."""
 
 from __future__ import annotations
 

@@ -429,7 +429,7 @@ def test_svg_needs_no_font_and_no_style_sheet() -> None:
     tags = {element.tag.partition("}")[2] for element in root.iter()}
     seen = {"svg", "title", "defs", "rect", "g", "path", "circle", "use"}
     assert tags == seen | {"text"}
-    # What is text is white, and before all that is drawn on the white paper.
+    # Text is white, and comes before all items drawn on the white paper.
     (_, _, paper, words, _) = root
     assert paper.attrib["fill"] == words.attrib["fill"] == "#ffffff"
     assert len([*words.iter(f"{SVG}text")]) == len([*root.iter(f"{SVG}text")])

@@ -1,4 +1,4 @@
-"""Sheets keep out of the graphs that stand within the frame."""
+"""Sheets keep clear of the graphs within the frame."""
 
 from __future__ import annotations
 

@@ -85,7 +85,7 @@ def origin(sheet: Drawing, view: View) -> complex:
 
 
 def per_mm(sheet: Drawing, view: View, letter: str) -> float:
-    """Return a scale as it is written under a diagram."""
+    """Return the text of a scale under a diagram."""
     texts = [t for t in sheet.items if isinstance(t, Text) and within(t.at, view)]
     rows = {round(t.at.imag, 1) for t in texts if t.text.startswith("μ")}
     written = [
@@ -198,7 +198,7 @@ def test_the_polar_diagrams_are_the_reactions(name: str, positions: tuple[float,
 
 
 def test_equal_and_opposite_reactions_share_a_diagram() -> None:
-    """Link 4 of the press has no mass: what acts at its ends is equal and opposite."""
+    """Link 4 of the press has no mass: the forces at its ends are equal and opposite."""
     cycle = Cycle(Solution(problem_of("press/press"), positions=PRESS))
     names = [[f"{cycle.joints[k].on}{cycle.joints[k].by}" for k in g] for g in polar_groups(cycle)]
     assert ["43", "45"] in names
@@ -313,13 +313,13 @@ def test_a_line_of_a_point_breaks_off_where_it_runs_away() -> None:
 
 @pytest.mark.parametrize(("name", "wide"), [("machines/compressor", 594.0), ("press/press", 841.0)])
 def test_a_smaller_paper_keeps_the_letters_of_the_positions(name: str, wide: float) -> None:
-    """The crank of the press is small beside its mechanism: on A2 its pin has no room for names."""
+    """The crank of the press is small beside its mechanism: on A2 names do not fit at its pin."""
     (sheet,) = kinematics_sheets(problem_of(name), layout="forces-cycle")
     assert sheet.width == wide
 
 
 def test_sheets_are_small_where_no_block_is_left_out() -> None:
-    """A short calculation of forces takes A2, whose diagrams are as large as it has room for."""
+    """A short calculation of forces takes A2, with diagrams as large as fit."""
     (sheet,) = kinematics_sheets(problem_of("machines/engine"), layout="forces-cycle")
     assert (sheet.width, sheet.is_cut_down) == (594.0, False)
     (forces,) = kinematics_sheets(problem_of("machines/engine"), layout="forces")

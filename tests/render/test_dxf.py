@@ -1,4 +1,4 @@
-"""DXF: what a CAD program finds in the file, and that the sheet's millimetres are in it."""
+"""DXF: the entities that a CAD program finds in the file, in the sheet's millimetres."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def test_lines_and_letters_of_a_sheet_are_where_they_were_put(name: str) -> None
         if not isinstance(item, Stroke) or len(set(item.points)) < 2:
             continue
         a = item.points[0]
-        # The line of a vector goes on to the tip of its arrow: it starts where it did.
+        # The line of a vector is extended to the tip of its arrow: its start is unchanged.
         assert (round(a.real, 1), round(a.imag, 1)) in starts, item
         if item.tag in {kind.value for kind in VectorKind}:
             continue
@@ -174,7 +174,7 @@ def turn(angle: float) -> complex:
     return rect(1.0, angle)
 
 
-# What is measured ---------------------------------------------------------------------------------
+# Measured lengths ---------------------------------------------------------------------------------
 
 
 @pytest.mark.dear
@@ -225,7 +225,7 @@ def _inside(place: complex, box: Bounds) -> bool:
 def test_a_force_of_a_plan_is_one_line_as_long_as_the_force_over_its_scale(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    forces = composition("forces", "ru")  # without the plans of the motion, whose lines are alike
+    forces = composition("forces", "ru")  # without the plans of the motion, whose lines are similar
     alone = replace(forces, blocks=tuple(one for one in forces.blocks if one.kind != "plan"))
 
     def draw() -> list[Drawing]:
@@ -393,7 +393,7 @@ def test_a_turned_inscription_is_one_text_with_its_rotation(angle: float) -> Non
     assert isinstance(first, Text)
     corner = first.at + 3.5 * turn((90.0 + angle) * pi / 180)
     assert near(point(entity.dxf.insert), corner)
-    # the stacks say which index is above: nothing/below, above/nothing
+    # the stacks show which index is above: empty/below, above/empty
     assert re.findall(r"\\S([^;]*);", entity.text) == ["^ w", r"^ \{x\}", "n^ "]
 
 

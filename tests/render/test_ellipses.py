@@ -94,7 +94,7 @@ def test_every_point_of_an_ellipse_is_as_many_sigmas_off(a: float, b: float, c: 
 @pytest.mark.parametrize("many", [False, True])
 @pytest.mark.parametrize("name", SIX)
 def test_every_ellipse_is_that_of_a_point(name: str, many: bool) -> None:
-    """An ellipse stands around a letter point and is the covariance there."""
+    """An ellipse is around a lettered point and shows the covariance there."""
     solution = solved(name, many=many)
     for kind in MOTION:
         for index in range(len(solution.positions)):

@@ -1,4 +1,4 @@
-"""Sheets in English: nothing Russian but what the file says, no fault; in Russian no English."""
+"""Sheets in English: Russian only in texts of the file, no faults; in Russian no English."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sheets that show drafting errors: ellipses and sigmas, and nothing of them when not asked."""
+"""Sheets that show drafting errors: ellipses and sigmas, and neither without the options."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def assert_tables_inside(sheets: list[Drawing]) -> None:
     assert tables >= 1
 
 
-# Nothing changes without the options --------------------------------------------------------------
+# Sheets without the options -----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -134,7 +134,7 @@ def test_the_profile_brings_its_ruler() -> None:
     assert kinematics_sheets(problem)[0].items == kinematics_sheets(problem, ruler=0.5)[0].items
 
 
-# What the table says ------------------------------------------------------------------------------
+# The table ----------------------------------------------------------------------------------------
 
 
 def rounded(sigma: float) -> Decimal:

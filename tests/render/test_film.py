@@ -88,7 +88,7 @@ def test_joints_of_the_scheme_are_at_their_points_in_every_frame(name: str) -> N
             ]
         )
         places = np.array([solved.points[joint].place[k] for joint in joints]) / mu
-        apart = [  # from one circle taken for the first joint, what the others miss
+        apart = [  # with one circle taken as the first joint, the deviations of the others
             np.abs(places[:, None] - places[0] + at - circles[None, :]).min(axis=1).max()
             for at in circles
         ]

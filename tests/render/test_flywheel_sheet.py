@@ -43,7 +43,7 @@ def test_the_points_lie_where_the_scales_put_them() -> None:
     points = np.array(
         [item.centre for item in drawn.items if isinstance(item, Disc) and "point" in item.tag]
     )
-    # the energy-mass points stand right of K and L by J, and above their axis by dT
+    # the energy-mass points are right of K and L by J, and above their axis by dT
     foot = spans["KL"].end - 1j * wanted["K"]
     for inertia, energy in zip(wanted["J"][:-1], wanted["T"][:-1], strict=True):
         assert np.min(np.abs(points - foot - complex(inertia, energy))) < 0.02

@@ -98,7 +98,7 @@ def test_the_lint_finds_no_faults(name: str, profile: str) -> None:
         assert errors_in(sheets) == []
         (sheet,) = sheets
         text = shown(sheet)
-        motion = 2 * len(views(sheet, "acceleration"))  # with the velocity plan, if there is room
+        motion = 2 * len(views(sheet, "acceleration"))  # with the velocity plan, if it fits
         plans = len(views(sheet, "forces")) + motion
         assert text.count("Эллипсы погрешностей") == (plans if errors else 0)
         assert ("погрешность построения" in text) == sigma
@@ -205,7 +205,7 @@ def test_every_vertex_but_the_first_has_its_ellipse(name: str) -> None:
 
 @pytest.mark.parametrize("name", LOADED)
 def test_the_disc_is_where_the_construction_begins(name: str) -> None:
-    """It is the vertex that cannot be off, from which the first force is laid off."""
+    """It is the vertex without an error, from which the first force is laid off."""
     reading = reading_of(name)
     (sheet,) = kinematics_sheets(problem_of(name), layout="forces", errors=True)
     discs = [item for item in sheet.items if isinstance(item, Disc) and item.tag == START]

@@ -228,7 +228,7 @@ def test_segments_of_the_plans_are_the_forces_to_scale(name: str) -> None:
         for letter, vector in arrows(sheet, view):
             edge = edges[letter]
             assert vector == pytest.approx(reading.drawn(number, edge), rel=1e-6)
-            # What the ruler finds goes into the calculation; a fine one finds the force itself.
+            # Readings of the ruler enter the calculation; a fine ruler gives the force itself.
             assert abs(abs(vector) - reading.length(edge, number)) < 0.26
             exact = {**loads_of, **reactions}.get(letter, fine.force(edge))
             drawn = fine.drawn(number, edge) * fine.own_scale(number).per_mm
@@ -236,7 +236,7 @@ def test_segments_of_the_plans_are_the_forces_to_scale(name: str) -> None:
             seen |= {letter} & ({*reactions} | {*loads_of})
         for span in view.spans:
             assert span.length > 0
-    # What is not there by its own letter is there by its components, or is the same line.
+    # A vector without its own letter is there by its components, or is the same line.
     for one in found:
         symbols = {reaction_symbol(one.on, one.by), reaction_symbol(one.by, one.on)}
         lines = {

@@ -410,7 +410,7 @@ def test_a_field_has_one_place_under_any_of_its_names() -> None:
 
 
 class EvenLettering(OutlineLettering):
-    """Letters of one width, so that the numbers below hold for whatever lettering is in use."""
+    """Letters of one width, so that the numbers below hold for any lettering in use."""
 
     def width(self, text: str, height: float) -> float:
         return 0.7 * height * len(text)

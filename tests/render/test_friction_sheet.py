@@ -131,7 +131,7 @@ f = {f}
 
 
 def by_hand(solution: Solution, f: float) -> dict[str, complex]:
-    """Solve nine equations of three links, friction of the guide being that of its own force."""
+    """Solve nine equations of three links, with the friction of the guide by its own force."""
     places = {name: complex(solution.points[name].place[0]) for name in "OABS"}
     a, b, s = (places[name] - places["O"] for name in "ABS")
     moved = {name: complex(solution.points[name].acceleration[0]) for name in "ABS"}

@@ -1,4 +1,4 @@
-"""Grid of a sheet: common left edges and upper lines, the last block, what must stay free."""
+"""Grid of a sheet: common left edges and upper lines, the last block, areas that stay free."""
 
 from __future__ import annotations
 

@@ -334,7 +334,7 @@ def test_a_crowded_label_breaks_thin_lines_before_thick_ones() -> None:
 
 
 def test_a_letter_at_the_end_of_a_long_leader_line_comes_near_on_a_thin_line() -> None:
-    # Free white lies 36 mm off: nearer there is a thin line every 5 mm, and none is thick.
+    # Free white is 36 mm away: nearer there is a thin line every 5 mm, but no thick one.
     grid: list[Item] = [
         Stroke((complex(x, 0), complex(x, 150)), Pen.THIN) for x in range(62, 140, 4)
     ]

@@ -101,7 +101,7 @@ def test_height_of_small_letters(style: str) -> None:
 
 @pytest.mark.parametrize(("kind", "d"), [("A", 1 / 14), ("B", 1 / 10)])
 def test_line_thickness(kind: str, d: float) -> None:
-    """Measured on strokes that stand and on strokes that lie."""
+    """Measured on vertical strokes and on horizontal ones."""
     upright = lettering(f"{kind}-upright")
     left, _, right, _ = upright.ink("I", 1.0)
     assert right - left == pytest.approx(d, abs=1e-3)

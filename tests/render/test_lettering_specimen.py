@@ -45,7 +45,7 @@ def test_letters_are_on_their_grid() -> None:
 
 @pytest.mark.parametrize("style", STYLES)
 def test_measures_are_those_of_the_standard(style: str) -> None:
-    """Half a font unit is what rounding the outlines may lose at either side."""
+    """Rounding of the outlines may lose half a font unit at either side."""
     for measure in measured(lettering(style)):
         assert measure.found == pytest.approx(measure.asked, abs=2e-3), measure
 

@@ -1,4 +1,4 @@
-"""The lever of many loads is drawn larger than the velocity plan, and read as it is drawn."""
+"""The lever of many loads is drawn larger than the velocity plan, and read at that scale."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_the_sheet_has_the_scale_and_the_lengths_of_the_lever(crowded: ForceRead
 
 
 def test_the_lever_of_a_project_fills_its_place() -> None:
-    """At a scale of the series: the next finer one has no room; a large plan is the lever."""
+    """At a scale of the series: the next finer one does not fit; a large plan is the lever."""
     settled = settle(problem_of("machines/compressor")).problem
     solution = Solution(settled)
     statics, motion = statics_of(solution), solution.construction.kinematics.velocity

@@ -170,7 +170,7 @@ def test_the_slider_moves_everything_to_the_numbers_of_solve(
         if "forces" in told:
             balance = told["forces"]["driving"]["moment"]
             assert shown["driving.moment"] == pytest.approx(balance, rel=1e-11)
-        # What is drawn: every vector at the scale of its view, every link where its point is.
+        # Drawn items: every vector at the scale of its view, every link at its point.
         for view in scene.views:
             lines = page.ask(
                 f"D.views.find(v => v.id === '{view.id}').segments.map(one => one.ends && "

@@ -1,4 +1,4 @@
-"""Diagrams of the loads that are tables: their rows, and what a position has of them."""
+"""Diagrams of tabulated loads: their rows, and their values in a position."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_where_a_load_does_not_act_its_diagram_shows_no_size() -> None:
 
 
 def test_a_load_of_one_stroke_has_no_diagram_over_the_other() -> None:
-    """A crusher's resistance rises to 40 kN while K goes left, and is none on the way back."""
+    """A crusher's resistance rises to 40 kN while K goes left, and is zero on the way back."""
     problem = load(ROOT / "tests/data/turn/crusher.toml")
     items = load_curves(Solution(problem, positions=[180.0]), [0], MANNER).place(0j)
     start = corner(items)

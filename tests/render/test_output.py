@@ -1,4 +1,4 @@
-"""Files are written whole or not at all, and every failure says what to do next."""
+"""Files are written whole or not at all, and every failure names the next action."""
 
 from __future__ import annotations
 

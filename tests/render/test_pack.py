@@ -178,7 +178,7 @@ def test_a_block_that_is_clear_of_the_corner_stays() -> None:
 
 
 def test_all_blocks_keep_clear_if_none_can_move() -> None:
-    """The room of the corner's block is full: the strip beside the box is left free."""
+    """The space of the corner's block is full: the strip beside the box is left free."""
     whole = Group((part(480, 395), part(50, 200), part(180, 30)))
     narrow = Group((part(270, 395), part(180, 30)))
     assert boxes(whole, taken=(LEFT,)) is None
@@ -246,7 +246,7 @@ def test_growing_blocks_take_the_largest_size_that_fits(grows: bool, wide: float
 
 @pytest.mark.parametrize("high", [250.0, 330.0])
 def test_a_single_block_is_in_the_middle_beside_a_graph_too(high: float) -> None:
-    """On a standing A3 the graph lies along the right edge: a high block stands left of it."""
+    """On an upright A3 the graph is along the right edge: a high block is left of it."""
     inner, stamp = (20.0, 5.0, 292.0, 415.0), (107.0, 5.0, 292.0, 60.0)
     graph = (278.0, 345.0, 292.0, 415.0)
     placed = pack(Group((part(160.0, high),)), inner, stamp, (graph,))

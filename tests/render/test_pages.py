@@ -1,4 +1,4 @@
-"""Several sheets in one file: every page is as the sheet would be in a file of its own."""
+"""Several sheets in one file: every page equals the sheet in a file of its own."""
 
 from __future__ import annotations
 

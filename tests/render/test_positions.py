@@ -1,4 +1,4 @@
-"""Many positions over one another: every joint lettered, nothing in the way of anything."""
+"""Many superimposed positions: every joint lettered, without collisions."""
 
 from __future__ import annotations
 
@@ -320,7 +320,7 @@ def test_the_sheet_of_the_press_has_twelve_positions_on_one_scheme() -> None:
     (sheet,) = kinematics_sheets(problem_of("press/press"), positions=ALL_ROUND)
     assert (sheet.width, sheet.height) == (841.0, 594.0)
     shown = " ".join(w.shown for w in writings_of(sheet.items)).replace(",", " ").split()
-    assert {"A′", "A″", "крайние", "H", "φр", "φх"} <= set(shown)  # told at the name of the view
+    assert {"A′", "A″", "крайние", "H", "φр", "φх"} <= set(shown)  # given at the name of the view
     for letter in "AB":  # the driver's and the output's; N has numbers alone
         assert {f"{letter}{k}" for k in TWELVE} <= set(shown)
     assert sum(word.startswith("N") and word[1:].isdigit() for word in shown) == 1

@@ -1,4 +1,4 @@
-"""One segment, one number: what the calculation says is what a ruler finds on the sheet."""
+"""One segment, one number: the calculation has the length that a ruler finds on the sheet."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def test_a_ruler_on_the_sheet_reads_the_calculated_values(name: str, layout: str
                 for end in (span.start, span.end):
                     assert np.abs(inked - end).min() < 0.01
         if solution.scales[PlanKind(view.kind)].per_mm != pytest.approx(view.per_mm):
-            continue  # grown: the calculation of that sheet is of its own scale
+            continue  # grown: the calculation of that sheet has its own scale
         for line in calculation(solution, PlanKind(view.kind), 0, language("ru")):
             said = plain_text(line).replace(",", ".")
             for letters, value in (
@@ -85,7 +85,7 @@ MANY += [(name, 1, "compact") for name in thinned(OTHERS, 60)]
 def test_a_ruler_finds_it_in_each_of_many_positions(
     name: str, count: int, layout: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """At whatever scale a plan is drawn: the calculation of each position is of that."""
+    """The calculation of each position has the scale at which its plan is drawn."""
     problem = problem_of(name)
     at = positions_of(problem, count)
     sheets, solution = solved_while(

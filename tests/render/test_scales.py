@@ -1,4 +1,4 @@
-"""Scales of sheets: of the series, one for all plans of a kind, the same as solve says."""
+"""Scales of sheets: from the series, one for all plans of a kind, the same as in solve."""
 
 from __future__ import annotations
 

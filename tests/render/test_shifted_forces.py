@@ -89,7 +89,7 @@ def test_the_drawn_shift_is_h_across_the_force(name: str) -> None:
         (action,) = lines(sheet.items, view, "line of action")
         assert action.points[0] == end
     (shift,) = reading_of(name).statics.board.shifts.values()
-    read = abs(reading_of(name).read_number(shift.length))  # what the formulas come to
+    read = abs(reading_of(name).read_number(shift.length))  # results of the formulas
     assert read == pytest.approx(h / drawn[0][1].per_mm, abs=0.3)
     assert f"= {read:.1f} мм".replace(".", ",") in shown(sheet)
 

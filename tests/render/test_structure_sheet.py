@@ -1,4 +1,4 @@
-"""Sheet of the structural analysis: what it says, and that nothing on it overlaps."""
+"""Sheet of the structural analysis: its texts, and no overlaps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Supports and guides stand where links leave room, and not in each other."""
+"""Supports and guides are in the space that links leave, and do not overlap."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ def test_a_link_that_goes_on_through_a_joint_is_one_piece() -> None:
 
 
 def test_a_rod_is_welded_to_the_edge_of_its_block() -> None:
-    """The slotted link 5 of task 12 is one piece with its slider: nothing of it lies within."""
+    """The slotted link 5 of task 12 is one piece with its slider: no part of it is inside."""
     scheme = Scheme(Solution(problem_of("levers/task12")), 0, 5.0)
     scheme.draw()
     block = next(one for one in scheme.blocks if abs(one.middle - scheme.at("E")) < 1e-9)
@@ -197,7 +197,7 @@ def test_a_rod_is_welded_to_the_edge_of_its_block() -> None:
 
 
 def test_no_block_hides_another() -> None:
-    """All white grounds of sliders and stones are drawn before any of their outlines."""
+    """All white grounds of sliders and blocks are drawn before any of their outlines."""
     scheme = Scheme(Solution(problem_of("linkages/ex3")), 0, 5.0)
     scheme.draw()
     fills = [k for k, item in enumerate(scheme.bodies) if isinstance(item, Fill)]

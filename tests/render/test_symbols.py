@@ -223,7 +223,7 @@ def test_a_joint_on_a_link_shows_on_one_side(angle: float, side: int) -> None:
     assert sweep(half) == pytest.approx(pi)
     assert piece.tag == "link 3"
     assert sum(piece.points) / 2 == pytest.approx(1 + 1j)
-    # What shows of the circle beside the link is as wide as the half of a joint.
+    # The visible part of the circle beside the link is as wide as the half of a joint.
     assert half.radius - PENS[Pen.MAIN].width / 2 == pytest.approx(SIZES.joint / 2)
 
 

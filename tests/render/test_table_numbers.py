@@ -109,7 +109,7 @@ def test_each_exact_value_has_its_reading_and_the_difference_in_per_cent() -> No
         read.assert_are(found)
         off.assert_are(100.0 * (np.abs(found) - np.abs(values)) / np.abs(values))
         compared += int(np.sum(off.values < 0.0))
-    assert compared > 3  # less is read than is exact, and told so
+    assert compared > 3  # the reading is less than the exact value, with a minus sign
 
 
 def quantities_of(solution: Solution) -> list[Quantity]:

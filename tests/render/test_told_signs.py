@@ -82,7 +82,7 @@ def test_absolute_vectors_are_thick_and_components_thin(name: str) -> None:
     for kind in RATES:
         for item in plan_picture(solution, kind, 0).items:
             if not isinstance(item, Stroke) or abs(item.points[-1] - item.points[0]) < 12.0:
-                continue  # a short vector is thin, whatever it is
+                continue  # any short vector is thin
             if item.tag in parts:
                 assert item.pen is Pen.THIN, item.tag
             elif item.tag == VectorKind.ABSOLUTE.value:

@@ -163,7 +163,7 @@ def test_chosen_plans_are_the_requested_ones() -> None:
         (view,) = (view for view in sheet.views if view.kind == "acceleration")
         return sorted({span.position for span in view.spans if span.position is not None})
 
-    assert len(shown()) > 2  # as many as there is room for
+    assert len(shown()) > 2  # as many as fit
     assert shown(positions=(2, 8)) == [2, 8]
     assert shown(positions=(0, 4, 5, 9)) == [0, 4, 5, 9]
     with pytest.raises(LayoutError, match="the last is 11"):

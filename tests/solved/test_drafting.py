@@ -267,7 +267,7 @@ def test_a_result_by_similarity_errs_with_its_side() -> None:
 
 
 def one_error(drafting: Drafting, one: str, other: str) -> bool:
-    """Tell whether two quantities are wholly correlated."""
+    """Return whether two quantities are wholly correlated."""
     (a, both), (_, b) = drafting.covariance([one, other])
     return bool(a > 0 and abs(both) == pytest.approx(math.sqrt(a * b), rel=1e-9))
 

@@ -48,7 +48,7 @@ def come_in(page: Page, address: str, width: int = 1200, height: int = 900) -> N
 
 
 def fetched(page: Page, link: str) -> bytes:
-    """Return what a link of the page leads to."""
+    """Return the target of a link of the page."""
     page.ask(
         f"globalThis.got = ''; fetch({link!r}).then(one => one.arrayBuffer()).then(found =>"
         " { got = [...new Uint8Array(found)].map(one => one.toString(16).padStart(2, '0')).join('')"

@@ -66,7 +66,7 @@ def connected(stack: contextlib.ExitStack, port: int, said: bytes) -> socket.soc
 
 
 def answered(one: socket.socket, last: bytes) -> bool:
-    """Tell whether an answer ends so, which may come in parts."""
+    """Return whether an answer ends so, which may come in parts."""
     got = one.recv(1000)
     while got and not got.endswith(b"\r\n" + last):
         got += one.recv(1000)

@@ -1,4 +1,4 @@
-"""Nobody comes in to one's own studio without its address, and no page of elsewhere asks."""
+"""Access to one's own studio needs its address, and foreign pages cannot send requests."""
 
 from __future__ import annotations
 

@@ -188,7 +188,7 @@ def test_a_waiting_client_gets_its_place_and_quick_requests_go_first(
     places = [one["place"] for one in long[2].told if one.get("place")]
     assert places[0] == 2
     assert places == sorted(places, reverse=True)
-    assert all("said" in one.told[-1]["found"] for one in (*long, *quick))  # none is lost
+    assert all("said" in one.told[-1]["found"] for one in (*long, *quick))  # no job is lost
 
 
 def test_later_typing_replaces_a_waiting_request(client: TestClient, tmp_path: Path) -> None:
@@ -205,7 +205,7 @@ def test_later_typing_replaces_a_waiting_request(client: TestClient, tmp_path: P
     for one in (*at_work, other, new):
         one.join()
     assert old.told[-1]["found"] == {"superseded": True, "files_at": ANY}
-    assert told[0] == {"place": 1}  # before who came later than the older one
+    assert told[0] == {"place": 1}  # before a client that came later than the older one
     assert told[-1]["found"]["said"] == "new"
     assert other.told[-1]["found"]["said"] == "other"
     assert told[-1]["waited"] > 0

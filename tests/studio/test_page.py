@@ -53,7 +53,7 @@ def test_a_student_comes_from_an_empty_page_to_a_pdf(page: Page, address: str) -
     click(page, "[data-what=pdf]")
     link = page.wait("document.querySelector('#files .made a')?.href")
     assert fetched(page, link).startswith(b"%PDF-")
-    # what was typed is there when the page is opened again
+    # the typed text is there when the page is opened again
     page.ask("studio.put(studio.text() + '# kept\\n')")
     page.open(f"{address}?lang=en", width=1360)
     page.wait(DRAWN)
@@ -210,7 +210,7 @@ def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> 
     for box in ("#statistics", "#page"):
         page.wait(f"document.querySelector('{box} iframe')")
     assert page.ask("document.querySelector('#page .own a:last-child').href").endswith(".pdf")
-    # taken back by its button, the mark is what it was
+    # after undo by its button, the mark is as before
     click(page, "#entered button")
     page.wait(f"document.querySelector('#marks tbody tr').textContent === {before!r}")
     assert page.said == []
@@ -390,7 +390,7 @@ def open_task(page: Page, name: str) -> None:
 
 
 def press(page: Page, key: str, modifiers: int, *, letter: str = "") -> None:
-    """Press a key; ``letter``: what the keyboard of another language has on it."""
+    """Press a key; ``letter``: its letter on the keyboard of another language."""
     for kind in ("rawKeyDown", "keyUp"):
         page.call("Input.dispatchKeyEvent", type=kind, key=letter or key, code=f"Key{key.upper()}",
                   windowsVirtualKeyCode=ord(key.upper()), modifiers=modifiers)  # fmt: skip
@@ -462,7 +462,7 @@ def test_undo_in_one_file_restores_no_text_of_another(page: Page, desk: Path) ->
     press(page, "s", 2)
     page.wait("document.querySelector('#saved').textContent === 'Saved'")
     assert (desk / "b.toml").read_text() == "title = 'b'\n"
-    # whatever way another text comes
+    # however another text comes in
     at(page, "'b'", "'own'")
     other = desk / "other.txt"
     other.write_text("title = 'uploaded'\n")

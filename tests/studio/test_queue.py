@@ -1,4 +1,4 @@
-"""The order of the queue of the studio: workers that compute nothing, no threads, no clock."""
+"""The order of the queue of the studio: idle workers, no threads, no clock."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ QUICK, USUAL, SLOW = Pace.QUICK, Pace.USUAL, Pace.SLOW
 
 
 class IdleWorker:
-    """A worker that notes what it is asked."""
+    """A worker that records its requests."""
 
     begun: list[str]
 
@@ -47,7 +47,7 @@ class Desk:
         return found
 
     async def ask(self, do: str, session: str, pace: Pace) -> None:
-        """Ask for a job, and go on as soon as it is in the queue."""
+        """Request a job, and return as soon as it is in the queue."""
         self.gates[do] = asyncio.Event()
         self._jobs.append(asyncio.ensure_future(self._read(do, session, pace)))
         await self.settle()
@@ -88,7 +88,7 @@ def test_waiting_requests_run_the_quick_first_and_the_slow_last(
     desk = asyncio.run(play())
     assert desk.begun == ["first", "quick", "quick too", "usual", "usual too", "slow"]
     assert [one["said"] for one in desk.done] == desk.begun
-    # what each is told first: its place then
+    # each client's first message: its place at that time
     assert [desk.places[do][0] for do in ("slow", "usual", "quick", "quick too")] == [1, 1, 1, 2]
     assert (desk.queue.busy, desk.queue.waiting, desk.queue.done) == (0, 0, 6)
 

@@ -104,7 +104,7 @@ def nameless(page: Page) -> list[str]:
 
 
 def unreached(page: Page) -> list[str]:
-    """Return what Tab does not come to from the top of the page."""
+    """Return the controls that Tab does not reach from the top of the page."""
     reached = (  # a page without controls is read in the tab that the link below it opens
         "(one => one.tagName === 'IFRAME' ? one.sandbox.contains('allow-scripts')"
         " : one.tabIndex >= 0 || one.isContentEditable)"

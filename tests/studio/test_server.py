@@ -121,7 +121,7 @@ def test_text_is_compressed_and_comes_once(client: TestClient, address: str) -> 
     assert packed.headers["content-encoding"] == "gzip"
     assert "accept-encoding" in packed.headers["vary"].lower()
     assert int(packed.headers["content-length"]) < len(plain.content) / 2
-    if address == "/":  # it has a word of its own each time
+    if address == "/":  # its nonce is new each time
         assert packed.headers["cache-control"] == "no-store"
         return
     assert packed.content == plain.content
@@ -257,7 +257,7 @@ def test_both_assemblies_are_offered(client: TestClient) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new"),  # where the fault stands: after the mark
+    ("old", "new"),  # the place of the fault: after the mark
     [
         ("DE = 0.18", "DE = 0.18 ‸m"),
         ('on = "3"', '‸on = "7"'),

@@ -74,7 +74,7 @@ def entries() -> tuple[KeyEntry, ...]:
 
 @cache
 def mistaken() -> tuple[dict[str, float], dict[str, complex]]:
-    """Return what the answers are without the Coriolis acceleration, and where its points lie."""
+    """Return the answers without the Coriolis acceleration, and the places of its points."""
     construction = solution().construction
     data = {**solution().data(SCALES), WITHOUT_CORIOLIS: 0.0}
     program = substituted(construction.program, [WITHOUT_CORIOLIS])

@@ -234,7 +234,7 @@ def test_a_wrong_sense_is_drawn_the_other_way() -> None:
 
 
 class _Strict(HTMLParser):
-    """Checks that tags are closed, and collects what would be loaded or run."""
+    """Checks that tags are closed, and collects items that would be loaded or run."""
 
     def __init__(self) -> None:
         super().__init__()
