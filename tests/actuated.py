@@ -25,7 +25,7 @@ _LEAST = 0.15
 def actuated_problem(
     seed: int, *, triad: bool = False, stands: bool = False
 ) -> tuple[Problem, Pose, Ends]:
-    """Return a random mechanism with loads and an actuator, its pose, and what it pushes apart.
+    """Return a random mechanism with loads and an actuator, its pose, and the actuator's ends.
 
     Half of them have the cylinder and the rod as links of their own, with masses.
     """
@@ -38,7 +38,7 @@ def actuated_problem(
             one, two = ends
             break
     names = one[0], two[0]
-    # A new point of the rod wants a rule, and what has one already gets none.
+    # A new point of the rod needs a rule, and a point with a rule gets no other.
     if rng.random() < 0.5 and not {*names} & {rule.point for rule in plain.assembly}:
         text, pose = _with_cylinder(text, pose, names, motion, rng)
         one, two = (one[0], "101"), (two[0], "102")
@@ -78,7 +78,7 @@ def _in_a_guide(problem: Problem, one: str, two: str) -> bool:
 
 
 def _of(motion: Motion, problem: Problem, point: str) -> tuple[complex, complex]:
-    """Return place and velocity of a point; a fixed one has none."""
+    """Return place and velocity of a point; the velocity of a fixed one is zero."""
     for link in problem.mechanism.links:
         if point in problem.bodies[link].points:
             return complex(motion.position[link, point]), complex(motion.velocity[link, point])

@@ -1,4 +1,4 @@
-"""Headless Chromium by its protocol over a pipe: pages opened, asked, looked at."""
+"""Headless Chromium by its protocol over a pipe: pages opened, queried, captured."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PROGRAM = shutil.which("chromium")
 class Page:
     """One page of a headless browser.
 
-    ``said`` is all that went to its console, and its exceptions.
+    ``said`` has its console output and its exceptions.
     """
 
     def __init__(self, send: int, receive: int) -> None:
@@ -37,7 +37,7 @@ class Page:
             self.call(f"{domain}.enable")
 
     def call(self, method: str, **params: Any) -> dict[str, Any]:
-        """Call a method of the protocol and return what it gives."""
+        """Call a method of the protocol and return its result."""
         self._number += 1
         number = self._number
         message: dict[str, Any] = {"id": number, "method": method, "params": params}
@@ -97,7 +97,7 @@ class Page:
         return told["result"].get("value")
 
     def wait(self, expression: str) -> Any:
-        """Return the value of an expression as soon as it is one that counts."""
+        """Return the value of an expression as soon as it is truthy."""
         end = time.monotonic() + PATIENCE
         plain = f"(found => found instanceof Node || found)({expression})"
         while not (value := self.ask(plain)):

@@ -40,7 +40,7 @@ def draw(
     Parameters
     ----------
     per_unit : float
-        Drawing units of a millimetre; ``units`` is what the file says they are.
+        Drawing units of a millimetre; ``units`` is the unit stated in the file.
     without : tuple of str
         Letters that are not written.
     moved : mapping of str to complex

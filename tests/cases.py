@@ -16,7 +16,7 @@ _taken = {"everything": False, "thinned": True}
 
 
 def take(*, everything: bool, is_thin: bool) -> None:
-    """Say, before the test modules are imported, which cases are taken."""
+    """Set, before the test modules are imported, which cases are taken."""
     _taken["everything"], _taken["thinned"] = everything, is_thin
 
 

@@ -70,14 +70,14 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def pytest_collection_finish() -> None:
-    """Let what was collected alone: else the garbage of every file is looked for in all of it."""
+    """Exempt the collected items from the garbage collector, which would search them each time."""
     gc.collect()
     gc.freeze()
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _what_a_file_has_kept_goes_with_it(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Solutions and drawings that the tests of a file share: of all files they are a gigabyte."""
+    """Drop the solutions and drawings that a file's tests share: over all files they take 1 GB."""
     yield
     for kept in vars(request.module).values():
         if getattr(kept, "__module__", None) == request.module.__name__:
@@ -92,7 +92,7 @@ def _no_config_of_the_developer(tmp_path_factory: pytest.TempPathFactory) -> Ite
     empty.touch()
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PLANMETHOD_CONFIG", str(empty))
-        patch.setenv("PLANMETHOD_NATIVE", "0")  # nor what a compiler left in a cache
+        patch.setenv("PLANMETHOD_NATIVE", "0")  # nor libraries that a compiler left in a cache
         patch.setenv("PLANMETHOD_LANG", "en")
         patch.setenv("PYTHONWARNINGS", "error")  # in processes that tests start, too
         yield

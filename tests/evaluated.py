@@ -1,4 +1,4 @@
-"""Formulas of a text read back: what each side of an equation between numbers comes to."""
+"""Formulas of a text read back: the value of each side of an equation between numbers."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def texts_of(document: Document) -> Iterator[str]:
 
 
 def equations_in(texts: Iterable[str]) -> Iterator[tuple[str, list[float], float]]:
-    """Yield the equations between numbers, what their sides come to, and the size of the terms."""
+    """Yield the equations between numbers, the values of their sides, and the size of the terms."""
     for text in texts:
         plain = re.sub(r"[\u00a0\u202f]", " ", inlined(text))
         for found in CHAIN.finditer(plain):
@@ -38,7 +38,7 @@ def equations_in(texts: Iterable[str]) -> Iterator[tuple[str, list[float], float
 
 
 def _values(sides: list[str]) -> tuple[list[float], float]:
-    """Return what sides come to, angles in radians, and the largest sum of sizes of terms."""
+    """Return the values of sides, angles in radians, and the largest sum of sizes of terms."""
     values, largest, factor = [], 0.0, 1.0
     for side in reversed(sides):
         found = re.match(SUM, side)

@@ -1,7 +1,7 @@
-"""Programs read in jets: a second opinion on motion, and on what the referee says.
+"""Programs read in jets: an independent check of motion and of the referee.
 
-The position program alone, read in jets, gives velocities and accelerations that owe nothing to
-the velocity and acceleration plans.
+The position program alone, read in jets, gives velocities and accelerations independent of the
+velocity and acceleration plans.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ from planmethod.problem.model import Problem
 
 
 def with_resultant(problem: Problem) -> Problem:
-    """Return a problem that asks for the single resultant of the inertia forces."""
+    """Return a problem that selects the single resultant of the inertia forces."""
     assert problem.dynamics is not None
     return replace(problem, dynamics=replace(problem.dynamics, resultant=True))
 

@@ -100,7 +100,7 @@ class _State:
 
 @dataclass(frozen=True)
 class _Constraint:
-    """Scalar constraint: residual, Jacobian row, and what its second derivative has beside it."""
+    """Scalar constraint: residual, Jacobian row, and other terms of its second derivative."""
 
     value: float
     row: Vector
@@ -232,7 +232,7 @@ def solve(problem: Problem, position: float, pose: Pose) -> Motion:
 
 
 def residual(problem: Problem, position: float, pose: Pose) -> float:
-    """Largest closing error of a pose as it stands, m or radians."""
+    """Return the largest closing error of a pose, m or radians."""
     q = _start(problem, pose)
     s = _State(_index(problem), q, np.zeros_like(q))
     found = [*_constraints(problem, s), _drive(problem, s, _si(problem, position))]

@@ -21,7 +21,7 @@ _NUMBER = r"[−-]?\d[\d.,]*(?:e[+-]?\d+|·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?
 
 
 def rebuilt(facts: Iterable[GivenFact], name: str = "rebuilt") -> Problem:
-    """Return the problem that the data of some facts describe, and nothing else."""
+    """Return the problem that the data of some facts describe."""
     data: dict[str, Any] = {}
     for fact in facts:
         for key, value in fact.data.items():
@@ -81,7 +81,7 @@ def printed(text: str) -> Iterator[tuple[float, float]]:
 
 
 def table_of(facts: Iterable[GivenFact]) -> dict[str, Any]:
-    """Return the tables of a problem file that the data of some facts are, and nothing else."""
+    """Return the tables of a problem file made of the data of some facts only."""
     table: dict[str, Any] = {}
     told: dict[str, Any] = {}
     for fact in facts:

@@ -16,7 +16,7 @@ Vector = npt.NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Rank:
-    """Redundant constraints and mobility of a spatial mechanism, and what the formula says."""
+    """Redundant constraints and mobility of a spatial mechanism, and those of the formula."""
 
     redundant: int
     mobility: int

@@ -1,4 +1,4 @@
-"""Random tapes of real operations, and what each operation should be."""
+"""Random tapes of real operations, and the due value of each operation."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ INPUTS = 3
 
 
 def drawn(rng: random.Random, tape: Tape, steps: int) -> list[tuple[Ref, Callable[..., float]]]:
-    """Draw operations; return each node and what it should be."""
+    """Draw operations; return each node and its due value."""
     made: list[tuple[Ref, Callable[..., float]]] = [
         (tape.input(k), lambda *values, k=k: values[k]) for k in range(INPUTS)
     ]

@@ -1,4 +1,4 @@
-"""Commands, their exit codes and what they print."""
+"""Commands, their exit codes and their output."""
 
 from __future__ import annotations
 

@@ -69,13 +69,13 @@ def planmethod_lines(name: str) -> list[list[str]]:
 
 
 def first_cells(name: str, pattern: str) -> list[str]:
-    """Return what a pattern finds in the first cells of table rows."""
+    """Return the matches of a pattern in the first cells of table rows."""
     return re.findall(rf"(?m)^\| {pattern} \|", text_of(name))
 
 
 @pytest.fixture
 def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder that has the problems of the repository, and nothing else."""
+    """Provide a folder with the problems of the repository only."""
     shutil.copytree(PROBLEMS, tmp_path / "problems")
     monkeypatch.chdir(tmp_path)
     return tmp_path
@@ -168,7 +168,7 @@ def test_examples_of_docstrings_run(name: str, desk: Path) -> None:
 
 
 def test_the_notebook_of_a_lecture_runs(desk: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without Jupyter: what a cell ends with shows itself as it would there."""
+    """Run without Jupyter: the last expression of a cell is shown as it would be there."""
     matplotlib.use("agg")
     moved: list[Drawing] = []
     widgets = SimpleNamespace(
@@ -235,7 +235,7 @@ def test_both_languages_show_the_same(names: tuple[str, str]) -> None:
 def test_the_russian_pages_work(name: str, tmp_path: Path) -> None:
     """Their files are read, their commands run, in order; sheets only with --thorough.
 
-    A block of a file that has no title goes on with the one before.
+    A block of a file without a title continues the one before.
     """
     folder = tmp_path / Path(name).stem
     shutil.copytree(PROBLEMS / "linkages", folder / "problems" / "linkages")

@@ -88,7 +88,7 @@ def test_everything_occurs_several_times() -> None:
     wanted += ["inner, first slides", "inner, last slides", "offset", "along two points"]
     wanted += ["outer, the known link slides", "outer, the group's link slides"]
     wanted += ["guide on a moving link", "guide on the frame", *(where.value for where in Where)]
-    # No random dyad happens to be a parallelogram, nor to need its side told along its own bar.
+    # No random dyad is a parallelogram by chance, or needs a rule of its side on its own bar.
     for side in (Where.PARALLEL, Where.TOWARDS, Where.AWAY):
         wanted.remove(side.value)
     assert {name: seen[name] for name in wanted if seen[name] < some(10, few=4)} == {}

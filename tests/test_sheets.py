@@ -1,4 +1,4 @@
-"""Whole sheets: nothing that a norm controller would mark, paper as asked, the same bytes again."""
+"""Whole sheets: no remarks of the norm control, the requested paper, reproducible bytes."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ MANY = {
 
 
 def marks(sheets: list[Drawing]) -> list[str]:
-    """Return what the lint has to say of each sheet, by the frame of its format."""
+    """Return the remarks of the lint on each sheet, by the frame of its format."""
     found = []
     for drawing in sheets:
         inner = format_of(drawing).inner
@@ -170,7 +170,7 @@ def test_the_lint_of_these_tests_does_find() -> None:
     assert {"PM-D01", "PM-D04"} <= codes
 
 
-# What is on the sheet -----------------------------------------------------------------------------
+# Contents of the sheet ----------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 
 PATIENCE = 600.0
-"""Seconds after which something hangs: nothing that is merely slow takes so long."""
+"""Seconds after which a process counts as hung: a merely slow one is faster."""
 
 
 def wait_until(is_so: Callable[[], object]) -> None:

@@ -43,7 +43,7 @@ def problem_of(name: str, variant: str | None = None) -> Problem:
 
 
 def forget_cached() -> None:
-    """Clear what functions of the package have cached, as in a fresh process."""
+    """Clear the caches of the package's functions, as in a fresh process."""
     for name, module in [*sys.modules.items()]:
         if name.startswith("planmethod."):
             for own in vars(module).values():
@@ -58,7 +58,7 @@ def drawn_sheets(
     variant: str | None = None,
     **asked: Any,
 ) -> list[Drawing]:
-    """Return the kinematic sheets of a file, drawn once: nothing may be added to them."""
+    """Return the kinematic sheets of a file, drawn once: callers may not change them."""
     at = None if positions is None else tuple(positions)
     return _drawn(name, variant, at, tuple(sorted(asked.items())))
 

@@ -1,4 +1,4 @@
-"""The section on flywheels: what a construction errs falls with its positions to that of slopes."""
+"""The section on flywheels: a construction's error falls with its positions to that of slopes."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ def test_readings_are_as_good_as_their_digits() -> None:
 def test_sweeps_are_good_to_four_units(
     problem: Problem, asked: list[str] | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    if asked:  # else without machine code, and the row says why
+    if asked:  # else without machine code, and the row has the reason
         monkeypatch.setenv("PLANMETHOD_NATIVE", "1")
         monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     readings = speed.sweeps(problem, (12, 5000), asked)

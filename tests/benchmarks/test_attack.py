@@ -1,4 +1,4 @@
-"""A bounded part of ``make attack``: what strangers may send at every door."""
+"""A bounded part of ``make attack``: hostile input at every entry point."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The benchmark's measurements, each taken once: that they run, and who is compared."""
+"""The benchmark's measurements, each taken once: they run, and compare the peers."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ REGULAR = {"slider-crank-by-crank", "rocker-by-crank", "quadrants", "zeros"}
 DEAD = r"dead position|guides are parallel"
 
 SOLVABLE = re.compile(r"by two lengths|slide.* of \S+ m, 5e\+05|from a joint")
-"""Rows that are sound whatever their numbers: a refusal is a mistake."""
+"""Rows that are sound for any numbers: an error is a fault."""
 
 RIVAL = "epsilon is small beside omega squared, of which it is a difference"
 

@@ -118,7 +118,7 @@ def broken(keys: dict[str, Any], axis: complex) -> float:
     """Return by how much an axis breaks the limits of an arm, m, by sines and cosines of angles.
 
     ``axis`` is from the roller at rest, the pivot ``arm`` beside it. The worst angle of a grid is
-    looked at on a finer one.
+    refined on a finer one.
     """
     side = 1 if keys["sense"] == "opposite" else -1
     arm, most = keys["arm"], -1.0

@@ -1,4 +1,4 @@
-"""Laws of motion: what they begin and end with, their derivatives, their jumps."""
+"""Laws of motion: their ends, their derivatives, their jumps."""
 
 from __future__ import annotations
 

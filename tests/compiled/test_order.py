@@ -55,7 +55,7 @@ def test_numbers_at_hand_do_not_grow_with_a_chain(
 def test_every_operand_is_made_before_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     made, results, _ = written(chain(5), None, monkeypatch)
     order = used_by(made.tape, [*results, *(guard.margin for guard in made.guards)])
-    assert order != sorted(order)  # else there was nothing to put in order
+    assert order != sorted(order)  # else the order would not matter
     place = {number: i for i, number in enumerate(order)}
     for number in order:
         kind, refs = made.tape.nodes[number]
@@ -64,7 +64,7 @@ def test_every_operand_is_made_before_it_is_read(monkeypatch: pytest.MonkeyPatch
 
 
 def test_a_value_that_an_earlier_part_reads_is_made_there() -> None:
-    """An operation that two parts have stands once, and may have been written by the later one."""
+    """An operation shared by two parts is there once, and the later one may have written it."""
     tape = Tape()
     x = tape.input(0)
     tape.part = 2

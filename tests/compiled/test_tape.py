@@ -303,7 +303,7 @@ def test_scaled_guards_are_looked_at_without_the_scale() -> None:
                 assert not (type(constant) is float and constant > 0)
 
 
-# What is known ------------------------------------------------------------------------------------
+# Known values -------------------------------------------------------------------------------------
 
 
 def test_a_length_that_was_laid_off_is_not_measured() -> None:
@@ -342,7 +342,7 @@ def test_a_straight_line_has_only_used_operations() -> None:
     assert used_by(tape, [3.0]) == []
 
 
-# What the source says -----------------------------------------------------------------------------
+# Generated source ---------------------------------------------------------------------------------
 
 ODD = """
 title = "import os"

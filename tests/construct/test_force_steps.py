@@ -80,7 +80,7 @@ def read(program: Program, arithmetic: Arithmetic | None = None, /, **data: Any)
 
 
 def wanted(name: str, **data: Any) -> Any:
-    """Return what a step comes to, by plain arithmetic."""
+    """Return the value of a step, by plain arithmetic."""
     all_data: dict[str, Any] = {**DATA, **data}
     o, p, q, a, b, k = (all_data[letter] for letter in "OPQABk")
     moment = (b - a).real * (q - p).imag - (b - a).imag * (q - p).real
@@ -132,7 +132,7 @@ def test_positions_are_read_one_by_one() -> None:
 
 
 def test_a_zero_vector_is_translated_and_has_no_moment() -> None:
-    """A vector of no length has no direction; it spoils no position beside it."""
+    """A zero vector has no direction; it does not spoil other positions."""
     ends = np.array([10 + 20j, 40 + 60j])
     for name, program in EVERY.items():
         found = read(program, Q=ends)
@@ -300,7 +300,7 @@ def test_rates_are_those_of_moving_points() -> None:
 
 
 def test_reach_of_a_moment() -> None:
-    """|M| and what the last bits of eight coordinates move it by."""
+    """|M| and its change by the last bits of eight coordinates."""
     found = float(reach(MOMENT, DATA)[PointName("X")][0])
     arm, force = -23 + 4j, 30 + 40j
     moved = [20 * force.imag, 3 * force.imag, 8 * force.real, 4 * force.real]

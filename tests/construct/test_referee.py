@@ -87,7 +87,7 @@ def test_an_impossible_result_is_nan_for_the_referee_too() -> None:
 def test_plans_agree_with_the_derivatives_of_the_position_program(
     name: str, arithmetic: str
 ) -> None:
-    """A second opinion that knows nothing of velocity and acceleration plans."""
+    """An independent check without velocity and acceleration plans."""
     solution = Solution(problem_of(name))
     results = quantities_of(solution.construction)
     places = [r for r in results.all if r.kind is QuantityKind.PLACE]

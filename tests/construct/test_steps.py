@@ -1,4 +1,4 @@
-"""Geometry of every kind of step: made points lie where the step says they do."""
+"""Geometry of every kind of step: the points made are where the step defines them."""
 
 from __future__ import annotations
 
@@ -249,7 +249,7 @@ def test_arcs_meet_on_the_requested_side(
         assert margin > 0
     elif d > r1 + r2 + slack or d < abs(r1 - r2) - slack:
         assert margin < 0
-    # The half chord loses what a small centre distance or a flat triangle magnifies.
+    # The half chord loses the digits that a small centre distance or a flat triangle costs.
     assume(margin > 1e-3 and d > 1.0 and r1 > 1.0)
     at = scalar(value)
     assert abs(abs(at - c1) - r1) < TINY

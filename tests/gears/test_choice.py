@@ -46,7 +46,7 @@ def free(one: int, other: int) -> bool:
 
 
 def goes_in(z: tuple[int, ...], inner: list[bool], k: int) -> bool:
-    """A satellite can be turned so that both its rims fit a k-th of a turn further on."""
+    """Return whether a planet gear can be turned so that both rims fit a k-th of a turn further."""
     z_1, z_2, rim, z_3 = z
     s_1, s_3 = (-1 if turned else 1 for turned in inner)
     return any(

@@ -104,7 +104,7 @@ def test_coaxiality_of_an_axis_below_the_main_one_is_printed_as_a_distance(tmp_p
     }  # fmt: skip
 
 
-# Sets of satellites -------------------------------------------------------------------------------
+# Sets of planet gears -----------------------------------------------------------------------------
 
 SETS = (
     ({"1": 20, "2": 40, "3": 100}, "internal"),

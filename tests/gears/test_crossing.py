@@ -32,7 +32,7 @@ SET = {"1": 20, "2": 30, "3": 20}
 
 Case = tuple[dict[str, int], list[str], str, str, Fraction | None]
 TRAINS: dict[str, Case] = {
-    # wheels, meshes, rest, the ratio asked, its value; of one without a sign its size
+    # wheels, meshes, rest, the requested ratio, its value, or its size if it has no sign
     "bevel pair": (PAIR, BEVEL, "", "U_1_2", Fraction(5, 2)),
     "worm": ({"1": 2, "2": 50}, [mesh("1", "2", "worm")], "", "U_1_2", Fraction(25)),
     "left worm": ({"1": 2, "2": 50}, [LEFT], "", "U_1_2", Fraction(25)),
@@ -134,7 +134,7 @@ def test_no_text_mentions_a_carrier_that_does_not_exist(tmp_path: Path) -> None:
 # Senses on the scheme -----------------------------------------------------------------------------
 
 NEAR = np.array([0.0, 0.0, 1.0])
-"""Towards who looks at the scheme: x to the right and y upwards on it."""
+"""Direction towards the viewer of the scheme, with x to the right and y upwards on it."""
 
 
 def arrows(motion: TrainMotion) -> list[complex]:
@@ -160,7 +160,7 @@ def test_arrows_of_a_bevel_pair_are_those_of_one_velocity_at_the_pitch_point(
     one, other = arrows(solved(tmp_path, text))
     level = np.array([float(np.sign(speed)), 0.0, 0.0])
     pitch = np.cross(level, np.array([0.0, 1.0, 0.0]))
-    # The wheel stands left of the other, whose axis is upright: ω × (−x) is the same velocity.
+    # The wheel is left of the other, whose axis is upright: ω × (−x) is the same velocity.
     across = next(turn * np.array([0.0, 1.0, 0.0]) for turn in (1, -1)
                   if np.allclose(np.cross([0.0, turn, 0.0], [-1.0, 0.0, 0.0]), pitch))  # fmt: skip
     for drawn, omega in ((one, level), (other, across)):
@@ -175,7 +175,7 @@ def test_arrows_of_a_worm_are_those_of_its_hand(hand: str, speed: int, tmp_path:
     motion = solved(tmp_path, told({"1": 2, "2": 50}, [worm], f"n = {{ 1 = {speed} }}"))
     (drawn,) = arrows(motion)
     advance = np.sign(speed) * (1 if hand == "right" else -1) * NEAR
-    # The thread stands where it is and pushes the tooth at the lowest point of the wheel back.
+    # The thread does not move along and pushes back the tooth at the lowest point of the wheel.
     tooth = -advance
     omega = next(np.array([turn, 0.0, 0.0]) for turn in (1.0, -1.0)
                  if np.allclose(np.cross([turn, 0.0, 0.0], [0.0, -1.0, 0.0]), tooth))  # fmt: skip

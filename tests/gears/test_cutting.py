@@ -210,7 +210,7 @@ def test_undercut_begins_where_the_boundary_point_reaches_the_base_circle(
 def left_by_the_rack(z: int, m: float, x: float, beta: float) -> tuple[float, float]:
     """Return ρ at the lowest point of an undercut involute, mm, and how far beyond it B_l lies.
 
-    In 50 digits: the rounded tip of the rack rolls, and what it reaches is compared with the
+    In 50 digits: the rounded tip of the rack rolls, and its envelope is compared with the
     involute at the same radius.
     """
     with mpmath.workdps(50):

@@ -166,7 +166,7 @@ def test_k10_by_instantaneous_velocities() -> None:
 
 @each("turn", [(5, 7), (-3, 20), (0, 12), (30, 4), (12, 12)])
 def test_the_velocities_go_where_the_speeds_turn(turn: tuple[int, int], tmp_path: Path) -> None:
-    """A wheel that stands, a carrier that turns back, points that pass each other."""
+    """A wheel at rest, a carrier that turns back, points that pass each other."""
     text = (PROBLEMS / "gears/planetary-k10.toml").read_text("utf-8")
     body = text.partition("[gears]\n")[2].partition("[published")[0]
     one, three = turn

@@ -1,4 +1,4 @@
-"""The worked examples, faults of files, and what the command line promises."""
+"""The worked examples, faults of files, and the contract of the command line."""
 
 from __future__ import annotations
 

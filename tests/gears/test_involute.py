@@ -234,7 +234,7 @@ def test_teeth_in_mesh_do_not_overlap(case: tuple[Any, ...]) -> None:
 
     for turn in np.linspace(-0.5, 0.5, some(41, few=5)) * 2 * pi / pair.z[0]:
         common = area(teeth[0], turn).intersection(area(teeth[1], turn))
-        # What is common could only be a sliver along a contact, as thick as the error allowed.
+        # A common area could only be a sliver along a contact, as thick as the allowed error.
         assert common.area < EXACT * pair.m, (turn, common.area)
 
 

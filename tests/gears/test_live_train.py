@@ -1,4 +1,4 @@
-"""The page of a gear train: teeth mesh wherever it turns to, and nothing of the file is source."""
+"""The page of a gear train: teeth mesh in every position, and no text of the file is code."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def test_teeth_of_the_worked_trains_mesh_as_they_turn(path: Path) -> None:
 def test_satellites_mesh_where_they_can_be_assembled(
     count: int, fits: bool, tmp_path: Path
 ) -> None:
-    """(z_1 + z_3)/k is whole, or the teeth of the ring run into those of a satellite."""
+    """(z_1 + z_3)/k is an integer, or the teeth of the ring run into those of a planet gear."""
     problem, scene = made(SET % count, tmp_path)
     assert (worst(solve_motion(problem), scene) < 1e-6) is fits
     assert ((20 + 100) % count == 0) is fits

@@ -42,7 +42,7 @@ def _in_degrees(of: Callable[[float], float]) -> Callable[[float], float]:
 
 
 def value_of(text: str) -> float:
-    """Return what a formula with numbers gives, angles in degrees."""
+    """Return the value of a formula with numbers, angles in degrees."""
     text = re.sub(r"\^\{(\d)\}", r"**\1", inlined(text))
     text = text.replace("·", "*").replace("−", "-").replace("π", str(pi))
     return float(

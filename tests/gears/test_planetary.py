@@ -116,7 +116,7 @@ def test_a_written_set_is_compared_and_drawn(scheme: str, tmp_path: Path) -> Non
     assert "3 *" in texts
     assert "Сравнение вариантов" in texts
     arms = {one.tag for one in sheet.items if isinstance(one, Stroke) and one.tag.endswith(" 2")}
-    assert any(tag.startswith("link ") for tag in arms)  # the third satellite has its arm
+    assert any(tag.startswith("link ") for tag in arms)  # the third planet gear has its arm
 
 
 def test_labels_and_the_order_of_meshes_do_not_matter(tmp_path: Path) -> None:

@@ -174,7 +174,7 @@ def designed(folder: Path, text: str) -> GearProblem:
 
 @each("rest", ["", 'module = { "1-2" = 4, "2\'-3" = 4, "4-5" = 6 }\n'])
 def test_the_planetary_stage_of_a_longer_train_is_compared(rest: str, tmp_path: Path) -> None:
-    """It is what it would be alone, whatever goes before or behind it."""
+    """It gives the same as alone, with any stages before or behind it."""
     text = TRAIN + "design = { U = 7.8 }\n" + rest
     problem = designed(tmp_path, text)
     alone = told({w: z for w, z in WHEELS.items() if w not in "45"}, MESHES[:2],

@@ -72,7 +72,7 @@ def assert_contacts_meet(motion: TrainMotion) -> None:
 
 @each("seed", range(20))
 def test_bevel_wheels_have_one_velocity_where_they_touch(seed: int, tmp_path: Path) -> None:
-    """Vectors in space: satellite across the main axis z, 1 below it and 3 above."""
+    """Vectors in space: a planet gear square to the main axis z, 1 below it and 3 above."""
     motion = solved(tmp_path, bevel(random.Random(seed)).text)
     z = {label: float(size) for label, size in motion.axes.sizes.items()}
     n = {label: float(motion.speed(label)) for label in ("1", "2", "3", "H")}
@@ -87,7 +87,7 @@ def cross(a: tuple[float, ...], b: tuple[float, ...]) -> tuple[float, ...]:
 
 
 def test_an_axis_turns_the_sense_of_a_bevel_wheel(tmp_path: Path) -> None:
-    """Both central wheels on one side of the satellite turn alike."""
+    """Both central wheels on one side of the planet gear turn in the same sense."""
     text = (
         'wheels = {{ 1 = 20, 2 = 10, "2\'" = 20, 3 = {{ z = 20, axis = [0, 0, {}] }} }}\n'
         'meshes = [{{ of = [1, 2], kind = "bevel", carrier = "H" }},'
@@ -180,7 +180,7 @@ def test_an_idler_between_wheels_of_one_axis_gets_its_teeth_from_it(tmp_path: Pa
 
 
 def test_sets_in_series_and_a_second_name_of_a_carrier(tmp_path: Path) -> None:
-    """2.2.76: the carrier of the first set drives the second; both satellites are unknown."""
+    """2.2.76: the carrier of the first set drives the second; both planet gears are unknown."""
     text = "wheels = { 1 = 22, 3 = 72, 4 = 22, 6 = 72 }\nmeshes = [{ of = [1, 2], carrier = 4 },\
  { of = [2, 3], kind = 'internal', carrier = 4 }, { of = [4, 5], carrier = 'H2' },\
  { of = [5, 6], kind = 'internal', carrier = 'H2' }]\nbodies = [['4', 'H1']]\n\

@@ -54,11 +54,11 @@ def ordinary(rng: random.Random) -> Made:
 def row_of(rng: random.Random) -> tuple[dict[str, int], list[str], Fraction]:
     """A set 1-2-2'-3 on H, coaxial, and its ratio U_13 with H held."""
     z1, z2 = rng.randint(15, 40), rng.randint(15, 40)
-    if rng.random() < 0.5:  # ring, single satellite
+    if rng.random() < 0.5:  # ring, single planet gear
         wheels = {"1": z1, "2": z2, "3": z1 + 2 * z2}
         meshes = [mesh("1", "2", carrier="H"), mesh("2", "3", "internal", "H")]
         return wheels, meshes, -F(wheels["3"], z1)
-    if rng.random() < 0.5:  # ring, double satellite
+    if rng.random() < 0.5:  # ring, double planet gear
         rim = rng.randint(15, 40)
         wheels = {"1": z1, "2": z2, "2'": rim, "3": z1 + z2 + rim}
         meshes = [mesh("1", "2", carrier="H"), mesh("2'", "3", "internal", "H")]

@@ -135,7 +135,7 @@ def test_sigma_of_a_hodograph_s_chord_is_that_of_random_drawings() -> None:
     assert np.all(read.sigma < 0.1 / (2 * step) * 4 * math.sqrt(one))
 
 
-# What is drawn -----------------------------------------------------------------------------------
+# Drawings ----------------------------------------------------------------------------------------
 
 
 def test_poles_are_not_drawn_through() -> None:

@@ -49,7 +49,7 @@ def number(text: str) -> float:
 
 
 def value_of(formula: str, names: dict[str, float] | None = None) -> float:
-    """Return what a formula gives, of numbers or of letters."""
+    """Return the value of a formula of numbers or of letters."""
     formula = formula.replace("a^{n}", "a_{n}")  # a letter, no power
     text = re.sub(r"\^\{([^{}]+)\}", r"**\1", inlined(formula)).replace("·", "*").replace("−", "-")
     text = re.sub(r"√(\([^√]*\))", r"(\1)**0.5", text)

@@ -262,7 +262,7 @@ def test_a_slotted_link_keeps_its_side() -> None:
 
 
 def test_lengths_move_the_change_points() -> None:
-    """A motion that goes on through change points has its own of every length."""
+    """A motion that continues through change points has those of its own lengths."""
     problem, _ = four_bar(1, rule_of(1, ', keep = "continuous"'))
     other, _ = four_bar(3, rule_of(3, ', keep = "continuous"'))
     at = np.linspace(0.0, 700.0, 60)

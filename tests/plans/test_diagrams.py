@@ -1,4 +1,4 @@
-"""Graphical calculus: what the construction gives is what its definition says."""
+"""Graphical calculus: the result of the construction agrees with its definition."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ epsilon = 20
 [assembly]
 D = "{where}"
 """
-"""The stone 2 slides on link 3 along a line turned by an angle from its axis CD, beside it."""
+"""Block 2 slides on link 3 along a line beside its axis CD, at an angle to it."""
 
 TAGS = {VectorKind.SLIDING, VectorKind.CORIOLIS}
 
@@ -117,7 +117,7 @@ def _compared(solution: Solution, terms: list[Vector]) -> set[Relation]:
             if direction.guide and direction.guide not in {
                 s.label if s.host == FRAME else slot_name(s) for s in slides
             }:
-                continue  # a line without a second point: slots of that kind are looked at below
+                continue  # a line without a second point: slots of that kind are tested below
             line = line_of(solution, term, direction, i)
             turn = vector / line / abs(vector / line)
             told = (term.symbol, direction, i)

@@ -1,4 +1,4 @@
-"""Letters of the plans: what a point is called there."""
+"""Letters of the plans: the names of points there."""
 
 from __future__ import annotations
 

@@ -170,7 +170,7 @@ def errors_of_differences(seed: int) -> tuple[float, float]:
 
 @each("seed", SEEDS)
 def test_motion_is_the_derivative_of_the_positions(seed: int) -> None:
-    """The limits leave room for rounding over h and h², 1e-16/h² is 1e-10."""
+    """The limits allow for rounding over h and h², 1e-16/h² is 1e-10."""
     first, second = errors_of_differences(seed)
     assert first <= 1e-9
     assert second <= 1e-7
@@ -245,7 +245,7 @@ def test_vector_equations_close(seed: int) -> None:
 
 @each("seed", SEEDS)
 def test_components_have_their_directions(seed: int) -> None:
-    """Normal along the link, tangential across it, as long as Newton's omega and epsilon say."""
+    """Normal along the link, tangential across it, as long as by Newton's omega and epsilon."""
     solution, ref = solved(seed), refereed(seed)
     kin = solution.construction.kinematics
     v_size, a_size, _, _ = largest(seed)
@@ -276,7 +276,7 @@ def test_components_have_their_directions(seed: int) -> None:
 
 @each("seed", SEEDS)
 def test_a_closing_keeps_its_side_all_round(seed: int) -> None:
-    """In a whole turn (or stroke) the group stays on the side that the file's position told."""
+    """In a whole turn (or stroke) the group stays on its side in the file's position."""
     problem, _ = made(seed)
     first = problem.drive.positions[0]
     if problem.drive.is_crank:

@@ -1,4 +1,4 @@
-"""Every number that the ruler gives: read once, and never what was laid off."""
+"""Every reading of the ruler: read once, and never of a laid-off segment."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def program(solution: Solution) -> Program:
 
 
 def used(steps: tuple[Step, ...]) -> set[str]:
-    """Return what some step depends on."""
+    """Return the names that some step depends on."""
     return {name for step in steps for name, _ in operands(step)}
 
 
@@ -62,7 +62,7 @@ def readings(steps: tuple[Step, ...]) -> dict[NumberName, frozenset[str]]:
 
 
 def idle(solution: Solution) -> set[NumberName]:
-    """Return what the ruler gives of finished drawings, of segments that were laid off."""
+    """Return readings on finished drawings of segments that were laid off."""
     return {s.drawn for s in solution.construction.segments if s.drawn != s.length}
 
 

@@ -466,8 +466,8 @@ def test_arms_that_a_reader_cannot_distinguish_are_left_to_the_equations() -> No
 
 @pytest.mark.parametrize("number", [1, 37, 49])
 def test_plans_are_drawn_smaller_before_they_are_left_out(number: int) -> None:
-    """At their own size the plans have no room on A1 beside the forces; of two tasks the scheme is
-    smaller, too."""
+    """At their own size the plans do not fit A1 beside the forces; for two tasks the scheme is
+    reduced, too."""
     (sheet,) = kinematics_sheets(problem_of(f"levers/task-{number}"), layout="forces")
     kinds = [view.kind for view in sheet.views]
     assert sheet.width == 841

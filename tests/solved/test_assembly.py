@@ -217,7 +217,7 @@ def test_points_of_the_frame_and_the_driver_have_one_place(point: str, other: st
 
 
 def test_a_rule_of_the_first_position_holds_for_all() -> None:
-    """At phi = 250 the upper closing is to the left of G, the lower one is not; the side stays."""
+    """At phi = 250 the upper assembly is to the left of G, the lower one is not; the side stays."""
     text = FOUR_BAR.replace("D = [0.4, 0.0]", "D = [0.4, 0.0]\nG = [0.2, 0.0]")
     given = {"rule": 'C = "right of G"', "bc": 0.3, "dc": 0.3}
     several = Solution(loads(text.format(**given, phi=[60, 170, 250]), name="four-bar"))
@@ -248,7 +248,7 @@ def test_a_rule_that_both_assemblies_satisfy_is_rejected_with_one_that_distingui
 
 
 def test_without_a_point_between_two_assemblies_a_line_or_a_place_distinguishes_them() -> None:
-    """Both closings are right of and above every fixed point and B: a line parts them."""
+    """Both assemblies are right of and above every fixed point and B: a line separates them."""
     text = FOUR_BAR.replace("D = [0.4, 0.0]", "D = [-0.1, -0.06]")
     problem = loads(text.format(rule='C = "right of A"', bc=0.1, dc=0.31, phi=30), name="four-bar")
     (said,) = faulty(problem)
@@ -517,7 +517,7 @@ def test_a_structure_that_does_not_move() -> None:
 
 
 def test_wheels_on_links_are_rejected_as_pairs() -> None:
-    """A five-bar whose two cranks mesh: W = 2, and nothing counts the mesh."""
+    """A five-bar whose two cranks mesh: W = 2, since the mesh is not counted."""
     text = """
 [frame]
 O = [0, 0]

@@ -1,4 +1,4 @@
-"""Static balancing: what counterweights leave of the inertia, and what they weigh."""
+"""Static balancing: the inertia left by counterweights, and their masses."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ epsilon = 5
 [assembly]
 C = {{ near = [{x!r}, {y!r}] }}
 """
-SHAPES = {  # frame, crank, coupler, rocker; which of two closings
+SHAPES = {  # frame, crank, coupler, rocker; which of two assemblies
     "parallelogram": (0.3, 0.1, 0.3, 0.1, 1),
     "antiparallelogram": (0.3, 0.1, 0.3, 0.1, -1),
     "kite": (0.3, 0.3, 0.1, 0.1, 1),

@@ -1,4 +1,4 @@
-"""Long chains of dyads: planning, closings and compiling do as much for every further link."""
+"""Long chains of dyads: planning, assembly and compiling cost the same for every further link."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def lines_of(act: Callable[[], object]) -> int:
 
 
 def prepared(dyads: int) -> dict[str, int]:
-    """Count what the parts of preparing a chain take."""
+    """Count the work of the parts of preparing a chain."""
     problem = chain(dyads)
     structure = analyse(problem.mechanism)
     choice = choose_closings(problem, structure)
@@ -76,4 +76,4 @@ def test_closings_are_those_of_the_whole_plan(dyads: int) -> None:
     solution = Solution(problem, positions=[10.0, 200.0])
     assert not any(triad_of(group) for group in solution.structure.groups)
     for k in range(1, dyads + 1):
-        assert (solution.si.point(PointName(f"C{k}")).imag > 0).all()  # above D_k, as it says
+        assert (solution.si.point(PointName(f"C{k}")).imag > 0).all()  # above D_k, by its rule

@@ -39,7 +39,7 @@ def test_points_close_together_have_one_letter() -> None:
 
 
 def test_a_crowded_scheme_takes_the_spare_space() -> None:
-    """At 0.005 m/mm most letters of the press had to be left out, and its sheet had room."""
+    """At 0.005 m/mm most letters of the press had to be left out, with space on its sheet."""
     solution = Solution(load(path_of("press/press")), positions=ALL_ROUND)
     assert is_crowded(solution.construction, solution.si, 0.005)
     assert solution.scales[PlanKind.POSITION].per_mm == pytest.approx(0.004)

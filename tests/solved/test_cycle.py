@@ -1,4 +1,4 @@
-"""Forces over the course of the driver: asked positions, curves between them, jumps, gaps."""
+"""Forces over the path of the driver: requested positions, curves between them, jumps, gaps."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def test_a_load_with_a_phase_leaves_gaps_where_it_begins_and_ends() -> None:
     ):
         assert before.positions[-1] <= jump <= after.positions[0]
         assert after.positions[0] - before.positions[-1] < 1e-3
-        # As far as the load does: nothing else changes in so small a step.
+        # By the change of the load: other changes are negligible in so small a step.
         with_load, without = (
             statics_of(exactly(task12(text), jump)).balance[0]
             for text in (RESISTANCE, RESISTANCE.replace("2000", "0"))

@@ -1,4 +1,4 @@
-"""Drafting errors: first order against random sheets, and against what geometry says."""
+"""Drafting errors: first order against random sheets, and against geometry."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_twelve_positions_too() -> None:
 
 @pytest.mark.parametrize("name", ["linkages/ex3", "press/press"])
 def test_where_first_order_is_given_up_sigma_is_that_of_the_sheets(name: str) -> None:
-    """A ruler as fine as here rounds nothing: of rounded lengths the quantiles jump."""
+    """The fine ruler here rounds no length: the quantiles of rounded lengths jump."""
     solution = Solution(problem_of(name), positions=list(range(0, 360, 30)), ruler=1e-6)
     drafting = Drafting(solution, draws=4000, seed=3)
     found = []
@@ -139,7 +139,7 @@ def sigma_of(program: Program, out: str, **data: complex | float) -> complex:
 
 @pytest.mark.parametrize("name", SIX)
 def test_the_number_of_errors_depends_only_on_the_steps_and_free_points(name: str) -> None:
-    """In no position, where nothing closes, as in one that does."""
+    """The number is the same in a position that cannot be assembled as in one that can."""
     drawing = drafting_of(drawn(name, "board")).drawing
     data = drawing.data(np.zeros(1, dtype=int))
     nowhere = {key: np.asarray(value) * math.nan for key, value in data.items()}
@@ -327,7 +327,7 @@ def test_the_documented_profiles_are_those_of_the_code() -> None:
 
 
 class Told(Counted):
-    """A pencil that notes by which of its numbers each stroke errs."""
+    """A pencil that records the parameters of each stroke's error."""
 
     def __init__(self) -> None:
         super().__init__(Profile("told", 2.0, 3.0, 5.0, math.degrees(7.0), 11.0))

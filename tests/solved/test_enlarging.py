@@ -64,7 +64,7 @@ def test_every_short_segment_is_in_one_knot_and_long_enough_there() -> None:
 
 
 def test_segments_on_a_view_are_read_to_five_per_cent_and_the_calculation_names_the_view() -> None:
-    """Half a division of the ruler is less than that of the segment as it is enlarged."""
+    """Half a division of the ruler is less than 5 % of the enlarged segment."""
     seen = 0
     for solution in solutions():
         for name, knot in solution.read_on(0).items():
@@ -138,7 +138,7 @@ def test_a_sheet_has_a_circle_at_each_knot_and_its_view_with_measured_segments()
 
 
 def test_a_vector_without_a_name_on_the_plan_has_it_on_its_view() -> None:
-    """Shorter than 5 mm it has no room for one there; on the view it is long enough."""
+    """Shorter than 5 mm it is too short for a name there; on the view it is long enough."""
     wanted = named = 0
     for solution in solutions():
         for kind, knots in solution.knots.items():

@@ -218,7 +218,7 @@ def test_an_indicator_gives_the_work_of_its_area() -> None:
 
 
 def test_a_share_of_the_largest_load_is_that_of_the_diagram() -> None:
-    """The diagram's peak of 1000 N lies between two positions, of which none has more than 786."""
+    """The diagram's peak of 1000 N is between two positions, neither of which has more than 786."""
     text = path_of("machines/compressor").read_text("utf-8")
     text = text.replace(
         text[text.index("law = ") : text.index("[machine]")],

@@ -50,9 +50,9 @@ def statics_with(
 
 @lru_cache(maxsize=1)  # tens of megabytes
 def sheets_of(name: str | int, profile: str) -> dict[PointName, Complexes]:
-    """Draw the force plans of the first position many times, with nothing of the errors' own.
+    """Draw the force plans of the first position many times, without code of the package's errors.
 
-    Return where their vertices came to be.
+    Return the places of their vertices.
     """
     statics = statics_with(name, profile)
     plans = statics.solution.construction.plans
@@ -159,7 +159,7 @@ def test_a_force_along_minus_x_has_a_direction_as_good_as_any() -> None:
 
 
 def test_the_slope_of_an_angle() -> None:
-    """Against a difference quotient; what has no length has no direction."""
+    """Against a difference quotient; a zero vector has no direction."""
     value, along = np.array([3.0 - 2.0j, 1e-12 + 0j]), np.array([[0.4 + 0.7j, 1.0j]])
     dual = angle(Dual(value, along), 1e-9)
     step = 1e-7
@@ -184,7 +184,7 @@ def test_only_prismatic_pairs_have_moments_and_these_have_errors(name: str | int
 
 
 def test_a_zero_reaction_has_the_sigma_of_the_sheets() -> None:
-    """The guide of task 12 holds no force: a length near zero does not err normally."""
+    """The guide of task 12 bears no force: the error of a length near zero is not normal."""
     drawn = drawn_forces(statics_with("levers/task12"))
     spread = drawn.spreads["F_5_0"]
     assert spread.drawn[0]

@@ -127,7 +127,7 @@ def agree(problem: Problem, positions: Array, asked: tuple[str, ...] = ("forces"
 
 
 def about(problem: Problem, count: int) -> Array:
-    """Return positions about the one that the file asks for."""
+    """Return positions about the one of the file."""
     drive = problem.drive
     reach = 0.1 if drive.is_crank else 1e-4
     return drive.positions[0] + np.linspace(-reach, reach, count)
@@ -189,7 +189,7 @@ def test_a_driver_at_rest(text: str) -> None:
 
 
 def test_no_loads_are_no_forces() -> None:
-    """A file with `[dynamics]` and nothing in it: all forces are zero, of the shape of the rest."""
+    """A file with an empty `[dynamics]`: all forces are zero, in the shape of other results."""
     problem = loads(mechanisms.CRANK + "[dynamics]\n", name="idle")
     for count in (3, 100):
         found = Sweep(problem, ["forces"]).run(np.linspace(10.0, 80.0, count))
@@ -315,7 +315,7 @@ MASS = '[dynamics.links.3]\nmass = 2\ncentre = "C"\n'
 )
 @pytest.mark.parametrize("count", [3, FEW + 3])
 def test_forces_end_where_a_mechanism_is_dead(more: str, said: str, count: int) -> None:
-    """Places exist there; a load that asks for the motion asks for its plans, too."""
+    """Places exist there; a load that depends on the motion needs its plans, too."""
     sweep = at_dead(more)
     positions = np.linspace(90.0, 270.0, count)
     out, failed = np.empty((len(sweep.rows), count)), np.empty(count, np.int16)

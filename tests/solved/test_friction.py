@@ -38,7 +38,7 @@ TASK = FrictionTask(f=0.1, f_pin=0.12, radius=0.01)
 
 
 class Referee:
-    """Equilibrium of all links with friction, in numbers of Newton's motion; nothing of plans.
+    """Equilibrium of all links with friction, from Newton's motion, without plans.
 
     The unknowns are two forces of a hinge, the force across a guide and a moment about its pin, and
     what drives. Friction follows from them and is on both links of its pair.

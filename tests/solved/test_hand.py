@@ -87,7 +87,7 @@ def test_the_first_example_with_a_ruler_of_1_mm() -> None:
     assert results("v_C")[0] == pytest.approx(60 * 0.05)
     assert results("a_C")[0] == pytest.approx(rule(abs(ac)) * 5)
     assert results("v_D")[0] == pytest.approx(rule(abs(pd)) * 0.05)
-    # With d' of the acceleration plan from the read b'c' likewise.
+    # The same for d' of the acceleration plan, from the read b'c'.
     d = ab - 0.3 * rule(abs(ac - ab)) * (ac - ab) / abs(ac - ab)
     assert got["π-d"] == rule(abs(d))
 
@@ -173,7 +173,7 @@ def test_the_third_example(step: float) -> None:
 
 @pytest.mark.parametrize("step", [2.0, 0.5])
 def test_a_coincident_point_found_by_similarity(step: float) -> None:
-    """H2 of the six-link mechanism: BH is given by nothing, so it is read on the drawing."""
+    """H2 of the six-link mechanism: BH is not given, so it is read on the drawing."""
     at = {name: 250 * complex(p["x"], p["y"]) for name, p in SIX_LINK["points"].items()}
     pb = 60.0 * -1j * at["B"] / abs(at["B"])
     pc = meet(pb, 1j * (at["C"] - at["B"]), 0j, 1j * (at["C"] - at["D"]))
@@ -289,7 +289,7 @@ def test_results_of_the_hand_are_its_segments_times_the_scale(name: str) -> None
 
 @each("seed", range(0, some(200, few=80), 4))
 def test_a_fine_ruler_reads_the_exact_plan(seed: int) -> None:
-    """The chain of a ruler of a nanometre comes to the exact values: rounding is all it adds."""
+    """A ruler of a nanometre gives the exact values: it adds rounding only."""
     problem = loads(random_problem(seed)[0], name=f"random-{seed}")
     fine = Solution(problem, ruler=1e-6)
     margin = float(fine.margin[0])

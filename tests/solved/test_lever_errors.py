@@ -48,7 +48,7 @@ def test_the_size_expected_is_no_flat_share(name: str) -> None:
 
 @pytest.mark.parametrize("name", TWELVE)
 def test_the_ruler_stays_within_the_expected_error_of_the_drawing(name: str) -> None:
-    """The ruler alone errs less than the whole hand."""
+    """The error of the ruler alone is less than that of the whole drawing."""
     statics = statics_with(name)
     sigma, hand = drawn_forces(statics).discrepancy_sigma, drawn_forces(statics).balances
     assert sigma is not None

@@ -71,7 +71,7 @@ def sizes(size: str, positions: Sequence[float] | None = None, base: str = CRANK
 
 
 def up(rest: str, positions: Sequence[float] | None = None, at: str = "C") -> list[complex]:
-    """Values of a force on the connecting rod, upwards unless told otherwise."""
+    """Return values of a force on the connecting rod, upwards by default."""
     direction = "" if "against" in rest else "angle = 90\n"
     return list(one(f'link = "2"\nat = "{at}"\n{direction}{rest}', positions).force)
 

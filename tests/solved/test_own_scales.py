@@ -1,4 +1,4 @@
-"""One scale for all plans of a kind; their own where the file asks, or where none can be common."""
+"""One scale for all plans of a kind; their own on request, or if there is no common one."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_plans_of_several_positions_have_one_scale(name: str) -> None:
 
 
 def test_plans_have_their_own_scales_if_the_file_requires_it() -> None:
-    """Each fills its room, is read at its scale, and its errors are those at that scale."""
+    """Each fills its area, and is read and has errors at its scale."""
     problem = problem_of("levers/task-49")
     positions, kind = [30.0, 150.0, 270.0], PlanKind.ACCELERATION
     asked = replace(problem, scales=replace(problem.scales, own=True))
@@ -58,7 +58,7 @@ def test_a_scale_of_the_file_is_left_for_other_positions_where_it_is_too_fine() 
 
 
 def test_a_plan_in_a_dead_position_has_a_scale_of_its_own() -> None:
-    """At one scale with it all others would be nothing."""
+    """At a common scale all other plans would be negligibly small."""
     problem = problem_of("linkages/2.1.4")
     first = problem.drive.positions[0]
     solution = Solution(problem, positions=[first + 120.0 * k for k in range(3)])

@@ -1,4 +1,4 @@
-"""Positions told by an angle of two links or a line: every one is found, and each by its number."""
+"""Positions given by an angle of two links or a line: all are found, and each by its number."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def between(p: Complexes, q: Complexes) -> Reals:
 
 
 def found(path: Path, text: str) -> list[float]:
-    """Return the positions that a file has, asked by their numbers."""
+    """Return the positions of a file, requested by their numbers."""
     places: list[float] = []
     for number in range(1, 9):
         path.write_text(f"{text}root = {number}\n", encoding="utf-8")

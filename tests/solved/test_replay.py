@@ -46,7 +46,7 @@ def solved(name: str) -> Solution:
 
 @dataclass(frozen=True)
 class Drawn:
-    """A program, its data at the scales of the plans, and what the hand makes of it."""
+    """A program, its data at the scales of the plans, and its values as drawn by hand."""
 
     program: Program
     data: Mapping[str, Any]
@@ -164,7 +164,7 @@ def test_a_segment_of_ones_own_goes_on_along_the_chain() -> None:
 
 
 def test_without_coriolis() -> None:
-    """The mistake of every group: a_E is what comes out of π, n and the guide alone."""
+    """The mistake of every group: a_E follows from π, n and the guide alone."""
     solution = solved("linkages/ex3")
     number = solution.legend["ak_B3/2"].size
     assert number is not None

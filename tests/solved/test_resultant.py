@@ -183,7 +183,7 @@ def test_the_predicted_sigma_is_that_of_random_sheets() -> None:
         assert (high - low) / 2 == pytest.approx(sigma, rel=0.08)
 
 
-# Where there is none -----------------------------------------------------------------------------
+# Without a resultant -----------------------------------------------------------------------------
 
 
 def reasons(statics: Statics) -> dict[str, Hindrance]:

@@ -77,7 +77,7 @@ def test_a_flywheel_for_a_motor_keeps_delta() -> None:
     assert run.irregularity(run.wanted) == pytest.approx(1 / 18, abs=1e-9)
     steady = run.steady(run.wanted)
     assert steady.half[0] == pytest.approx(steady.half[-1], rel=1e-11)
-    # what the motor does in a cycle is what the loads ask
+    # the motor's work in a cycle is that of the loads
     at = np.linspace(0.0, run.flywheel.cycle, 4001)
     motor = run.machine.motor
     assert motor is not None

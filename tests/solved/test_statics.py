@@ -116,7 +116,7 @@ def test_every_dyad_and_driver_occurs() -> None:
 
 @each("seed", SEEDS)
 def test_every_pair_has_one_reaction(seed: int) -> None:
-    """In a hinge of k links the k - 1 pairs hang together: none closes a ring."""
+    """In a hinge of k links the k - 1 pairs are connected and form no ring."""
     mechanism, joints = loaded(seed).mechanism, joints_of(solved(seed))
     assert len(set(joints)) == len(joints) == mechanism.lower_pairs
     assert 2 * len(joints) + 1 == 3 * len(mechanism.links)
@@ -285,7 +285,7 @@ def test_the_solution_stays_as_it_is(seed: int) -> None:
         assert (solution.links[link].phi_deg == motion.phi_deg).all()
 
 
-# What the forces depend on -----------------------------------------------------------------------
+# Dependence of the forces ------------------------------------------------------------------------
 
 
 def dynamics_of(problem: Problem) -> Dynamics:
@@ -326,7 +326,7 @@ def sized(dynamics: Dynamics, size: float) -> Dynamics:
 
 
 def mirrored(dynamics: Dynamics, move: Move) -> Dynamics:
-    """Fixed directions and couples go with the motion, which must leave gravity as it is."""
+    """Apply a motion to fixed directions and couples; it must leave gravity unchanged."""
 
     def moved(load: Load | Couple) -> Load | Couple:
         if isinstance(load, Load) and isinstance(load.sense, Fixed):
@@ -348,7 +348,7 @@ def after(before: Statics, move: Move, dynamics: Dynamics) -> Statics:
 
 
 ACROSS = Move(degrees=180, mirrors=True)
-"""The mirror that leaves gravity as it is: left and right are exchanged."""
+"""The mirror that leaves gravity unchanged: left and right are exchanged."""
 
 SOME = SEEDS[::12]
 

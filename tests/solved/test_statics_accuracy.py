@@ -164,9 +164,9 @@ class Verdict:
 
 
 def judge(statics: Statics) -> list[Verdict]:
-    """Judge every force of a position by the referee.
+    """Compare every force of a position with the referee's.
 
-    What is zero by nature has no reach; its error is counted in units of the largest of its kind.
+    A force that is zero by nature has no reach; its error is in units of the largest of its kind.
     """
     program, names = asked(statics)
     data = data_of(statics)

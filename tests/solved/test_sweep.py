@@ -63,7 +63,7 @@ def sweep_of(name: str) -> Sweep:
 
 
 def near(name: str, count: int) -> Array:
-    """Return positions about the one that the file asks for."""
+    """Return positions about the one of the file."""
     drive = problem_of(name).drive
     reach = 3.0 if drive.is_crank else 1e-3
     return drive.positions[0] + np.linspace(-reach, reach, count)
@@ -173,7 +173,7 @@ def test_a_line_of_python_gives_the_results_of_blocks(name: str) -> None:
 
 @pytest.mark.parametrize("count", [0, 1, 2, FEW, FEW + 1, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK])
 def test_borders_of_blocks(count: int) -> None:
-    """Each of n positions has its result, whatever n is."""
+    """Each of n positions has its result, for any n."""
     sweep = sweep_of("ex3")
     positions = np.linspace(0.0, 359.0, count)
     found, failed = failures(sweep, positions)
@@ -310,7 +310,7 @@ VARIED = ("l_AB", "l_DE", "omega_1")
 
 
 def separate(values: dict[str, float], positions: Array) -> Array:
-    """Sweep a problem file in which the numbers stand that were varied."""
+    """Sweep a problem file that has the varied numbers."""
     text = path_of("linkages/ex3").read_text("utf-8")
     for name, value in values.items():
         key = name.removeprefix("l_") if name.startswith("l_") else "omega"
@@ -458,7 +458,7 @@ def test_impossible_positions_are_empty_and_reported(count: int) -> None:
 
 
 def test_a_request_fails_only_where_its_operands_do() -> None:
-    """The crank of the six-link mechanism has places where the others have none."""
+    """The crank of the six-link mechanism has places even where the other links have none."""
     positions = np.arange(0.0, 360.0, 0.5)
     for asked, can_fail in ((["B", "v_B"], False), (["C"], True), (["B", "omega_3"], True)):
         found, failed = failures(Sweep(problem_of("six-link"), asked), positions)

@@ -435,7 +435,7 @@ def pose_of_solution(solution: Solution) -> dict[str, tuple[float, float, float]
     return found
 
 
-# What is still refused ----------------------------------------------------------------------------
+# Mechanisms that are still rejected ---------------------------------------------------------------
 
 
 CLASS_IV = """
@@ -563,5 +563,5 @@ def test_an_error_names_the_links_that_may_drive_and_never_leads_in_a_circle() -
         Solution(loads(other, name="other"))
     except AssemblyError as error:
         assert "driv" not in str(error)
-    except ProblemError as error:  # it falls into dyads, whose closings are not told
+    except ProblemError as error:  # it falls into dyads, whose assembly rules are missing
         assert "close in two ways" in str(error) or "assembled" in str(error)

@@ -172,7 +172,7 @@ def test_the_range_of_a_crank_that_does_not_turn_fully_ends_where_the_dyad_is_st
     assert beyond == [made["a_chord_mm"][-1], made["v_curve_mm"][0], None]
     assert made["mu_phi"] * made["length_mm"] == pytest.approx(np.radians(2 * end))
     assert told["zero_deg"] == told["extremes"][0]["phi_deg"] and len(told["hodograph"]["C"]) == 12
-    # A position that is out of the range is none to count from.
+    # A position out of the range cannot be the start of counting.
     other = four_bar(a, b, c, d, asked="zero = 180")
     assert other["zero_deg"] == phi[0] and "zero_deg" in other["reasons"]
     assert four_bar(a, b, c, d, asked="zero = 380")["zero_deg"] == 20
@@ -257,7 +257,7 @@ def test_extremes_are_constructed_where_the_roots_are(locus: str) -> None:
         assert 0 < abs(made.off(k)) < 1.5  # of a millimetre at the end of the crank
     if locus != "tangents":  # of the press the slotted link swings, the output slides
         assert made.stroke(made.exact) == pytest.approx(turn.stroke, rel=1e-12)
-    # What one sigma is, told by many hands.
+    # One sigma, found from many drawings.
     pencil = Sampled(PROFILES["board"], frozenset(), 2000, 5)
     trace = evaluate(made.program, made.data, pencil)
     for k, sigma in enumerate(made.sigma[:2]):
@@ -291,7 +291,7 @@ AB = 0.1
 points = ["B"]
 slides = { on = "x-x", offset = 0.04 }
 """
-"""A slider-crank whose rod comes square to the guide at 270 degrees, and goes on."""
+"""A slider-crank whose rod is square to the guide at 270 degrees, and passes on."""
 
 
 def square(phi: float = 0.0, omega: float = 10.0) -> Turn:
@@ -360,7 +360,7 @@ J_crank = 0.5
 
 
 ALIKE = SQUARE.replace("0.06", "0.1").replace("0.04", "0").replace("OMEGA", "-4")
-"""Crank and rod are alike: B passes over O, where the rod may turn with any speed."""
+"""Crank and rod are equal: B passes over O, where the rod may turn with any speed."""
 
 
 @each("positions", [

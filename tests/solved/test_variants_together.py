@@ -35,7 +35,7 @@ MORE = ("cycle", "machine", "dynamics", "loads", "balancing", "variants", "proje
 
 
 def plain_files() -> list[Path]:
-    """Return shipped problems that ask for plans alone."""
+    """Return shipped problems with plans only."""
     files = sorted(PROBLEMS.glob("l*/*.toml"))
     return [file for file in files if not set(MORE) & tomllib.loads(file.read_text()).keys()]
 

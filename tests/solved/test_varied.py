@@ -1,4 +1,4 @@
-"""A sweep with a number of the file is the file with that number, or is refused by name."""
+"""A sweep over a number of the file equals the file with that number, or is rejected by name."""
 
 from __future__ import annotations
 

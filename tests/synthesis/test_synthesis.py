@@ -209,7 +209,7 @@ def test_the_norm_control_marks_at_most_empty_paper(name: str) -> None:
     found, problem = made(kind, asked)
     measured = {**checks(found, problem), **found.facts}
     sheet = synthesis_sheet(Drawn(found, PROFILES["board"]), problem, asked, measured)
-    # Text and construction leave a band of an A3 empty: that is so, and said.
+    # Text and construction leave a band of an A3 empty: the remark on it is right.
     assert {one.code for one in inspect(sheet)} <= {"PM-D10"}
     assert not sheet.is_cut_down
     assert (sheet.width, sheet.height) == (420.0, 297.0)

@@ -266,7 +266,7 @@ def test_candidates_judged_together_are_judged_as_alone(name: str) -> None:
         (alone,) = judge.judge([problem])
         if isinstance(found, Refused) or isinstance(alone, Refused):
             assert isinstance(found, Refused) and isinstance(alone, Refused)
-            # Among others the motion of a loaded one is looked at first, then its forces.
+            # Among others, the motion of a loaded candidate is examined first, then its forces.
             assert found.why is alone.why or problem.dynamics is not None, problem.variant
             continue
         assert (found.told, found.made, found.scales) == (alone.told, alone.made, alone.scales)
