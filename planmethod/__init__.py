@@ -7,6 +7,8 @@ needs none of these, or only one, would wait a quarter of a second for NumPy, th
 dependencies.
 """
 
+# no messages: for programs in Python
+
 from __future__ import annotations
 
 TYPE_CHECKING = False  # not of typing: its import is a tenth of the way to the command line

@@ -4,6 +4,8 @@ A format is called ``A3``, an elongated one ``A4x3``. A4 is portrait, the others
 ``A3:portrait`` (``А3:книжная``) is the portrait sheet.
 """
 
+# Cyrillic letters: names of formats that files and options may write in them
+
 from __future__ import annotations
 
 import re

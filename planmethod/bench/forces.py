@@ -1,5 +1,7 @@
 """Force plans: time and error, and the lever compared with the force plans."""
 
+# no messages: a document for developers
+
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,5 +1,7 @@
 """Sections of a report on the speed and the errors of one's own problems, in Markdown."""
 
+# no messages: a document for developers
+
 from __future__ import annotations
 
 import math

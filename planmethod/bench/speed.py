@@ -1,5 +1,7 @@
 """Times and errors of every way of evaluating a problem's program."""
 
+# no messages: a document for developers
+
 from __future__ import annotations
 
 import math

@@ -4,6 +4,8 @@ Its numbers are rows for every half degree, which the page interpolates linearly
 has the value after it.
 """
 
+# no messages: HTML
+
 from __future__ import annotations
 
 from html import escape

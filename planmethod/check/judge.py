@@ -4,6 +4,8 @@ A right answer that does not follow from the student's wrong ones is distinguish
 does, and a wrong one that follows from an earlier one is not penalised twice.
 """
 
+# Cyrillic letters: the unit mm, as works of students write it
+
 from __future__ import annotations
 
 import math

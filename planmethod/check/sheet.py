@@ -4,6 +4,8 @@ A sheet is one position of a problem at the scales of the student, or of the key
 numbers are substituted in its program (replay), so their consequences are found as on the plans.
 """
 
+# no messages: names of answers
+
 from __future__ import annotations
 
 import copy

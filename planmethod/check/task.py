@@ -1,5 +1,7 @@
 """A problem with its requested items, solved once for all students (задание)."""
 
+# Cyrillic letters: letters that quantities are written with in works of students
+
 from __future__ import annotations
 
 import copy

@@ -1,5 +1,7 @@
 """Sheet settings: options override the problem file, which overrides the user's config file."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 import functools

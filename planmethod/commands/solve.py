@@ -1,5 +1,7 @@
 """Command ``solve``: the numbers."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 import functools

@@ -1,5 +1,7 @@
 """A tape run on NumPy arrays block by block: the work stays in the cache, memory does not grow."""
 
+# no messages: source of a program
+
 from __future__ import annotations
 
 import math

@@ -4,6 +4,8 @@ Nothing of a problem file comes into the source, not even its numbers: constants
 parameters, so that all variants of a mechanism are one library.
 """
 
+# no messages: source of a program
+
 from __future__ import annotations
 
 from collections import Counter

@@ -4,6 +4,8 @@ Nothing of a problem file comes into the source: temporaries are ``t`` and a num
 and a number, constants are floats written by ``repr``.
 """
 
+# no messages: source of a program
+
 from __future__ import annotations
 
 import math

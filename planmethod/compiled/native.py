@@ -6,6 +6,8 @@ and only if its bytes match the hash; a library truncated by a full disk or a cr
 again.
 """
 
+# no messages: reasons for developers, source of a program
+
 from __future__ import annotations
 
 import ctypes

@@ -4,6 +4,8 @@ Nothing of a problem file comes into the source: temporaries are ``t`` and a num
 written as floats by ``repr``.
 """
 
+# no messages: source of a program
+
 from __future__ import annotations
 
 import math

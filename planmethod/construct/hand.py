@@ -1,5 +1,7 @@
 """Draughtsman who draws exactly and reads with a ruler (чертёжник с линейкой)."""
 
+# no messages: mistakes in a program
+
 from __future__ import annotations
 
 import math

@@ -1,5 +1,7 @@
 """Program of construction steps: single assignment, checked when it is made."""
 
+# no messages: mistakes in a program
+
 from __future__ import annotations
 
 from collections.abc import Iterable

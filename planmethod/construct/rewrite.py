@@ -4,6 +4,8 @@ With a person's own values, a program gives the results that follow from them al
 construction. With a step rewritten, it gives the results of a certain mistake.
 """
 
+# no messages: mistakes in a program
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable

@@ -5,6 +5,8 @@ are drawn where their numbers are known; those of planets are placed as if assem
 central wheel on, so that an impossible set shows as one.
 """
 
+# no messages: HTML
+
 from __future__ import annotations
 
 import cmath

@@ -5,6 +5,8 @@ blocks of sheets and the pages of checking print them. Nothing here knows of pen
 or of a file format. Texts are rich text (`planmethod.note.formula`).
 """
 
+# no messages: mistakes in a program
+
 from __future__ import annotations
 
 import re

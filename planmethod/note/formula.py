@@ -13,6 +13,8 @@ Any other text represents itself, Russian included. A literal ``_``, ``^``, ``{`
 backslash is written with a backslash before it (``\_``); `escape` does that for text from outside.
 """
 
+# no messages: mistakes in a program
+
 from __future__ import annotations
 
 import re

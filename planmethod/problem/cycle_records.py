@@ -1,5 +1,7 @@
 """Plain records of the requests for the cycle of a crank and of the decisions of a project."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from enum import Enum

@@ -1,5 +1,7 @@
 """Read flat tables by the declarations of their keys (`planmethod.problem.declared`)."""
 
+# Cyrillic letters: type Б of the lettering in a problem file
+
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping

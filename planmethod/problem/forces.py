@@ -1,5 +1,7 @@
 """``[[loads]]`` of a problem file: external forces and couples."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 import re

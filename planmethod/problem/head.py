@@ -1,5 +1,7 @@
 """Plain records of the data common to all problem files, and of the flat tables of gears."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections.abc import Mapping

@@ -1,5 +1,7 @@
 """Links of the file as written: points, lengths, third points and slides, not yet placed."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence

@@ -1,5 +1,7 @@
 """Checked masses and loads of a problem as plain records (SI units)."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections.abc import Mapping

@@ -1,5 +1,7 @@
 """Plain records of flywheel, motor and counterweights of a problem (SI units)."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections.abc import Mapping

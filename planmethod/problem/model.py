@@ -4,6 +4,8 @@ Lengths are metres. Angles are degrees, as in the file, wherever a protractor wo
 then quadrants stay exact; the arithmetic of a reading turns them into directions.
 """
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence

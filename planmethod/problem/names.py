@@ -4,6 +4,8 @@ Point names are a Latin (or unmistakably Greek) letter with digits and primes, s
 written together (``AB``, ``O3A``, ``CS3``) splits in one way only.
 """
 
+# Cyrillic letters: letters that look like Latin ones, in names of problem files
+
 from __future__ import annotations
 
 import re

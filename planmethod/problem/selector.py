@@ -1,5 +1,7 @@
 """Published values (напечатанные значения) and the short grammar of their ``what``."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping

@@ -4,6 +4,8 @@ A problem file has these tables, and so does the user's config file (файл н
 writes surname, group and checker into it once; the problem file outranks it.
 """
 
+# Cyrillic letters: an example of a surname
+
 from __future__ import annotations
 
 import os

@@ -1,5 +1,7 @@
 """Flat tables of problem files: higher pairs, wheels and their mesh, cams (таблицы задач)."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from typing import Annotated

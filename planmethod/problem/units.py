@@ -1,5 +1,7 @@
 """Units as people write them, and numbers of a file that have one (единицы)."""
 
+# Cyrillic letters: units as they are written
+
 from __future__ import annotations
 
 import math

@@ -3,6 +3,8 @@
 They are tables of the file, or rows of a CSV table beside it.
 """
 
+# Cyrillic letters: units as the head of a table may have them
+
 from __future__ import annotations
 
 import io

@@ -6,6 +6,8 @@ holds for every position, or selects the branch of the motion. So a position giv
 alone and in a batch, and its assembly does not depend on the position before it.
 """
 
+# no messages: rules, in the words of the file
+
 from __future__ import annotations
 
 from collections.abc import Collection, Generator, Mapping, Sequence

@@ -3,6 +3,8 @@
 The score of a mode under a rule, the rule's text in the file, and its faults.
 """
 
+# no messages: rules, in the words of the file
+
 from __future__ import annotations
 
 from typing import TypeAlias, assert_never

@@ -1,5 +1,7 @@
 """The page of the studio: its HTML in a language, its scripts and its style (страница)."""
 
+# no messages: headers of HTTP
+
 from __future__ import annotations
 
 import json

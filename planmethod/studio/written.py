@@ -1,5 +1,7 @@
 """The studio written into a folder, for any host of files: Python runs in the browser (Pyodide)."""
 
+# no messages: HTML
+
 from __future__ import annotations
 
 import io

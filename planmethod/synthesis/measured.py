@@ -5,6 +5,8 @@ Extreme positions are the roots of the output's velocity, found in the compiled 
 velocity programs to the last digits; the transmission angle is sampled over the whole turn.
 """
 
+# no messages: mistakes in sizes that the program makes
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping

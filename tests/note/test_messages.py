@@ -48,60 +48,8 @@ SAYS = {
 }  # fmt: skip
 """Calls whose texts a reader sees, beside errors that are raised and ``faults.add``."""
 
-NO_MESSAGES = (
-    "bench/",  # a document for developers
-    "cams/live.py",  # HTML
-    "check/pages/overlayview.py",  # HTML
-    "check/sheet.py",  # names of answers
-    "__init__.py",  # for programs in Python
-    "check/works/vocabulary.py",  # what works of students say
-    "compiled/",  # mistakes of ours
-    "construct/",  # mistakes of ours; names of steps, as in the next
-    "gears/construction.py",
-    "gears/drawn/pictures.py",
-    "gears/drawn/side.py",
-    "gears/involute/diagrams.py",
-    "gears/involute/formulas.py",  # formulas, as in quantities.py
-    "gears/involute/meshpicture.py",
-    "gears/involute/quantities.py",  # formulas
-    "gears/live.py",  # HTML
-    "moving/construction.py",
-    "moving/pictures.py",
-    "note/",  # the words of notes, and mistakes of ours
-    "plans/diagrams/",
-    "record.py",  # source of methods, and mistakes of ours
-    "render/control/remarks.py",  # mistakes of ours
-    "render/forces/",
-    "render/ink/lettering/",
-    "render/live/film.py",  # SVG
-    "render/live/document.py",  # HTML, as in the next
-    "render/live/page.py",
-    "render/pictures/",
-    "render/sheets/flywheel.py",
-    "render/sheets/runup.py",
-    "solved/closings.py",  # rules, in the words of the file, as in the next
-    "solved/rules.py",
-    "solved/many/sweep.py",  # for programs in Python
-    "solved/turn/",  # codes of JSON, as in the next but one
-    "studio/document.py",  # HTML
-    "synthesis/measured.py",  # what the file says
-    "studio/written.py",  # HTML
-)
-"""Modules whose English texts no reader sees as a message."""
-
-NOT_SAID = {
-    "PROBLEM [WORK]...",  # a metavariable
-    "a part was left out without a word",
-    "[x, y, z]",
-    '[["3", "H"]]',
-    '["U_1_5", "n_5"]',
-    "a couple has no point",
-    "a machine has loads",
-    "the crank turns",
-    "a crank drives",
-    "a motor is given",
-}
-"""Texts elsewhere that only mistakes of ours show, and metavariables."""
+MARKED = re.compile(r"(?m)^# no messages: \w")
+"""A comment of a module whose English texts no reader sees as a message, with the reason."""
 
 READS = re.compile(
     r"(?!<)"  # HTML
@@ -110,6 +58,9 @@ READS = re.compile(
     r"|(?=.*\{[\w.\[\]]*[!:}])(?=.*\b[a-z]{3,} |.* [a-z]{3,}\b))"  # words and places
 )
 """A text that reads as a message, or a part of one."""
+
+SENTENCE = re.compile(r"(?=.*[a-z]{2})(?!.*=).*(\S \S|\.$)", re.DOTALL)
+"""A text of a call that is said: words, not one alone, nor TOML."""
 
 PLAIN_ENGLISH = re.compile(r"\b(the|is|are|an|of|not|and|or|with|has|expected|must|give|to)\b")
 
@@ -129,7 +80,7 @@ def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
     for path in sorted(HOME.rglob("*.py")):
         module = path.relative_to(HOME).as_posix()
         text = path.read_text("utf-8")
-        silent = module.startswith(NO_MESSAGES)
+        silent = bool(MARKED.search(text))
         if module.startswith("note/wording/") or (
             silent and not re.search(r"(Error|Fault)\(", text)
         ):
@@ -144,6 +95,8 @@ def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
                     inside.add(value)
                 case ast.JoinedStr():
                     inside |= {part for part in ast.walk(node) if part is not node}
+                case ast.Assert(msg=ast.Constant() as value):
+                    inside.add(value)
                 case ast.Call() if is_said(node):
                     direct |= set(node.args)
                 case ast.keyword("hint" | "what" | "said" | "of" | "message", value):
@@ -153,12 +106,8 @@ def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
             match node:
                 case ast.Constant(str(told)) if node not in inside:
                     every.add(told)
-                    message = node in direct and re.search(r"\S \S|\.$", told) and "=" not in told
-                    if (
-                        (message or READS.match(told))
-                        and told not in NOT_SAID | REFERENCE
-                        and not silent
-                    ):
+                    message = node in direct and SENTENCE.match(told)
+                    if (message or READS.match(told)) and told not in REFERENCE and not silent:
                         said.setdefault(told, where)
                 case ast.JoinedStr() if not silent:
                     parts = [part.value for part in node.values if isinstance(part, ast.Constant)]
@@ -198,7 +147,7 @@ def test_every_message_is_said_in_every_language(lang: str) -> None:
     assert len(said) > 700
     known = messages(lang)
     missing = [f"{where}: {text}" for text, where in said.items() if text not in known]
-    assert not missing, "add these to the catalogue of messages, or to NO_MESSAGES with the reason"
+    assert not missing, "add these to the catalogue of messages, or say # no messages: why"
     assert not formatted, "a message is a sentence with places that say() fills in"
 
 

@@ -1,5 +1,7 @@
 """Layers and colours of the plans (слои и цвета)."""
 
+# Cyrillic letters: names of layers and colours, as drawings of students have them
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping

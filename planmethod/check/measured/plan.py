@@ -1,5 +1,7 @@
 """A measured drawing: segments and directions of its plans as a submission (чертёж как работа)."""
 
+# Cyrillic letters: the unit mm, as drawings of students write it
+
 from __future__ import annotations
 
 import math

@@ -1,5 +1,7 @@
 """A plan with a student's segments, drawn on a page (план на листе студента)."""
 
+# no messages: SVG
+
 from __future__ import annotations
 
 from collections.abc import Iterator

@@ -1,5 +1,7 @@
 """Contents of a file before interpretation: texts and their locations (клетки)."""
 
+# Cyrillic letters: heads and words that works of students are written with
+
 from __future__ import annotations
 
 from collections.abc import Mapping

@@ -1,5 +1,7 @@
 """Answers collected by student: scales, duplicates, remarks (сборка работ)."""
 
+# Cyrillic letters: scales that they are written with
+
 from __future__ import annotations
 
 import re

@@ -1,5 +1,7 @@
 """Units and numbers as people write them (единицы, числа)."""
 
+# Cyrillic letters: multiplication signs and e that numbers are written with
+
 from __future__ import annotations
 
 import re

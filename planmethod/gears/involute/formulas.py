@@ -4,6 +4,8 @@ The formulas are those of an external spur pair, with replacements for an intern
 helical wheels.
 """
 
+# no messages: formulas
+
 from __future__ import annotations
 
 from enum import Enum

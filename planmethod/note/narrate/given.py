@@ -1,5 +1,7 @@
 """The statement of a problem in symbols: given data and unknowns (Дано, Определить)."""
 
+# no messages: rules, in the words of the file
+
 from __future__ import annotations
 
 import re

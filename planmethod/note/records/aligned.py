@@ -1,5 +1,7 @@
 """The structural analysis in full as plain data: pairs, schemes without redundant constraints."""
 
+# no messages: reasons in JSON
+
 from __future__ import annotations
 
 from typing import Any

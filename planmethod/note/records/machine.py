@@ -1,5 +1,7 @@
 """Machine-readable record of a machine and its flywheel: ``machine`` of ``solve --json``."""
 
+# no messages: reasons in JSON
+
 from __future__ import annotations
 
 from math import degrees, isinf, pi

@@ -1,5 +1,7 @@
 """A document as one HTML file: no scripts, nothing from outside (документ в HTML)."""
 
+# no messages: HTML
+
 from __future__ import annotations
 
 import html

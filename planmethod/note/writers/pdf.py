@@ -1,5 +1,7 @@
 """A document as PDF pages, set by reportlab (документ в PDF)."""
 
+# no messages: markup of ReportLab
+
 from __future__ import annotations
 
 import html

@@ -1,5 +1,7 @@
 """Tables of a document of Word: grids, widths of columns, rows together (таблицы Word)."""
 
+# no messages: XML of Word
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence

@@ -1,5 +1,7 @@
 """Remarks of the norm control (замечания нормоконтроля): codes, severities, findings, sentences."""
 
+# no messages: mistakes in a program
+
 from __future__ import annotations
 
 from collections.abc import Mapping

@@ -1,5 +1,7 @@
 """Arms of forces as they are measured: thin perpendiculars to their lines of action (плечи сил)."""
 
+# no messages: tags of items
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence

@@ -3,6 +3,8 @@
 A policy in the head lets the page's own script and style run, by their hashes, and nothing else.
 """
 
+# no messages: HTML
+
 from __future__ import annotations
 
 import json

@@ -5,6 +5,8 @@ of the tape. A film has the place of each of them in every frame; it is written 
 by itself (SMIL, no script), or its frames as a GIF.
 """
 
+# no messages: SVG
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator

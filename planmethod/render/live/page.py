@@ -3,6 +3,8 @@
 Contents of a problem file are escaped text or data, never source.
 """
 
+# no messages: HTML
+
 from __future__ import annotations
 
 from collections.abc import Iterator

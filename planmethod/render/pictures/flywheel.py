@@ -1,5 +1,7 @@
 """The diagrams of a flywheel as they are constructed: moment, work, energy, inertia (диаграммы)."""
 
+# no messages: tags of items
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence

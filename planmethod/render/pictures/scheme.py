@@ -1,5 +1,7 @@
 """Links, sliders and joints of a mechanism drawn to scale with the symbols of kinematic schemes."""
 
+# no messages: tags of items
+
 from __future__ import annotations
 
 import math

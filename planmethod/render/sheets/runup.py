@@ -1,5 +1,7 @@
 """Blocks of the run-up sheet: the motor, diagrams of run-up and stop, tables (разбег и останов)."""
 
+# no messages: tags of items
+
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,5 +1,7 @@
 """Any number of positions in one call: a program compiled once, run in blocks (развёртка)."""
 
+# no messages: for programs in Python
+
 from __future__ import annotations
 
 import math

@@ -5,6 +5,8 @@ first and accelerations second transfer functions (аналоги); places where
 where a group just closes, are roots of the program's values.
 """
 
+# no messages: codes of JSON
+
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,5 +1,7 @@
 """The sentences of the loads of a position: weights, inertia, external forces (нагрузки)."""
 
+# no messages: mistakes in a program
+
 from __future__ import annotations
 
 from collections.abc import Iterator

@@ -1,5 +1,7 @@
 """The equations of moments of one force plan, and where the forces of its guides act (моменты)."""
 
+# no messages: mistakes in a program
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence

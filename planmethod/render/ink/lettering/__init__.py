@@ -4,6 +4,8 @@
 carries it to the output formats.
 """
 
+# Cyrillic letters: letters that the lettering is measured by
+
 from __future__ import annotations
 
 import json

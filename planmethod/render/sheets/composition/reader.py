@@ -1,5 +1,7 @@
 """Composition files (файлы компоновки): read with all faults at once, like problem files."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from functools import cache

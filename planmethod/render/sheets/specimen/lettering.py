@@ -1,5 +1,7 @@
 """Specimen sheet of the lettering: every letter on the standard's grid, samples, proportions."""
 
+# Cyrillic letters: the letters themselves, one by one
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
