@@ -1,0 +1,122 @@
+"""The numbers of the result tables follow from the solution: places, senses, sizes, directions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from cases import each
+from worked import problem_of
+
+from planmethod.note.document import Table
+from planmethod.note.tables.results import results_document
+from planmethod.note.wording import language
+from planmethod.plans.model import PlanKind
+from planmethod.solved.errors.forces import drawn_forces, size_label
+from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.solution import Solution
+
+EN = language("en")
+TURN = {"counter-clockwise": 1.0, "clockwise": -1.0, "—": 0.0}
+CASES = (
+    ("press/press", None),
+    ("press/press", (99.0, 150.0, 219.0)),
+    ("levers/task12", None),
+    ("linkages/ex3", (20.0, 260.0)),
+)
+
+
+def tables_of(solution: Solution) -> dict[str, list[Table]]:
+    """Return the tables by their first head, one for each position."""
+    found: dict[str, list[Table]] = {}
+    for node in results_document(solution, EN).nodes:
+        if isinstance(node, Table):
+            key = f"{node.head[0]} {node.head[-1]}" if node.head[0] == "vector" else node.head[0]
+            if node.head[1].startswith("v, "):
+                key = "sliding"
+            found.setdefault(key, []).append(node)
+    return found
+
+
+def rows_of(table: Table) -> Iterator[list[str]]:
+    for row in table.rows:
+        yield [cell.replace("−", "-") for cell in row]
+
+
+def is_told(cell: str, value: float) -> bool:
+    """Return whether a cell is a number rounded to its last digit."""
+    if cell == "—":
+        return True
+    room = 0.501 * 10.0 ** -len(cell.partition(".")[2]) if "e" not in cell else 1e-3 * abs(value)
+    return abs(float(cell) - value) <= max(room, 1e-9)
+
+
+@each("name, positions", CASES)
+def test_points_and_links_have_their_places_sizes_and_senses(
+    name: str, positions: tuple[float, ...] | None
+) -> None:
+    solution = Solution(problem_of(name), positions=positions)
+    tables = tables_of(solution)
+    turned = set()
+    for index, (points, links) in enumerate(zip(tables["point"], tables["link"], strict=True)):
+        for point, x, y, v, _, a, _ in rows_of(points):
+            moving = solution.points[point]
+            place = complex(moving.place[index])
+            assert is_told(x, place.real) and is_told(y, place.imag), point
+            assert is_told(v, abs(complex(moving.velocity[index]))), point
+            assert is_told(a, abs(complex(moving.acceleration[index]))), point
+        for link, _, omega, _, sense, epsilon, _, way in rows_of(links):
+            turning = solution.links[link]
+            rates = float(turning.omega[index]), float(turning.epsilon[index])
+            for cell, told, rate in zip((omega, epsilon), (sense, way), rates, strict=True):
+                assert is_told(cell, rate), (link, cell, rate)
+                if abs(rate) > 1e-9:
+                    assert TURN[told] == np.sign(rate), (link, told, rate)
+                turned.add(told)
+    assert len(tables["point"]) == len(solution.positions)
+    assert {"clockwise", "counter-clockwise"} <= turned
+
+
+@each("name, positions", CASES)
+def test_vectors_have_the_segments_that_are_read_and_what_follows_from_them(
+    name: str, positions: tuple[float, ...] | None
+) -> None:
+    solution = Solution(problem_of(name), positions=positions)
+    tables = tables_of(solution)
+    quantities = {one.symbol: one for one in solution.legend.values()}
+    checked = 0
+    for key, found in tables.items():
+        if not key.startswith("vector"):
+            continue
+        scale = solution.scales[PlanKind.ACCELERATION if "²" in key else PlanKind.VELOCITY]
+        for index, table in enumerate(found):
+            for symbol, _, exact, read, value in rows_of(table):
+                mm = float(read) * scale.per_mm
+                assert float(value) == pytest.approx(mm, rel=6e-4), symbol
+                if symbol in quantities:
+                    size = abs(float(solution.exact(quantities[symbol])[index]))
+                    assert is_told(exact, size / scale.per_mm), symbol
+                    checked += 1
+    assert checked > 8
+
+
+@each("name, positions", [case for case in CASES if case[0] != "linkages/ex3"])
+def test_reactions_have_their_sizes_directions_and_couples(
+    name: str, positions: tuple[float, ...] | None
+) -> None:
+    solution = Solution(problem_of(name), positions=positions)
+    statics = statics_of(solution)
+    for index, table in enumerate(tables_of(solution)["joint"]):
+        rows = list(rows_of(table))[: len(statics.reactions)]
+        for (_, links, force, read, phi, moment, _), joint in zip(
+            rows, statics.reactions, strict=True
+        ):
+            value = complex(joint.force[index])
+            assert links.startswith(joint.on), links
+            assert is_told(force, abs(value)), links
+            assert is_told(read, abs(float(drawn_forces(statics).read(size_label(joint))[index])))
+            if phi != "—":
+                off = float(phi) - float(np.degrees(np.angle(value)))
+                assert abs((off + 180.0) % 360.0 - 180.0) < 0.0051, (links, phi)
+            assert is_told(moment, float(joint.moment[index])), links
