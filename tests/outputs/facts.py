@@ -21,7 +21,7 @@ from math import dist
 from pathlib import Path
 from typing import Any
 
-from produced import GENERAL, PROBLEMS, said, workplace
+from produced import GENERAL, PROBLEMS, run_command, workplace
 
 FOLDER = Path(__file__).resolve().parent / "facts"
 
@@ -43,11 +43,11 @@ SHORTEST = 1000
 """Bytes below which a command that draws has refused."""
 
 
-def combination(name: str, size: int) -> tuple[str, ...]:
+def find_combination(name: str, size: int) -> tuple[str, ...]:
     """Return kind of problem, command, layout and language of an output of so many bytes."""
     group, _, line = name.partition(": ")
     folder = group.partition("/")[0]
-    kind, words = SAME_KIND.get(folder, folder), list(_words(line))
+    kind, words = SAME_KIND.get(folder, folder), list(_select_words(line))
     command = words[0]
     if command in DRAWN and size < SHORTEST:
         return kind, command, "refused"
@@ -59,7 +59,7 @@ def combination(name: str, size: int) -> tuple[str, ...]:
     return (*words,) if command == "lint" else (kind, *words)
 
 
-def _words(line: str) -> Iterator[str]:
+def _select_words(line: str) -> Iterator[str]:
     """Yield the arguments of a command line and its options, with their values if they matter."""
     words = shlex.split(line)
     while words:
@@ -72,18 +72,18 @@ def _words(line: str) -> Iterator[str]:
         yield " ".join([word, *value])
 
 
-def chosen(sums: Mapping[str, str]) -> list[str]:
+def select_outputs(sums: Mapping[str, str]) -> list[str]:
     """Return the outputs that have facts: of each combination that of the smallest problem.
 
     Of the two projects of a machine it is the larger one: its strokes are not equal.
     """
     combinations = defaultdict(list)
     for name, total in sums.items():
-        combinations[combination(name, int(total.split()[1]))].append(name)
-    return sorted(min(names, key=_size) for names in combinations.values())
+        combinations[find_combination(name, int(total.split()[1]))].append(name)
+    return sorted(min(names, key=_sort_key) for names in combinations.values())
 
 
-def _size(name: str) -> tuple[int, str]:
+def _sort_key(name: str) -> tuple[int, str]:
     group, _, line = name.partition(": ")
     size = 0 if group == GENERAL else (PROBLEMS / f"{group}.toml").stat().st_size
     return -size if line.startswith("project") else size, name
@@ -95,7 +95,7 @@ def make_facts(names: Iterable[str]) -> dict[str, list[str]]:
     for group, own in groupby(sorted(names), key=lambda name: name.partition(": ")[0]):
         with workplace():
             for name in own:
-                made[name] = facts_of(name, said(group, name.partition(": ")[2]))
+                made[name] = extract_facts(name, run_command(group, name.partition(": ")[2]))
     return made
 
 
@@ -128,12 +128,12 @@ def write_facts(facts: Mapping[str, list[str]]) -> None:
         (FOLDER / f"{command}.txt").write_text(text, "utf-8")
 
 
-def differing(old: Mapping[str, list[str]], new: Mapping[str, list[str]]) -> list[str]:
+def find_differing(old: Mapping[str, list[str]], new: Mapping[str, list[str]]) -> list[str]:
     """Return the names of the outputs whose facts are changed, added or gone."""
     return [name for name in sorted({*old, *new}) if old.get(name) != new.get(name)]
 
 
-def changes(old: list[str], new: list[str], most: int = 40) -> Iterator[str]:
+def describe_changes(old: list[str], new: list[str], most: int = 40) -> Iterator[str]:
     """Yield what is changed in the facts of an output, old → new, so many lines at most."""
     lines = []
     for _, i, j, k, m in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
@@ -157,55 +157,55 @@ NUMBER = re.compile(r"[-−]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?")
 LONG = re.compile(r"-?\d+\.\d+(?:[eE][-+]?\d+)?|-?\d+[eE][-+]?\d+")
 
 
-def facts_of(name: str, text: str) -> list[str]:
+def extract_facts(name: str, text: str) -> list[str]:
     """Return the facts of the text of an output, in its order."""
     first, *files = re.split(r"(?m)^(?=--- )", text)
     head = re.match(r"exit code .*\n", first)
     facts = [] if head is None else [head[0].strip()]
     first = first if head is None else first[head.end() :]
     is_table = "--csv" in name or "--covariance" in name
-    facts += _columns(first) if is_table and first else _parts(first)
+    facts += _list_columns(first) if is_table and first else _describe_content(first)
     for file in files:
         title, _, content = file.partition("\n")
-        facts += [title, *_parts(content)]
+        facts += [title, *_describe_content(content)]
     return facts
 
 
-def _parts(text: str) -> Iterator[str]:
+def _describe_content(text: str) -> Iterator[str]:
     if text.startswith(("{", "[")):
-        yield from _values(json.loads(text), "", set(), is_row=True)
+        yield from _list_values(json.loads(text), "", set(), is_row=True)
         return
     for part in re.split(r"(?s)(<svg> sheet.*?</svg>\n?)", text):
         if part.startswith("<svg> sheet"):
-            yield from _drawing(part.splitlines()[:-1])
+            yield from _describe_drawing(part.splitlines()[:-1])
         elif part.startswith("<"):
-            yield from _page(part)
+            yield from _describe_page(part)
         else:
-            yield from _thinned(part.splitlines())
+            yield from _thin(part.splitlines())
 
 
-def _rounded(text: str) -> str:
+def _round_numbers(text: str) -> str:
     return LONG.sub(lambda number: f"{float(number[0]):.6g}", text)
 
 
-def _is_taken(row: int) -> bool:
+def _is_sampled(row: int) -> bool:
     return row < FIRST or row % STEP == 0
 
 
-def _thinned(lines: Iterable[str]) -> Iterator[str]:
+def _thin(lines: Iterable[str]) -> Iterator[str]:
     rows: Counter[str] = Counter()
     for line in lines:
         words = " ".join(line.split())
         shape = NUMBER.sub("#", words)
-        if words and (shape == "#" or _is_taken(rows[shape])):  # a number alone is a cell
-            yield _rounded(words)
+        if words and (shape == "#" or _is_sampled(rows[shape])):  # a number alone is a cell
+            yield _round_numbers(words)
         rows[shape] += 1
 
 
-def _page(text: str) -> Iterator[str]:
+def _describe_page(text: str) -> Iterator[str]:
     """Yield the texts of HTML or SVG, then the count and the mean number of each element."""
     pieces = re.split(r"<([^<>]*)>", re.sub(r"(?s)<style>.*?</style>", "<style>", text))
-    yield from _thinned(line for piece in pieces[::2] for line in piece.splitlines())
+    yield from _thin(line for piece in pieces[::2] for line in piece.splitlines())
     counts: Counter[str] = Counter()
     numbers: defaultdict[str, list[float]] = defaultdict(list)
     for tag in pieces[1::2]:
@@ -218,41 +218,45 @@ def _page(text: str) -> Iterator[str]:
         yield f"<{element}>: {count}, mean of {len(numbers[element])} numbers {mean:.6g}"
 
 
-def _plain(value: object) -> str:
+def _format_value(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
 
 
-def _values(value: Any, path: str, texts: set[tuple[str, str]], *, is_row: bool) -> Iterator[str]:
+def _list_values(
+    value: Any, path: str, texts: set[tuple[str, str]], *, is_row: bool
+) -> Iterator[str]:
     """Yield the values of JSON with their paths; in rows that are left out only new texts."""
     if isinstance(value, dict):
         for key, one in value.items():
-            yield from _values(one, f"{path}.{key}" if path else key, texts, is_row=is_row)
+            yield from _list_values(one, f"{path}.{key}" if path else key, texts, is_row=is_row)
     elif isinstance(value, list) and any(isinstance(one, dict | list) for one in value):
         yield f"{path}: {len(value)} rows"
         for k, one in enumerate(value):
-            yield from _values(one, f"{path}[{k}]", texts, is_row=is_row and _is_taken(k))
+            yield from _list_values(one, f"{path}[{k}]", texts, is_row=is_row and _is_sampled(k))
     elif isinstance(value, list):
         if is_row:
             some = (
-                _plain(one) for k, one in enumerate(value) if len(value) <= STEP or _is_taken(k)
+                _format_value(one)
+                for k, one in enumerate(value)
+                if len(value) <= STEP or _is_sampled(k)
             )
             yield f"{path}: {len(value)} values {', '.join(some)}"
     else:
-        text = re.sub(r"\[\d+\]", "", path), _plain(value)
+        text = re.sub(r"\[\d+\]", "", path), _format_value(value)
         if is_row or (isinstance(value, str) and text not in texts):
             yield f"{path}: {text[1]}"
         texts.add(text)
 
 
-def _columns(text: str) -> Iterator[str]:
+def _list_columns(text: str) -> Iterator[str]:
     """Yield the columns of CSV: some numbers and all texts of each."""
     head, *rows = csv.reader(text.splitlines())
     yield f"{len(rows)} rows"
     for name, *cells in zip(head, *rows, strict=True):
         values = (
-            cell for k, cell in enumerate(cells) if _is_taken(k) or not NUMBER.fullmatch(cell)
+            cell for k, cell in enumerate(cells) if _is_sampled(k) or not NUMBER.fullmatch(cell)
         )
-        yield f"{name}: {', '.join(dict.fromkeys(map(_rounded, values)))}"
+        yield f"{name}: {', '.join(dict.fromkeys(map(_round_numbers, values)))}"
 
 
 # Drawings -----------------------------------------------------------------------------------------
@@ -271,7 +275,7 @@ ITEMS = (
 MARKUP = str.maketrans("", "", "\\_^{} ")
 
 
-def _drawing(lines: list[str]) -> Iterator[str]:
+def _describe_drawing(lines: list[str]) -> Iterator[str]:
     """Yield the inscriptions of a display list, its kinds of items, and its views."""
     yield lines[0].removeprefix("<svg> ")
     runs: list[tuple[str, str]] = []
@@ -288,15 +292,17 @@ def _drawing(lines: list[str]) -> Iterator[str]:
             kind = f"text {kind}"
             runs.append((item["label"], literal_eval(item["run"])))
         counts[kind] += 1
-        places[kind] += map(_hundredths, (item["places"] or "").split())
-    yield from _inscriptions(runs)
+        places[kind] += map(_parse_place, (item["places"] or "").split())
+    yield from _join_inscriptions(runs)
     for kind, count in counts.items():
         axes = zip("xy", zip(*places[kind], strict=True), strict=False)
-        yield ", ".join([f"{kind}: {count}", *(f"{axis} {_span(at)}" for axis, at in axes)])
-    yield from map(_view, others)
+        yield ", ".join(
+            [f"{kind}: {count}", *(f"{axis} {_describe_range(at)}" for axis, at in axes)]
+        )
+    yield from map(_describe_view, others)
 
 
-def _inscriptions(runs: list[tuple[str, str]]) -> Iterator[str]:
+def _join_inscriptions(runs: list[tuple[str, str]]) -> Iterator[str]:
     """Yield inscriptions of runs with their labels; where both differ the text beside the label."""
     text = ""
     for k, (label, run) in enumerate(runs):
@@ -310,23 +316,23 @@ def _inscriptions(runs: list[tuple[str, str]]) -> Iterator[str]:
         text = ""
 
 
-def _hundredths(place: str) -> tuple[int, int]:
+def _parse_place(place: str) -> tuple[int, int]:
     x, y = place.replace(".", "").split(",")
     return int(x), int(y)
 
 
-def _span(hundredths: tuple[int, ...]) -> str:
+def _describe_range(hundredths: tuple[int, ...]) -> str:
     """Return the bounds to a millimetre and the mean to a hundredth."""
     low, high = ((one + 50) // 100 for one in (min(hundredths), max(hundredths)))
     return f"{low}..{high} mean {sum(hundredths) / len(hundredths) / 100:.2f}"
 
 
-def _view(line: str) -> str:
+def _describe_view(line: str) -> str:
     """Return the line of a view with its bounds, or of a segment measured on it with its length."""
     if view := re.fullmatch(r"view (.*?)((?: -?\d+\.\d\d){4}) (.*)", line):
-        bounds = (str((_hundredths(f"{one},0")[0] + 50) // 100) for one in view[2].split())
-        return f"view {view[1]} {' '.join(bounds)} {_rounded(view[3])}"
+        bounds = (str((_parse_place(f"{one},0")[0] + 50) // 100) for one in view[2].split())
+        return f"view {view[1]} {' '.join(bounds)} {_round_numbers(view[3])}"
     if span := re.fullmatch(rf"  span (.*) ({PLACE}) ({PLACE}) (\S+)", line):
-        start, end = _hundredths(span[2]), _hundredths(span[3])
-        return f"segment {span[1]}: {dist(start, end) / 100:.1f} mm, {_rounded(span[4])}"
+        start, end = _parse_place(span[2]), _parse_place(span[3])
+        return f"segment {span[1]}: {dist(start, end) / 100:.1f} mm, {_round_numbers(span[4])}"
     return line

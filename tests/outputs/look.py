@@ -18,16 +18,16 @@ from multiprocessing import Pool
 from pathlib import Path
 
 from facts import (
-    changes,
-    chosen,
-    differing,
-    facts_of,
+    describe_changes,
+    extract_facts,
+    find_differing,
     make_facts,
     read_facts,
+    select_outputs,
     write_facts,
 )
 from produced import ROOT, groups
-from sums import SUMS, compared, difference, kept_sums, sum_of, texts_of, write_sums
+from sums import SUMS, compare_sums, compute_sum, difference, make_texts, read_sums, write_sums
 
 SHOWN = 200
 """Most lines of the difference of one output."""
@@ -45,7 +45,7 @@ def produced(pattern: str) -> dict[str, str]:
     with Pool(2, maxtasksperchild=8) as pool:
         todo = groups()
         for done, texts in enumerate(
-            pool.imap_unordered(partial(texts_of, wanted=partial(re.search, pattern)), todo), 1
+            pool.imap_unordered(partial(make_texts, wanted=partial(re.search, pattern)), todo), 1
         ):
             found |= texts
             print(f"\r{done} of {len(todo)}", end="", file=sys.stderr, flush=True)
@@ -78,13 +78,13 @@ def write(folder: Path, names: list[str]) -> None:
     """Write the texts of outputs into files called by their numbers."""
     texts: dict[str, str] = {}
     for group in sorted({name.partition(": ")[0] for name in names}):
-        texts |= texts_of(group, {*names}.__contains__)
+        texts |= make_texts(group, {*names}.__contains__)
     for number, name in enumerate(names):
         if name in texts:
             (folder / str(number)).write_bytes(texts[name].encode())
 
 
-def refusal(count: int, reason: str) -> str:
+def explain_refusal(count: int, reason: str) -> str:
     """Return why facts of so many outputs are not taken; nothing if they are."""
     if count <= FREE or reason.strip():
         return ""
@@ -94,12 +94,12 @@ def refusal(count: int, reason: str) -> str:
     )
 
 
-def report_facts(old: dict[str, list[str]], new: dict[str, list[str]], reason: str) -> int:
+def report_changes(old: dict[str, list[str]], new: dict[str, list[str]], reason: str) -> int:
     """Print what facts change and return of how many outputs; end where a reason is missing."""
-    names = differing(old, new)
+    names = find_differing(old, new)
     for name in names:
-        print(name, *changes(old.get(name, []), new.get(name, [])), sep="\n")
-    if message := refusal(len(names), reason):
+        print(name, *describe_changes(old.get(name, []), new.get(name, [])), sep="\n")
+    if message := explain_refusal(len(names), reason):
         sys.exit(message)
     return len(names)
 
@@ -107,11 +107,11 @@ def report_facts(old: dict[str, list[str]], new: dict[str, list[str]], reason: s
 def take(sums: dict[str, str], texts: dict[str, str], reason: str) -> None:
     """Take sums, and the facts of the outputs that have some now."""
     old = read_facts()
-    names = chosen(sums)
-    new = {name: facts_of(name, texts[name]) for name in names if name in texts}
+    names = select_outputs(sums)
+    new = {name: extract_facts(name, texts[name]) for name in names if name in texts}
     new |= {name: old[name] for name in names if name in old and name not in new}
     new |= make_facts(name for name in names if name not in new)
-    count = report_facts(old, new, reason)
+    count = report_changes(old, new, reason)
     write_sums(sums)
     write_facts(new)
     if reason.strip():
@@ -127,29 +127,29 @@ def main() -> None:
     # What is given to make is in the environment, with all its quotes.
     parser.add_argument("--reason", default=os.environ.get("REASON", ""))
     parser.add_argument("--write", nargs="+", metavar=("FOLDER", "NAME"), help=argparse.SUPPRESS)
-    asked = parser.parse_args()
-    if asked.write:
-        write(Path(asked.write[0]), asked.write[1:])
+    options = parser.parse_args()
+    if options.write:
+        write(Path(options.write[0]), options.write[1:])
         return
-    if asked.take and not asked.reason.strip():  # facts are there in a tenth of the time
-        old = {name: one for name, one in read_facts().items() if re.search(asked.show, name)}
-        report_facts(old, make_facts(old), asked.reason)
-    texts, kept = produced(asked.show), kept_sums()
-    sums = {name: sum_of(text) for name, text in texts.items()}
-    looked_at = {name: one for name, one in kept.items() if re.search(asked.show, name)}
-    found = dict(compared(sums, looked_at))
+    if options.take and not options.reason.strip():  # facts are there in a tenth of the time
+        old = {name: one for name, one in read_facts().items() if re.search(options.show, name)}
+        report_changes(old, make_facts(old), options.reason)
+    texts, stored = produced(options.show), read_sums()
+    sums = {name: compute_sum(text) for name, text in texts.items()}
+    selected = {name: one for name, one in stored.items() if re.search(options.show, name)}
+    found = dict(compare_sums(sums, selected))
     for name, what in found.items():
         print(f"{what:8} {name}")
     print(f"{len(sums)} outputs, {len(found)} differ")
-    if asked.show and found and kept:
+    if options.show and found and stored:
         texts_before = before(list(found))
         for name in found:
             print(
                 *difference(name, texts_before.get(name, ""), texts.get(name, ""), SHOWN), sep="\n"
             )
-    if asked.take:
-        unseen = {name: one for name, one in kept.items() if name not in looked_at}
-        take({**unseen, **sums}, texts, asked.reason)
+    if options.take:
+        unseen = {name: one for name, one in stored.items() if name not in selected}
+        take({**unseen, **sums}, texts, options.reason)
 
 
 if __name__ == "__main__":

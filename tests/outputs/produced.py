@@ -118,7 +118,7 @@ def outputs(group: str) -> Iterator[Output]:
     for line in _general() if group == GENERAL else _of_problem(group):
         name = f"{group}: {line}"
         if name not in UNSTEADY:
-            yield name, partial(said, group, line)
+            yield name, partial(run_command, group, line)
 
 
 def is_taken(name: str, every: int) -> bool:
@@ -275,7 +275,7 @@ def workplace() -> Iterator[None]:
             os.chdir(before)
 
 
-def said(group: str, line: str) -> str:
+def run_command(group: str, line: str) -> str:
     """Return all that a command prints and writes; its exit code if that is not 0."""
     words = shlex.split(line)
     if group != GENERAL:

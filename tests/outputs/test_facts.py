@@ -6,10 +6,18 @@ import re
 from itertools import groupby
 
 import pytest
-from facts import changes, chosen, combination, differing, facts_of, make_facts, read_facts
-from look import FREE, refusal
+from facts import (
+    describe_changes,
+    extract_facts,
+    find_combination,
+    find_differing,
+    make_facts,
+    read_facts,
+    select_outputs,
+)
+from look import FREE, explain_refusal
 from produced import groups
-from sums import kept_sums
+from sums import read_sums
 
 TAKEN = read_facts()
 GROUPS = {
@@ -22,21 +30,23 @@ def test_facts_are_those_that_were_taken(group: str) -> None:
     old = {name: TAKEN[name] for name in GROUPS[group]}
     new = make_facts(old)
     lines = [
-        line for name in differing(old, new) for line in (name, *changes(old[name], new[name]))
+        line
+        for name in find_differing(old, new)
+        for line in (name, *describe_changes(old[name], new[name]))
     ]
     message = "\n".join([*lines, "To take: make outputs TAKE=1."])
     assert not lines, message
 
 
 def test_every_combination_has_facts_of_one_output() -> None:
-    assert [*TAKEN] == chosen(kept_sums())
-    sums = kept_sums().items()
-    every = {combination(name, int(total.split()[1])) for name, total in sums}
+    assert [*TAKEN] == select_outputs(read_sums())
+    sums = read_sums().items()
+    every = {find_combination(name, int(total.split()[1])) for name, total in sums}
     assert len(every) == len(TAKEN)
 
 
 def test_there_are_sums_of_every_problem_and_of_no_other() -> None:
-    assert {name.partition(": ")[0] for name in kept_sums()} == {*groups()}
+    assert {name.partition(": ")[0] for name in read_sums()} == {*groups()}
 
 
 @pytest.mark.parametrize(
@@ -57,7 +67,7 @@ def test_there_are_sums_of_every_problem_and_of_no_other() -> None:
 def test_a_combination_is_kind_command_layout_and_language(
     name: str, size: int, expected: tuple[str, ...]
 ) -> None:
-    assert combination(name, size) == expected
+    assert find_combination(name, size) == expected
 
 
 DRAWING = r"""out/a.svg
@@ -77,7 +87,7 @@ view velocity 39.75 104.43 114.32 172.11 'μ_{v}' 0.0512345678
 
 
 def test_facts_of_a_drawing_are_inscriptions_counts_bounds_and_views() -> None:
-    assert facts_of("a: sheet", DRAWING) == [
+    assert extract_facts("a: sheet", DRAWING) == [
         "out/a.svg",
         "--- out/a.svg",
         "sheet 420.00 297.00 Plan",
@@ -95,20 +105,23 @@ def test_facts_of_a_drawing_are_inscriptions_counts_bounds_and_views() -> None:
 
 def test_facts_of_data_are_named_values_of_some_rows_and_all_texts() -> None:
     rows = ",".join(f'{{"k": {k}, "word": "{"ab"[k == 5]}"}}' for k in range(14))
-    found = facts_of("a: solve --json", f'{{"x": 0.123456789, "rows": [{rows}]}}')
+    found = extract_facts("a: solve --json", f'{{"x": 0.123456789, "rows": [{rows}]}}')
     assert found[:2] == ["x: 0.123457", "rows: 14 rows"]
     assert {int(one) for one in re.findall(r"k: (\d+)", "\n".join(found))} == {0, 1, 2, 12}
     assert 'rows[5].word: "b"' in found
-    table = facts_of("a: solve --csv", "x,w\n" + "".join(f"{k},t{k}\n" for k in range(6)))
+    table = extract_facts("a: solve --csv", "x,w\n" + "".join(f"{k},t{k}\n" for k in range(6)))
     assert table == ["6 rows", "x: 0, 1, 2", "w: t0, t1, t2, t3, t4, t5"]
 
 
 def test_changes_are_facts_old_and_new() -> None:
-    assert [*changes(["a", "b 1", "c"], ["a", "b 2", "c", "d"])] == ["  b 1  →  b 2", "  + d"]
-    assert [*changes(["a", "b"], ["b"])] == ["  - a"]
+    assert [*describe_changes(["a", "b 1", "c"], ["a", "b 2", "c", "d"])] == [
+        "  b 1  →  b 2",
+        "  + d",
+    ]
+    assert [*describe_changes(["a", "b"], ["b"])] == ["  - a"]
 
 
 def test_many_changed_facts_want_a_reason() -> None:
-    assert not refusal(FREE, "")
-    assert not refusal(FREE + 1, "Digits of forces follow the smallest one.")
-    assert "REASON" in refusal(FREE + 1, " ")
+    assert not explain_refusal(FREE, "")
+    assert not explain_refusal(FREE + 1, "Digits of forces follow the smallest one.")
+    assert "REASON" in explain_refusal(FREE + 1, " ")
