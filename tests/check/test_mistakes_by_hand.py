@@ -172,6 +172,37 @@ def test_forces_on_a_lever_that_was_not_turned_have_the_other_arms() -> None:
     assert min(abs(found - abs(sign * across + couples)) for sign in (1.0, -1.0)) < 1e-6
 
 
+def test_an_arm_measured_along_a_force_takes_its_other_component_of_the_velocity() -> None:
+    """F4: of an upright force on 5, which moves upright, nothing is left on the lever.
+
+    On a plan that was turned by 90° the moment of F at the end of v is the real part of F times
+    the conjugate of v, and what is along F less its imaginary part, of the same sign.
+    """
+    points = Solution(problem_of("levers/task12")).points
+    right = exact(task_of("levers/task12"))["lever"]
+    found = sizes("levers/task12", "F4", "lever")
+    for at, force in (
+        ("S5", -2000j),
+        ("S5", -1j * 30.0 * 9.8),
+        ("S5", -30.0 * complex(points["S5"].acceleration[0])),
+        ("S3", -1j * 5.0 * 9.8),
+        ("S3", -5.0 * complex(points["S3"].acceleration[0])),
+    ):
+        moment = force * complex(points[at].velocity[0]).conjugate() / 12.0
+        left = abs(right + moment.real + moment.imag)
+        assert min(abs(one - left) for one in found) < 1e-6, (at, left, found)
+
+
+def test_couples_put_on_the_lever_as_they_are_have_lost_their_arm_over_the_length() -> None:
+    """Z2: M in place of M·(bc)/l; at 100 mm/(m/s) a millimetre of the lever is 0.01 m/s."""
+    right = exact(task_of("levers/task12"))
+    couples = {right["omega_3"]: -0.3 * right["epsilon_3"], 12.0: -0.2 * 7.0}
+    whole = sum(couple * omega for omega, couple in couples.items()) / 12.0
+    bare = sum(couples.values()) * 0.01 / 12.0
+    (found,) = sizes("levers/task12", "Z2", "lever")
+    assert found == pytest.approx(right["lever"] + whole - bare)
+
+
 # Slips with one number ---------------------------------------------------------------------------
 
 
