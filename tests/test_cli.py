@@ -697,7 +697,7 @@ def test_an_internal_error_is_code_5(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("paper", ["A0", "A4x3", "A4x4", "A3x3", "A2x3", "A1x3"])
-def test_other_formats_of_the_standard_are_drawn_or_refused(paper: str) -> None:
+def test_other_formats_of_the_standard_are_drawn_or_rejected(paper: str) -> None:
     assert run("sheet", EX1, "--paper", paper, "--format", "svg").exit_code in (0, 2)
 
 
@@ -707,7 +707,7 @@ def test_several_positions_on_every_format(paper: str) -> None:
     assert done.exit_code in (0, 2)
 
 
-def test_a_sheet_of_too_many_positions_is_refused_at_once() -> None:
+def test_a_sheet_of_too_many_positions_is_rejected_at_once() -> None:
     result = run("sheet", EX1, "--phi", "0:360:1")
     assert result.exit_code == 2
     assert "at most 120 positions, 360 are asked" in result.stderr

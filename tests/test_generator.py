@@ -128,7 +128,7 @@ def test_a_turning_guide_has_the_transport_acceleration_of_its_coincident_point(
     assert found.acceleration["1", "B"] == pytest.approx(-2500 * found.position["1", "B"])
 
 
-def test_a_pose_that_cannot_close_is_refused() -> None:
+def test_a_pose_that_cannot_be_assembled_is_rejected() -> None:
     text = """
         title = "Четырёхзвенник"
         [frame]

@@ -141,7 +141,7 @@ def test_forces_of_36_positions_are_on_one_a1() -> None:
     assert size(sheet) == (841, 594)
 
 
-def test_a_compact_sheet_has_room_for_a_plan_and_its_enlarged_views() -> None:
+def test_a_compact_sheet_has_space_for_a_plan_and_its_enlarged_views() -> None:
     sheets = kinematics_sheets(problem_of("levers/task-49"), layout="compact")
     assert {size(sheet) for sheet in sheets} == {(210, 297)}
 

@@ -375,7 +375,7 @@ def test_commands_take_a_turn_of_the_cam(command: str, tmp_path: Path) -> None:
     assert run.exit_code == 0, run.output
 
 
-def test_a_project_of_a_follower_is_refused(tmp_path: Path) -> None:
+def test_a_project_of_a_follower_is_rejected(tmp_path: Path) -> None:
     path = tmp_path / "lift.toml"
     path.write_text(filled(ROCKER, cam=TURN, n=60, sense="same"), encoding="utf-8")
     run = CliRunner().invoke(cli, ["project", str(path), "-o", str(tmp_path), "--lang", "en"])

@@ -233,7 +233,7 @@ def test_the_policy_of_the_department(policy: str, verdict: Verdict) -> None:
     assert found.answers[0].verdict is verdict
 
 
-def test_positions_of_a_cycle_are_judged_each_by_itself() -> None:
+def test_positions_of_a_cycle_are_judged_separately() -> None:
     problem = task_of("linkages/ex3").solution.problem
     solution = Solution(replace(problem, answers=()), positions=[20.0, 110.0])
     task = Task(solution)

@@ -201,7 +201,7 @@ def _nested(path: Path, depth: int, *, circle: bool = False) -> None:
     document.saveas(path)
 
 
-def test_hostile_drawings_are_refused_with_one_message(tmp_path: Path) -> None:
+def test_hostile_drawings_are_rejected_with_one_message(tmp_path: Path) -> None:
     task = task_of("linkages/ex3")
     bad = {
         "dwg.dxf": b"AC1032" + bytes(100),

@@ -201,7 +201,7 @@ def test_an_internal_error_in_a_file_stops_no_other(
     assert "IndexError: 9" in record(out)["unread"][0]["trace"]
 
 
-def test_a_work_of_a_list_that_cannot_be_read_stops_no_other(tmp_path: Path) -> None:
+def test_an_unreadable_work_of_a_list_stops_no_other(tmp_path: Path) -> None:
     answers = [{"what": "v B", "value": "3,2"}]
     works = [
         {"student": "one", "answers": answers},
@@ -293,7 +293,7 @@ def test_a_mark_with_open_answers_is_provisional_until_the_instructor_has_looked
     assert "The instructor has looked: 0.5 of 1 points." in (out / "pages/s.html").read_text()
 
 
-def test_points_of_the_whole_work_decide_all_that_is_open(tmp_path: Path) -> None:
+def test_points_of_the_whole_work_decide_all_open_answers(tmp_path: Path) -> None:
     path = put(tmp_path, "x.csv", table("x"))
     hand = put(tmp_path, "hand.csv", "student;id;points\ns;;5\n")
     result = run(EX3, path, "--json", "--overrides", hand)

@@ -154,7 +154,7 @@ def test_a_change_point_between_the_positions_is_reported_once(command: tuple[st
     assert run(*command, case, "--phi", "80,170").stderr == ""
 
 
-def test_a_rule_that_both_closings_satisfy_is_refused() -> None:
+def test_a_rule_that_both_assemblies_satisfy_is_rejected() -> None:
     result = run("solve", str(CASES / "ambiguous-rule.toml"))
     assert result.exit_code == 3
     assert result.stderr == (

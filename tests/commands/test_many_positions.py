@@ -353,7 +353,7 @@ def test_a_doubt_about_the_requested_result_alone_is_a_warning() -> None:
     assert "dead position" in refused(4, "solve", "dead.toml", "--phi", "45,180", "--ask", "v_C")
 
 
-def test_a_mechanism_that_is_no_mechanism_is_refused_all_the_same() -> None:
+def test_an_impossible_mechanism_is_rejected_with_partial_too() -> None:
     Path("apart.toml").write_text(DEAD.replace("DC = 2.5", "DC = 0.1"), "utf-8")
     for form in (("--csv",), ("--npz", "a.npz"), ("--ask", "v_C")):
         said = refused(4, "solve", "apart.toml", "--phi", "0,30", *form, "--partial")

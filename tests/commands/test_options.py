@@ -27,7 +27,7 @@ def single(name: str) -> list[click.Option]:
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_an_option_that_is_given_twice_is_refused_with_both_values(name: str) -> None:
+def test_an_option_given_twice_is_rejected_with_both_values(name: str) -> None:
     for option in single(name):
         long = max(option.opts, key=len)
         first, second = ["ru", "en"] if long == "--lang" else ["17", "29"]

@@ -56,7 +56,7 @@ def test_the_title_block_is_filled(tmp_path: Path) -> None:
     assert "Did you mean 'author'?" in refused.output
 
 
-def test_an_unknown_sheet_is_refused_with_the_names(tmp_path: Path) -> None:
+def test_an_unknown_sheet_is_rejected_with_the_known_names(tmp_path: Path) -> None:
     refused = run("symbol")
     assert refused.exit_code == ExitCode.USAGE
     assert "no specimen sheet 'symbol'; did you mean 'symbols'?" in refused.output

@@ -227,7 +227,7 @@ def test_a_carried_point_is_pricked() -> None:
     assert spread(TURNED, Q=DATA["P"]) == (0.0, 0.0)
 
 
-def test_each_number_that_was_read_errs_by_its_reading() -> None:
+def test_the_error_of_a_value_is_that_of_its_readings() -> None:
     reading = math.hypot(PROFILE.measure, PROFILE.ruler / math.sqrt(12.0))
     assert spread(ARM)[0] == pytest.approx(reading)
     assert spread(TOLD)[0] == pytest.approx(1.5 * reading)

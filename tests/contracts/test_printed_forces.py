@@ -47,7 +47,7 @@ def test_every_file_with_loads_is_checked() -> None:
     assert set(NAMES) == {"levers/six-link", "levers/task12", "press/press", "press/press-stone"}
 
 
-def test_forces_of_the_press_with_a_stone() -> None:
+def test_forces_of_the_press_with_a_sliding_block() -> None:
     statics = statics_of(Solution(problem_of("press/press-stone")))
     wanted = computed()["stone"]
     found = {}

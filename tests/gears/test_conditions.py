@@ -229,7 +229,7 @@ def ring_apart(z: tuple[int, int], x: tuple[float, float]) -> tuple[float, float
         return float(short), float((turn[0] - turn[1] + (two - one) * lag) / one)
 
 
-def test_inner_meshes_are_judged_by_where_the_tips_of_the_ring_come(tmp_path: Path) -> None:
+def test_inner_meshes_are_judged_by_the_reach_of_the_rings_tips(tmp_path: Path) -> None:
     """For 40 pairs, half of them without shifts, a train and a choice of teeth agree."""
     draw, judged = random.Random(46), set()
     for number in range(some(40, few=16)):

@@ -257,7 +257,7 @@ def test_that_a_train_is_not_coaxial_has_numbers_in_every_language(
         kind.solved_document(kind.load(path, None), language(lang))
 
 
-def test_options_of_linkages_are_refused() -> None:
+def test_options_of_linkages_are_rejected() -> None:
     done = run("solve", str(FILES[0]), "--csv")
     assert done.exit_code == ExitCode.USAGE
     assert "--csv is for linkages" in done.stderr

@@ -265,7 +265,7 @@ def test_no_body_is_in_the_way_of_another(seed: int, tmp_path: Path) -> None:
                     assert one in found.inner(other) or other in found.inner(one), text
 
 
-def test_a_wheel_that_would_lie_on_another_is_drawn_wide(tmp_path: Path) -> None:
+def test_a_wheel_that_would_cover_another_is_drawn_wide(tmp_path: Path) -> None:
     """Wheel 1 drives 2 and 3 on the same side, of other radii: two columns."""
     text = told({"1": 20, "2": 30, "3": 40}, [mesh("1", "2"), mesh("1", "3")], "n = { 1 = 100 }")
     motion = solved(tmp_path, text)

@@ -42,7 +42,7 @@ def test_tasks_have_the_known_teeth_and_speeds(path: Path) -> None:
 
 
 @pytest.mark.parametrize("of", ['"2\'", 3', '3, "2\'"'])
-def test_a_satellite_of_a_ring_has_the_next_one_within(of: str, tmp_path: Path) -> None:
+def test_a_planet_gear_of_a_ring_has_the_next_one_within(of: str, tmp_path: Path) -> None:
     """2.2.35: ring 1, planet gears 2-2' and 3-3'; the sun 4 follows from either form of mesh."""
     text = (
         'wheels = { 1 = 120, 2 = 30, "2\'" = 24, 3 = 20, "3\'" = 18 }\n'

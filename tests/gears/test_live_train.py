@@ -103,9 +103,7 @@ def test_teeth_of_the_worked_trains_mesh_as_they_turn(path: Path) -> None:
 
 
 @pytest.mark.parametrize(("count", "fits"), [(1, True), (3, True), (4, True), (7, False)])
-def test_satellites_mesh_where_they_can_be_assembled(
-    count: int, fits: bool, tmp_path: Path
-) -> None:
+def test_planet_gears_mesh_if_they_can_be_assembled(count: int, fits: bool, tmp_path: Path) -> None:
     """(z_1 + z_3)/k is an integer, or the teeth of the ring run into those of a planet gear."""
     problem, scene = made(SET % count, tmp_path)
     assert (worst(solve_motion(problem), scene) < 1e-6) is fits

@@ -194,7 +194,7 @@ def test_the_audit_names_the_errors_of_the_sources(name: str, row: str) -> None:
     ["sheet --phi 3", "sheet --errors", "sheet --layout homework", "lint --structure",
      "lint --sigma", "protocol --position 2", "protocol --phi 3"],
 )  # fmt: skip
-def test_options_of_plans_are_refused(words: str) -> None:
+def test_options_of_plans_are_rejected(words: str) -> None:
     command, *options = words.split()
     done = CliRunner().invoke(cli, [command, file("gears-ex1"), *options])
     assert done.exit_code == ExitCode.USAGE

@@ -171,7 +171,9 @@ def problem_mu(drawing: Drawing) -> float:
 
 
 @pytest.mark.parametrize("count", [1, 3, 4])
-def test_the_view_along_the_axes_has_all_satellites_of_the_file(count: int, tmp_path: Path) -> None:
+def test_the_view_along_the_axes_has_all_planet_gears_of_the_file(
+    count: int, tmp_path: Path
+) -> None:
     text = (PROBLEMS / "gears/planetary-k10.toml").read_text("utf-8")
     (tmp_path / "k.toml").write_text(text.replace("[gears]", f"[gears]\nsatellites = {count}"))
     (sheet,) = drawings(load(tmp_path / "k.toml"), fields={}, profile=BOARD)

@@ -119,7 +119,7 @@ def test_pulleys_with_radii_drive_wheels_with_teeth(tmp_path: Path) -> None:
     assert not [one for one in conditions(motion) if one.name == "coaxiality"]
 
 
-def test_a_row_of_any_length_and_a_satellite_as_input(tmp_path: Path) -> None:
+def test_a_row_of_any_length_and_a_planet_gear_as_input(tmp_path: Path) -> None:
     wheels = ", ".join(f"{k} = {19 + k}" for k in range(1, 21))
     meshes = ", ".join(f"{{ of = [{k}, {k + 1}] }}" for k in range(1, 20))
     row = solved(tmp_path, f"wheels = {{ {wheels} }}\nmeshes = [{meshes}]\nn = {{ 1 = 39 }}\n")
@@ -201,7 +201,7 @@ def test_ordinary_and_planetary_trains_are_distinguished(tmp_path: Path) -> None
     assert solved(tmp_path, held + "n = { 1 = 1 }\n").structure.kind is TrainKind.ORDINARY
 
 
-def test_assembly_and_neighbourhood_of_satellites(tmp_path: Path) -> None:
+def test_assembly_and_neighbourhood_of_planet_gears(tmp_path: Path) -> None:
     """(20 + 100)/k is whole, and sin(180/k) > 42/60 only up to three."""
     motion = solved(tmp_path, SET + "satellites = 4\nn = { 1 = 1 }\n")
     judged = {one.name: one.holds for one in conditions(motion)}

@@ -125,7 +125,7 @@ def test_the_replacing_mechanism_moves_the_follower_as_the_profiles_do() -> None
         assert math.isclose(solution.links["2"].epsilon[k], epsilon, rel_tol=1e-6)
 
 
-def test_a_straight_follower_is_a_stone_that_slides_along_it() -> None:
+def test_a_straight_follower_is_replaced_by_a_block_sliding_along_it() -> None:
     problem = _follower('centres = ["O"]\nslides = { along = "DC", offset = 0.04 }')
     solution = Solution(problem)
     assert solution.structure.groups[0].signature == "RPR"

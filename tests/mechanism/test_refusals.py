@@ -104,7 +104,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_refused(name: str) -> None:
+def test_faulty_mechanisms_are_rejected(name: str) -> None:
     mech, message = REFUSED[name]
     with pytest.raises(StructureError) as refused:
         analyse(mech)
@@ -178,7 +178,7 @@ def _moves_definitely(mech: Mechanism, rng: random.Random) -> bool:
     return bool(np.linalg.matrix_rank(np.array(rows), tol=1e-9) == 3 * len(spot))
 
 
-def test_refused_exactly_when_the_constraints_are_singular_in_every_pose() -> None:
+def test_a_mechanism_is_rejected_exactly_when_its_constraints_are_singular_in_every_pose() -> None:
     rng = random.Random(7)
     verdicts = {True: 0, False: 0}
     for _ in range(1500):

@@ -75,7 +75,7 @@ def test_velocity_is_omega_times_the_distance_from_p(name: str) -> None:
         assert np.hypot(row["xC"] - row["xP"], row["yC"] - row["yP"]) == pytest.approx(0.5)
 
 
-def test_a_satellite_against_derivatives_of_mpmath() -> None:
+def test_a_point_of_a_planet_gear_agrees_with_derivatives_of_mpmath() -> None:
     row = move(of(LAWS["satellite"], "t = 0.9")).columns
     with mpmath.workdps(40):
         place = lambda t: 0.5 * mpmath.expj(t**2) + 0.3 * mpmath.expj(5 * t)  # noqa: E731
@@ -84,7 +84,7 @@ def test_a_satellite_against_derivatives_of_mpmath() -> None:
     assert complex(row["ax"][0], row["ay"][0]) == pytest.approx(a, rel=1e-12)
 
 
-def test_the_k10_satellite_has_its_centre_s_printed_speed() -> None:
+def test_the_planet_gear_of_k10_has_the_printed_speed_of_its_centre() -> None:
     row = move(load(PROBLEMS / "point" / "k10-satellite.toml")).columns
     assert abs(row["xC"][0] - row["xP"][0]) * row["omega"][0] == pytest.approx(0.2, rel=1e-14)
 

@@ -333,7 +333,7 @@ def test_variants_are_solved_one_by_one(tmp_path: Any) -> None:
 
 
 @pytest.mark.parametrize("option", [("--csv",), ("--phi", "20"), ("--sigma",), ("--ask", "v")])
-def test_options_of_linkages_are_refused(option: tuple[str, ...]) -> None:
+def test_options_of_linkages_are_rejected(option: tuple[str, ...]) -> None:
     run = solve(K11[0], *option)
     assert run.exit_code == ExitCode.USAGE
     assert "k11-01" in run.output

@@ -254,7 +254,7 @@ def test_size_of_the_errors_of_the_wrong_arm() -> None:
         assert round(found) == percent, name
 
 
-def test_the_force_plan_of_the_press_is_that_of_the_stone() -> None:
+def test_the_force_plan_of_the_press_is_that_of_the_sliding_block() -> None:
     for name in ("R54", "R65", "плечо F34"):
         assert audited("press")[name].verdict is AuditVerdict.DIFFERS
         assert audited("press-stone")[name].verdict is not AuditVerdict.DIFFERS

@@ -410,7 +410,7 @@ def by_rocker(phi: float) -> Solution:
     return Solution(loads(f'title = "Мёртвое положение"\n{text}{load}', name="rocker"))
 
 
-def test_a_dead_position_is_refused_as_by_solve() -> None:
+def test_a_dead_position_is_rejected_as_by_solve() -> None:
     """No moment on the rocker holds a crank that is in one line with the rod."""
     assert "Рычаг Жуковского" in protocol(by_rocker(110.0))
     with pytest.raises(AssemblyError, match="dead position"):

@@ -65,7 +65,7 @@ def test_a_narrators_own_sentence_outranks_silence(narrator: BoardNarrator) -> N
     assert narrator.tell(steps.GivenNumber(NumberName("r"))) == []
 
 
-def test_a_meeting_names_both_lines_and_the_point(narrator: BoardNarrator) -> None:
+def test_an_intersection_names_both_lines_and_the_point(narrator: BoardNarrator) -> None:
     step = steps.MeetLines(PointName("C"), LineName("ray"), LineName("post"))
     assert narrator.tell(step) == ["Where <ray> meets <post> we get point C_{1}."]
 

@@ -66,7 +66,7 @@ def test_fractions_are_built_up_and_terms_underlined() -> None:
 
 
 @pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
-def test_text_goes_before_a_table_that_has_no_room_and_long_titles_have_dots(
+def test_text_goes_before_a_table_that_does_not_fit_and_long_titles_have_dots(
     tmp_path: Path,
 ) -> None:
     table = Table(("N", "v"), tuple((f"строка{k}", "1") for k in range(14)), name="Значения")

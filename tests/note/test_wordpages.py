@@ -33,7 +33,7 @@ def test_text_goes_before_a_figure_until_the_page_is_full() -> None:
     assert [node for node in found if node is not FIGURE] == lines(15)
 
 
-def test_a_figure_that_has_room_stays_and_waits_for_no_heading() -> None:
+def test_a_figure_that_fits_stays_and_waits_for_no_heading() -> None:
     assert order([*lines(3), FIGURE, *lines(4, 3)]).index(FIGURE) == 3
     found = order([*lines(7), FIGURE, *lines(1, 7), Chapter("Next"), *lines(3, 8)])
     assert found.index(FIGURE) == 8 and isinstance(found[9], Chapter)

@@ -275,7 +275,7 @@ def test_components_have_their_directions(seed: int) -> None:
 
 
 @each("seed", SEEDS)
-def test_a_closing_keeps_its_side_all_round(seed: int) -> None:
+def test_an_assembly_keeps_its_side_all_round(seed: int) -> None:
     """In a whole turn (or stroke) the group stays on its side in the file's position."""
     problem, _ = made(seed)
     first = problem.drive.positions[0]

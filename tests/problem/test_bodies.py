@@ -124,7 +124,7 @@ def test_lengths_are_kept_in_file_order_for_the_statement() -> None:
     assert problem.lengths == (("1", "AB", 0.1), ("2", "CB", 0.25), ("3", "KC", 0.2))
 
 
-def test_points_in_a_circle_are_refused() -> None:
+def test_points_defined_in_a_circle_are_rejected() -> None:
     link = 'points = ["B", "C", "D", "E"]\nBC = 0.3\n'
     link += 'D = { on = "BE", at = 0.1 }\nE = { on = "CD", at = 0.1 }'
     with pytest.raises(ProblemError, match="measured from points that are not placed"):

@@ -267,7 +267,7 @@ def test_a_number_after_the_letter_of_a_load_is_its_index(written: str, letter: 
         assert parse_selector(f"arm load {written} about O").names == (letter, "O")
 
 
-def test_a_load_with_its_index_written_in_two_ways_is_called_alike() -> None:
+def test_a_load_whose_index_is_written_in_two_ways_has_one_name() -> None:
     load = '[[loads]]\nname = "{}"\nlink = "2"\nat = "S2"\nangle = 0\nforce = 1\n'
     text = load.replace("{}", "P_{3}") + load.replace("{}", "P3")
     assert "loads[0] is called P_{3} too" in messages(text)[0]

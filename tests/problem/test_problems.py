@@ -138,7 +138,7 @@ def test_the_rod_of_the_six_link_is_square_to_the_coupler() -> None:
     assert problem.scales.mu_l == 0.004
 
 
-def test_the_stone_of_task_12_slides_along_x_in_a_link_that_slides_along_y() -> None:
+def test_the_block_of_task_12_slides_along_x_in_a_link_that_slides_along_y() -> None:
     problem = load(LEVERS / "task12.toml")
     assert problem.slides["5"].angle == 90
     assert problem.slides["4"].angle == -90

@@ -61,7 +61,7 @@ def test_parse(text: str, selector: Selector) -> None:
         ("balance A B", "'balance' takes 0 or 1 names, got 2"),
     ],
 )
-def test_refuse(text: str, message: str) -> None:
+def test_faulty_selectors_are_rejected(text: str, message: str) -> None:
     with pytest.raises(SelectorError) as caught:
         parse_selector(text)
     assert str(caught.value).startswith(message)

@@ -202,7 +202,7 @@ def test_a_russian_name_needs_no_quotes(header: str) -> None:
     assert read(f"{header}\ndriver.phi = 30\n", "Б").drive.positions == (30.0,)
 
 
-def test_a_table_of_variants_lies_beside_a_moving_point_too(tmp_path: Path) -> None:
+def test_a_table_of_variants_beside_a_moving_point_is_read_too(tmp_path: Path) -> None:
     (tmp_path / "v.csv").write_text("variant,point.t\n1,2\nБ,3\n", encoding="utf-8")
     file = tmp_path / "point.toml"
     file.write_text('variants = "v.csv"\n[point]\nx = "3*t"\ny = "t^2"\nt = 1\n', encoding="utf-8")

@@ -159,7 +159,7 @@ def test_every_sheet_has_the_scales_of_the_project() -> None:
     assert found == {key: {getattr(project.scales, key)} for key in found}
 
 
-def test_the_calculated_position_is_read_alike_alone_and_among_all() -> None:
+def test_the_calculated_position_has_the_same_readings_alone_and_among_all() -> None:
     project = project_of("shaper")
     for label in project.solution.legend:
         among, alone = project.solution.read_off(label), project.loaded.read_off(label)
@@ -246,7 +246,7 @@ def test_parts_are_those_that_project_selects() -> None:
     assert [part.name for part in found.parts] == [PartName.KINEMATICS, PartName.GEARS]
 
 
-def test_a_train_lies_beside_the_file(tmp_path: Path) -> None:
+def test_a_train_is_read_from_a_file_beside_the_project(tmp_path: Path) -> None:
     text = file_of("homework").read_text("utf-8")
     train = file_of("shaper").read_text("utf-8")
     gears = train[train.index("[gears]") : train.index("[stamp]")]

@@ -359,7 +359,7 @@ def test_any_text_can_be_drawn(fmt: str, text: str) -> None:
     ],
     ids=repr,
 )
-def test_point_that_does_not_exist_is_refused(fmt: str, item: Item) -> None:
+def test_a_point_that_does_not_exist_is_rejected(fmt: str, item: Item) -> None:
     with pytest.raises(PlanMethodError, match=r"Item 1 of the drawing .* not finite"):
         render(sheet_of(Stroke((1 + 1j, 2 + 2j)), item), fmt)
 

@@ -33,7 +33,7 @@ def sheet(name: str) -> Drawing:
     return drawn
 
 
-def test_the_points_lie_where_the_scales_put_them() -> None:
+def test_the_points_are_at_their_scaled_coordinates() -> None:
     wanted = WANTED["rod/table/true"]["sheet_mm"]["12"]
     drawn = sheet("press/flywheel")
     (view,) = (view for view in drawn.views if view.kind == "flywheel")
@@ -126,9 +126,7 @@ def test_a_moment_that_jumps_is_drawn_upright() -> None:
 @pytest.mark.parametrize("path, sides", [("problems/machines/engine.toml", (39, 73)),
                                          ("problems/machines/compressor.toml", (30, 77)),
                                          ("tests/data/turn/shaper.toml", (113, 81))])  # fmt: skip
-def test_an_energy_mass_curve_takes_the_room_that_there_is(
-    path: str, sides: tuple[int, int]
-) -> None:
+def test_an_energy_mass_curve_takes_the_available_area(path: str, sides: tuple[int, int]) -> None:
     drawing = drawing_of(Flywheel(load(ROOT / path)), PROFILES["board"])
     wide = float(np.ptp(drawing.points.inertia)) / drawing.scales.inertia
     high = float(np.ptp(drawing.points.gain)) / drawing.scales.work

@@ -259,7 +259,7 @@ def test_vectors_on_one_line_are_drawn_apart_and_the_sheet_mentions_it() -> None
     assert min(b - a for a, b in pairwise(lines)) > 1.5
 
 
-def test_arrows_at_one_point_do_not_lie_on_one_another() -> None:
+def test_arrows_at_one_point_do_not_overlap() -> None:
     down = [Acting(name, 0j, -1j) for name in "ab"]
     placed = lay_forces([*down, Acting("c", 0j, 1j), Acting("d", 0j, 1 + 0j)], [(0j, 50j)])
     for (_, one), (_, other) in combinations(placed, 2):

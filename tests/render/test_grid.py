@@ -54,7 +54,7 @@ ROOMS = st.lists(
 
 
 @given(ROOMS)
-def test_every_block_stays_in_its_room(
+def test_every_block_stays_in_its_area(
     rooms: list[tuple[float, float, float, float, float]],
 ) -> None:
     units = [unit(x, y, x + w, y + h, share) for x, y, w, h, share in rooms]

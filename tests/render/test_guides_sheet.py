@@ -199,7 +199,7 @@ def test_an_inner_guide_has_a_picture_of_one_link(problem: Problem, link: str) -
     assert "Звено 2" in shown(sheet)
 
 
-def test_a_stone_without_a_moment_needs_no_picture() -> None:
+def test_a_sliding_block_without_a_moment_needs_no_picture() -> None:
     assert inner_picture(reading(task12("")), 1, 5.0, RU.say) is None
 
 

@@ -234,7 +234,7 @@ def test_outlines_are_the_envelopes_of_the_pen(style: str) -> None:
 
 
 @each_style
-def test_letters_keep_inside_their_room(style: str) -> None:
+def test_letters_keep_inside_their_boxes(style: str) -> None:
     """A letter leaves its box only by its slope, so that no letter runs into the next one."""
     used = lettering(style)
     for char in letters():

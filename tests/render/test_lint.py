@@ -104,7 +104,7 @@ def test_text_out_of_the_frame(at: complex) -> None:
     assert lint([Text(at, "слово", 5)]) == []
 
 
-def test_turned_text_is_looked_at_as_it_lies() -> None:
+def test_rotated_text_is_checked_as_rotated() -> None:
     line = Stroke((30 + 60j, 70 + 60j))
     assert codes(WORD, line) == []
     assert codes(Text(AT, "слово", 5, angle=90), line) == ["PM-D02"]

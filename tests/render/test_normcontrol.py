@@ -446,7 +446,7 @@ def test_where_no_scale_of_forces_fits_the_plan_is_to_be_drawn_apart() -> None:
     assert "It needs the scale mu_F = 0.5, but such a plan does not fit A1" in finding.action("en")
 
 
-def test_segments_lie_where_the_plan_is_drawn() -> None:
+def test_segments_are_on_the_drawn_plan() -> None:
     for positions in (None, [0.0, 45.0, 90.0]):
         (drawing,) = kinematics_sheets(problem_of("linkages/ex3"), positions=positions)
         starts = {item.points[0] for item in drawing.items if isinstance(item, Stroke)}

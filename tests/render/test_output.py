@@ -72,13 +72,13 @@ def test_a_dangling_link_creates_no_file_elsewhere(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
-def test_directory_is_refused(tmp_path: Path) -> None:
+def test_a_directory_is_rejected(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="it is a directory") as caught:
         write(tmp_path, b"x")
     assert caught.value.exit_code == ExitCode.USAGE
 
 
-def test_device_is_refused_and_survives() -> None:
+def test_a_device_is_rejected_and_survives() -> None:
     if not Path("/dev/null").is_char_device():
         pytest.skip("no /dev/null here")
     with pytest.raises(OutputError, match="not a regular file"):

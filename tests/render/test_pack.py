@@ -217,7 +217,7 @@ def test_the_largest_empty_rectangle() -> None:
     assert emptiest_share(cross, paper) == pytest.approx(0.16)
 
 
-def test_a_block_is_laid_out_in_the_way_that_has_room() -> None:
+def test_a_block_takes_the_shape_that_fits() -> None:
     wide, high = Spacer(500.0, 160.0), Spacer(120.0, 250.0)
     others = [part(200.0, 300.0), part(180.0, 150.0)]
     placed = pack(Group((Packed(Shapes((wide, high))), *others)), INNER, STAMP)

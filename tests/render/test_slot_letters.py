@@ -31,7 +31,7 @@ def test_guides_that_the_equations_name_are_lettered_on_the_scheme() -> None:
 
 
 @pytest.mark.parametrize("shift", [-4.0, 4.0])
-def test_positions_around_that_of_the_file_are_written_alike(shift: float) -> None:
+def test_positions_around_that_of_the_file_are_written_in_its_range(shift: float) -> None:
     problem = slotted()
     first = problem.drive.positions[0] - 360.0
     sheet, *_ = kinematics_sheets(problem, positions=[first, first + shift])

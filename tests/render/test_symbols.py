@@ -99,7 +99,7 @@ def test_slider_is_14_by_8_along_its_guide(angle: float) -> None:
     assert sorted({round(abs(c.imag), 6) for c in corners}) == [4]
 
 
-def test_stone_has_its_guide_line_and_pin() -> None:
+def test_a_sliding_block_has_its_guide_line_and_pin() -> None:
     items = symbols.stone(0j, angle=30)
     assert isinstance(items[0], Fill)
     assert isinstance(items[-1], Arc)

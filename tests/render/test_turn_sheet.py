@@ -138,7 +138,7 @@ def test_a_number_names_one_position_of_the_sheet(
     assert solution.problem.numbered == pytest.approx(tuple(asked), abs=1e-9)
 
 
-def test_positions_that_the_cycle_does_not_number_are_refused() -> None:
+def test_positions_that_the_cycle_does_not_number_are_rejected() -> None:
     problem = problem_of("press/press")
     for asked in ([20.0, 140.0, 260.0], [0.0, 10.0, 90.0], EVEN[:6]):
         with pytest.raises(LayoutError, match="a number would name two positions") as told:

@@ -133,7 +133,7 @@ UPPER, LOWER = 0.2826 + 0.2761j, 0.1674 - 0.1895j
         ("above A", UPPER),
     ],
 )
-def test_a_rule_in_words_chooses_a_closing(rule: str, wanted: complex) -> None:
+def test_a_rule_in_words_chooses_an_assembly(rule: str, wanted: complex) -> None:
     assert place(four_bar(f'C = "{rule}"'), "C") == pytest.approx(wanted, abs=1e-4)
 
 
@@ -141,7 +141,7 @@ def test_a_rule_in_words_chooses_a_closing(rule: str, wanted: complex) -> None:
     ("near", "wanted"),
     [("[0.3, 0.2]", UPPER), ("[0.3, -0.2]", LOWER), ("[50, -60]", LOWER), ("[0.28, 0.28]", UPPER)],
 )
-def test_the_nearer_closing_is_taken(near: str, wanted: complex) -> None:
+def test_the_nearer_assembly_is_taken(near: str, wanted: complex) -> None:
     assert place(four_bar(f"C = {{ near = {near} }}"), "C") == pytest.approx(wanted, abs=1e-4)
 
 
@@ -198,7 +198,7 @@ def far() -> Problem:
     return loads(text, name="far")
 
 
-def test_a_rule_that_holds_for_neither_closing() -> None:
+def test_a_rule_that_holds_for_neither_assembly() -> None:
     message = refused(four_bar('C = "right of D"'))
     assert message == (
         "'C right of D' holds for neither closing at phi = 60 deg: they miss it by 0.1174 m and "

@@ -70,7 +70,7 @@ def test_a_chain_may_have_as_many_links_as_the_reader_takes() -> None:
 
 
 @pytest.mark.parametrize("dyads", [1, 5])
-def test_closings_are_those_of_the_whole_plan(dyads: int) -> None:
+def test_assemblies_are_those_of_the_whole_plan(dyads: int) -> None:
     """Each settled group is computed once; computing the whole plan again agrees to the bit."""
     problem = chain(dyads)
     solution = Solution(problem, positions=[10.0, 200.0])

@@ -68,13 +68,13 @@ def test_a_doubtful_position_is_reported_with_its_margin() -> None:
 
 
 @pytest.mark.parametrize("phi", ["0.001", "1e-5"])
-def test_a_spoilt_position_is_refused(phi: str) -> None:
+def test_a_spoilt_position_is_rejected(phi: str) -> None:
     solution = parallelogram(f"[50, {phi}]")
     with pytest.raises(AssemblyError, match=r"position 1 .* so near a dead position"):
         verify(solution)
 
 
-def test_the_change_point_itself_cannot_choose_a_closing() -> None:
+def test_the_change_point_itself_cannot_choose_an_assembly() -> None:
     solution = parallelogram("0")
     for act in (lambda: solution.si, lambda: solution.moved([50.0])):
         with pytest.raises(AssemblyError, match=r"dead position"):

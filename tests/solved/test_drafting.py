@@ -170,7 +170,7 @@ def test_a_read_length() -> None:
     assert sigma == pytest.approx(math.hypot(PROFILE.measure, PROFILE.ruler / math.sqrt(12)))
 
 
-def test_a_line_through_two_points_errs_by_its_length() -> None:
+def test_the_error_of_a_line_through_two_points_depends_on_its_length() -> None:
     b = Builder()
     p, q, length = b.given("P"), b.given("Q"), b.known("length")
     b.lay_off("X", p, b.join(p, q), length)
@@ -208,7 +208,7 @@ def test_no_laid_off_value_has_an_error() -> None:
     assert np.all(found["X"].real == 0)  # type: ignore[index]
 
 
-def test_a_hand_that_never_errs_draws_the_exact_plan() -> None:
+def test_a_drawing_without_errors_is_the_exact_plan() -> None:
     still = Profile("still", 0.0, 0.0, 0.0, 0.0, 1e-9)
     solution = Solution(problem_of("linkages/ex3"), profile=still)
     sheets = drafting_of(solution).sample(0, draws=3)
@@ -251,7 +251,7 @@ def test_covariance_agrees_with_random_sheets(name: str) -> None:
     assert sigma == pytest.approx([drafting.spreads[label].sigma[0] for label in labels])
 
 
-def test_a_quantity_read_once_errs_once() -> None:
+def test_a_quantity_read_once_has_one_reading_error() -> None:
     """omega_4 follows from the read ed: the two are wholly correlated."""
     solution = drawn("linkages/ex3", "board")
     kin = solution.construction.kinematics
@@ -279,7 +279,7 @@ def test_shares_of_the_causes_make_up_the_whole() -> None:
     assert [share for _, share in causes] == sorted((s for _, s in causes), reverse=True)
 
 
-def test_a_better_hand_errs_less() -> None:
+def test_a_more_accurate_drawing_has_smaller_errors() -> None:
     for name in SIX:
         cad, board, coarse = (
             drafting_of(drawn(name, p)).spreads for p in ("cad", "board", "coarse")

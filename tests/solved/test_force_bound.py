@@ -175,7 +175,7 @@ def test_a_program_in_python_is_warned_too() -> None:
         assert planmethod.statics(solution) is statics_of(solution)
 
 
-def test_forces_that_rounding_spoils_are_refused_wherever_they_are_read() -> None:
+def test_forces_spoilt_by_rounding_are_rejected_on_every_access() -> None:
     problem = loads(rod(1e-16), name="rod")
     solution = Solution(problem)
     verify(solution)

@@ -224,7 +224,7 @@ def test_plans_without_forces_have_no_errors() -> None:
 # Together -----------------------------------------------------------------------------------------
 
 
-def test_forces_err_together_with_the_kinematics_they_follow_from() -> None:
+def test_errors_of_forces_include_those_of_their_kinematics() -> None:
     solution = statics_with("levers/task12", "cad").solution
     errors = all_errors(statics_of(solution))
     kinematic = list(drafting_of(solution).items)
@@ -242,7 +242,7 @@ def test_forces_err_together_with_the_kinematics_they_follow_from() -> None:
     assert together[1, 7] > 0.8 > abs(together[1, 3])
 
 
-def test_positions_in_blocks_err_as_each_by_itself() -> None:
+def test_positions_in_blocks_have_the_errors_of_single_ones() -> None:
     positions = tuple(5.0 + 9.0 * k for k in range(40))
     statics, shares = statics_with("levers/task12", "board", positions), []
     for index in (0, 31, 32, 39):

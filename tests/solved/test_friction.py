@@ -290,7 +290,7 @@ def test_a_pair_may_have_friction_of_its_own() -> None:
     assert found.converged.power - found.without.power == pytest.approx(lost)
 
 
-def test_a_pair_that_there_is_not_is_refused() -> None:
+def test_friction_in_a_pair_that_does_not_exist_is_rejected() -> None:
     problem = rubbed(
         problem_of("levers/crosshead"), FrictionTask(pairs={"C 1-0": PairFriction(f=0.1)})
     )

@@ -420,7 +420,7 @@ def test_variants_that_differ_only_in_the_requested_position_give_equal_results(
     assert (found[:, :1] == found).all()
 
 
-def test_variants_that_are_other_mechanisms_are_refused() -> None:
+def test_variants_of_other_mechanisms_are_rejected() -> None:
     with pytest.raises(SweepError, match="not built by the same steps as ex1"):
         sweep_variants([problem_of("ex1"), problem_of("ex3")], [0.0])
 

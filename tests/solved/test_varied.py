@@ -99,7 +99,7 @@ def test_sides_of_a_triangle_move_its_point() -> None:
         Sweep(problem, varied=["y_D"])
 
 
-def test_a_parallelogram_stays_one_or_is_refused() -> None:
+def test_a_parallelogram_stays_one_or_is_rejected() -> None:
     problem = problem_of("linkages/2.1.6")
     known = Sweep(problem).parameters
     names = [name for name in known if name.startswith("l_")]

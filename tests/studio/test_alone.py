@@ -115,7 +115,7 @@ def test_made_files_are_served_and_no_others() -> None:
     assert alone.answer("POST", "api/do/command", b'{"what": "bench"}', silent)[0] == 404
 
 
-def test_works_are_taken_checked_and_forgotten() -> None:
+def test_works_are_accepted_checked_and_deleted() -> None:
     alone = begun(act)
     text = "student;id;value;unit\nИванов;v_B;3.2;м/с\nПетров;v_B;3.0;м/с\n".encode()
     assert alone.answer("PUT", "api/works/a.csv?lang=ru", text, silent)[1] == b'["a.csv"]\n'

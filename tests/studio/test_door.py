@@ -116,7 +116,7 @@ def test_the_address_gives_a_strict_cookie_and_leads_on_without_the_token(own: T
 
 @pytest.mark.parametrize("host", ["evil.example", "evil.example:8765", "127.0.0.1.evil.example",
                                   "localhost@evil.example", "[", "[::1", "", "a:b:c"])  # fmt: skip
-def test_another_name_of_the_machine_is_refused(own: TestClient, host: str) -> None:
+def test_another_host_name_is_rejected(own: TestClient, host: str) -> None:
     for address in ("/", "/health", f"/?token={TOKEN}"):
         answer = asked(own, "GET", address, host=host)
         assert answer.status_code == 403

@@ -277,7 +277,7 @@ def test_requests_need_a_key_and_those_of_instructors_the_token(
     assert answer.status_code == 404
 
 
-def test_bodies_that_are_no_object_are_refused(client: TestClient) -> None:
+def test_bodies_that_are_not_objects_are_rejected(client: TestClient) -> None:
     who = enter(client)
     for body in (b"[]", b"{", b"[" * 4000, b"\xff"):
         answer = client.post(

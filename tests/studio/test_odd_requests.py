@@ -174,7 +174,7 @@ TEXTS = ["\0", "\ufeff", "🙂 = 1", "[" * 3000, "a." * 60 + "b = 1", "x = 1e999
 
 
 @pytest.mark.parametrize("number", thinned(range(len(WORKS)), 5))
-def test_no_work_and_no_text_fails_inside(tmp_path: Path, number: int) -> None:
+def test_no_work_and_no_text_causes_an_internal_error(tmp_path: Path, number: int) -> None:
     told: list[tuple[str, dict[str, Any]]] = [
         (do, {"text": TEXTS[number], "name": "\u202e🙂" * 40, "what": "tables"})
         for do in ("sketched", "assemblies", "questions", "command")

@@ -149,7 +149,7 @@ def test_positions_move_with_their_plans(page: Page, address: str) -> None:
     assert page.said == []
 
 
-def test_answers_are_compared_while_one_types_and_judged(page: Page, address: str) -> None:
+def test_answers_are_compared_while_typing_and_judged(page: Page, address: str) -> None:
     begin(page, address)
     take(page, "linkages-ex3")
     click(page, "#to-answers")
@@ -315,7 +315,7 @@ def test_a_sheet_is_printed_on_one_page_across_in_light_colours(
 
 
 @pytest.mark.parametrize("width", [360, 1360])
-def test_no_room_is_wider_than_the_window(page: Page, address: str, width: int) -> None:
+def test_no_pane_is_wider_than_the_window(page: Page, address: str, width: int) -> None:
     begin(page, address, width)
     take(page, "linkages-ex3")
     for room in ("task", "work", "answers", "group"):

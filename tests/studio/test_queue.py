@@ -112,7 +112,7 @@ def test_the_last_free_process_is_for_quick_jobs(monkeypatch: pytest.MonkeyPatch
     ]  # fmt: skip
 
 
-def test_a_session_has_one_slow_job_at_work_and_others_go_before_its_second(
+def test_a_session_has_one_slow_job_running_and_others_precede_its_second(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     async def play() -> Desk:

@@ -298,7 +298,7 @@ def test_supports_point_away_from_the_links_with_the_hatching_behind_their_base(
 
 
 @each("name", ("slotted", "shaper", "quick"))
-def test_stones_lie_along_their_slotted_links(name: str) -> None:
+def test_sliding_blocks_are_parallel_to_their_slotted_links(name: str) -> None:
     drawing, found = sheet_of(name)
     places = {pivot: (at, drawn) for pivot, at, drawn in supports(drawing, found)}
     at, drawn = places["O3"]
@@ -317,7 +317,7 @@ def test_stones_lie_along_their_slotted_links(name: str) -> None:
 
 
 @each("name", ("offset", "below", "shaper"))
-def test_the_guide_lies_under_all_its_sliders(name: str) -> None:
+def test_the_guide_is_drawn_under_all_its_sliders(name: str) -> None:
     drawing, found = sheet_of(name)
     (_, at, drawn), *_ = supports(drawing, found)
     shift = at - place(drawn.paper, found.pivots[0])

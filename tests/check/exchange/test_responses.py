@@ -230,7 +230,7 @@ def test_a_gap_without_a_question_is_skipped(tmp_path: Path) -> None:
         read_columns([str(tmp_path / "gone.toml")])
 
 
-def test_a_variant_is_not_taken_for_one_whose_name_begins_alike(tmp_path: Path) -> None:
+def test_a_variant_is_not_taken_for_one_with_the_same_beginning_of_its_name(tmp_path: Path) -> None:
     texts = (
         "Вариант 12 Дано",
         "Вариант 1 Дано",

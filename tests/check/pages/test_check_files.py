@@ -123,7 +123,7 @@ def test_hidden_names_are_nowhere(tmp_path: Path) -> None:
     assert works[0].answers[0].where == f"{stem}.json"
 
 
-def test_files_of_works_are_called_by_number_where_names_are_hidden(tmp_path: Path) -> None:
+def test_files_of_works_are_named_by_number_if_names_are_hidden(tmp_path: Path) -> None:
     (tmp_path / "13-Иванов-Пётр.json").write_bytes(b"[]")
     inputs = [path_of("linkages/ex3"), tmp_path / "13-Иванов-Пётр.json"]
     names = [run_record(Settings(), inputs, "ru", 1, hidden=hidden) for hidden in (False, True)]

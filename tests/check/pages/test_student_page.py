@@ -174,7 +174,7 @@ def test_a_number_that_follows_from_a_segment_needs_no_redrawing() -> None:
 # The picture --------------------------------------------------------------------------------------
 
 
-def test_segments_lie_on_the_plan_with_the_students_lengths() -> None:
+def test_segments_are_on_the_plan_with_the_students_lengths() -> None:
     velocity, acceleration = overlays(ex3_work.solution(), ex3_work.work(), RU)
     assert all(own.is_right for own in velocity.own) and len(velocity.own) == 3
     by_number = {own.number: own for own in acceleration.own}
@@ -320,7 +320,7 @@ def test_the_text_of_the_pdf_can_be_searched(tmp_path: Path) -> None:
     assert "Щукина Ёлка" in text and "Кориолиса" in text and "неверно" in text
 
 
-def test_a_long_work_goes_on_over_pages() -> None:
+def test_a_long_work_continues_on_further_pages() -> None:
     work = ex3_work.work()
     many = replace(work, answers=work.answers * 20)
     data = student_pdf(page_of(many), ex3_work.solution(), RU)

@@ -199,7 +199,7 @@ def test_toml_and_lists_of_students_are_read(tmp_path: Path) -> None:
     assert two.answers[0].where == "[1].answers[0]"
 
 
-def test_a_work_without_a_student_is_called_as_its_file(tmp_path: Path) -> None:
+def test_a_work_without_a_student_is_named_after_its_file(tmp_path: Path) -> None:
     (work,) = read(tmp_path, {"answers": []}, "Петров.json")
     assert work.student == "Петров"
 
