@@ -2,6 +2,8 @@ from __future__ import annotations
 
 import gc
 import os
+import shutil
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,7 +13,7 @@ from hypothesis import settings
 
 # A slow machine does not fail a test, and every run has the same examples.
 settings.register_profile("planmethod", deadline=None, derandomize=True, max_examples=40)
-settings.register_profile("thinned", deadline=None, derandomize=True, max_examples=20)
+settings.register_profile("thinned", deadline=None, derandomize=True, max_examples=8)
 settings.register_profile("thorough", deadline=None, derandomize=True, max_examples=200)
 
 
@@ -31,13 +33,33 @@ def is_whole(config: pytest.Config) -> bool:
     return bool(asked or named or os.environ.get("CI") == "true")
 
 
+PROGRAMS = ("chromium", "pdftotext", "rsvg-convert", "soffice")
+"""What ``.ci/run`` installs: elsewhere tests that need one of them skip, and say so."""
+
+
 def pytest_configure(config: pytest.Config) -> None:
+    absent = [program for program in PROGRAMS if shutil.which(program) is None]
+    if absent and os.environ.get("CI") == "true":
+        raise pytest.UsageError(f"CI takes every test, and there is no {', '.join(absent)}")
+    _end_in_order()
     thorough = bool(config.getoption("--thorough"))
     is_thin = not is_whole(config)
     settings.load_profile("thorough" if thorough else "thinned" if is_thin else "planmethod")
     cases.take(everything=thorough, is_thin=is_thin)
     # As in the commands: the tests share large data, and the search for cycles in it takes 5 %.
     gc.set_threshold(100_000)
+
+
+def _end_in_order() -> None:
+    """Take SIGTERM as Ctrl+C: what fixtures began, servers and browsers, they end."""
+    own = os.getpid()
+
+    def end(number: int, _: object) -> None:
+        if os.getpid() != own:  # a process that was forked ends at once, as ever
+            os._exit(128 + number)
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGTERM, end)
 
 
 WHOLE = ("contracts/", "construct/", "note/test_messages.py", "outputs/")
@@ -49,16 +71,19 @@ MANY = 4
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Take every third to seventh case of a test that has many, unless all are requested.
 
-    A test marked ``dear``, whose cases take seconds, runs its first case only.
+    A test marked ``dear``, which takes seconds, runs its first case only; one without cases is
+    left out.
     """
     if is_whole(config):
         return
     found: dict[str, list[pytest.Item]] = {}
+    left: set[int] = set()
     for item in items:
         name, bracket, _ = item.nodeid.partition("[")
-        if bracket and not name.removeprefix("tests/").startswith(WHOLE):
+        if not bracket and item.get_closest_marker("dear"):
+            left.add(id(item))
+        elif bracket and not name.removeprefix("tests/").startswith(WHOLE):
             found.setdefault(name, []).append(item)
-    left: set[int] = set()
     for own in found.values():
         # An odd step still meets every value of parameters that cross by twos and fours.
         step = (1, 3, 5, 5, 5, 5, 5, 5, 7)[min(len(own) // MANY, 8)]

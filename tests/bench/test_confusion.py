@@ -52,6 +52,7 @@ def test_two_mistakes_are_counted_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert row.unknown == row.works > 5
 
 
+@pytest.mark.dear
 def test_results_of_a_students_own_number_lose_no_points(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

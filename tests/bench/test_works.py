@@ -52,6 +52,7 @@ def test_the_tables_have_a_row_for_every_mistake() -> None:
     assert len(report.power_table(detected())) == len(codes) + 1
 
 
+@pytest.mark.dear
 def test_the_section_is_printed_without_the_referee() -> None:
     words = ["bench", "--only", "checking", "--works", "2", str(path_of("linkages/ex1"))]
     run = CliRunner().invoke(cli, words)

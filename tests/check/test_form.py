@@ -248,6 +248,7 @@ CSV = "csv:Text - txt - csv (StarCalc):59,34,76,1"
 """Semicolons, quotes, UTF-8, from the first row."""
 
 
+@pytest.mark.dear
 @pytest.mark.skipif(SOFFICE is None, reason="soffice is not installed")
 def test_a_form_comes_back_from_libreoffice(tmp_path: Path) -> None:
     source = tmp_path / "form.xlsx"

@@ -103,7 +103,7 @@ def test_a_vector_of_our_own_sheet_that_is_moved_is_found(fmt: str, tmp_path: Pa
         return
     document = ezdxf.readfile(path)  # type: ignore[attr-defined]
     lines = list(document.modelspace().query("LINE[layer=='PLAN_VECTORS']"))
-    for number in sampled(range(len(lines)), 5):
+    for number in sampled(range(len(lines)), 11):
         end = lines[number].dxf.end
         lines[number].dxf.end = (end.x + 5.0, end.y - 4.0, 0.0)
         document.saveas(tmp_path / "moved.dxf")

@@ -220,11 +220,15 @@ def test_no_shifts_of_equal_sliding_slide_less(
     assert slides[0] == pytest.approx(slides[1], abs=1e-9)
     assert all(limit["holds"] for limit in found["conditions"])
     pair = Pair((one, two), 5.0, Rack(radians(20)), np.zeros(2), 0, radians(degrees))
-    # Brute force over x2 for every multiple x1: the nearest to equal of 25 001 values.
-    best, across = np.inf, np.linspace(-1.0, 1.5, 25001)
+    # Brute force over x2 for every multiple x1: the nearest to equal of 25 001 values, of which
+    # those are looked at between which one slides less on one side and the other on the other.
+    best, coarse, fine = np.inf, np.linspace(-1.0, 1.5, 1001), np.linspace(0.0, 2.5e-3, 26)
     for first in np.round(np.arange(-100, 151) / 100, 9):
-        x = np.stack([np.full_like(across, first), across])
         with np.errstate(all="ignore"):
+            ends = np.abs(pair.shifted(np.stack([np.full_like(coarse, first), coarse])).theta_p)
+            turns = np.flatnonzero(np.diff(np.sign(ends[0] - ends[1])))
+            across = np.add.outer(coarse[turns], fine).ravel()
+            x = np.stack([np.full_like(across, first), across])
             slid = np.abs(pair.shifted(x).theta_p)
             near = np.abs(slid[0] - slid[1]) < 2e-3
         fits = kept(pair.shifted(x[:, near]))  # the other limits only where the slidings are equal

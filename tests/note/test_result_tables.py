@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from cases import each, some
+from cases import each, sampled, some
 from texts import result_tables
 from told import LANGUAGES, assert_readable, drawn, worked
 from worked import SIX, problem_of
@@ -25,7 +25,7 @@ def test_tables_of_one_position_fit_the_terminal(name: str, lang: str) -> None:
 
 
 @each("lang", LANGUAGES)
-@each("seed", range(some(40, few=15)))
+@each("seed", sampled(range(some(40, few=15)), 3))
 def test_tables_of_any_mechanism_fit_the_terminal(seed: int, lang: str) -> None:
     assert_readable(result_tables(drawn(seed), lang))
 
@@ -86,7 +86,7 @@ def test_csv_round_trips_to_the_last_bit() -> None:
         assert float(row["velocity.b-b3.read"]) % 0.5 == 0
 
 
-@each("seed", range(some(30, few=15)))
+@each("seed", sampled(range(some(30, few=15)), 3))
 def test_csv_columns_are_unique_and_finite(seed: int) -> None:
     header, rows = csv_rows(drawn(seed))
     assert len(set(header)) == len(header)

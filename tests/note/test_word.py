@@ -411,6 +411,7 @@ def test_a_long_formula_is_cut_into_lines() -> None:
     assert len(list(file.element.body.iter(f"{M}oMathPara"))) > 2
 
 
+@pytest.mark.dear
 @pytest.mark.skipif(not shutil.which("soffice"), reason="LibreOffice is absent")
 @pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
 def test_libreoffice_opens_it(data: bytes, tmp_path: Path) -> None:
@@ -425,6 +426,7 @@ def test_libreoffice_opens_it(data: bytes, tmp_path: Path) -> None:
     assert not re.search(r"[_^\\]", shown)  # the brace is that of the system
 
 
+@pytest.mark.dear
 @pytest.mark.skipif(not shutil.which("soffice"), reason="LibreOffice is absent")
 @pytest.mark.skipif(not shutil.which("pdftoppm"), reason="poppler is absent")
 def test_libreoffice_shows_the_continuation_on_later_pages_alone(tmp_path: Path) -> None:

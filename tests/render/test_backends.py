@@ -497,6 +497,7 @@ def test_svg_text_is_found_and_copied_where_it_is_seen(tmp_path: FilePath) -> No
         assert page.ask(seen) == "Дата"
 
 
+@pytest.mark.dear
 @needs("rsvg-convert")
 @needs("chromium")
 def test_svg_is_the_same_picture_in_two_viewers(tmp_path: FilePath) -> None:
@@ -532,6 +533,7 @@ def test_svg_is_the_same_picture_in_two_viewers(tmp_path: FilePath) -> None:
     assert (difference > 0.5).mean() < 0.00002
 
 
+@pytest.mark.dear
 @needs("rsvg-convert")
 @needs("chromium")
 @needs("pdftocairo")

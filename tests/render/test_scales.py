@@ -68,7 +68,7 @@ SAME = [
 ]  # fmt: skip
 
 
-@each("name, positions", sampled([(name, n) for name in SAME for n in (None, 3, 12)], 4))
+@each("name, positions", sampled([(name, n) for name in SAME for n in (None, 3, 12)], 7))
 def test_sheets_and_numbers_have_the_same_scales(name: str, positions: int | None) -> None:
     """On default sheets, for any positions: one scale for all plans of a kind on all sheets."""
     problem = problem_of(name)

@@ -11,7 +11,7 @@ import mechanisms
 import numpy as np
 import numpy.typing as npt
 import pytest
-from cases import each, some
+from cases import each, sampled, some
 from loaded import loaded_problem
 from msgspec.structs import replace
 from worked import DEAD, every_file, path_of
@@ -159,7 +159,7 @@ def test_every_dyad_and_driver_is_swept() -> None:
     assert {kind: seen[kind] for kind in wanted if seen[kind] < some(5, few=2)} == {}
 
 
-@each("seed", SEEDS)
+@each("seed", sampled(SEEDS, 3))
 def test_forces_of_random_mechanisms(seed: int) -> None:
     problem = loaded_problem(seed)[0]
     agree(problem, about(problem, 3))

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 import numpy.typing as npt
 import pytest
-from cases import each, some
+from cases import each, sampled, some
 from full_system import Acting, Joint, cross, loads_of, pose_of, slide_between
 from loaded import loaded_problem
 from msgspec.structs import replace
@@ -196,7 +196,7 @@ def test_random_mechanisms_against_all_links_at_once() -> None:
     assert taken > 0.8 * len(SEEDS)
 
 
-@each("seed", SEEDS)
+@each("seed", sampled(SEEDS, 3))
 def test_the_driver_supplies_the_friction_losses(seed: int) -> None:
     _, _, found = random_friction(seed)
     for forces in (found.corrected, found.converged):

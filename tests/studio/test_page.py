@@ -194,6 +194,7 @@ def test_answers_are_compared_while_typing_and_judged(page: Page, address: str) 
     assert page.said == []
 
 
+@pytest.mark.dear
 def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> None:
     begin(page, address)
     take(page, "linkages-ex3-variants")
@@ -216,6 +217,7 @@ def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> 
     assert page.said == []
 
 
+@pytest.mark.dear
 def test_the_page_opens_of_a_student_with_points_in_the_name(
     page: Page, address: str, tmp_path: Path
 ) -> None:
@@ -233,6 +235,7 @@ def test_the_page_opens_of_a_student_with_points_in_the_name(
     assert page.said == []
 
 
+@pytest.mark.dear
 def test_variants_and_questions_are_made_and_downloaded_by_clicks(
     page: Page, address: str, tmp_path: Path
 ) -> None:
@@ -293,6 +296,7 @@ def test_tables_scroll_within_an_edge_of_their_own(page: Page, address: str) -> 
     assert page.ask("document.querySelector('#rows th sub').textContent") == "B1"
 
 
+@pytest.mark.dear
 @pytest.mark.skipif(shutil.which("pdfinfo") is None, reason="poppler reads the PDF")
 def test_a_sheet_is_printed_on_one_page_across_in_light_colours(
     page: Page, address: str, tmp_path: Path
@@ -314,6 +318,7 @@ def test_a_sheet_is_printed_on_one_page_across_in_light_colours(
     page.call("Emulation.setEmulatedMedia", media="")
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("width", [360, 1360])
 def test_no_pane_is_wider_than_the_window(page: Page, address: str, width: int) -> None:
     begin(page, address, width)
@@ -499,6 +504,7 @@ def test_undo_in_one_file_restores_no_text_of_another(page: Page, desk: Path) ->
     assert page.said == []
 
 
+@pytest.mark.dear
 def test_a_text_is_saved_to_its_own_file_or_the_user_is_asked(page: Page, desk: Path) -> None:
     def named(name: str) -> None:
         page.ask(
@@ -583,6 +589,7 @@ def filled(page: Page, work: Path) -> None:
     page.wait("document.querySelector('#desk > .made a')")
 
 
+@pytest.mark.dear
 def test_results_of_a_task_are_not_shown_under_the_next_one(
     page: Page, address: str, tmp_path: Path
 ) -> None:

@@ -125,6 +125,7 @@ def unreached(page: Page) -> list[str]:
     return told
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("lang", ["ru", "en"])
 def test_every_control_has_a_role_and_a_name_and_is_come_to_by_tab(
     page: Page, address: str, lang: str
@@ -153,6 +154,7 @@ def test_every_control_has_a_role_and_a_name_and_is_come_to_by_tab(
     assert [one.split()[0] for one in nameless(page)] == ["button"]
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_letters_contrast_with_their_background(page: Page, address: str, theme: str) -> None:
     faint: dict[str, Any] = {}
