@@ -9,6 +9,7 @@ from pathlib import Path
 
 import cases
 import pytest
+import worked
 from hypothesis import settings
 
 # A slow machine does not fail a test, and every run has the same examples.
@@ -115,6 +116,10 @@ def _no_config_of_the_developer(tmp_path_factory: pytest.TempPathFactory) -> Ite
     """Use an empty config file and no cache of the developer's; make every warning an error."""
     empty = Path(tmp_path_factory.mktemp("config")) / "config.toml"
     empty.touch()
+    base = tmp_path_factory.getbasetemp()  # of a worker: in that of the run
+    shared = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "shared"
+    shared.mkdir(exist_ok=True)
+    worked.shared[:] = [shared]
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PLANMETHOD_CONFIG", str(empty))
         patch.setenv("PLANMETHOD_NATIVE", "0")  # nor libraries that a compiler left in a cache

@@ -77,7 +77,7 @@ def test_the_lint_finds_no_faults(name: str) -> None:
 @pytest.mark.parametrize("name", FILES)
 def test_requested_paper_is_taken_or_rejected(name: str, paper: str) -> None:
     try:
-        sheets = kinematics_sheets(problem_of(name), paper=paper)
+        sheets = drawn_sheets(name, paper=paper)
     except LayoutError as error:
         assert error.exit_code is ExitCode.USAGE
         assert f"the views do not fit {paper}" in str(error)
@@ -142,7 +142,7 @@ def test_forces_of_36_positions_are_on_one_a1() -> None:
 
 
 def test_a_compact_sheet_has_space_for_a_plan_and_its_enlarged_views() -> None:
-    sheets = kinematics_sheets(problem_of("levers/task-49"), layout="compact")
+    sheets = drawn_sheets("levers/task-49", layout="compact")
     assert {size(sheet) for sheet in sheets} == {(210, 297)}
 
 
@@ -186,7 +186,7 @@ def test_a_sheet_has_its_parts(name: str) -> None:
 
 
 def test_more_than_a_dozen_of_positions_go_on_further_sheets() -> None:
-    sheets = kinematics_sheets(problem_of("linkages/ex2"), positions=[27.0 * k for k in range(13)])
+    sheets = drawn_sheets("linkages/ex2", [27.0 * k for k in range(13)])
     assert len(sheets) == 2
     assert size(sheets[0]) == size(sheets[1])
     assert marks(sheets) == []
@@ -309,7 +309,7 @@ def test_the_pdf_can_be_searched_in_russian(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("paper", ["A3", "A2", "A1"])
 def test_the_page_is_the_format(paper: str) -> None:
-    (sheet,) = kinematics_sheets(problem_of("linkages/ex1"), paper=paper)
+    (sheet,) = drawn_sheets("linkages/ex1", paper=paper)
     fmt = FORMATS[paper]
     svg = render(sheet, "svg").decode("utf-8")
     head = svg[svg.index("<svg") : svg.index(">", svg.index("<svg"))]

@@ -2,25 +2,49 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+import os
+import pickle
 import sys
 from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from planmethod.kinds import kind_of
+from planmethod.kinds import load as load_any
 from planmethod.problem import load
 from planmethod.problem.model import Problem
 
 if TYPE_CHECKING:
     import pytest
 
+    from planmethod.project.model import Project
     from planmethod.render.ink.drawing import Drawing
     from planmethod.solved.solution import Solution
 
 ROOT = Path(__file__).resolve().parent.parent
 PROBLEMS = ROOT / "problems"
+
+T = TypeVar("T")
+
+shared: list[Path] = []
+"""The folder of this run of tests, once there is one: what is made of a key is made there once."""
+
+
+def made_once(key: tuple[object, ...], make: Callable[[], T]) -> T:
+    """Return what is made of a key; of the workers one makes it, the others read its file."""
+    if not shared:
+        return make()
+    file = shared[0] / hashlib.sha256(repr(key).encode()).hexdigest()
+    if not file.exists():
+        own = file.with_suffix(f".{os.getpid()}")
+        own.write_bytes(pickle.dumps(make()))
+        own.replace(file)
+    made: T = pickle.loads(file.read_bytes())
+    return made
+
 
 SIX = (
     "linkages/ex1",
@@ -70,9 +94,25 @@ def _drawn(
     positions: tuple[float, ...] | None,
     asked: tuple[tuple[str, Any], ...],
 ) -> list[Drawing]:
+    from planmethod.render.ink.lettering import STYLES, lettering
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
-    return kinematics_sheets(problem_of(name, variant), positions=positions, **dict(asked))
+    def draw() -> list[Drawing]:
+        return kinematics_sheets(problem_of(name, variant), positions=positions, **dict(asked))
+
+    sheets = made_once((name, variant, positions, asked), draw)
+    names = {style: name for name, style in STYLES.items()}
+    for sheet in sheets:  # of a file it is a copy
+        sheet.lettering = lettering(names[sheet.lettering.style])
+    return sheets
+
+
+@cache
+def project_of(path: Path) -> Project:
+    """Return the project of a file, settled once."""
+    from planmethod.project.settle import settle
+
+    return made_once((path,), lambda: settle(load_any(path), path))
 
 
 def solved_while(

@@ -4,22 +4,21 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from functools import cache
 from pathlib import Path
 
 import pytest
+import worked
 from click.testing import CliRunner, Result
 from worked import ROOT
 
 from planmethod.cli import cli
-from planmethod.kinds import KINDS, load
+from planmethod.kinds import KINDS
 from planmethod.note.wording import language
 from planmethod.note.writers.plain import plain_document
 from planmethod.note.written import plain_of
 from planmethod.problem.model import Problem, Scales
 from planmethod.project.first import first_scales
 from planmethod.project.model import PartName, Project, ProjectPart
-from planmethod.project.settle import settle
 from planmethod.project.sheets import part_drawings
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.controlled import paper_of
@@ -33,9 +32,8 @@ def run(*words: object) -> Result:
     return CliRunner().invoke(cli, [str(word) for word in words])
 
 
-@cache
 def shaper() -> Project:
-    return settle(load(SHAPER), SHAPER)
+    return worked.project_of(SHAPER)
 
 
 @pytest.fixture(scope="module")
@@ -102,6 +100,7 @@ def test_solve_prints_one_position_at_the_scales_of_all() -> None:
 # Norm control ------------------------------------------------------------------------------------
 
 
+@pytest.mark.dear
 def test_lint_looks_over_the_sheets_of_the_project(
     scaled: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

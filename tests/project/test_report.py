@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import openpyxl
 import pytest
+import worked
 from cases import each
 from evaluated import count_equations_that_hold
 from msgspec.structs import replace
@@ -77,10 +78,8 @@ SHAPER = (
 )
 
 
-@cache
 def project_of(name: str) -> Project:
-    path: Path = TEMPLATE if name == "template" else FILES[name]
-    return settle(load(path), path)
+    return worked.project_of(TEMPLATE if name == "template" else FILES[name])
 
 
 @cache

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import worked
 from msgspec.structs import replace
 
 from planmethod.construct.scale import next_scale
@@ -39,9 +40,8 @@ def problem_of(name: str) -> Problem:
     return load(file_of(name))
 
 
-@cache
 def project_of(name: str) -> Project:
-    return settle(problem_of(name), file_of(name))
+    return worked.project_of(file_of(name))
 
 
 def scaled(name: str) -> Problem:

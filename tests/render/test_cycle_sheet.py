@@ -12,7 +12,7 @@ from cases import each, some
 from click.testing import CliRunner
 from loaded import loaded_problem
 from msgspec.structs import replace
-from worked import path_of, problem_of
+from worked import drawn_sheets, path_of, problem_of
 
 from planmethod import loads
 from planmethod.cli import cli
@@ -314,15 +314,15 @@ def test_a_line_of_a_point_breaks_off_where_it_runs_away() -> None:
 @pytest.mark.parametrize(("name", "wide"), [("machines/compressor", 594.0), ("press/press", 841.0)])
 def test_a_smaller_paper_keeps_the_letters_of_the_positions(name: str, wide: float) -> None:
     """The crank of the press is small beside its mechanism: on A2 names do not fit at its pin."""
-    (sheet,) = kinematics_sheets(problem_of(name), layout="forces-cycle")
+    (sheet,) = drawn_sheets(name, layout="forces-cycle")
     assert sheet.width == wide
 
 
 def test_sheets_are_small_where_no_block_is_left_out() -> None:
     """A short calculation of forces takes A2, with diagrams as large as fit."""
-    (sheet,) = kinematics_sheets(problem_of("machines/engine"), layout="forces-cycle")
+    (sheet,) = drawn_sheets("machines/engine", layout="forces-cycle")
     assert (sheet.width, sheet.is_cut_down) == (594.0, False)
-    (forces,) = kinematics_sheets(problem_of("machines/engine"), layout="forces")
+    (forces,) = drawn_sheets("machines/engine", layout="forces")
     assert (forces.width, forces.is_cut_down) == (841.0, False)  # A2 would leave plans out
-    asked = kinematics_sheets(problem_of("machines/engine"), layout="forces", paper="A2")
+    asked = drawn_sheets("machines/engine", layout="forces", paper="A2")
     assert asked[0].width == 594.0

@@ -433,7 +433,7 @@ def test_other_dyads_are_drawn(name: str, centre: str, link: str, at: str) -> No
 
 def test_every_position_has_a_sheet_of_its_own() -> None:
     positions = [0.0, 120.0, 240.0]
-    sheets = kinematics_sheets(problem_of("press/press"), positions=positions, layout="forces")
+    sheets = drawn_sheets("press/press", positions, layout="forces")
     assert len(sheets) == 3
     for phi, sheet in zip(positions, sheets, strict=True):
         assert f"= {phi:.0f}°" in shown(sheet)
@@ -443,7 +443,7 @@ def test_every_position_has_a_sheet_of_its_own() -> None:
 
 def test_missing_masses_and_loads_are_reported() -> None:
     with pytest.raises(ProblemError, match=r"dynamics: missing.*\[dynamics\]"):
-        kinematics_sheets(problem_of("linkages/ex1"), layout="forces")
+        drawn_sheets("linkages/ex1", layout="forces")
     result = CliRunner().invoke(cli, ["sheet", str(path_of("linkages/ex1")), "--layout", "forces"])
     assert result.exit_code == ExitCode.PROBLEM
     assert "Traceback" not in result.output

@@ -58,7 +58,7 @@ def test_curves_are_the_exact_quantities_in_their_scale() -> None:
 
 @each("name", ["linkages/ex3", "levers/six-link", "levers/task-22"])
 def test_a_sheet_of_graphs_is_drawn_and_clean(name: str) -> None:
-    (drawing,) = kinematics_sheets(problem_of(name), layout="graphs")
+    (drawing,) = drawn_sheets(name, layout="graphs")
     assert not lint(drawing.items)
 
 
@@ -79,7 +79,7 @@ def test_the_file_or_the_caller_selects_graphs() -> None:
 
 
 def test_homework_has_the_formulas_of_transfer_functions() -> None:
-    (drawing,) = kinematics_sheets(problem_of("levers/six-link"), layout="homework")
+    (drawing,) = drawn_sheets("levers/six-link", layout="homework")
     text = said(drawing.items)
     assert "Передаточные функции скоростей" in text
     assert "0,1·72/60 = 0,12" in text

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from worked import problem_of
+from worked import drawn_sheets, problem_of
 
 from benchmarks.generator import random_problem
 from planmethod import loads
@@ -30,7 +30,7 @@ def table_of(sheet: Drawing) -> list[str]:
 
 
 def test_laid_off_values_are_under_the_table_and_not_in_it() -> None:
-    (sheet,) = kinematics_sheets(problem_of("linkages/ex3"), positions=THREE)
+    (sheet,) = drawn_sheets("linkages/ex3", THREE)
     table = table_of(sheet)
     known = "".join(table[next(k for k, t in enumerate(table) if t.startswith("Известно")) :])
     assert known.startswith("Известно до построения планов: v") and "3,200" in known
@@ -38,7 +38,7 @@ def test_laid_off_values_are_under_the_table_and_not_in_it() -> None:
 
 
 def test_equal_rotations_share_one_column() -> None:
-    (sheet,) = kinematics_sheets(problem_of("linkages/ex3"), positions=THREE)
+    (sheet,) = drawn_sheets("linkages/ex3", THREE)
     heads = table_of(sheet)
     for letter in "ωε":  # of links 2 and 3 together, measured of them, of link 4, measured of it
         assert sum(text.count(letter) for text in heads) == 2 + 1 + 1 + 1
@@ -51,7 +51,7 @@ def test_a_value_by_proportion_depends_on_a_reading_but_is_not_one() -> None:
     quantities = {one.label: one for one in told(solution, *MOTION_KINDS)}
     assert quantities["v_B"].size not in read and quantities["a_B"].size not in read
     assert {quantities[label].size for label in ("v_B3", "v_D", "v_E", "omega_3")} <= read
-    (sheet,) = kinematics_sheets(problem_of("linkages/ex3"), positions=THREE)
+    (sheet,) = drawn_sheets("linkages/ex3", THREE)
     primed = sum(text == "Δ" for text in table_of(sheet))
     # v_B3, v_E, ω₂ = ω₃, ω₄; a_B3, a_E, ε₂ = ε₃, ε₄: not v_D, a_D, laid off by proportion
     assert primed == 8
@@ -74,7 +74,7 @@ def test_measured_values_have_no_zeros_of_a_finer_ruler() -> None:
 
 
 def test_values_laid_off_exactly_have_no_trailing_zeros() -> None:
-    (sheet,) = kinematics_sheets(problem_of("linkages/ex3"))
+    (sheet,) = drawn_sheets("linkages/ex3")
     texts = [item.text for item in sheet.items if isinstance(item, Text)]
     assert "3,200" in texts  # an exact value has four digits
     assert "3,2" in texts

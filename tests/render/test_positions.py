@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from worked import DEAD, SIX, problem_of
+from worked import DEAD, SIX, drawn_sheets, problem_of
 
 from planmethod.plans.model import PlanKind
 from planmethod.problem import loads
@@ -317,7 +317,7 @@ def test_the_bold_position_is_not_in_one_line(name: str) -> None:
 
 
 def test_the_sheet_of_the_press_has_twelve_positions_on_one_scheme() -> None:
-    (sheet,) = kinematics_sheets(problem_of("press/press"), positions=ALL_ROUND)
+    (sheet,) = drawn_sheets("press/press", ALL_ROUND)
     assert (sheet.width, sheet.height) == (841.0, 594.0)
     shown = " ".join(w.shown for w in writings_of(sheet.items)).replace(",", " ").split()
     assert {"A′", "A″", "крайние", "H", "φр", "φх"} <= set(shown)  # given at the name of the view
@@ -330,7 +330,7 @@ def test_the_sheet_of_the_press_has_twelve_positions_on_one_scheme() -> None:
 @pytest.mark.parametrize("name", ["levers/task-49", "linkages/2.1.2"])
 def test_the_scale_is_given_once_under_the_heading_of_the_plans(name: str) -> None:
     positions = [30.0 * k for k in range(11)]
-    (sheet,) = kinematics_sheets(problem_of(name), positions=positions)
+    (sheet,) = drawn_sheets(name, positions)
     for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
         (view,) = (v for v in sheet.views if v.kind == kind.value)
         left, low, right, high = view.box

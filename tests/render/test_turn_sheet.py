@@ -9,7 +9,7 @@ import pytest
 from cases import some
 from msgspec.structs import replace
 from texts import cycle_protocol
-from worked import SIX, problem_of, solved_while
+from worked import SIX, drawn_sheets, problem_of, solved_while
 
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
@@ -102,7 +102,7 @@ def test_the_protocol_has_poles_and_scales_in_both_languages() -> None:
 
 @pytest.mark.parametrize("name", ["press/press", *SIX[: some(len(SIX), 0)]])
 def test_the_sheet_is_one_a1_without_a_fault(name: str) -> None:
-    (sheet,) = kinematics_sheets(problem_of(name), layout="coursework")
+    (sheet,) = drawn_sheets(name, layout="coursework")
     fmt = FORMATS["A1"]
     assert (sheet.width, sheet.height) == (fmt.width, fmt.height)
     assert [f"{finding.code} {finding.message}" for finding in lint(sheet.items, fmt.inner)] == []
@@ -113,7 +113,7 @@ def test_the_sheet_is_one_a1_without_a_fault(name: str) -> None:
 
 
 def test_of_one_position_its_own_plans_are_shown() -> None:
-    (sheet,) = kinematics_sheets(problem_of("press/press"), positions=[30], layout="coursework")
+    (sheet,) = drawn_sheets("press/press", [30], layout="coursework")
     kinds = [view.kind for view in sheet.views]
     assert set(kinds) <= set(VIEW_KINDS)
     (plan,) = (view for view in sheet.views if view.kind == "acceleration")
