@@ -231,7 +231,7 @@ def test_both_languages_show_the_same(names: tuple[str, str]) -> None:
     assert len(counts) == 1
 
 
-@each("name", sampled([name for name in PAGES if name not in COMMANDS], 2))
+@each("name", sampled([name for name in PAGES if name not in COMMANDS], 4))
 def test_the_russian_pages_work(name: str, tmp_path: Path) -> None:
     """Their files are read, their commands run, in order; sheets only with --thorough.
 

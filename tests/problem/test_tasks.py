@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
-from cases import each, some, thinned
+from cases import each, sampled, some, thinned
 from click.testing import CliRunner, Result
 from worked import ROOT, every_task
 
@@ -66,7 +66,7 @@ def test_a_variant_is_written_into_the_text(task: ShippedTask) -> None:
         assert text.count("#") >= task.text.count("#") // 2  # the remarks stay
 
 
-@each("path", thinned(every_task(), 9))
+@each("path", sampled(thinned(every_task(), 9), 3))
 def test_tasks_are_solved_in_all_variants(path: Path) -> None:
     for variant in (None, *variant_names(path)):
         solution = Solution(load(path, variant=variant))
@@ -78,7 +78,7 @@ def test_tasks_are_solved_in_all_variants(path: Path) -> None:
     assert "# Определить" in text
 
 
-@each("path", thinned(every_task(), 35))
+@each("path", sampled(thinned(every_task(), 35), 3))
 def test_sheets_of_tasks_have_no_errors(path: Path) -> None:
     """In one position and in several; with --thorough each variant, and all positions at once."""
     names = variant_names(path)
