@@ -35,7 +35,7 @@ def is_whole(config: pytest.Config) -> bool:
 
 
 PROGRAMS = ("chromium", "pdftotext", "rsvg-convert", "soffice")
-"""What ``.ci/run`` installs: elsewhere tests that need one of them skip, and say so."""
+"""Programs that ``.ci/run`` installs; without CI, tests that need a missing one are skipped."""
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -52,11 +52,11 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def _end_in_order() -> None:
-    """Take SIGTERM as Ctrl+C: what fixtures began, servers and browsers, they end."""
+    """Handle SIGTERM like Ctrl+C, so that fixtures end their servers and browsers."""
     own = os.getpid()
 
     def end(number: int, _: object) -> None:
-        if os.getpid() != own:  # a process that was forked ends at once, as ever
+        if os.getpid() != own:  # a forked process ends at once, as by default
             os._exit(128 + number)
         raise KeyboardInterrupt
 
@@ -116,7 +116,7 @@ def _no_config_of_the_developer(tmp_path_factory: pytest.TempPathFactory) -> Ite
     """Use an empty config file and no cache of the developer's; make every warning an error."""
     empty = Path(tmp_path_factory.mktemp("config")) / "config.toml"
     empty.touch()
-    base = tmp_path_factory.getbasetemp()  # of a worker: in that of the run
+    base = tmp_path_factory.getbasetemp()  # of a worker: inside that of the run
     shared = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "shared"
     shared.mkdir(exist_ok=True)
     worked.shared[:] = [shared]

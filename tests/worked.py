@@ -30,11 +30,11 @@ PROBLEMS = ROOT / "problems"
 T = TypeVar("T")
 
 shared: list[Path] = []
-"""The folder of this run of tests, once there is one: what is made of a key is made there once."""
+"""Folder of this test run for results that the workers share; empty before the run begins."""
 
 
 def made_once(key: tuple[object, ...], make: Callable[[], T]) -> T:
-    """Return what is made of a key; of the workers one makes it, the others read its file."""
+    """Return the result for a key: one worker computes it, the others read its file."""
     if not shared:
         return make()
     file = shared[0] / hashlib.sha256(repr(key).encode()).hexdigest()
