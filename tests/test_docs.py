@@ -84,6 +84,7 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 # Commands ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.dear
 def test_the_tour_works_from_the_first_command_to_the_last(desk: Path) -> None:
     """In one language; the other has the same commands. Large sheets only with --thorough."""
     lines = [words for words in planmethod_lines(COMMANDS[0]) if words[0] != "studio"]  # it serves
