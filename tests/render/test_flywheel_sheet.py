@@ -16,13 +16,18 @@ from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ExitCode
 from planmethod.kinds import load
 from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.tables.machine import machine_teller
 from planmethod.note.wording import language
 from planmethod.problem.machine_records import FlywheelMethod
-from planmethod.render.ink.drawing import Disc, Drawing, Pen, Stroke, Text
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Pen, Stroke, Text
 from planmethod.render.pictures.flywheel import construction_picture
+from planmethod.render.sheets.blocks import maker_of
+from planmethod.render.sheets.composer import Sizes
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.model import Entry, Extras, Manner
 from planmethod.solved.machine.drawing import NEAREST_POLE, TALLEST, drawing_of
 from planmethod.solved.machine.flywheel import Flywheel
+from planmethod.solved.solution import Solution
 
 WANTED = json.loads((ROOT / "tests/data/flywheel.json").read_text("utf-8"))
 FILES = ("press/flywheel", "machines/compressor", "machines/engine")
@@ -137,3 +142,18 @@ def test_an_energy_mass_curve_takes_the_available_area(path: str, sides: tuple[i
 def test_scales_of_the_file_are_those_of_an_energy_mass_curve() -> None:
     drawing = drawing_of(Flywheel(load(ROOT / "problems/press/flywheel.toml")), PROFILES["board"])
     assert (drawing.scales.inertia, drawing.scales.moment, drawing.pole) == (0.005, 0.5, 30.0)
+
+
+def test_the_dimensions_of_the_flywheel_span_its_width_and_its_diameter() -> None:
+    """Read between the heads of each dimension, beside the circle of the rim."""
+    solution = Solution(problem_of("press/flywheel"))
+    sizes = machine_teller(solution, language("en")).sizes
+    assert sizes is not None and not sizes.bore
+    manner = Manner(Entry("flywheel"), Sizes(5.0, 5.0, 5.0, 240.0), 800.0, Extras(language("en")))
+    items = maker_of("flywheel")(solution, (0,), manner).place(0j)
+    rim = max(one.radius for one in items if isinstance(one, Arc))
+    tips = [one.points[0] for one in items if isinstance(one, Fill)]
+    lengths = sorted(
+        abs(two - one) / (2.0 * rim) for one, two in zip(tips[::2], tips[1::2], strict=True)
+    )
+    assert lengths == pytest.approx(sorted((1.0, sizes.width / sizes.diameter)), rel=1e-6)
