@@ -33,7 +33,7 @@ def imported(folder: Path, *words: str) -> set[str]:
     return {line.rpartition("|")[2].strip() for line in lines if line.startswith("import time:")}
 
 
-def test_the_package_alone_imports_nothing(tmp_path: Path) -> None:
+def test_the_package_alone_imports_no_modules(tmp_path: Path) -> None:
     modules = imported(tmp_path, "-c", "import planmethod")
     assert "planmethod" in modules
     assert modules.isdisjoint({*HEAVY, "click"})
@@ -56,7 +56,7 @@ def test_the_package_alone_imports_nothing(tmp_path: Path) -> None:
 def test_a_command_imports_no_more_than_it_needs(
     tmp_path: Path, command: str, most: int, heavy: set[str]
 ) -> None:
-    """Imports that few runs need stand in functions; so many modules of the package load."""
+    """Rarely needed imports are in functions; at most ``most`` modules of the package load."""
     modules = imported(tmp_path, "-m", "planmethod", *command.split())
     ours = [name for name in modules if name.partition(".")[0] == "planmethod"]
     assert modules & HEAVY == heavy

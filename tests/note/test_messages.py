@@ -1,4 +1,4 @@
-"""Every message is said in every language; found in the source, so that none can be forgotten."""
+"""Every message has a translation in every language; messages are found in the source."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ DECLARED = [one.key for record in keys.FLAT.values() for one in declared(record)
 NUMBERS = [key for key in DECLARED if isinstance(key, NumberKey)]
 REFERENCE = {
     *(text for key in DECLARED for text in (key.sentence, key.more, key.absent)),
-    *(key.what for key in NUMBERS if key.unit),  # said with the unit
+    *(key.what for key in NUMBERS if key.unit),  # printed with the unit
     *TITLE_BLOCK.values(),
     *TITLE_BLOCK_IN.values(),
 }
@@ -60,20 +60,20 @@ READS = re.compile(
 """A text that reads as a message, or a part of one."""
 
 SENTENCE = re.compile(r"(?=.*[a-z]{2})(?!.*=).*(\S \S|\.$)", re.DOTALL)
-"""A text of a call that is said: words, not one alone, nor TOML."""
+"""Form of a message in a call: several words, and no TOML."""
 
 PLAIN_ENGLISH = re.compile(r"\b(the|is|are|an|of|not|and|or|with|has|expected|must|give|to)\b")
 
 
 def is_said(call: ast.Call) -> bool:
-    """Tell whether the texts of a call are messages."""
+    """Return whether the texts of a call are messages."""
     name = call.func.id if isinstance(call.func, ast.Name) else getattr(call.func, "attr", "")
     return name in SAYS or name.endswith("Error") or ast.unparse(call.func).endswith("faults.add")
 
 
 @cache
 def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
-    """Return the sentences that are said, f-strings that read as one, and all texts there are."""
+    """Return the messages of the source, f-strings that read as messages, and all texts."""
     said: dict[str, str] = {}
     formatted: dict[str, str] = {}
     every: set[str] = set()
@@ -121,7 +121,7 @@ def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
 
 
 def messages(lang: str) -> dict[str, str]:
-    """Return the messages of a language; none is given in two rooms."""
+    """Return the messages of a language; each is in one catalogue only."""
     found: dict[str, str] = {}
     for path in (WORDING / lang / "messages").glob("*.toml"):
         room = catalogue(lang, f"messages/{path.stem}")
@@ -142,7 +142,7 @@ def places(text: str) -> tuple[set[str], set[str]]:
 
 
 @pytest.mark.parametrize("lang", OTHERS)
-def test_every_message_is_said_in_every_language(lang: str) -> None:
+def test_every_message_is_translated_into_every_language(lang: str) -> None:
     said, formatted, _ = source()
     assert len(said) > 700
     known = messages(lang)
@@ -153,14 +153,14 @@ def test_every_message_is_said_in_every_language(lang: str) -> None:
 
 @pytest.mark.parametrize("lang", OTHERS)
 def test_every_message_of_a_catalogue_is_found(lang: str) -> None:
-    """Its key is written as it is looked for."""
+    """Its key is the English sentence of the source."""
     with speaking(lang):
         for english, other in messages(lang).items():
             assert translated(english) == other
 
 
 @pytest.mark.parametrize("lang", OTHERS)
-def test_no_message_is_kept_that_nobody_says(lang: str) -> None:
+def test_every_translated_message_is_used(lang: str) -> None:
     foreign = catalogue(lang, "messages/foreign")
     assert set(messages(lang)) - set(foreign) <= source()[2]
 
@@ -211,7 +211,7 @@ def test_the_help_is_shown_in_russian() -> None:
     assert "Для начала:" in shown and re.search(r"\[КЛЮЧИ\] \[?КОМАНДА", shown)
     assert "Показать эту справку и выйти." in shown
     assert not PLAIN_ENGLISH.search(shown)
-    for name in COMMANDS:  # what is to be put in, too, but words of files
+    for name in COMMANDS:  # metavariables, too, but not words of files
         shown = CliRunner().invoke(cli, [name, "--help", "--lang", "ru"]).output
         assert not re.search(r"^  +(?:-\S+ )+\[?[A-Z]{4,}|^Вызов: .*\b[A-Z]{4,}", shown, re.M), name
     one = CliRunner().invoke(cli, ["solve", "--lang=ru", "--hlep"])
@@ -219,15 +219,15 @@ def test_the_help_is_shown_in_russian() -> None:
     assert "Ошибка: Нет ключа '--hlep'." in one.output
     other = CliRunner().invoke(cli, ["solve", "--lang=en", "--hlep"])
     assert "Error: No such option '--hlep'." in other.output
-    for lang, kind in (("ru", "Папка"), ("en", "Directory"), ("ru", "Папка")):  # each anew
+    for lang, kind in (("ru", "Папка"), ("en", "Directory"), ("ru", "Папка")):  # switched each time
         told = CliRunner().invoke(cli, ["sheet", "x.toml", "--lang", lang, "-o", __file__]).output
         assert kind in told
     assert "Usage:" in CliRunner().invoke(cli, ["--help"]).output  # as before
 
 
 @each("path", FAULTY)
-def test_the_faults_of_a_file_are_told_in_russian(path: Path) -> None:
-    """No fact of a message stays English: what is quoted, or in braces, is of the file."""
+def test_the_faults_of_a_file_are_reported_in_russian(path: Path) -> None:
+    """No part of a message stays English; texts in quotes or braces come from the file."""
     with speaking("ru"), pytest.raises(PlanMethodError) as caught:
         load(path)
     told = str(caught.value).split("\n", 1)[1]
@@ -236,7 +236,7 @@ def test_the_faults_of_a_file_are_told_in_russian(path: Path) -> None:
 
 
 def test_a_table_is_the_same_in_every_language(tmp_path: Path) -> None:
-    """The reasons of empty cells are bytes of a file; the warning is said to who asks."""
+    """The reasons of empty cells are part of a file; the warning is in the user's language."""
     text = (HOME.parent / "problems" / "linkages" / "ex1.toml").read_text("utf-8")
     file = tmp_path / "short.toml"
     file.write_text(text.replace("BC = 0.1", "BC = 0.028"), "utf-8")
@@ -262,7 +262,7 @@ def test_words_go_with_their_numbers() -> None:
     assert told == ["ошибка", "ошибки", "ошибок", "ошибок", "ошибка", "ошибки", "ошибок"]
 
 
-def test_what_a_file_says_is_left_as_it_is() -> None:
+def test_texts_of_a_file_are_left_unchanged() -> None:
     with speaking("ru"):
         once = say("the mechanism has no '{}'", "missing {0}")
         assert once == "в механизме нет имени «missing {0}»"
@@ -270,7 +270,7 @@ def test_what_a_file_says_is_left_as_it_is() -> None:
         assert say("nobody knows {this}") == "nobody knows {this}"
 
 
-def test_the_language_is_asked_for() -> None:
+def test_the_language_can_be_selected() -> None:
     cases: list[tuple[str, dict[str, str], str]] = [
         ("", {}, "en"),
         ("solve --lang en", {"PLANMETHOD_LANG": "ru"}, "en"),

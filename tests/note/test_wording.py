@@ -24,7 +24,7 @@ HOME = Path(planmethod.__file__).parent
 CYRILLIC = re.compile("[\u0400-\u04ff]")
 
 MARKED = re.compile(r"(?m)^# Cyrillic letters: \w")
-"""A comment of a module with letters that no language says to a reader, with the reason."""
+"""A comment of a module with Cyrillic letters that are in no catalogue, with the reason."""
 
 MACHINE = {
     "resisting moment",
@@ -53,7 +53,7 @@ PROGRAMS = {"Word", "Moodle", "JavaScript", "Python", "CodeMirror", "JSON", "XLS
 
 
 def said(words: object, path: str = "") -> Iterator[tuple[str, object]]:
-    """Yield all that a language says, by its place."""
+    """Yield all texts of a language by place."""
     if isinstance(words, Language):
         for subject in Language.__annotations__:
             yield from said(getattr(words, subject), f"{path}.{subject}")
@@ -72,7 +72,7 @@ def places(text: str) -> set[str]:
 
 
 @pytest.mark.parametrize("lang", LANGUAGES[1:])
-def test_a_language_says_all_that_russian_says_with_the_same_places(lang: str) -> None:
+def test_a_language_has_every_sentence_of_russian_with_the_same_places(lang: str) -> None:
     russian, other = (dict(said(language(name))) for name in (LANGUAGES[0], lang))
     assert set(russian) == set(other)
     for path, text in russian.items():
@@ -89,7 +89,7 @@ def test_a_language_says_all_that_russian_says_with_the_same_places(lang: str) -
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
+def test_a_language_has_the_names_of_its_subjects(lang: str) -> None:
     words = language(lang)
     lever = {f"lever {one.quantity}" for one in (MOMENT, FORCE)}
     rubbing = {"friction force", "friction moment"}
@@ -115,7 +115,7 @@ def test_russian_is_russian_and_english_is_english() -> None:
         assert set(words) <= {"float", "board", "grow", "true", "arctg"} | named, (path, words)
 
 
-def test_no_word_stands_outside_the_folders_of_the_languages() -> None:
+def test_no_word_is_outside_the_folders_of_the_languages() -> None:
     for path in sorted(HOME.rglob("*.py")):
         if not path.is_relative_to(HOME / "note/wording"):
             is_marked = bool(MARKED.search(path.read_text("utf-8")))
@@ -161,11 +161,11 @@ EVERY = [table for words in WORDS.values() for table in tables(words)]
 
 
 NO_KEYS = {*dir(dict), *dir(Language("en")), *WORDS}
-"""What is asked of a table, or of a whole language."""
+"""Attributes of a table, or of a whole language."""
 
 
 def table_of(node: ast.AST, known: Mapping[str, list[Words]]) -> list[Words] | None:
-    """Return the tables that an expression may be; None where it is no words."""
+    """Return the tables that an expression may be; None if it is not one."""
     match node:
         case ast.Attribute(value, subject) if subject in WORDS:
             of = ast.unparse(value)
@@ -182,7 +182,7 @@ def table_of(node: ast.AST, known: Mapping[str, list[Words]]) -> list[Words] | N
 
 
 def bound(scope: ast.AST, known: Mapping[str, list[Words]]) -> dict[str, list[Words]]:
-    """Return what names of a function, or of ``self``, may be which tables of words."""
+    """Return the tables that names of a function, or attributes of ``self``, may be."""
     found = dict(known)
     other: set[str] = set()
     for node in ast.walk(scope):
@@ -229,7 +229,7 @@ def code() -> tuple[list[tuple[str, str, list[Words]]], set[object]]:
         if "wording" not in path.parts:
             text = path.read_text("utf-8")
             tree = ast.parse(text)
-            if re.search("[Ww]ord|said|language", text):  # else nothing in it is of words
+            if re.search("[Ww]ord|said|language", text):  # else it uses no tables of words
                 keys += keys_read(path.relative_to(HOME).as_posix(), tree)
             for node in ast.walk(tree):
                 if isinstance(node, ast.Constant):
@@ -240,7 +240,7 @@ def code() -> tuple[list[tuple[str, str, list[Words]]], set[object]]:
 
 
 def test_every_key_that_the_code_names_is_a_sentence() -> None:
-    """``words.note.lay_off`` is a sentence; what is no sentence is ``words.note["plans"]``."""
+    """A sentence is an attribute, ``words.note.lay_off``; a table is ``words.note["plans"]``."""
     found, _ = code()
     assert len(found) > 600
     wrong = [
@@ -253,7 +253,7 @@ def test_every_key_that_the_code_names_is_a_sentence() -> None:
     assert not [key for words in WORDS.values() for key in words if key in methods]
 
 
-def test_every_sentence_is_said() -> None:
+def test_every_sentence_is_used() -> None:
     _, texts = code()
     silent = {
         f"{subject}.{key}"
@@ -264,7 +264,7 @@ def test_every_sentence_is_said() -> None:
     assert {name for name in silent if not name.startswith("forces.side_")} == set()
 
 
-def test_a_notation_writes_numbers_and_names_what_has_a_role() -> None:
+def test_a_notation_writes_numbers_and_names_with_a_role() -> None:
     russian, english = (language(lang).say for lang in ("ru", "en"))
     for say, text in ((russian, "−1,5·10^{−7}"), (english, "−1.5·10^{−7}")):
         assert isinstance(say, Notation)

@@ -75,7 +75,7 @@ def made(text: str) -> Composition:
 # Shipped ones -------------------------------------------------------------------------------------
 
 
-def test_the_shipped_are_the_files_that_lie_there() -> None:
+def test_the_shipped_layouts_are_the_files_in_the_folder() -> None:
     files = {path.stem for path in (SHEETS / "compositions").glob("*.toml")}
     assert files == set(SHIPPED)
     for name in SHIPPED:
@@ -98,13 +98,13 @@ KINEMATIC = tuple(name for name in SHIPPED if name not in OTHERS)
 @pytest.mark.parametrize("layout", [name for name in KINEMATIC if name != "many-positions"])
 @pytest.mark.parametrize("name", SIX)
 def test_every_shipped_composition_draws_every_problem(name: str, layout: str) -> None:
-    """The one of many positions is looked at with its sheets in ``test_sheets``."""
+    """The one of many positions is checked with its sheets in ``test_sheets``."""
     sheets = drawn_sheets(name, positions_of(name, layout), layout=layout)
     assert sheets
     for sheet in sheets:
         assert marks(sheet) == []
         if not sheet.views:
-            assert "Расчёт" in shown(sheet)  # what had no room beside the plans
+            assert "Расчёт" in shown(sheet)  # blocks that did not fit beside the plans
             continue
         assert {v.kind for v in sheet.views} == {"position", "velocity", "acceleration"}
         for part in ("Дано:", "Определить:", "Уравнения"):
@@ -118,7 +118,7 @@ def test_a_composition_for_many_positions_draws_one_and_the_other_way_round(layo
         assert all(marks(sheet) == [] for sheet in sheets)
 
 
-def test_what_is_taken_when_nothing_is_asked() -> None:
+def test_the_default_layout_depends_on_the_number_of_positions() -> None:
     problem = problem_of("linkages/ex1")
     for positions, name in (
         (None, "one-position"),
@@ -145,7 +145,7 @@ def test_the_order_of_the_textbook() -> None:
     assert "Схема механизма" in shown(sheet)
 
 
-def test_twelve_positions_stand_as_a_coursework_has_them() -> None:
+def test_twelve_positions_are_arranged_as_in_a_coursework() -> None:
     """The scheme left, velocity plans in two rows of six, accelerations below, then the table."""
     (sheet,) = drawn_sheets("press/press", TURN, layout="coursework-12")
     scheme, velocity, acceleration = (
@@ -167,8 +167,8 @@ def test_twelve_positions_stand_as_a_coursework_has_them() -> None:
 
 
 @pytest.mark.parametrize("name", SIX)
-def test_a_plan_stands_with_its_equations(name: str) -> None:
-    """Nothing of the other is in the hull of a plan and its equations; each has its calculation."""
+def test_a_plan_is_beside_its_equations(name: str) -> None:
+    """No part of the other is in the hull of a plan and its equations; each has its calculation."""
     (sheet,) = drawn_sheets(name)
     own = {}
     for kind, genitive in (("velocity", "скоростей"), ("acceleration", "ускорений")):
@@ -266,7 +266,7 @@ height = 5
 """
 
 
-def test_sheets_titles_columns_and_texts_are_as_the_file_says() -> None:
+def test_sheets_titles_columns_and_texts_follow_the_file() -> None:
     one, two = kinematics_sheets(problem_of("linkages/ex3"), layout=made(TWO_SHEETS))
     assert (one.title, two.title) == ("Схема и скорости", "Ускорения")
     assert [v.kind for v in one.views] == ["position", "velocity"]
@@ -282,14 +282,14 @@ def test_sheets_titles_columns_and_texts_are_as_the_file_says() -> None:
     assert marks(one) == marks(two) == []
 
 
-def test_the_title_asked_for_outranks_that_of_the_layout() -> None:
+def test_the_requested_title_outranks_that_of_the_layout() -> None:
     sheets = kinematics_sheets(
         problem_of("linkages/ex3"), layout=made(TWO_SHEETS), fields={"title": "Мой лист"}
     )
     assert {sheet.title for sheet in sheets} == {"Мой лист"}
 
 
-def test_blocks_stand_in_the_order_of_the_file() -> None:
+def test_blocks_are_in_the_order_of_the_file() -> None:
     text = """
 formats = ["A2"]
 arrange = "column"
@@ -328,8 +328,8 @@ def test_a_block_that_must_stay_is_never_left_out() -> None:
     assert all(sheet.views for sheet in asked)
 
 
-def test_texts_take_the_larger_letters_that_there_is_room_for() -> None:
-    """All shrink alike until they fit; then those grow again that can, none to twice the least."""
+def test_texts_take_the_larger_letters_if_they_fit() -> None:
+    """All shrink equally until they fit; then those that can grow again, below twice the least."""
     text = re.sub(r"height = \[.*\]", "height = [5, 3.5, 2.5]", shipped_text("one-position"))
     (sheet,) = kinematics_sheets(problem_of("levers/task-57"), layout=made(text))
     titles = ("Дано", "Уравнения", "Расчёт", "Результаты")
@@ -381,7 +381,7 @@ def test_boxes_of_views_set_their_scales() -> None:
     assert view(small, "acceleration").per_mm == view(usual, "acceleration").per_mm
 
 
-def test_plans_grow_where_the_paper_has_room_and_given_scales_stay() -> None:
+def test_plans_grow_into_free_paper_and_given_scales_stay() -> None:
     text = shipped_text("one-position")
     grows = made(text.replace("grow = false", "grow = true"))
     free, given_ = problem_of("press/press"), problem_of("linkages/ex3")
@@ -505,7 +505,7 @@ KEYS = st.sampled_from(
     st.dictionaries(KEYS, VALUES, max_size=4),
     st.lists(st.tuples(st.sampled_from(list(BLOCKS)), st.dictionaries(KEYS, VALUES, max_size=4))),
 )
-def test_random_files_are_read_or_refused(
+def test_random_files_are_read_or_rejected(
     top: dict[str, str], blocks: list[tuple[str, dict[str, str]]]
 ) -> None:
     def lines() -> Iterator[str]:
@@ -556,7 +556,7 @@ def test_the_examples_of_the_document_can_be_read() -> None:
 
 
 def test_scales_of_the_file_for_another_position_do_not_stop_a_sheet() -> None:
-    """Near a dead position the plans at those scales have no room on A0."""
+    """Near a dead position the plans at those scales do not fit A0."""
     problem = problem_of("linkages/ex3")
     (sheet,) = kinematics_sheets(problem, positions=(270.0,))
     (found,) = (view.per_mm for view in sheet.views if view.kind == "acceleration")
@@ -566,7 +566,7 @@ def test_scales_of_the_file_for_another_position_do_not_stop_a_sheet() -> None:
         kinematics_sheets(own)
 
 
-def test_what_has_no_room_at_its_scales_is_tried_at_those_of_the_paper_itself() -> None:
+def test_blocks_too_large_at_their_scales_are_tried_at_those_of_the_paper() -> None:
     """Before a larger paper is taken."""
     (sheet,) = kinematics_sheets(problem_of("levers/task-1"))
     assert sheet.width == 594
