@@ -173,10 +173,10 @@ def test_forces_on_a_lever_that_was_not_turned_have_the_other_arms() -> None:
 
 
 def test_an_arm_measured_along_a_force_takes_its_other_component_of_the_velocity() -> None:
-    """F4: of an upright force on 5, which moves upright, nothing is left on the lever.
+    """F4: a vertical force on link 5, which moves vertically, has no moment on the lever.
 
-    On a plan that was turned by 90° the moment of F at the end of v is the real part of F times
-    the conjugate of v, and what is along F less its imaginary part, of the same sign.
+    On a plan turned by 90° the moment of F at the end of v is the real part of F times the
+    conjugate of v; the moment by the component along F is minus its imaginary part.
     """
     points = Solution(problem_of("levers/task12")).points
     right = exact(task_of("levers/task12"))["lever"]

@@ -40,7 +40,7 @@ REFERENCE = {
     *TITLE_BLOCK.values(),
     *TITLE_BLOCK_IN.values(),
 }
-"""Texts of the reference of keys, which are no messages."""
+"""Texts of the reference of keys, which are not messages."""
 
 SAYS = {
     "say", "translated", "Fault", "_fail", "_fault", "_load_fault", "expected", "beyond",

@@ -79,7 +79,7 @@ def test_points_and_links_have_their_places_sizes_and_senses(
 
 
 @each("name, positions", CASES)
-def test_vectors_have_the_segments_that_are_read_and_what_follows_from_them(
+def test_vectors_have_the_segments_that_are_read_and_their_results(
     name: str, positions: tuple[float, ...] | None
 ) -> None:
     solution = Solution(problem_of(name), positions=positions)

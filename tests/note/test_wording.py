@@ -125,7 +125,7 @@ def test_no_word_is_outside_the_folders_of_the_languages() -> None:
 
 
 def literals(path: Path) -> Iterator[str]:
-    """Yield the texts of a module that are no docstrings: those that its code keeps."""
+    """Yield the texts of a module's compiled code, without docstrings."""
     text = path.read_text(encoding="utf-8")
     if not CYRILLIC.search(text):
         return
