@@ -9,13 +9,17 @@ import re
 import shutil
 import subprocess
 import sys
+from itertools import cycle
 from pathlib import Path
+from random import Random
 
 import pytest
 from cases import each, some, thinned
+from click.testing import CliRunner
 from worked import PROBLEMS, ROOT, drawn_sheets, every_file, path_of, problem_of
 
 from benchmarks.generator import random_problem
+from planmethod.cli import cli
 from planmethod.errors import ExitCode, LayoutError
 from planmethod.problem import loads, variant_names
 from planmethod.render.backends import render
@@ -289,6 +293,52 @@ def test_sheets_do_not_depend_on_earlier_drawings() -> None:
     )
     assert after == fresh
     assert len(fresh.split()) >= 2 * len(paths)
+
+
+FORTY = [
+    (str(path), "--format", "svg,pdf", *options)
+    for path, options in zip(
+        [
+            *every_file(),
+            *sorted((PROBLEMS / "cams").glob("*.toml")),
+            *sorted((PROBLEMS / "gears").glob("*.toml")),
+            *sorted((PROBLEMS / "meshing").glob("*.toml")),
+            *every_file(),
+        ][:40],
+        cycle(
+            [
+                ("--lang", "ru"),
+                ("--lang", "en"),
+                ("--lang", "ru", "--lettering", "A"),
+                ("--lang", "en", "--lettering", "B-upright"),
+                ("--lang", "ru", "--lettering", "A-upright", "--dxf-text", "text"),
+            ]
+        ),
+        strict=False,
+    )
+]
+"""Sheets of every kind of problem, in both languages and all letterings."""
+
+
+@pytest.mark.skipif(some(1, few=0) == 0, reason="takes minutes: with --thorough")
+def test_sheets_are_the_same_in_any_order(tmp_path: Path) -> None:
+    """All in one process, in three random orders, have the bytes of fresh processes."""
+    for seed in range(3):
+        for words in Random(seed).sample(FORTY, len(FORTY)):
+            folder = str(tmp_path / f"{FORTY.index(words)}-{seed}")
+            done = CliRunner().invoke(cli, ["sheet", *words, "-o", folder])
+            assert done.exit_code == 0, done.output
+    count = 0
+    for k, words in enumerate(FORTY):
+        fresh = tmp_path / f"{k}-fresh"
+        subprocess.run([sys.executable, "-m", "planmethod", "sheet", *words, "-o", str(fresh)])
+        for path in fresh.iterdir():
+            for seed in range(3):
+                found = (tmp_path / f"{k}-{seed}" / path.name).read_bytes()
+                assert found == path.read_bytes(), (words, path.name, seed)
+            count += 1
+    print(f"{count} files of {len(FORTY)} sheets in three orders")
+    assert count >= 2 * len(FORTY)
 
 
 @pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs pdftotext")
