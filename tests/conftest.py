@@ -1,9 +1,11 @@
 from __future__ import annotations
 
+import ctypes
 import gc
 import os
 import shutil
 import signal
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -109,6 +111,8 @@ def _what_a_file_has_kept_goes_with_it(request: pytest.FixtureRequest) -> Iterat
         if getattr(kept, "__module__", None) == request.module.__name__:
             getattr(kept, "cache_clear", int)()
     gc.collect()  # with reference cycles
+    if sys.platform == "linux":  # what glibc holds of it is a hundred megabytes
+        getattr(ctypes.CDLL(None), "malloc_trim", int)(0)
 
 
 @pytest.fixture(scope="session", autouse=True)
