@@ -105,6 +105,14 @@ class Cycle(Remembering):
         return np.array([np.asarray(row, dtype=complex)[order] for row in rows])
 
     def _read(self, positions: Reals) -> Rows:
+        """Return `_computed`, once for the solution at all scales: sheets try several of them."""
+        known = self.solution.origin.once(_rows)
+        key = positions.tobytes()
+        if key not in known:
+            known[key] = self._computed(positions)
+        return known[key]
+
+    def _computed(self, positions: Reals) -> Rows:
         """Return all reactions and the balance, shape (k, m); NaN where there is none."""
         able = np.arange(len(positions))
         made = self._solved(positions)
@@ -200,6 +208,11 @@ class Cycle(Remembering):
                 kept = run[~np.isnan(row[run])]
                 if kept.size:
                     yield Piece(self.positions[kept], row[kept])
+
+
+def _rows(origin: Solution) -> dict[bytes, Rows]:
+    """Return the store of reactions and balances of a solution, by the bytes of the positions."""
+    return {}
 
 
 def _around(steps: Reals) -> Reals:
