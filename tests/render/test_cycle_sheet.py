@@ -301,6 +301,7 @@ def test_the_difference_has_the_digits_of_its_operands() -> None:
         assert decimals(difference) <= min(decimals(text) for text in (one, two))
 
 
+@pytest.mark.dear
 def test_a_line_of_a_point_breaks_off_where_it_runs_away() -> None:
     """Between two of the positions points run to 140 m: the sheet shows the positions."""
     problem, _ = loaded_problem(9106)

@@ -464,6 +464,7 @@ def test_arms_that_a_reader_cannot_distinguish_are_left_to_the_equations() -> No
     assert arm_items(arms, [], 3.5, "lever", say) == ([], [])
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("number", [1, 37, 49])
 def test_plans_are_drawn_smaller_before_they_are_left_out(number: int) -> None:
     """At their own size the plans do not fit A1 beside the forces; for two tasks the scheme is

@@ -249,6 +249,7 @@ def test_a_linkage_with_loads_has_its_reactions_judged(tmp_path: Path) -> None:
 # Trains and points -------------------------------------------------------------------------------
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", ["linkages/ex3", "levers/task-12", "levers/task-1"])
 def test_candidates_judged_together_are_judged_as_alone(name: str) -> None:
     path = path_of(name)
