@@ -120,7 +120,7 @@ def cli(ctx: click.Context, lang: str | None) -> None:
         click.echo(say(FIRST))
 
 
-LESS = "Ask for fewer positions at once."
+LESS = "Request fewer positions at once."
 
 
 def main() -> None:
@@ -150,8 +150,8 @@ def _run() -> None:
     except UnicodeEncodeError as error:
         text = str(error.object)[max(0, error.start - 20) : error.end + 20]
         told = say(
-            "Error: '{}': a word of the command line, or the name of a file, is not UTF-8. Type it "
-            "anew, or rename the file.",
+            "Error: '{}': an argument of the command line, or the name of a file, is not "
+            "UTF-8. Type it again, or rename the file.",
             text,
         )
         click.echo(told, err=True)
@@ -161,8 +161,8 @@ def _run() -> None:
         sys.exit(ExitCode.USAGE)
     except ImportError as error:
         told = say(
-            "Error: a part of the program cannot be loaded: {}. Install planmethod anew, with what "
-            "it needs; or there is not enough memory.",
+            "Error: a part of the program cannot be loaded: {}. Reinstall planmethod with "
+            "its dependencies; or there is not enough memory.",
             (str(error).strip() or type(error).__name__).splitlines()[-1],
         )
         click.echo(told, err=True)

@@ -195,7 +195,7 @@ def hand_options(command: F) -> F:
         "--profile",
         type=click.Choice(["cad", "board", "coarse"]),
         show_default="board",
-        help="How well the plans are drawn: with CAD, on a board, in haste.",
+        help="Accuracy of the drawn plans: with CAD, on a board, rough.",
     )(command)
     return _ruler_option(
         metavar="MM",
@@ -253,7 +253,7 @@ def out_option(command: F) -> F:
 def open_option(command: F) -> F:
     """Add the option that opens the written files."""
     return click.option(
-        "--open", "shown", is_flag=True, help="Show what is written in the system's viewer."
+        "--open", "shown", is_flag=True, help="Open the written files in the system's viewer."
     )(command)
 
 
@@ -309,7 +309,7 @@ def drawing_options(command: F) -> F:
         click.option(
             "--all-positions",
             is_flag=True,
-            help="However many sheets they take: more than six of a file are refused without it.",
+            help="Draw any number of sheets. Default: at most six for a file.",
         ),
         click.option(
             "--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma."
@@ -335,7 +335,7 @@ def _lang_option(read: Callable[[str | None], str | None]) -> Callable[[F], F]:
         "--lang",
         type=click.Choice(LANGUAGES),
         callback=lambda ctx, param, value: read(value),
-        help="Language of what is written and of messages; else that of the system.",
+        help="Language of output and messages. Default: the language of the system.",
     )
 
 

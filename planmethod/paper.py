@@ -181,7 +181,7 @@ def paper_format(name: str) -> Format:
 def _refuse_times(base: str, times: str) -> NoReturn:
     known = ", ".join(f"{base}x{number}" for number in _ELONGATED[base])
     raise LayoutError(
-        "There is no paper format {0}x{1} in GOST 2.301. {0} is elongated to {2}.",
+        "GOST 2.301 has no paper format {0}x{1}. {0} can be elongated to {2}.",
         base,
         times,
         known,

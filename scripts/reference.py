@@ -239,7 +239,7 @@ def _english(kind: str) -> Iterator[tuple[str, str]]:
         if one.key.required:
             facts.append("required")
         elif usual := one.key.absent or _written(one, defaults.get(one.field)):
-            facts.append(f"{usual} when absent")
+            facts.append(f"default: {usual}")
         yield one.name, "; ".join(facts) + one.key.more
 
 

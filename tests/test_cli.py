@@ -213,9 +213,9 @@ def test_an_impossible_assembly_is_code_4(command: str, open_chain: str) -> None
     refused = run(command, open_chain)
     assert refused.exit_code == 4
     assert (
-        "Error: Cannot place C at phi = 60 deg: arcs from B (0.2 m) and D (0.05 m) do "
-        "not meet, |BD| = 0.3606 m. Check l_BC, l_DC. The arcs miss by 0.1106 m, "
-        "by 0.25 m at the most over a turn (at phi = 180 deg).\n"
+        "Error: Cannot place C at phi = 60 deg: arcs from B (0.2 m) and D (0.05 m) do not "
+        "meet, |BD| = 0.3606 m. Check l_BC, l_DC. The arcs miss by 0.1106 m, by 0.25 m at "
+        "most over a turn (at phi = 180 deg).\n"
     ) in refused.output
     assert not Path("out").exists()
 

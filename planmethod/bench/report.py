@@ -49,7 +49,7 @@ def number(value: float) -> str:
 def load() -> str:
     """Return how busy the machine was, as a clause."""
     if not hasattr(os, "getloadavg"):
-        return "how busy the machine was is not known"
+        return "the load of the machine is unknown"
     return f"{os.getloadavg()[0]:.1f} processes were busy on {os.cpu_count()} cores"
 
 
@@ -304,8 +304,8 @@ def checking_speed(found: Sequence[checking.Speed]) -> Table:
     ]
     return table(
         (
-            "problem", "answers", "first work", "further, honest", "further, with a mistake",
-            "key", f"group of {checking.GROUP} with pages",
+            "problem", "answers", "first submission", "further, without a mistake",
+            "further, with a mistake", "key", f"group of {checking.GROUP} with pages",
         ),
         rows,
     )  # fmt: skip
@@ -344,7 +344,7 @@ def checking_section(
     found = [one for one in confused.detected if one.family in ("levers", "forces")]
     return [
         *together,
-        "## Honest works",
+        "## Submissions without a mistake",
         "",
         f"{works} works of every problem, drawn stroke by stroke with the errors of a profile, "
         "judged by the tolerance of the same profile with the usual settings. *Not shown*: "
@@ -354,7 +354,7 @@ def checking_section(
         "",
         *honest_table(checking.all_honest(problems, works)),
         "",
-        "## Works with a mistake",
+        "## Submissions with a mistake",
         "",
         f"Works of the board's profile, {mistaken} with each mistake at each of at most "
         f"{checking.PLACES} places, where it shows. *Seen*: an answer is faulted, or follows from "
@@ -364,22 +364,22 @@ def checking_section(
         "",
         *mistakes_table(found),
         "",
-        "Seen and named, percent, by problem; empty where the mistake cannot be made, or not "
-        "be seen.",
+        "Seen and named, percent, by problem; empty if the mistake cannot be made, or not be seen.",
         "",
         *power_table(found),
         "",
-        "## What the answers cannot show",
+        "## Mistakes that the answers cannot show",
         "",
-        "Places (link, point, pair) where a mistake can be made without any answer being off by "
-        "more than the pencil: the key says so beforehand.",
+        "Places (link, point, pair) where a mistake can be made without any answer being "
+        "off by more than drafting errors: the key states them in advance.",
         "",
         *hidden_table(checking.hidden(problems)),
         "",
         "## Speed",
         "",
-        "The first work solves the problem, finds the tolerances and explains a mistake; pages are "
-        "HTML and PDF, every other work of the group has the mistake.",
+        "The first submission includes solving the problem, finding the tolerances and "
+        "explaining a mistake; pages are HTML and PDF, every other submission of the group "
+        "has the mistake.",
         "",
         *checking_speed([checking.speed(problem) for problem in problems]),
     ]
@@ -427,9 +427,9 @@ def _cycle(problems: Sequence[Problem]) -> Table:
     return [
         "## Graphical differentiation and integration",
         "",
-        "Errors in millimetres of the diagrams by the number of positions of a turn: v and a by "
-        "chords, s integrated from exact velocities by middle ordinates; they fall as 1/n². Then "
-        "by how much a ruler of so many mm, with which s is taken off, moves v and a.",
+        "Errors in millimetres of the diagrams by the number of positions of a cycle: v and "
+        "a by chords, s integrated from exact velocities by middle ordinates; they fall as "
+        "1/n². Then the effect on v and a of reading s with a ruler of the given step, mm.",
         "",
         *table(("problem", "positions", *head), rows),
         "",

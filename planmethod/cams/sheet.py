@@ -114,7 +114,7 @@ def _misfit(problem: CamProblem) -> Misfit:
             paper,
             advice,
         ),
-        say("Ask fewer positions with count."),
+        say("Request fewer positions with count."),
     )
 
 

@@ -132,7 +132,7 @@ class Calculation(Task):
             lambda: tuple(self.figures.mistaken())
         )
         if not (problem.answers or self.figures.names):
-            fault = Fault(kind.table, "no quantity has a value that could be asked for")
+            fault = Fault(kind.table, "no quantity has a value that could be requested")
             raise ProblemError(problem.name, [fault])
         self.declared = tuple(self._stated(at, one) for at, one in enumerate(problem.answers))
 
@@ -149,7 +149,9 @@ class Calculation(Task):
         if question is None:
             said = say("{} has no value in this problem", asked.what)
             fault = Fault(
-                f"answers[{at}].what", said, "planmethod solve tells why; ask for another."
+                f"answers[{at}].what",
+                said,
+                "planmethod solve shows the reason; choose another quantity.",
             )
             raise ProblemError(self.problem.name, [fault])
         item = self._item(question, position, asked.what)

@@ -150,7 +150,7 @@ def unmarked(work: Work, variant: str | None, failure: CheckFailure) -> CheckedW
 
 def failure_of(error: Exception) -> CheckFailure:
     """Return an internal error as the reason why a submission is not marked."""
-    said = say("a fault of the program ({}: {})", type(error).__name__, visible(str(error))[:200])
+    said = say("an internal error ({}: {})", type(error).__name__, visible(str(error))[:200])
     trace = "".join(traceback.format_exception(error))
     return CheckFailure(str(said), trace.replace(f"{Path(__file__).parents[2]}{os.sep}", ""))
 

@@ -100,7 +100,7 @@ DEFAULT = Settings()
 _SHARE = "Shares are from 0 to 1: 0.05 for 5 %."
 _NUMBERS: Mapping[str, tuple[str, float, float, str]] = MappingProxyType(
     {
-        "k": ("a number of standard deviations", 0.5, 10.0, "2.5 faults few honest answers."),
+        "k": ("a number of standard deviations", 0.5, 10.0, "2.5 rejects few correct answers."),
         "cap": ("a share", 0.005, 1.0, _SHARE),
         "floor_mm": ("a length in mm", 0.0, 5.0, "It is measured on the plan."),
         "floor_share": ("a share", 0.0, 0.5, _SHARE),
@@ -147,7 +147,7 @@ def load_settings(path: Path) -> Settings:
         else:
             told[key] = _read_marks(faults, value)
     if not faults and told.get("floor_share", DEFAULT.floor_share) > told.get("cap", DEFAULT.cap):
-        faults.add("cap", "the cap is below floor_share", "No answer could be judged: raise it.")
+        faults.add("cap", "the cap is below floor_share", "No answer could be graded: raise it.")
     if faults:
         raise SettingsError(name, faults.found)
     return Settings(**told)
@@ -177,13 +177,11 @@ def _read_marks(faults: Faults, value: object) -> tuple[tuple[float, str], ...]:
         return ()
     for index, ((above, _), (below, mark)) in enumerate(pairwise(found)):
         if not below < above:
-            hint = "The best mark stands first."
+            hint = "The best mark comes first."
             said = say("'{}' is from {:g}, the mark before it from {:g}", mark, below, above)
             faults.add(f"marks[{index + 1}]", said, hint)
     if found[-1][0] != 0:
-        hint = say(
-            "Add the mark of what is worse: [0, \"2\"], or let '{}' be from 0.", found[-1][1]
-        )
+        hint = say("Add the lowest mark: [0, \"2\"], or let '{}' start at 0.", found[-1][1])
         faults.add("marks", say("the last mark is from {:g}, expected 0", found[-1][0]), hint)
     return tuple(found)
 

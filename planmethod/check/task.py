@@ -274,9 +274,9 @@ class Task:
         """
         if asked.unit and ratio_of(asked.unit, question.unit) is None:
             said = say(
-                "'{}' is no unit of '{}', which is in {}", asked.unit, asked.id, question.unit
+                "'{}' is not a unit of '{}', which is in {}", asked.unit, asked.id, question.unit
             )
-            fault = Fault("answers.unit", said, "Write one of this quantity, or leave it out.")
+            fault = Fault("answers.unit", said, "Write a unit of this quantity, or omit it.")
             raise ProblemError(self.problem.name, [fault])
         return asked.unit
 

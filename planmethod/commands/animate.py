@@ -42,11 +42,15 @@ def _formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[st
 @problem_options
 @click.option("--plans", is_flag=True, help="The velocity plan beside the scheme.")
 @click.option(
-    "--frames", type=click.IntRange(8, 360), default=60, show_default=True, help="Of a turn."
+    "--frames", type=click.IntRange(8, 360), default=60, show_default=True, help="Per turn."
 )
-@click.option("--seconds", type=NumberRange(1, 60), default=6, show_default=True, help="Of a turn.")
+@click.option("--seconds", type=NumberRange(1, 60), default=6, show_default=True, help="Per turn.")
 @click.option(
-    "--dpi", type=click.IntRange(30, 300), default=110, show_default=True, help="Of a GIF."
+    "--dpi",
+    type=click.IntRange(30, 300),
+    default=110,
+    show_default=True,
+    help="Resolution of a GIF.",
 )
 @click.option(
     "--format", "formats", callback=_formats, default="gif,svg", show_default=True, help="gif,svg."

@@ -194,7 +194,7 @@ _SHEET_OPTIONS = (
         "--paper",
         callback=read_paper,
         metavar="FORMAT",
-        help="A4, A3, A4x3, A3:portrait...; chosen to fit when absent.",
+        help="A4, A3, A4x3, A3:portrait... Default: chosen to fit.",
     ),
     stamp_option,
     lettering_option,

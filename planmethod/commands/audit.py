@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     "--out",
     "file",
     metavar="FILE",
-    help="Markdown file; to the terminal when absent.",
+    help="Markdown file. Default: the terminal.",
 )
 @guarded
 def audit(

@@ -165,7 +165,10 @@ def installed() -> str:
     help="TOML of the department for the keys: tolerances, points, marks.",
 )
 @click.option(
-    "--scheduler", metavar="ADDRESS", help="Of dask, such as tls://10.0.0.5:8786; else --jobs here."
+    "--scheduler",
+    metavar="ADDRESS",
+    help="Address of a dask scheduler, such as tls://10.0.0.5:8786. Default: --jobs on "
+    "this machine.",
 )
 @jobs_option
 @guarded
@@ -191,10 +194,10 @@ def batch(
     scheduler: str | None,
     jobs: int,
 ) -> None:
-    """Make the sheets and keys of every variant, also on many machines; go on where it was left.
+    """Make the sheets and keys of every variant, also on many machines; resume an interrupted run.
 
-    What the folder has already, made of the same problem file and options by the same version, is
-    not made again. The machines need planmethod, and no common folder; who reaches their scheduler
+    Files that the same version has made from the same problem file and options are not made again.
+    The machines need planmethod, but not a common folder; anyone with access to their scheduler
     can run programs as you.
     """
     if scheduler is not None:
@@ -483,8 +486,8 @@ def _taken(
             outcome = client.submit(made, order, key=f"planmethod-{key}").result()
     except KilledWorker:
         raise PlanMethodError(
-            "{}: every worker that took it was killed; perhaps it needs more memory than there "
-            "is. Ask for fewer positions at once.",
+            "{}: every worker that processed it was killed; perhaps it needs more memory "
+            "than is available. Request fewer positions at once.",
             name,
         ) from None
     except (CancelledError, OSError) as error:

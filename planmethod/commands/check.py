@@ -75,7 +75,7 @@ FORMATS = ("html", "pdf")
     "layers",
     multiple=True,
     metavar="NAME=PLAN",
-    help="Which plan stands on a layer or in a colour of a drawing: velocity, acceleration, plans.",
+    help="Plan on a layer or in a colour of a drawing: velocity, acceleration, plans.",
 )
 @click.option(
     "--gradebook",
@@ -98,7 +98,7 @@ FORMATS = ("html", "pdf")
     "--overrides",
     type=PathType(dir_okay=False),
     metavar="FILE",
-    help="Points and remarks set by hand; overrides.csv of the output folder when absent.",
+    help="Scores and remarks set by hand. Default: overrides.csv in the output folder.",
 )
 @click.option("--anonymize", is_flag=True, help="Stable numbers in place of the names.")
 @click.option(
@@ -244,8 +244,8 @@ def _unread_tables(works: list[Work]) -> Iterator[str]:
         columns = [r.fault for work in found for r in work.remarks if r.why is Unread.COLUMN]
         told = ", ".join(dict.fromkeys(columns)) or "—"
         yield say(
-            "{}: no answer was read. Columns that nobody understands: {}. Name them: student, "
-            "what, value, unit, mm, sense; or student and the quantities: v_B, omega_3.",
+            "{}: no answer was read. Unknown columns: {}. Name them: student, what, value, "
+            "unit, mm, sense; or student and the quantities: v_B, omega_3.",
             where,
             told,
         )

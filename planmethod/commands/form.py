@@ -30,7 +30,7 @@ MOST_STUDENTS = 500
 @click.option(
     "--students",
     type=click.IntRange(1, MOST_STUDENTS),
-    help="So many forms, numbered; one without a number when absent.",
+    help="Number of forms, which are numbered. Default: one without a number.",
 )
 @click.option(
     "--names",
@@ -49,9 +49,9 @@ def form(
     names: Path | None,
     lang: str | None,
 ) -> None:
-    """Make the XLSX that students fill in: what is asked, and none of the answers.
+    """Make the XLSX that students fill in: the questions without the answers.
 
-    The cells of the answers alone can be written in; senses and units are chosen from lists, and
+    Only the cells of the answers can be edited; senses and units are chosen from lists, and
     mm × μ is compared with the value while they are typed. planmethod check reads the forms back.
     """
     from planmethod.check.form import fingerprint_of, form_of

@@ -85,11 +85,11 @@ def lint(
     as_json: bool,
     jobs: int,
 ) -> None:
-    """Check the sheets and say what a norm inspector would mark (нормоконтроль).
+    """Check the sheets against the drawing standards (нормоконтроль).
 
     PROBLEM is a problem file: its sheets are drawn as the commands sheet and structure draw them,
-    with the same options, and are not written; of a file with [project] all sheets that the command
-    project draws. Exit code 0 when there is nothing to correct, 1 when there are errors. The codes:
+    with the same options, but not written; for a file with [project] all sheets that the command
+    project draws. Exit code 0 if the sheets need no correction, 1 if there are errors. The codes:
     docs/normcontrol.md.
     """
     from planmethod.render.sheets.composition.reader import composition

@@ -18,7 +18,7 @@ from planmethod.options import PathType, UsageError, lang_option
 @click.argument("file", required=False, type=PathType(dir_okay=False))
 @click.option("--list", "show", is_flag=True, help="List the families.")
 @click.option("--force", is_flag=True, help="Write over an existing file.")
-@click.option("--variant", metavar="NAME", help="Of a task: with the values of this variant.")
+@click.option("--variant", metavar="NAME", help="Variant of the task whose values are used.")
 @lang_option
 @guarded
 def new(

@@ -382,8 +382,8 @@ def refuse_killed(one: Todo) -> NoReturn:
     PlanMethodError
     """
     raise PlanMethodError(
-        "{}: the process at work on it was killed, twice; perhaps it needs more memory than there "
-        "is. Ask for fewer positions at once.",
+        "{}: its process was killed twice; perhaps it needs more memory than is available. "
+        "Request fewer positions at once.",
         called(one.problem),
     )
 

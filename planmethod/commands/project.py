@@ -115,11 +115,11 @@ def project(
     jobs: int,
     shown: bool,
 ) -> None:
-    """Make a course project: all sheets, the note and the numbers, decided once.
+    """Make a course project: all sheets, the note and the numbers, with common decisions.
 
-    Writes into OUT/<name of the file>: 1-kinematics.pdf, 2-forces.pdf ... as many as the file has
-    parts, project.pdf with all sheets, note.docx and note.pdf, numbers.xlsx, project.json; all of
-    them or none. Files of an earlier project of that name that are not made anew are removed.
+    Writes into OUT/<name of the file>: 1-kinematics.pdf, 2-forces.pdf ... one for each part of the
+    file, project.pdf with all sheets, note.docx and note.pdf, numbers.xlsx, project.json; all of
+    them or none. Files of an earlier project of that name that are not made again are removed.
     """
     from planmethod.project.notes import NoteOptions
     from planmethod.project.record import project_record
@@ -295,7 +295,7 @@ def _shared(
 
 def _named(name: str, error: PlanMethodError) -> PlanMethodError:
     """Return an error that names the part that it is of."""
-    told = PlanMethodError("{} is not made, nothing is written: {}", name, error)
+    told = PlanMethodError("{} cannot be made, and no files are written: {}", name, error)
     told.exit_code = ExitCode(error.exit_code)
     return told
 

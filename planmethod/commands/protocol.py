@@ -36,7 +36,7 @@ from planmethod.options import (
     "-o",
     "--out",
     type=PathType(file_okay=False),
-    help="Folder for a text file; to the terminal when absent.",
+    help="Folder for a text file. Default: the terminal.",
 )
 @click.option(
     "--position",
@@ -66,7 +66,7 @@ def protocol(
     form: str,
     lang: str | None,
 ) -> None:
-    """Tell the construction step by step, as the explanatory note does."""
+    """Describe the construction step by step, as the explanatory note does."""
     from planmethod.note.protocol import protocol_document
     from planmethod.note.wording import language
 

@@ -100,8 +100,8 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
     asked = problem.drive.positions if positions is None else positions
     if len(asked) > FEW:
         raise LayoutError(
-            "{}: --compact is for at most {} positions, {} are asked. Ask fewer (--phi 30,150), or "
-            "leave --compact out.",
+            "{}: --compact is for at most {} positions, {} are requested. Request fewer "
+            "(--phi 30,150), or omit --compact.",
             problem.name,
             FEW,
             len(asked),

@@ -51,7 +51,7 @@ def sketch(
     lang: str | None,
     shown: bool,
 ) -> None:
-    """Draw the scheme alone, to scale, with loads and what is missing: unfinished files too."""
+    """Draw only the scheme, to scale, with loads and missing parts; also of unfinished files."""
     codes: list[ExitCode] = []
     for path in problems:
         try:

@@ -137,8 +137,8 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     "npz_file",
     metavar="FILE",
     help="Arrays for NumPy, named as the columns of --csv (B.x, 2.omega), and phi_deg or s, "
-    "reason, reasons. Of several variants or problems each name begins with that of the variant "
-    "or of the file: А:B.x.",
+    "reason, reasons. With several variants or problems each name begins with that of "
+    "the variant or of the file: А:B.x.",
 )
 @click.option(
     "--ask",
@@ -166,7 +166,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     is_flag=False,
     flag_value=50,
     metavar="[DIGITS]",
-    help="Judge every result by a reading in so many digits (50), which needs mpmath.",
+    help="Check every result with a computation in this number of digits (50), which needs mpmath.",
 )
 @click.option(
     "--compare",
@@ -228,7 +228,8 @@ def solve(
         raise UsageError("--partial goes with --json, --csv, --npz or --ask")
     if phi is not None and len(phi) > MOST_POSITIONS and not sweeping:
         raise UsageError(
-            "--phi: more than {} positions; so many only with --npz or --ask", MOST_POSITIONS
+            "--phi: more than {} positions; this is possible only with --npz or --ask",
+            MOST_POSITIONS,
         )
     if npz_file is not None or (phi is not None and len(phi) > MOST_SHOWN):
         jobs = 1  # large tables are solved while they are written

@@ -97,6 +97,6 @@ def structure(
         elif written is not None:
             click.echo(plain_document(written, words))
         else:
-            raise UsageError("{} is no mechanism, it has no structure", called(problem))
+            raise UsageError("{} is not a mechanism, it has no structure", called(problem))
 
     finish(each(problems, variant, all_variants, show, drawn=False))

@@ -55,12 +55,18 @@ def act(asked: Asked, tell: Tell) -> Found:
             return _told(asked, [Fault("", said)], placed=False)
 
 
-_NO_ANSWERS = "Answers to such problems are not checked. Their numbers stand in the tables."
-_NO_PROJECT = "Note and project are those of a linkage. Of this file there are sheets."
+_NO_ANSWERS = "Answers to such problems are not checked. Their numbers are in the tables."
+_NO_PROJECT = "Only a linkage has a note and a project. This file has sheets."
 LACKING = {
     "live": ("live_page", "Such a problem has no page that moves. See its sheets and tables."),
-    "structure": ("structure_document", "There are no links and joints here, hence no structure."),
-    "assemblies": ("", "Only linkages close in several ways. There is nothing to choose here."),
+    "structure": (
+        "structure_document",
+        "This problem has no links and joints, hence no structure.",
+    ),
+    "assemblies": (
+        "",
+        "Only linkages have several assembly configurations. This problem has only one.",
+    ),
     "note": ("", _NO_PROJECT),
     "project": ("", _NO_PROJECT),
     **dict.fromkeys(("form", "key", "questions", "verdicts", "checked"), ("figures", _NO_ANSWERS)),

@@ -44,10 +44,10 @@ KEPT = 75
     "--time",
     "seconds",
     type=NumberRange(1.0, 600.0),
-    help="Processor time of one computation, s; with --serve 10 when absent, 120 for a project.",
+    help="Processor time of one computation, s. Default with --serve: 10, and 120 for a project.",
 )
 @click.option(
-    "--jobs", type=click.IntRange(1, 64), help="Processes at work; one for each core when absent."
+    "--jobs", type=click.IntRange(1, 64), help="Number of processes. Default: one for each core."
 )
 @click.option(
     "--static",
@@ -60,7 +60,7 @@ KEPT = 75
     "--pyodide",
     "runtime",
     metavar="URL|FOLDER",
-    help="With --static: where its Pyodide is; the official address when absent.",
+    help="With --static: address of its Pyodide. Default: the official address.",
 )
 @lang_option
 @guarded
@@ -78,8 +78,8 @@ def studio(
 ) -> None:
     """Open the studio: tasks, editor, plans, sheets, answers and checking on one page.
 
-    FILE is edited, or the problem files of FOLDER; without them nothing is written but what is
-    downloaded. Stop it with Ctrl+C. More: docs/studio.md.
+    FILE is edited, or the problem files of FOLDER. Default: no file is written except downloads.
+    Stop it with Ctrl+C. More: docs/studio.md.
     """
     if written is not None:
         if file is not None or served or shown:
@@ -97,7 +97,7 @@ def studio(
             host,
         )
     if served and file is not None:
-        raise UsageError("--serve shows nobody a file of this machine: leave out {}", file)
+        raise UsageError("--serve does not publish files of this machine: omit {}", file)
     if file is not None and not file.exists():
         raise UsageError("{}: there is no such file or folder. planmethod new writes one.", file)
     try:

@@ -96,7 +96,7 @@ def read_modules(
 @click.option(
     "--modules",
     callback=read_modules,
-    help="Module in mm, or those of the two rows: 2,2.5; without it both have the same.",
+    help="Module in mm, or those of the two rows: 2,2.5. Default: the same for both.",
 )
 @click.option(
     "--count",
@@ -133,10 +133,10 @@ def teeth(
 ) -> None:
     """Find all sets of teeth for a ratio (подбор чисел зубьев).
 
-    Every combination within the bounds is looked at, against coaxiality, assembly, neighbourhood
-    and interference of standard teeth; the smallest sets come first, of equal ones those nearest
-    to U. U means U_1_H of ring and external-internal, U_H_1 of two-external and two-internal,
-    U_1_2 of pair, U_1_3 of two-stage. Exit code 1 when nothing fits. More: docs/gears.md.
+    Every combination within the bounds is checked for coaxiality, assembly, neighbourhood and
+    interference of standard teeth; the smallest sets come first, equal ones by distance from U.
+    U means U_1_H for ring and external-internal, U_H_1 for two-external and two-internal,
+    U_1_2 for pair, U_1_3 for two-stage. Exit code 1 if no set fits. More: docs/gears.md.
     """
     from planmethod.gears.choice import choose
     from planmethod.gears.chosen import chosen_document, chosen_record, problem_text
@@ -157,7 +157,7 @@ def teeth(
     number = 0 if write is None else write[1]
     chosen = choose(wanted, first=max(count, number) if count else None)
     if write is not None and number > chosen.found:
-        raise UsageError("there is no set {}: {} were found", number, chosen.found)
+        raise UsageError("set {} does not exist: {} were found", number, chosen.found)
     if as_json:
         click.echo(json.dumps(chosen_record(chosen), ensure_ascii=False, indent=1))
     else:

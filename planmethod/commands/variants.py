@@ -38,7 +38,7 @@ LONG = 3
     "--vary",
     default="",
     metavar="KEY,…",
-    help="What is varied: links.1.OA,driver.phi=0..90; the usual numbers when absent.",
+    help="Varied numbers: links.1.OA,driver.phi=0..90. Default: the usual numbers.",
 )
 @click.option(
     "--spread",
@@ -50,7 +50,7 @@ LONG = 3
 @click.option(
     "--tries",
     type=click.IntRange(1, 1_000_000),
-    help="Most candidates; 300 for each variant when absent.",
+    help="Maximum number of candidates. Default: 300 for each variant.",
 )
 @click.option(
     "--settings",
@@ -63,7 +63,7 @@ LONG = 3
     "--out",
     type=PathType(dir_okay=False),
     metavar="FILE",
-    help="Write a table *.csv, or the file with its variants, *.toml; printed when absent.",
+    help="Write a table *.csv, or the file with its variants, *.toml. Default: print it.",
 )
 @lang_option
 @guarded
@@ -80,10 +80,11 @@ def variants(
 ) -> None:
     """Find variants of a task that are fair to all (подбор вариантов).
 
-    Lengths of links, place and speed of the driver, loads, teeth, numbers of formulas take round
-    values. Each variant assembles with a margin, its asked segments are long and well read, a
-    copied one loses most points, and the mistakes that the task shows are seen in each. What was
-    thrown away is told. Exit code 1 when there are fewer. More: docs/variants.md.
+    Lengths of links, position and speed of the driver, loads, teeth and numbers of formulas get
+    round values. Each variant assembles with a margin, the segments of its answers are long enough
+    to measure, a copied variant loses most of the score, and each can show the mistakes that the
+    task shows. Rejected candidates are reported. Exit code 1 if there are fewer. More:
+    docs/variants.md.
     """
     from planmethod.check.marks import DEFAULT, load_settings
     from planmethod.note.document import Document

@@ -149,7 +149,7 @@ def _folder() -> Path:
         If it cannot be made, or others can write to it.
     """
     if not hasattr(os, "getuid"):
-        raise NotCompiledError("on this system nothing is compiled")
+        raise NotCompiledError("compilation is not supported on this system")
     base = Path(os.environ.get("XDG_CACHE_HOME", ""))
     try:
         if not base.is_absolute():
@@ -159,7 +159,7 @@ def _folder() -> Path:
             one.mkdir(mode=0o700, exist_ok=True)  # parents too, whatever the umask
         found = folder.lstat()
     except (OSError, RuntimeError) as error:
-        raise NotCompiledError(f"there is no folder for it: {error}") from error
+        raise NotCompiledError(f"its folder cannot be made: {error}") from error
     if not _mine(found, stat.S_ISDIR) or found.st_mode & 0o077:
         raise NotCompiledError(f"{folder} is open to others: make it yours alone (chmod 700)")
     return folder

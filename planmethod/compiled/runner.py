@@ -68,7 +68,7 @@ class Runner:
         self._native: Native | None = None
         self._may_look = native is not False
         self._done = 0
-        self.uncompiled = "it was not asked for"
+        self.uncompiled = "it was not requested"
         if native:
             self.compile()
 

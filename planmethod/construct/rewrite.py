@@ -71,6 +71,6 @@ def rewritten(program: Program, change: Callable[[Step], Step | tuple[Step, ...]
         several = changed if isinstance(changed, tuple) else (changed,)
         after = several[-1]
         if (after.out, makes(after)) != (before.out, makes(before)):
-            raise ProgramError(f"{after.out} cannot stand for {before.out}")
+            raise ProgramError(f"{after.out} cannot replace {before.out}")
         steps.extend(several)
     return Program(tuple(steps))

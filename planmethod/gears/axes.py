@@ -432,9 +432,11 @@ def _judge(
     for kind, label in unknown:
         value = found.values.get((kind, label))
         if value is None:
-            told = say("coaxiality does not tell the teeth of {}", label)
+            told = say("coaxiality does not determine the teeth of {}", label)
             return Fault(
-                "gears.unknown", told, 'Say what it is coaxial with: coaxial = [["1","3"]].'
+                "gears.unknown",
+                told,
+                'Name the wheel that it is coaxial with: coaxial = [["1","3"]].',
             )
         if value <= 0:
             told = say("coaxiality gives wheel {} the size {}", label, value)

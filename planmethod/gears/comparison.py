@@ -120,7 +120,7 @@ def compare(problem: GearProblem, motion: TrainMotion) -> PlanetaryComparison | 
     sizes = motion.axes.sizes
     if known is None or any(sizes[label].denominator != 1 for label in known[2]):
         names = ", ".join(one.name for one in SCHEMES if one.carried)
-        told = "the train is none of the planetary schemes that are compared"
+        told = "the train is not one of the planetary schemes that are compared"
         hint = say("They are: {}; the last wheel held, sizes in teeth.", names)
         raise ProblemError(problem.source_file, [Fault("gears.design", told, hint)])
     carrier, scheme, labels = known

@@ -184,7 +184,10 @@ def read(drawn: GearDrawing, profile: Profile) -> GearReading:
         got, due = float(exact.value[one.read]), float(one.exact)
         if not abs(got - due) <= NEAR * max(1.0, abs(due)):
             told = say(
-                "the pictures give {} = {:.12g}, the mesh equations {:.12g}", one.name, got, due
+                "the velocity diagrams give {} = {:.12g}, the mesh equations {:.12g}",
+                one.name,
+                got,
+                due,
             )
             raise PictureError("{}. Please report the problem file.", told)
     hand = Hand(profile.ruler, enlarged)

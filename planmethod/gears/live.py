@@ -90,8 +90,10 @@ class _TrainPage:
         scheme = SchemeData(self.motion, 1.0)
         nested = [body for body, carrier in scheme.over.items() if carrier in scheme.over]
         if odd or nested or scheme.undrawn:
-            message = "the live page is of wheels that mesh with parallel axes"
-            hint = say("The sheet has the train: planmethod sheet {}", self.problem.source_file)
+            message = "the live page shows only wheels in mesh on parallel axes"
+            hint = say(
+                "To draw the train on a sheet: planmethod sheet {}", self.problem.source_file
+            )
             raise ProblemError(self.problem.name, [Fault("gears.meshes", message, hint)])
 
     @staticmethod

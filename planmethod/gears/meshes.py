@@ -148,7 +148,7 @@ def read_wheels(
 def _read_arm(faults: Faults, path: str, label: str, entry: object, draft: TrainDraft) -> None:
     """Read the radius of a carrier, which has no teeth."""
     if not isinstance(entry, dict) or set(entry) != {"r"}:
-        hint = "Give {{ r = 0.05 }}, how far the axes of its satellites are, or leave it out."
+        hint = "Give {{ r = 0.05 }}, the distance of the axes of its planets, or leave it out."
         faults.add(path, say("{} is a carrier and has no teeth", label), hint)
         return
     radius = fields.read_length(faults, f"{path}.r", entry["r"])
@@ -208,7 +208,10 @@ def read_meshes(faults: Faults, value: object, draft: TrainDraft) -> tuple[Mesh,
     meshing = {label for mesh in found for label in (mesh.first, mesh.second)}
     for label in draft.wheels:
         if label not in meshing and len(found) == len(value):
-            faults.add(f"gears.wheels.{segment(label)}", say("wheel {} meshes with none", label))
+            faults.add(
+                f"gears.wheels.{segment(label)}",
+                say("wheel {} does not mesh with any other", label),
+            )
     return tuple(found)
 
 

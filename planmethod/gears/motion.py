@@ -144,7 +144,9 @@ def analyse(problem: GearProblem) -> tuple[Roles, TrainDimensions, Mobility]:
     rank = solve(moving, _loose(train, rows_of(train, roles, axes))).rank
     mobility = len(moving) - rank
     if mobility < 1:
-        told = say("nothing can move: {} moving bodies, {} independent meshes", len(moving), rank)
+        told = say(
+            "the train cannot move: {} moving bodies, {} independent meshes", len(moving), rank
+        )
         raise ProblemError(problem.source_file, [Fault("gears.fixed", told, "Free a body.")])
     structure = Mobility(
         _kind(train, roles, mobility), len(moving), len(moving), len(train.meshes), mobility

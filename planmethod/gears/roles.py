@@ -48,7 +48,7 @@ def find_roles(train: Train) -> tuple[Roles, list[Fault]]:
         middle, around = _split(train, carrier)
         central[carrier], satellites[carrier] = tuple(middle), tuple(around)
         if not around:
-            told = say("no wheel on the carrier {} is a satellite", carrier)
+            told = say("no wheel on the carrier {} is a planet", carrier)
             faults.append(Fault("gears.meshes", told, "Name the carrier of each mesh, and check."))
     for mesh in train.meshes:
         if train.carrier(mesh) in train.ends(mesh):

@@ -153,7 +153,7 @@ def _misfit(strategy: _Train) -> Misfit:
             paper,
             advice,
         ),
-        say("Ask for less in gears.ask."),
+        say("Request fewer quantities in gears.ask."),
     )
 
 

@@ -183,9 +183,9 @@ def _refuse_sliding_contour(mechanism: Mechanism) -> None:
         if not classes.join(pair.slider, pair.host):
             contour = _path(before, pair.slider, pair.host)
             raise StructureError(
-                "{} close a contour of {} prismatic pairs only (PPP): it is not an Assur "
-                "group, because nothing in it turns and one pair repeats what the others say "
-                "of the angles. Make one of the pairs revolute.",
+                "{} form a contour of {} prismatic pairs only (PPP): it is not an Assur "
+                "group, because its links do not turn and one pair repeats the constraints "
+                "of the others on the angles. Make one of the pairs revolute.",
                 _name(contour).capitalize(),
                 len(contour),
             )

@@ -363,6 +363,6 @@ def _misfit(problem: PointProblem) -> Misfit:
         lambda paper, advice: LayoutError(
             "{}: the motion of the point does not fit {}. {}", problem.name, paper, advice
         ),
-        say("Ask fewer moments, or a shorter show."),
+        say("Request fewer moments, or a shorter show."),
         problem.scales,
     )

@@ -160,7 +160,7 @@ def _commanded(markup: str, command: re.Match[str]) -> tuple[Node, int]:
         raise _fault(markup, end, "a fraction has two pairs of braces, one after the other")
     below, last = _parse(markup, end + 2, closing=True)
     if not (body and below):
-        raise _fault(markup, command.start(), "nothing stands above or below the line")
+        raise _fault(markup, command.start(), "the part above or below the line is empty")
     return Fraction(body, below), last + 1
 
 
@@ -173,7 +173,7 @@ def _index_body(markup: str, i: int) -> tuple[tuple[Node, ...], int]:
             return body, end + 1
     elif following and following not in SPECIAL and not following.isspace():
         return (Letters(following),), i + 2
-    raise _fault(markup, i, say("nothing stands after '{}'", markup[i]))
+    raise _fault(markup, i, say("an index is missing after '{}'", markup[i]))
 
 
 def _merged(nodes: list[Node], sign: str, body: tuple[Node, ...]) -> Index:

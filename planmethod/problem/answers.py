@@ -194,7 +194,7 @@ def _read_each(
             if twin != index:
                 faults.add(
                     f"{path}.letters",
-                    say("'{}' stands for answers[{}] too", short(spelling), twin),
+                    say("'{}' denotes answers[{}] too", short(spelling), twin),
                     "Give each of them letters of its own.",
                 )
     return tuple(found)
@@ -235,7 +235,7 @@ def _read_answer(
     if given.get("form") is AnswerForm.MM and selector is not None and _has_no_segment(selector):
         faults.add(
             f"{path}.form",
-            say("'{}' is no segment of a plan", short(name)),
+            say("'{}' is not a segment of a plan", short(name)),
             'Leave it, or form = "value".',
         )
     sense = given.get("sense", False)
@@ -345,7 +345,7 @@ def _read_sense(
         return asked
     if own is None:
         hint = "Leave sense out: the sign of a number, or the size of a load, says all."
-        faults.add(path, say("'{}' has no sense to be asked for", what), hint)
+        faults.add(path, say("'{}' has no sense that could be requested", what), hint)
     elif asked is not None and (asked is AskedSense.TURN) != (own is AskedSense.TURN):
         told = "'{}' turns" if own is AskedSense.TURN else "'{}' is a vector"
         faults.add(path, say(told, what), say('Write sense = "{}".', own.value))

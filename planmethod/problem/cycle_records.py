@@ -74,39 +74,39 @@ class CycleTask(Struct, frozen=True):
     output: Annotated[
         str | None,
         OwnKey(
-            "a point on a guide of the frame, or a link; the last driven link that is joined with "
-            "the frame when absent"
+            "a point on a guide of the frame, or a link; default: the last driven link that "
+            "is joined to the frame"
         ),
     ] = None
     zero: Annotated[
         Zero | float,
         OwnKey(
-            'position zero: `"extreme"`, `"other extreme"`, `"working"`, or the angle of the '
-            "crank, degrees; when absent `phi_0` of `[machine]`, else where the working stroke "
-            'starts if loads or `working` tell it, else `"extreme"`'
+            'position zero: `"extreme"`, `"other extreme"`, `"working"`, or the angle of '
+            "the crank, degrees; default: `phi_0` of `[machine]`, else the start of the "
+            'working stroke if loads or `working` determine it, else `"extreme"`'
         ),
     ] = Zero.USUAL
     direction: Annotated[
         TurningSense | None,
         WordKey(
-            'the sense in which positions are numbered: `"ccw"` or `"cw"`; that of the driver when '
-            "absent"
+            'the sense in which positions are numbered: `"ccw"` or `"cw"`; default: that of '
+            "the driver"
         ),
     ] = None
     count: Annotated[
         int,
         WholeKey(
             "positions of a turn", 3, 360,
-            more="; `count` of `[machine]` where that stands alone, else that of a full turn of "
-            "`[driver] phi`",
+            more="; `count` of `[machine]` if it is the only one, else that of a full turn "
+            "of `[driver] phi`",
         ),
     ] = 12  # fmt: skip
     working: Annotated[
         StrokeSense | None,
         WordKey(
             'the sense in which the output moves on its working stroke: `"up"`, `"down"`, '
-            '`"left"`, `"right"`, of a link `"ccw"` or `"cw"`; the stroke that the loads resist '
-            "when absent, without loads the longer one"
+            '`"left"`, `"right"`, for a link `"ccw"` or `"cw"`; default: the stroke that '
+            "the loads resist, or the longer one if the file has no loads"
         ),
     ] = None
     length: Annotated[
@@ -119,16 +119,16 @@ class CycleTask(Struct, frozen=True):
     pole: Annotated[
         PoleDistances,
         OwnKey(
-            "pole distances of both differentiations: `{ v = 36, a = 36 }`, mm; from round scales "
-            "when absent"
+            "pole distances of both differentiations: `{ v = 36, a = 36 }`, mm; default: "
+            "from round scales"
         ),
     ] = PoleDistances()
     graphs: Annotated[
         tuple[str, ...],
         OwnKey(
-            'quantities whose graphs over the turn are drawn: `["x_C", "phi_3", "v_q_C", "v_qx_C", '
-            '"u_31", "omega_3", "ay_C"]`; `"output"` stands for the place of the output and its '
-            "transfer functions",
+            'quantities whose graphs over the turn are drawn: `["x_C", "phi_3", "v_q_C", '
+            '"v_qx_C", "u_31", "omega_3", "ay_C"]`; `"output"` means the position of the '
+            "output and its transfer functions",
             absent="none",
         ),
     ] = ()

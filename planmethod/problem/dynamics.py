@@ -151,7 +151,7 @@ def read_balancing(
     table = fields.read_table(faults, "balancing", given["balancing"], _BALANCED)
     if table is None:
         return None
-    hint = "Counterweights stand on the links of a crank mechanism: give it phi and n."
+    hint = "Counterweights are on the links of a crank mechanism: give it phi and n."
     fields.require_turning(faults, "balancing", drive, hint, "Give its speed: [driver] n or omega.")
     if dynamics is None or not any(one.mass for one in dynamics.masses.values()):
         hint = 'Give them: [dynamics.links.2] mass = 3, centre = "S2".'
@@ -174,7 +174,7 @@ def _read_radii(
         where = f"{path}.{segment(link)}"
         if link not in links:
             hint = near_hint(link, links, say("There are {}.", listed(list(links))))
-            faults.add(where, say("there is no link '{}'", link), hint)
+            faults.add(where, say("link '{}' does not exist", link), hint)
             continue
         found = fields.read_metres(faults, where, distance, low=1e-6, high=1e4)
         if found is not None:
@@ -273,9 +273,9 @@ def _read_pairs(
         joint, _, both = name.partition(" ")
         one, _, other = both.partition("-")
         for known, wanted, message in (
-            (points, joint, "there is no point '{}'"),
-            (links, one, "there is no link '{}'"),
-            (links, other, "there is no link '{}'"),
+            (points, joint, "point '{}' does not exist"),
+            (links, one, "link '{}' does not exist"),
+            (links, other, "link '{}' does not exist"),
         ):
             if wanted not in known:
                 hint = near_hint(wanted, known, say("For example: {}", example))

@@ -53,7 +53,7 @@ class LoadScope(Struct, frozen=True):
         name = value if value in self.links else fields.unmask(faults, path, value)
         if name == FRAME:
             hint = say("Moving links {}: {}.", verb, listed(self.links))
-            faults.add(path, "0 is the frame (стойка), which stands still", hint)
+            faults.add(path, "0 is the frame (стойка), which does not move", hint)
             return None
         if name not in self.links:
             if self.links:

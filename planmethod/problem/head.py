@@ -92,9 +92,7 @@ class Published(Struct, frozen=True):
     ] = None  # fmt: skip
     what: Annotated[
         str,
-        TextKey(
-            "which quantity it is, see below; without it the value is listed and not compared", 1000
-        ),
+        TextKey("its quantity, see below; if omitted, the value is listed but not compared", 1000),
     ] = ""
     note: Annotated[str, TextKey("a remark, for instance why the source is wrong", 1000)] = ""
     position: Annotated[
@@ -153,7 +151,7 @@ class AskedAnswer(Struct, frozen=True):
     unit: Annotated[
         str,
         TextKey(
-            'unit in which it is asked, `"мм/с"`, `"об/мин"`: a number without a unit is in it, '
+            'unit of the answer, `"мм/с"`, `"об/мин"`: a number without a unit is in it, '
             "keys, pages and the list of a form show it",
             20,
             absent="SI",
@@ -175,17 +173,17 @@ class AskedAnswer(Struct, frozen=True):
     sense: Annotated[
         AskedSense | None,
         OwnKey(
-            '`true`: the sense is asked, of ω, ε and moments as a turn (`"turn"`), of vectors as '
-            'left, right, up, down (`"direction"`); `"angle"`: the direction of a vector in '
-            "degrees from +x is an answer of its own, `angle_v_B3`, with the points of a sense; "
-            "`false` when absent"
+            '`true`: the sense is required, for ω, ε and moments as a turn (`"turn"`), for '
+            'vectors as left, right, up, down (`"direction"`); `"angle"`: the direction of '
+            "a vector in degrees from +x is an answer of its own, `angle_v_B3`, with the "
+            "score of a sense; default: `false`"
         ),
     ] = None
     position: Annotated[
         int | None,
         OwnKey("which position of the driver, counted from 0; absent when there is one"),
     ] = None
-    digits: Annotated[int | None, WholeKey("significant digits asked for", 1, 8)] = None
+    digits: Annotated[int | None, WholeKey("required significant digits", 1, 8)] = None
     segment: Annotated[
         str,
         OwnKey(
@@ -236,7 +234,7 @@ class SheetSettings(Struct, frozen=True):
         bool | None,
         FlagKey(
             "traces of the construction (следы построения)",
-            absent="of one position, where the sheet has room,",
+            absent="on a sheet of one position, if they fit",
         ),
     ] = None
 

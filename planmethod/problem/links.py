@@ -114,7 +114,7 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
     if entries is None:
         return found
     if not entries:
-        faults.add("links", "there are no links", 'Add [links.1] with points = ["A", "B"].')
+        faults.add("links", "the file has no links", 'Add [links.1] with points = ["A", "B"].')
     if faults.beyond("links", "{} links, the limit is {}", len(entries), keys.LINK_LIMIT):
         return found
     for key, value in entries.items():
@@ -275,9 +275,10 @@ def _read_length_key(faults: Faults, path: str, key: str, value: object, link: L
                 path,
                 say("link {} has no point {}", link.name, names),
                 say(
-                    "Its points are {}. Where links are joined at {}, add {} to {}.points; a "
-                    "distance between points of two links changes as they move: the place of the "
-                    "driver is told by phi, x_B or another key of [driver].",
+                    "Its points are {}. If links are joined at {}, add {} to {}.points; a "
+                    "distance between points of two links changes as they move: the "
+                    "position of the driver is given by phi, x_B or another key of "
+                    "[driver].",
                     listed(link.points),
                     listed(strangers),
                     adds,
@@ -359,7 +360,7 @@ def _report_unknown_key(faults: Faults, path: str, key: str, link: LinkText, hin
     """Note a key that no link has; ``hint`` is for one that is near to none."""
     guess = near(key, (*keys.LINK, *_pair_names(link.points), *keys.known("mass")))
     if guess in keys.known("mass"):
-        hint = say("It stands in [dynamics.links.{}]: {} = ...", segment(link.name), guess)
+        hint = say("It belongs in [dynamics.links.{}]: {} = ...", segment(link.name), guess)
     elif guess:
         hint = say("Did you mean '{}'?", guess)
     faults.add(path, "unknown key", hint)

@@ -205,9 +205,9 @@ class LoadEntry(Struct, frozen=True):
             "couple is opposite to the rotation of its link"
         ),
     ] = ""
-    phases: Annotated[
-        Phase, OwnKey("when it acts (фазы действия), see below; always when absent")
-    ] = Phase()
+    phases: Annotated[Phase, OwnKey("when it acts (фазы действия), see below; default: always")] = (
+        Phase()
+    )
     like: Annotated[
         str,
         OwnKey(
@@ -369,8 +369,8 @@ class Dynamics(Struct, frozen=True):
     gravity: Annotated[
         float,
         OwnKey(
-            "acceleration of free fall (ускорение свободного падения), m/s², along -y; `0` or "
-            "`false` for no weights; 9.81 when absent"
+            "acceleration of free fall (ускорение свободного падения), m/s², along -y; `0` "
+            "or `false` for no weights; default: 9.81"
         ),
     ]
     masses: Annotated[

@@ -202,7 +202,7 @@ class Machine(Struct, frozen=True):
     ] = ConstantMoment.DRIVING
     cycle_deg: Annotated[
         float,
-        OwnKey("length of a cycle, degrees: 360, or 720 of a four-stroke engine; 360 when absent"),
+        OwnKey("length of a cycle, degrees: 360, or 720 for a four-stroke engine; default: 360"),
     ] = 360.0
     crank_inertia: Annotated[
         float,
@@ -317,7 +317,7 @@ class CounterweightTask(Struct, frozen=True):
     radii: Annotated[
         Mapping[str, float],
         OwnKey(
-            "distance of the counterweight of a link from its axis (the crank's pin on a rod), m; "
-            "the length of the link when absent"
+            "distance of the counterweight of a link from its axis (the crank's pin on a "
+            "rod), m; default: the length of the link"
         ),
     ] = field(default_factory=dict)

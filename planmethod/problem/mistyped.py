@@ -34,7 +34,7 @@ _REPAIRS = (
 """Ways in which beginners write, and TOML: pattern and replacement, one after the other."""
 
 
-_SIGN = "The sign of omega, n or v tells the direction: minus is clockwise, or against the guide."
+_SIGN = "The sign of omega, n or v gives the direction: minus is clockwise, or against the guide."
 
 INSTEAD = {
     **dict.fromkeys(("clockwise", "cw", "ccw", "counterclockwise", "direction", "sense"), _SIGN),
@@ -70,7 +70,7 @@ def line_hint(what: str, lines: Sequence[str], number: int, column: int) -> str:
     if code.count('"') % 2:
         return "The closing quote is missing."
     if code.count("{") > code.count("}"):
-        return "The closing brace is missing: a table in braces stands on one line."
+        return "The closing brace is missing: a table in braces must be on one line."
     opened = [n for n in range(1, number + 1) if lines[n - 1].count("[") > lines[n - 1].count("]")]
     if opened and "rray" in what:
         return say("The bracket that is opened in line {} is not closed.", opened[-1])

@@ -476,8 +476,8 @@ class Scales(Struct, frozen=True):
     mu_F: Annotated[  # noqa: N815 - the letter of the textbook
         float | None,
         NumberKey(
-            "forces, N per mm: one for all force plans; when absent, small ones have scales of "
-            "their own",
+            "forces, N per mm: one for all force plans; default: small plans have their own "
+            "scales",
             "a scale", low=1e-12, high=1e12, positive=True,
         ),
     ] = None  # fmt: skip

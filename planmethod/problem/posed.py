@@ -66,7 +66,7 @@ def read_posed(
     foreign = "s" if crank else "phi"  # reported as what does not go with the driver
     first, *others = [key for key in given if is_place(key) and key != foreign] or [""]
     for key in others:
-        said = say("{} and {} both tell the position", first, key)
+        said = say("{} and {} both give the position", first, key)
         faults.add(f"driver.{key}", said, "Keep one of them.")
     found = None
     if first and first not in ("phi", "s"):
@@ -82,11 +82,11 @@ def read_posed(
         if is_rate(key) and key[2:] != first:
             hint = say("Give the length itself: {} = 0.4.", key[2:])
             faults.add(
-                f"driver.{key}", say("is the rate of {}, which tells no position", key[2:]), hint
+                f"driver.{key}", say("is the rate of {}, which gives no position", key[2:]), hint
             )
     counted = first == "at" and (found is None or found.by is not PosedBy.LINE)
     if "root" in given and (first in ("", "phi", "s") or counted):
-        faults.add("driver.root", "goes only with a position that the output tells", _ROOT)
+        faults.add("driver.root", "is valid only with a position given by the output", _ROOT)
     return None if others else found
 
 

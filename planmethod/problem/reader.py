@@ -202,10 +202,10 @@ def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
     """Return the fault of a variant that a file has not, with the nearest name."""
     if not known:
         return Fault(
-            "variants", say("there is no variant '{}'", variant), "The file has no variants."
+            "variants", say("variant '{}' does not exist", variant), "The file has no variants."
         )
     guess = near(variant, known) or next((k for k in known if fold(k) == fold(variant)), None)
     hint = say("Did you mean '{}'?", guess) if guess else say("There are {}.", listed(known))
     if guess and fold(guess) == fold(variant):
         hint = say("Did you mean '{}' in the other layout (Russian or Latin)?", guess)
-    return Fault("variants", say("there is no variant '{}'", variant), hint)
+    return Fault("variants", say("variant '{}' does not exist", variant), hint)

@@ -167,7 +167,7 @@ def parse_selector(text: str) -> Selector:
         raise SelectorError("expected one division at most")
     second = _parse_one(below)
     if first.kind in MACHINE or second.kind in MACHINE:
-        raise SelectorError("what is of the flywheel is not divided")
+        raise SelectorError("quantities of the flywheel cannot be divided")
     return Selector(first.kind, first.names, second)
 
 

@@ -116,7 +116,7 @@ def _without_astray(faults: Faults, path: str, table: object, other: str, exampl
     astray = set(entries).intersection(keys.known(other)).difference(own)
     for key in entries:
         if key in astray:
-            faults.add(joined(path, segment(key)), "unknown key", say("It stands in [{}].", other))
+            faults.add(joined(path, segment(key)), "unknown key", say("It belongs in [{}].", other))
     return {key: value for key, value in entries.items() if key not in astray}
 
 

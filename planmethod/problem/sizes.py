@@ -119,7 +119,7 @@ def _check_piston(faults: Faults, path: str, drive: Drive | None, *, couple: boo
     if couple:
         faults.add(path, "'indicator' does not go with a couple", "A piston has a force.")
     if drive is not None and not drive.is_crank:
-        faults.add(path, say("link {} slides: there is no cycle of a crank", drive.link))
+        faults.add(path, say("link {} slides: it has no crank cycle", drive.link))
 
 
 def _read_like(
@@ -180,7 +180,7 @@ def liken(
     if other is None:
         return None
     if not isinstance(other, SizeTable) or other.over is not Over.STROKES:
-        message = say("load {} is no indicator diagram", size.like)
+        message = say("load {} is not an indicator diagram", size.like)
         faults.add(path, message, 'It has law = "indicator" and its strokes.')
         return None
     if other.like is not None:
@@ -290,7 +290,7 @@ def _read_over(
         return None
     over = Over(word)
     if over is Over.PATH and drive is not None and not drive.is_crank:
-        faults.add(path, say("link {} slides: there is no stroke of a whole turn", drive.link))
+        faults.add(path, say("link {} slides: it has no stroke of a full turn", drive.link))
         return None
     if couple and over in (Over.X, Over.Y, Over.PATH):
         hint = "A couple has no point: give it over phi, s or position."

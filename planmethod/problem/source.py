@@ -173,7 +173,7 @@ def _nearby(path: Path) -> str:
     """Hint for a missing file: the nearest names in its folder, or those that are there."""
     try:
         if not path.parent.is_dir():
-            return say("There is no folder '{}' either. Check the path.", path.parent)
+            return say("The folder '{}' does not exist either. Check the path.", path.parent)
         found = zip(range(1000), path.parent.glob("*.toml"), strict=False)
         names = sorted(p.name for _, p in found if p.is_file())  # no link that leads nowhere
     except (OSError, ValueError):

@@ -60,7 +60,7 @@ class HigherPairTable(Struct, frozen=True):
         ),
     ] = ""
     by: Annotated[
-        str, OwnKey("number of the link that replaces the pair; the next free one when absent")
+        str, OwnKey("number of the link that replaces the pair; default: the next free one")
     ] = ""
 
 
@@ -249,7 +249,7 @@ class CamTable(Struct, frozen=True, kw_only=True):
         float | None,
         NumberKey(
             "angle of the lower dwell", "an angle", "degrees", 0.0, 358.0,
-            absent="what the others leave of a turn",
+            absent="the rest of the turn",
         ),
     ] = None  # fmt: skip
     law: Annotated[
@@ -340,7 +340,7 @@ class PlanetaryTask(Struct, frozen=True, kw_only=True):
     U: Annotated[
         float | None,
         NumberKey(
-            "ratio that was asked, with its sign: U_1H, of a set with two like rows U_H1",
+            "required ratio, with its sign: U_1H, for a set with two like rows U_H1",
             "a ratio", low=-1e6, high=1e6, hint="A ratio is a number: U = 6.5.",
             absent="that of the train",
         ),
@@ -366,8 +366,9 @@ class GearWheelTable(Struct, frozen=True):
     r: Annotated[
         float | None,
         OwnKey(
-            "pitch radius, m, in place of teeth; beside wheels with teeth it needs `module`, "
-            "except of a pulley. Of a carrier: how far the axes of its satellites are from its own"
+            "pitch radius, m, in place of teeth; beside wheels with teeth it needs "
+            "`module`, except for a pulley. For a carrier: the distance of the axes of its "
+            "planets from its own"
         ),
     ] = None
     m: Annotated[

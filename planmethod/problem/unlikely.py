@@ -25,8 +25,8 @@ def unlikely(problem: Problem) -> Iterator[str]:
     if longest is not None and not SHORTEST <= longest[2] <= LONGEST:
         link, key, value = longest
         told = (
-            "{} = {} is the longest link, which is hardly meant. The unit of the file's lengths "
-            'stands at its top: units = "m", "cm", "mm" or "in".'
+            "{} = {} is the longest link, which is unlikely. The unit of the file's lengths "
+            'is at its top: units = "m", "cm", "mm" or "in".'
         )
         yield say(told, f"links.{link}.{key}", told_length(value, problem.unit))
     drive = problem.drive
@@ -70,8 +70,9 @@ def _outranked(problem: Problem) -> Iterator[str]:
     if len(listed) == len(numbered) and max(apart) <= SAME_DEG:
         return
     told = (
-        "driver.phi lists {} positions from {} to {}, [cycle] numbers {} from {} to {}, and these "
-        "are taken. Delete phi of [driver], or [cycle]; with --phi others are asked."
+        "driver.phi lists {} positions from {} to {}, [cycle] numbers {} from {} to {}, and "
+        "these are used. Delete phi of [driver], or [cycle]; --phi requests other "
+        "positions."
     )
     ends = ([f"{one:.5g}°" for one in (way[0], way[-1])]
             for way in (listed, [*map(problem.shown, numbered)]))  # fmt: skip

@@ -127,7 +127,7 @@ def in_positions(problem: Problem) -> Problem:
         return problem
     if len(positions) > MOST_DRAWN:
         told = say("{} positions, a project is drawn of at most {}", len(positions), MOST_DRAWN)
-        raise ProblemError(problem.name, [Fault("cycle.count", told, "Ask fewer: count = 12.")])
+        raise ProblemError(problem.name, [Fault("cycle.count", told, "Request fewer: count = 12.")])
     if machine is not None and len(positions) <= MOST_COUNT:
         machine = replace(machine, start_deg=positions[0], count=len(positions))
     judged = drive.judged or drive.positions  # the way in which it is assembled stays
@@ -169,7 +169,7 @@ def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) 
                 [
                     Fault(
                         "project.calculated",
-                        say("there is no position {}", task.calculated),
+                        say("position {} does not exist", task.calculated),
                         say("Of {} positions the last is {}.", count, count - 1),
                     )
                 ],
@@ -250,7 +250,7 @@ def _of_kind(problem: Problem, name: PartName, path: Path, beside: str) -> Proje
 def _check_beside(problem: Problem, table: str, file: Path) -> None:
     """Reject a file that is missing or has a problem of another kind."""
     if not file.is_file():
-        told = say("there is no file {} beside this one", file.name)
+        told = say("{} is not in the folder of this file", file.name)
         hint = say("Write its name, or put the table [{}] into this file.", table)
     elif table not in parse(read_source(file), name=str(file)):
         told = say("{} has no table [{}]", file.name, table)

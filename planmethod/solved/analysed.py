@@ -26,9 +26,9 @@ def structure_of(problem: Problem) -> Structure:
         if not isinstance(wheels, Mapping) or len(named) < 2:
             raise
         told = say(
-            "Wheels {} of [gears] are called as links: a mesh of two wheels on links of a linkage "
-            "is no pair here yet, and is not counted. Give the linkage one crank, and a train that "
-            "turns it other names.",
+            "Wheels {} of [gears] have the names of links: a mesh of two wheels on links of "
+            "a linkage is not supported as a pair yet and is not counted. Give the linkage "
+            "one crank, and give other names to a train that turns it.",
             ", ".join(named),
         )
         raise StructureError(f"{error} {told}") from error

@@ -281,14 +281,14 @@ def _untold(
     if rules:
         said = say(" and ").join(rule_text(rule, unit) for rule in rules)
         text = say(
-            "'{}' does not tell the assemblies of links {} apart, of which there are {} at {}: "
-            "with {} at {} {}",
+            "'{}' does not distinguish the assemblies of links {}, of which there are {} at "
+            "{}: with {} at {} {}",
             said,
             *facts,
         )
     else:
         text = say(
-            "links {} can be assembled in {} ways at {}, with {} at {} {}, and no rule says which",
+            "links {} can be assembled in {} ways at {}, with {} at {} {}, and no rule selects one",
             *facts,
         )
     hint = say(

@@ -212,12 +212,12 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
                 Fault(
                     f"assembly.{rule.point}",
                     say(
-                        "'{}' and '{}' ask for different closings of links {}",
+                        "'{}' and '{}' require different assemblies of links {}",
                         rule_text(rule, problem.unit),
                         rule_text(mine[0], problem.unit),
                         ", ".join(group.links),
                     ),
-                    "Keep the one that is meant",
+                    "Keep the correct one",
                 )
                 for rule, closing in zip(mine, judged, strict=True)
                 if closing.side != judged[0].side
@@ -391,7 +391,7 @@ def _judge(
                 Fault(
                     f"assembly.{rule.point}",
                     say(
-                        "'{}' does not tell the two closings apart at {}: both give {}",
+                        "'{}' does not distinguish the two assemblies at {}: both give {}",
                         said,
                         place.driver,
                         told_length(plus, problem.unit),
@@ -440,7 +440,8 @@ def _missing(group: AssurGroup, both: list[Tried], positions: Reals, untold: Rul
     return Fault(
         f"assembly.{c}",
         say(
-            "links {} close in two ways, with {} at ({}) or at ({}) {}, and no rule says which",
+            "links {} can be assembled in two ways, with {} at ({}) or at ({}) {}, "
+            "and no rule selects one",
             ", ".join(group.links),
             c,
             *places,

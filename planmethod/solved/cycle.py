@@ -237,15 +237,19 @@ def cycle(solution: Solution) -> Cycle:
     """
     require_dynamics(solution.problem)
     if (ends := solution.problem.drive.actuator) is not None:
-        what = "the actuator {} drives link {}, and there are no forces over a turn of that"
-        hint = "Ask single positions: --phi 40,50, or variants with other lengths of the actuator."
+        what = (
+            "the actuator {} drives link {}, and forces over a turn of that link are not available"
+        )
+        hint = (
+            "Request single positions: --phi 40,50, or variants with other lengths of the actuator."
+        )
         fault = Fault("driver", say(what, "".join(ends), solution.problem.drive.link), hint)
         raise ProblemError(solution.problem.name, [fault])
     if len(solution.positions) < 2:
         raise LayoutError(
-            "{}: a layout with forces over the cycle needs several positions, 1 is "
-            "asked. Ask more: --phi 0:360:30, or phi = {{ from = 0, count = 12 }} in "
-            "[driver].",
+            "{}: a layout with forces over the cycle needs several positions, but 1 is "
+            "requested. Request more: --phi 0:360:30, or phi = {{ from = 0, count = 12 }} "
+            "in [driver].",
             solution.problem.name,
         )
     return Cycle(solution)

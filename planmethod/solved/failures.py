@@ -78,15 +78,15 @@ class Cause(Enum):
 
     NOT_FINITE = ("{problem}: a value is not finite although every step exists.", "")
     NO_NUMBER = ("{This} is not a number.", "")
-    AT_LIMIT = ("{This} is at an impossible one.", "")
+    AT_LIMIT = ("{This} is at the limit of the possible ones.", "")
     NO_DIRECTION = (
-        "Cannot go on{at}: {p[0]} and {p[1]} coincide, so that the line {p[0]}{p[1]} has no "
-        "direction. The mechanism stands in a dead position there; ask another one.",
+        "Cannot continue{at}: {p[0]} and {p[1]} coincide, so that the line {p[0]}{p[1]} has "
+        "no direction. The mechanism is in a dead position there; choose another one.",
         "",
     )
     FORCES = (
-        "Cannot close the force plan{at}: the mechanism stands in a dead position, where no forces "
-        "balance the loads. Ask another position.",
+        "Cannot close the force plan{at}: the mechanism is in a dead position, where no "
+        "forces balance the loads. Choose another position.",
         "",
     )
     NO_ARM = (
@@ -95,9 +95,9 @@ class Cause(Enum):
         "",
     )
     SAME_ARCS = (
-        "Cannot place {out}{at}: arcs from {p[0]} ({l[0]}) and {p[1]} ({l[1]}) "
-        "coincide, {p[0]} and {p[1]} being at one place. This dead position is a change point: the "
-        "mechanism may go on either way. Ask another one.",
+        "Cannot place {out}{at}: arcs from {p[0]} ({l[0]}) and {p[1]} ({l[1]}) coincide, "
+        "because {p[0]} and {p[1]} are at one place. This dead position is a change point: "
+        "the mechanism may continue either way. Choose another one.",
         "",
     )
     ARCS = (
@@ -111,70 +111,72 @@ class Cause(Enum):
         " It misses by {l[1]}{turn}.",
     )
     TANGENT = (
-        "Cannot turn the slotted link about {p[0]}{at}: its line stands off {p[0]} by {l[0]}{own}. "
-        "Check the offset.",
+        "Cannot turn the slotted link about {p[0]}{at}: its line is off {p[0]} by "
+        "{l[0]}{own}. Check the offset.",
         ", but {p[1]} is only {l[1]} away",
     )
     GUIDES = (
-        "Cannot place {out}{at}: its two guides are parallel. Ask another position, or check their "
-        "angles.",
+        "Cannot place {out}{at}: its two guides are parallel. Choose another position, or "
+        "check their angles.",
         "",
     )
     NO_ASSEMBLY = (
-        "Cannot assemble links {out}{at}: in no position of their base link do its three legs all "
-        "reach. Check the lengths, or ask another position.",
+        "Cannot assemble links {out}{at}: in every position of their base link one of its "
+        "three legs does not reach. Check the lengths, or choose another position.",
         "",
     )
     NOT_HELD = (
-        "Cannot assemble links {out}{at}: the assembly that was chosen at {reach[0]} goes on from "
-        "{reach[1]} to {reach[2]} only, where it stands dead. Ask positions between them.",
+        "Cannot assemble links {out}{at}: the assembly that was chosen at {reach[0]} exists "
+        "only from {reach[1]} to {reach[2]}, where it reaches dead positions. Request "
+        "positions between them.",
         "",
     )
     LEGS = (
-        "Cannot find the special point {out}{at}: the lines of two legs are parallel. Ask another "
-        "position, or this one alone: then two other legs are taken.",
+        "Cannot find the special point {out}{at}: the lines of two legs are parallel. "
+        "Choose another position, or this one alone: then two other legs are used.",
         "",
     )
     RAYS = (
-        "Cannot close the {plan} plan{at}: the rays that meet in {out} are parallel, the mechanism "
-        "stands in a dead position. Ask another position: there the velocities are not determined "
-        "by the driver.",
+        "Cannot close the {plan} plan{at}: the rays that meet in {out} are parallel, "
+        "because the mechanism is in a dead position, where the driver does not determine "
+        "the velocities. Choose another position.",
         "",
     )
     SIMILAR = (
-        "Cannot find {out} by similarity{at}: {p[0]} and {p[1]} of its triangle coincide. Ask "
-        "another position.",
+        "Cannot find {out} by similarity{at}: {p[0]} and {p[1]} of its triangle coincide. "
+        "Choose another position.",
         "",
     )
     STEP = (
-        "Step {out} is impossible{at}: two points that give a direction coincide there. Ask "
-        "another position.",
+        "Step {out} is impossible{at}: two points that give a direction coincide there. "
+        "Choose another position.",
         "",
     )
     TOGETHER = (
-        "{problem}: at {driver} both closings put {out} at one place: the mechanism stands in a "
-        "dead position, from which it may go on either way. Ask another position.",
+        "{problem}: at {driver} both assemblies place {out} at one point: the mechanism is "
+        "in a dead position, from which it may continue either way. Choose another "
+        "position.",
         "",
     )
     NEITHER = (
-        "'{out}' holds for neither closing at {driver}: they miss it by {l[0]} and "
-        "{l[1]}. Check the lengths or the rule assembly.{p[0]}.",
+        "'{out}' holds for neither assembly at {driver}: they miss it by {l[0]} and {l[1]}. "
+        "Check the lengths or the rule assembly.{p[0]}.",
         "",
     )
     SPOILT_NEAR = (
-        "{problem}: {this} stands so near a dead position{own} that rounding spoils its results."
-        "{more} Ask a position further away.",
+        "{problem}: {this} is so near a dead position{own} that rounding spoils its "
+        "results.{more} Choose a position further away.",
         " (margin {margin:.1e})",
     )
     SPOILT = (
-        "{problem}: {this} hangs on such small differences of large values that rounding spoils "
-        "its results.{more} Ask a position further away.",
+        "{problem}: {this} depends on such small differences of large values that rounding "
+        "spoils its results.{more} Choose a position further away.",
         "",
     )
     SPOILT_FORCES = (
-        "{problem}: {this} stands so near one in which no forces balance the loads{own} that "
-        "rounding spoils its reactions and what balances its driver.{more} Ask a position further "
-        "away.",
+        "{problem}: {this} is so near one in which no forces balance the loads{own} that "
+        "rounding spoils its reactions and the balancing force or moment.{more} Choose a "
+        "position further away.",
         " (margin {margin:.1e})",
     )
 
@@ -215,8 +217,8 @@ class Evenly(Struct, frozen=True):
 
     def __str__(self) -> str:
         told = (
-            " With [cycle] zero = {0:g}, count = {1}, or with --phi {0:g}:{2:g}:{3:g}, no position "
-            "is a dead one."
+            " With [cycle] zero = {0:g}, count = {1}, or with --phi {0:g}:{2:g}:{3:g}, no "
+            "position is a dead position."
         )
         return say(told, self.zero, self.count, self.zero + TURN * self.turns, TURN / self.count)
 
@@ -296,7 +298,9 @@ class Failure(Struct, frozen=True):
             "problem": self.problem,
             "turn": self._over_turn(),
             "reach": [self.place.coordinate.told(at, self.place.unit, 6) for at in self.reach],
-            "more": say(" So do {} other positions.", self.alike) if whole and self.alike else "",
+            "more": say(" The same holds for {} other positions.", self.alike)
+            if whole and self.alike
+            else "",
         }
         return say(sentence, **facts, own=say(own, **facts) if whole else "")
 
@@ -305,7 +309,7 @@ class Failure(Struct, frozen=True):
             return ""
         at = self.place.coordinate.told(self.over_turn[1], self.place.unit)
         most = told_length(self.over_turn[0], self.place.unit)
-        return say(", by {} at the most over a turn (at {})", most, at)
+        return say(", by {} at most over a turn (at {})", most, at)
 
 
 def others_fail(count: int) -> str:
@@ -351,13 +355,13 @@ class Doubt(Struct, frozen=True):
         nature = (
             say("next to a dead position (margin {:.1e})", self.margin)
             if self.near
-            else say("badly conditioned (its results hang on small differences of large values)")
+            else say("badly conditioned (its results depend on small differences of large values)")
         )
-        told = "{} is {}: its results are good to about {:.0e} of the largest of their kind."
+        told = "{} is {}: its results are accurate to about {:.0e} of the largest of their kind."
         if self.forces:
             told = (
-                "{} is {}: its reactions and what balances its driver are good to about {:.0e} of "
-                "the largest of their kind."
+                "{} is {}: its reactions and the balancing force or moment are accurate to "
+                "about {:.0e} of the largest of their kind."
             )
         return say(told, self.place, nature, self.bound)
 
@@ -369,7 +373,7 @@ class MoreDoubts(Struct, frozen=True):
     count: int
 
     def __str__(self) -> str:
-        return say("so are {} more of {} positions, less badly.", self.more, self.count)
+        return say("{} more of {} positions are affected, less badly.", self.more, self.count)
 
 
 class Passed(Struct, frozen=True):
@@ -401,19 +405,19 @@ class Passed(Struct, frozen=True):
             )
         )
         text = say(
-            "links {} pass a change point at {}, from which the mechanism may go on either way: "
-            "the side that was chosen in the first position is kept, so that one branch of the "
-            "motion passes into another there.",
+            "links {} pass a change point at {}, from which the mechanism may continue "
+            "either way: the side that was chosen in the first position is kept, so that "
+            "one branch of the motion passes into another there.",
             ", ".join(self.links),
             places,
         )
         c = self.point
         ways = [say('{} = {{ keep = "parallel" }} for the parallelogram', c)] * self.parallel
         smooth = (
-            '{} = {{ near = [x, y], keep = "continuous" }} for the motion that goes on smoothly'
+            '{} = {{ near = [x, y], keep = "continuous" }} for the motion that continues smoothly'
         )
         ways += [say(smooth, c)]
-        return say("{} Say in [assembly] {}.", text, ", ".join(ways)) if c else text
+        return say("{} In [assembly] give {}.", text, ", ".join(ways)) if c else text
 
 
 class Contradiction(Struct, frozen=True):
@@ -444,8 +448,8 @@ class Contradiction(Struct, frozen=True):
 
     def __str__(self) -> str:
         told = (
-            "{}: the {} of {} about {} on link {} is off by {:.3g} (largest value {:.3g}){}. "
-            "This is a fault of planmethod: please report it."
+            "{}: the {} of {} about {} on link {} is off by {:.3g} (largest value "
+            "{:.3g}){}. This is an internal error of planmethod: please report it."
         )
         facts = (self.problem, say(self.quantity), self.point, self.about, self.link)
         return say(told, *facts, self.error, self.size, self.place.at)

@@ -41,7 +41,7 @@ def late_fault(rule: Rule, draft: Draft) -> Fault | None:
     return Fault(
         f"assembly.{rule.point}",
         say(
-            "{} is placed after {}, so it cannot tell its place",
+            "{} is placed after {}, so it cannot determine its place",
             say(" and ").join(missing),
             rule.point,
         ),
@@ -64,8 +64,8 @@ def unkept_fault(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | Non
     if found is None:
         return Fault(
             path,
-            say("links {} are no two sides of a quadrilateral of four joints", links),
-            'Leave keep = "parallel" out, and say which closing is meant',
+            say("links {} are not two sides of a quadrilateral of four joints", links),
+            'Leave keep = "parallel" out, and give a rule for the assembly that is meant',
         )
     if found.is_one:
         return None
@@ -81,8 +81,9 @@ def unkept_fault(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | Non
     )
     return Fault(
         path,
-        say("the opposite sides of a parallelogram are equal, and here {}", said),
-        'Correct the lengths, or say keep = "continuous" with the closing that is meant',
+        say("the opposite sides of a parallelogram are equal, but here {}", said),
+        'Correct the lengths, or give keep = "continuous" with a rule for the '
+        "assembly that is meant",
     )
 
 
@@ -147,14 +148,14 @@ def ambiguous_fault(rule: Rule, both: list[Tried], index: int, where: str) -> Fa
     return Fault(
         f"assembly.{rule.point}",
         say(
-            "'{}' holds for both closings at {}: with {} at ({}) and at ({}) {}",
+            "'{}' holds for both assemblies at {}: with {} at ({}) and at ({}) {}",
             rule_text(rule, unit),
             where,
             rule.point,
             *places,
             say(unit),
         ),
-        say("Say '{}' for the first or '{}' for the second", words[0], words[1]),
+        say("Give '{}' for the first or '{}' for the second", words[0], words[1]),
         tuple(told),
     )
 
@@ -215,7 +216,7 @@ def from_joint(problem: Problem, group: AssurGroup, rule: Rule) -> Rule:
     if joint is None or joint in (rule.point, *rule.refs):
         hint = "Compare with another point: right of, left of, above, below"
         said = rule_text(rule, problem.unit)
-        message = say("'{}': there is no way from the joint {} to tell", said, joint or "")
+        message = say("'{}': the direction from the joint {} is not defined", said, joint or "")
         raise ProblemError(problem.name, [Fault(f"assembly.{rule.point}", message, hint)])
     return replace(rule, refs=(*rule.refs, joint))
 

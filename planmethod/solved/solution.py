@@ -274,7 +274,7 @@ class Solution(Remembering):
     def numbers_of(self, plan: Callable[[Construction], Mapping[str, float]]) -> dict[str, Number]:
         """Return the known numbers of a continuation of the construction."""
         if not callable(plan):
-            raise ArgumentError("{}: a function is wanted, got {}.", "plan", describe(plan))
+            raise ArgumentError("{}: expected a function, got {}.", "plan", describe(plan))
         return dict(plan(self.construction))
 
     def length(self, link: str, p: str, q: str) -> float | Reals:
@@ -349,7 +349,7 @@ class Solution(Remembering):
         if self._scales is not None:
             return dict(self._scales)
         if not len(self.positions):
-            raise ArgumentError("positions: at least one is wanted, got [].")
+            raise ArgumentError("positions: expected at least one, got [].")
         scales = choose_scales(self.extents, self.views, self.given_scales)
         for kind, own in self._own_scales.items():
             if not np.isnan(own).any():  # there is no common scale: one of them represents it

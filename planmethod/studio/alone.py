@@ -118,7 +118,9 @@ class Alone(Struct, weakref=True):
         plain = named_work(name)
         if plain is None:
             with speaking(lang):
-                said = "'{}': works are *.csv, *.xlsx, *.json, *.toml, or drawings *.dxf, *.svg."
+                said = (
+                    "'{}': submissions are *.csv, *.xlsx, *.json, *.toml, or drawings *.dxf, *.svg."
+                )
                 return 415, str(say(said, name[:120])).encode()
         (works / plain).write_bytes(data)
         return _json(sorted(path.name for path in works.iterdir()))

@@ -91,13 +91,15 @@ def request_of(data: bytes) -> StudioRequest:
     except (MsgspecError, ValueError) as error:
         named = re.search(r"at `\$\.(\w+)", str(error))
         if named is None:
-            raise ArgumentError("This is no JSON that the page sends. Reload the page.") from None
-        said = "'{}' is of another type than the page sends. Reload the page."
+            raise ArgumentError("This is not valid JSON from the page. Reload the page.") from None
+        said = "'{}' does not have the type that the page sends. Reload the page."
         raise ArgumentError(said, named[1]) from None
     except RecursionError:
         deep = True
     if deep:
-        raise ArgumentError("This is nested deeper than {} levels. A work has three.", DEEPEST)
+        raise ArgumentError(
+            "This is nested deeper than {} levels. A submission has three.", DEEPEST
+        )
     return found
 
 

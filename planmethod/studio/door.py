@@ -15,14 +15,16 @@ from planmethod.languages import LANGUAGES, say, speaking
 OWN_HOSTS = ("127.0.0.1", "localhost", "::1")
 """Names of the local machine: no external page is served under one of them."""
 
-PRINTED = "Open the address that planmethod studio printed when it started: it lets nobody else in."
-INSTRUCTORS = "This is the instructor's: open the link that was printed at the start."
+PRINTED = (
+    "Open the address that planmethod studio printed at the start: the studio accepts no other."
+)
+INSTRUCTORS = "This is for the instructor only: open the link that was printed at the start."
 
 _SAID = {
     401: "This session has ended. Reload the page.",
     403: INSTRUCTORS,
-    404: "There is nothing at this address.",
-    405: "This address is not asked in this way.",
+    404: "This address does not exist.",
+    405: "This address does not support this method.",
 }
 """Default messages by status."""
 
@@ -95,19 +97,21 @@ class Door:
         """Return the response that replaces the studio's own; None if there is none."""
         if self.token is not None:
             if _own(request)[0] not in OWN_HOSTS:
-                return refused(
-                    request, 403, "This studio answers at 127.0.0.1 and localhost alone."
-                )
+                return refused(request, 403, "This studio answers only at 127.0.0.1 and localhost.")
             if request.scope["path"] == "/" and "token" in request.query_params:
                 return self._let_in(request)
             if not self._is(request.cookies.get(_cookie(request), "")):
                 return refused(request, 403, PRINTED)
         if request.method not in ("GET", "HEAD"):
             if _is_foreign(request):
-                return refused(request, 403, "Another site asks for this. Open the studio itself.")
+                return refused(
+                    request, 403, "Another site made this request. Open the studio itself."
+                )
             kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
             if request.method == "POST" and kind != "application/json":
-                return refused(request, 415, "What is sent here is JSON (Content-Type).")
+                return refused(
+                    request, 415, "Requests to this address must be JSON (Content-Type)."
+                )
         return None
 
     def _is(self, given: str) -> bool:

@@ -6,8 +6,8 @@ from msgspec import Struct
 
 MB = 1 << 20
 
-NO_MEMORY = "This takes more memory than there is for it. Ask for less."
-TOO_DEEP = "This is nested too deep to be computed. Ask for less."
+NO_MEMORY = "This takes more memory than is available. Request less."
+TOO_DEEP = "This is nested too deep to be computed. Request less."
 """Reasons for a missing result, with a server or without."""
 
 

@@ -46,7 +46,7 @@ from planmethod.studio.limits import StudioLimits
 from planmethod.studio.sessions import Desk, Sessions, StudioSession, mark_of
 from planmethod.studio.workers import Act, Pace, StudioQueue
 
-FULL = "Too much is waiting already. Try again in a minute."
+FULL = "The queue is full. Try again in a minute."
 
 _LIVE = "sandbox allow-scripts; frame-ancestors 'self'"
 _FILE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox; " + (
@@ -131,7 +131,7 @@ async def _body(request: Request, most: int) -> bytes:
                 raise StudioRefusal(413, "This is larger than {} KiB. Send less.", most // 1024)
             parts.append(part)
     except ClientDisconnect:
-        raise StudioRefusal(400, "What was sent has no end.") from None
+        raise StudioRefusal(400, "The request is incomplete.") from None
     return b"".join(parts)
 
 
@@ -304,7 +304,7 @@ class _Studio:
         given = request.path_params["name"]
         name = named_work(given)
         if name is None:
-            said = "'{}': works are *.csv, *.xlsx, *.json, *.toml, or drawings *.dxf, *.svg."
+            said = "'{}': submissions are *.csv, *.xlsx, *.json, *.toml, or drawings *.dxf, *.svg."
             raise StudioRefusal(415, said, " ".join(Path(given).name.split())[:120])
         data, limits = await _body(request, self.limits.upload), self.limits
         path = session.works / name
@@ -314,7 +314,7 @@ class _Studio:
             )
         if not path.exists() and len([*session.works.iterdir()]) >= limits.works:
             raise StudioRefusal(
-                413, "There are {} works already: more are not taken.", limits.works
+                413, "There are {} submissions already: no more are accepted.", limits.works
             )
         path.write_bytes(data)
         return JSONResponse(sorted(path.name for path in session.works.iterdir()))
@@ -335,7 +335,7 @@ class _Studio:
         if do in TRUSTED or told.what in TRUSTED_WHATS:
             self._trust(session)
         if not session.bucket.takes(self.sessions.clock(), rate=limits.rate, burst=limits.burst):
-            raise StudioRefusal(429, "This is asked too often. Wait a little.")
+            raise StudioRefusal(429, "Too many requests. Wait a little.")
         if self.queue.is_full_for(session.key):
             raise StudioRefusal(503, FULL)
         settings, works = self.settings, session.works

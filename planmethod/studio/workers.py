@@ -48,13 +48,13 @@ WAITED = 20.0
 beyond it the process counts as hanging."""
 
 TOO_LONG = (
-    "This takes more than {:g} s of a processor and is stopped. Ask for fewer positions, or for a "
-    "part of it; or run planmethod on your own machine, where nothing stops it."
+    "This takes more than {:g} s of processor time and was stopped. Request fewer "
+    "positions, or a part of it; or run planmethod on your own machine, without limits."
 )
-HANGS = "This is not done after {:.0f} s and is stopped: the machine is busy. Try again later."
+HANGS = "This was not done after {:.0f} s and was stopped: the machine is busy. Try again later."
 ENDED = (
-    "What computed this was ended after {:.0f} s (signal or exit code {}). Try again; "
-    "if it recurs, report the file."
+    "The process of this computation ended after {:.0f} s (signal or exit code {}). Try "
+    "again; if it recurs, report the file."
 )
 
 

@@ -99,8 +99,8 @@ def checks(synthesis: Synthesis, problem: Problem) -> dict[str, Any]:
         measured = found[name]
         if measured is None or not abs(measured - value) <= CLOSE * max(abs(value), 1e-6):
             raise PlanMethodError(
-                "The mechanism that was found has {} = {!r} instead of {!r}: it is too near "
-                "to the limit of what can be assembled. Take other values.",
+                "The synthesized mechanism has {} = {!r} instead of {!r}: it is too close "
+                "to the limit of assembly. Use other values.",
                 name,
                 measured,
                 value,

@@ -291,8 +291,8 @@ def read(board: Board, mu: float = 1.0) -> Trace:
         if margin is not None and not margin > limit_of(step):
             told = board.said.get(step.out)
             raise AssemblyError(
-                "There is no such mechanism: the construction ends where {} is to be "
-                "found{}, margin {:.3g}. Change what is given.",
+                "No such mechanism exists: the construction fails where {} is to be "
+                "found{}, margin {:.3g}. Change the given data.",
                 step.out,
                 "" if told is None else f" ({told[0]})",
                 float(margin),

@@ -47,7 +47,7 @@ class VariantCandidates:
         self.table = parse(self.text, name=str(path))
         if self.table != {key: value for key, value in whole.items() if key != "variants"}:
             raise VaryingError(
-                "{}: its [variants] stand between other tables; move them to the end of the file",
+                "{}: its [variants] are between other tables; move them to the end of the file",
                 path,
             )
 

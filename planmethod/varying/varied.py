@@ -162,7 +162,7 @@ def asked(table: Mapping[str, Any], text: str, spread: float) -> list[VariedKey]
 
 def _some(found: list[VariedKey]) -> list[VariedKey]:
     if not found:
-        raise VaryingError("nothing is to be varied: name numbers of the file after --vary")
+        raise VaryingError("found no numbers to vary: name numbers of the file after --vary")
     return found
 
 
@@ -191,7 +191,9 @@ def _read(table: Mapping[str, Any], written: str, span: str, spread: float) -> l
         raise VaryingError("--vary {}={}: FROM..TO is expected, 40..80", written, span)
     made = [replace(one, values=_between(one, float(low), float(high))) for one in chosen]
     if not all(one.values for one in made):
-        raise VaryingError("--vary {}={}: no round number lies there; widen it", written, span)
+        raise VaryingError(
+            "--vary {}={}: the range contains no round number; widen it", written, span
+        )
     return made
 
 

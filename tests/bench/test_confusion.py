@@ -84,7 +84,7 @@ def test_the_section_takes_problems_that_are_computed() -> None:
     assert run.exit_code == 0, run.output
     for words in ("## By families", "| trains, one mistake |", "| points, one mistake |"):
         assert words in run.output
-    assert "## Honest works" not in run.output  # nothing of these is drawn
+    assert "## Submissions without a mistake" not in run.output  # nothing of these is drawn
     run = CliRunner().invoke(cli, ["bench", *files])
     assert run.exit_code != 0  # the other sections measure linkages
 

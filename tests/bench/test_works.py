@@ -58,8 +58,8 @@ def test_the_section_is_printed_without_the_referee() -> None:
     run = CliRunner().invoke(cli, words)
     assert run.exit_code == 0, run.output
     for heading in (
-        "Honest works",
-        "Works with a mistake",
+        "Submissions without a mistake",
+        "Submissions with a mistake",
         "What the answers cannot show",
         "Speed",
     ):

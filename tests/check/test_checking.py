@@ -340,7 +340,7 @@ def test_a_number_without_a_unit_has_the_required_one() -> None:
     book = openpyxl.load_workbook(io.BytesIO(form_of(key.entries, problem="ex3")))
     rows = book.worksheets[0].iter_rows(values_only=True)
     assert [row[6] for row in rows if row[1] in ("v", "w")] == ["мм/с", "об/мин"]
-    with pytest.raises(ProblemError, match="'м/с²' is no unit of 'v'"):
+    with pytest.raises(ProblemError, match="'м/с²' is not a unit of 'v'"):
         Task(Solution(replace(problem, answers=(replace(speed, unit="м/с²"),))))
 
 

@@ -118,8 +118,8 @@ def test_the_faults_of_the_documentation_all_at_once(tmp_path: Path) -> None:
          "'stricter', got the string 'wide'. Did you mean 'wider'?"),
         ("profile = 'cаd'", "profile: 'cаd' has the Cyrillic letter а (U+0430), expected the "
          "Latin letter 'a'. Type 'cad' in the Latin layout."),
-        ("cap = 0.01\nfloor_share = 0.02", "cap: the cap is below floor_share. No answer could "
-         "be judged: raise it."),
+        ("cap = 0.01\nfloor_share = 0.02", "cap: the cap is below floor_share. No answer "
+                                           "could be graded: raise it."),
         ("ruler_mm = 0", "ruler_mm: expected a step of reading in mm from 0.01 to 5, got 0. A "
          "ruler has 0.5 or 1."),
         ("marks = []", "marks: expected 1 to 20 marks, got an empty list. For example: marks = "
@@ -127,9 +127,9 @@ def test_the_faults_of_the_documentation_all_at_once(tmp_path: Path) -> None:
         ("marks = [5]", "marks[0]: expected [share, mark], got the integer 5. For example: marks "
          '= [[0.85, "5"], [0.7, "4"], [0.5, "3"], [0, "2"]]'),
         ("marks = [[0.5, '5'], [0.7, '4'], [0, '2']]", "marks[1]: '4' is from 0.7, the mark "
-         "before it from 0.5. The best mark stands first."),
-        ("marks = [[0.5, '5']]", "marks: the last mark is from 0.5, expected 0. Add the mark of "
-         "what is worse: [0, \"2\"], or let '5' be from 0."),
+         "before it from 0.5. The best mark comes first."),
+        ("marks = [[0.5, '5']]", "marks: the last mark is from 0.5, expected 0. Add the "
+                                 "lowest mark: [0, \"2\"], or let '5' start at 0."),
         ("marks = [[85, '5'], [0, '2']]", "marks[0][0]: expected a share from 0 to 1, got 85. "
          "Shares are from 0 to 1: 0.05 for 5 %."),
         ("marks = [[0, ' ']]", 'marks[0][1]: the mark is empty. For example: marks = [[0.85, '

@@ -146,8 +146,8 @@ def test_a_change_point_between_the_positions_is_reported_once(command: tuple[st
     assert result.exit_code == 0
     assert result.stderr == (
         f"Warning: {case}: links 2, 3 pass a change point at phi = 180 deg, from which the "
-        "mechanism may go on either way: the side that was chosen in the first position is kept, "
-        "so that one branch of the motion passes into another there. Say in [assembly] "
+        "mechanism may continue either way: the side that was chosen in the first position is "
+        "kept, so that one branch of the motion passes into another there. In [assembly] give "
         'C = { keep = "parallel" } for the parallelogram, C = { near = [x, y], keep = '
         '"continuous" } for the motion that goes on smoothly.\n'
     )
@@ -159,7 +159,7 @@ def test_a_rule_that_both_assemblies_satisfy_is_rejected() -> None:
     assert result.exit_code == 3
     assert result.stderr == (
         f"Error: {CASES / 'ambiguous-rule.toml'}: 1 fault in the problem file\n"
-        "  assembly.C: 'C right of B' holds for both closings at phi = 60 deg: with C at (0.3251, "
-        "0.2063) and at (0.1838, -0.1819) m. Say 'above A' for the first or 'below A' for the "
-        "second\n"
+        "  assembly.C: 'C right of B' holds for both assemblies at phi = 60 deg: with C at "
+        "(0.3251, 0.2063) and at (0.1838, -0.1819) m. Give 'above A' for the first or 'below A' "
+        "for the second\n"
     )

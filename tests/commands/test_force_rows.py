@@ -295,7 +295,7 @@ def test_places_without_forces_have_a_reason() -> None:
     table = rows(result.stdout)
     assert float(table[1]["C.x"]) == pytest.approx(0.5)
     assert table[1]["driving.moment"] == ""
-    assert table[1]["reason"].startswith("Cannot close the force plan: the mechanism stands")
+    assert table[1]["reason"].startswith("Cannot close the force plan: the mechanism is")
     assert table[0]["reason"] == ""
 
 

@@ -332,11 +332,11 @@ def test_positions_that_rounding_spoils_are_impossible_too() -> None:
     phi = f"45,{SPOILT},90"
     for form in (("--csv",), ("--npz", "a.npz")):
         said = refused(4, "solve", "dead.toml", "--phi", phi, *form)
-        assert "position 1 (phi = 179.999 deg) stands so near a dead position" in said
+        assert "position 1 (phi = 179.999 deg) is so near a dead position" in said
         result = run("solve", "dead.toml", "--phi", phi, *form, "--partial")
         assert result.exit_code == 0
         assert "1 of 3 positions is impossible and left empty" in result.stderr
-        assert "position 1 (phi = 179.999 deg) stands so near" in result.stderr
+        assert "position 1 (phi = 179.999 deg) is so near" in result.stderr
     with np.load("a.npz") as found:
         assert found["reason"].tolist() == [-1, 0, -1]
         assert np.isnan(found["3.omega"]).tolist() == [False, True, False]
@@ -346,7 +346,7 @@ def test_a_doubt_about_the_requested_result_alone_is_a_warning() -> None:
     """The place is good although the velocity is not: a warning, no refusal."""
     result = run("solve", "dead.toml", "--phi", f"45,{SPOILT}", "--ask", "C", "--csv")
     assert result.exit_code == 0
-    assert "position 1 (phi = 179.999 deg) stands so near" in result.stderr
+    assert "position 1 (phi = 179.999 deg) is so near" in result.stderr
     assert float(rows(result.stdout)[1]["C.x"]) == pytest.approx(0.5, abs=1e-6)
     dead = run("solve", "dead.toml", "--phi", "45,180", "--ask", "C", "--csv")
     assert dead.exit_code == 0 and dead.stderr == ""
@@ -473,7 +473,7 @@ def test_doubts_of_a_large_table_are_reported_together() -> None:
         number = int(line.partition("position ")[2].split()[0])
         assert BLOCK < number <= BLOCK + 16
         assert "next to a dead position" in line
-    assert f"so are 11 more of {BLOCK + 16} positions, less badly." in lines[5]
+    assert f"11 more of {BLOCK + 16} positions are affected, less badly." in lines[5]
 
 
 def test_problems_in_one_large_table() -> None:
@@ -514,10 +514,10 @@ def test_gaps_are_listed_in_the_order_of_their_first_positions() -> None:
     assert asked == [1, 2]
     assert gaps.reason.tolist() == [-1, 0, 1, 1, -1, 0, 0]
     assert gaps.count == 5
-    first = "Position 2 (phi = 30 deg) is at an impossible one. "
+    first = "Position 2 (phi = 30 deg) is at the limit of the possible ones. "
     assert gaps.sentences == (
         first + "The same holds at 2 more of 7 positions.",
-        "Position 3 (phi = 60 deg) is at an impossible one. "
+        "Position 3 (phi = 60 deg) is at the limit of the possible ones. "
         "The same holds at 1 more of 7 positions.",
     )
     assert gaps.refusal() == gaps.sentences[0] + " Other steps fail at 2 positions."
@@ -563,7 +563,7 @@ def test_a_sample_is_even_and_has_both_ends(count: int) -> None:
 def test_names_with_position_in_them_are_left_alone() -> None:
     Path("position 7.toml").write_text(DEAD, "utf-8")
     said = refused(4, "solve", "position 7.toml", "--phi", f"45,{SPOILT}", "--npz", "a.npz")
-    assert "position 7.toml: position 1 (phi = 179.999 deg) stands so near" in said
+    assert "position 7.toml: position 1 (phi = 179.999 deg) is so near" in said
 
 
 def test_a_bar_is_shown_on_a_terminal_only(monkeypatch: pytest.MonkeyPatch) -> None:

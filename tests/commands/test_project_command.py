@@ -313,7 +313,7 @@ def test_an_earlier_project_is_replaced_and_other_files_stay(tmp_path: Path) -> 
         (
             ("homework.toml", "--position", "3"),
             ExitCode.USAGE,
-            "--position: there is no position 3",
+            "--position: position 3 does not exist",
         ),
         (("none.toml",), ExitCode.PROBLEM, "none.toml"),
     ],
@@ -345,7 +345,9 @@ def test_if_a_part_fails_no_file_is_written(jobs: str, tmp_path: Path) -> None:
     file.write_text(text, "utf-8")
     done = run(str(file), "-o", str(out), "--jobs", jobs, "--lang", "en")
     assert done.exit_code == ExitCode.USAGE
-    assert re.search(r"kinematics is not made, nothing is written: .* do not fit A4", done.stderr)
+    assert re.search(
+        r"kinematics cannot be made, and no files are written: .* do not fit A4", done.stderr
+    )
     assert not out.exists()
 
 

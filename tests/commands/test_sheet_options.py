@@ -120,7 +120,7 @@ def test_the_page_is_the_paper() -> None:
     ("option", "value", "said"),
     [
         ("--paper", "A4:landscape", "A4 cannot lie: by GOST 2.301 it stands"),
-        ("--paper", "A3x2", "There is no paper format A3x2 in GOST 2.301"),
+        ("--paper", "A3x2", "GOST 2.301 has no paper format A3x2"),
         ("--form", "3", "'3' is not one of 1, 1+2a, 2, 2a"),
         ("--lang", "de", "'de' is not one of ru, en"),
         ("--stamp", "autor=x", "Unknown field 'autor' of the title block. Did you mean 'author'?"),

@@ -148,9 +148,7 @@ def test_arcs_that_do_not_meet_are_drawn_and_the_gap_is_reported_for_the_turn() 
     assert len(arcs) == 2
     part = largest_part(tomllib.loads(text), source="x", name="x")
     # |BD| is greatest with the crank turned away from D: 0.6 m, for which 0.35 m are there.
-    assert "miss by 0.1599 m, by 0.25 m at the most over a turn (at phi = 180 deg)" in str(
-        part.trouble
-    )
+    assert "miss by 0.1599 m, by 0.25 m at most over a turn (at phi = 180 deg)" in str(part.trouble)
 
 
 def test_the_range_of_a_crank_that_does_not_turn_fully_is_an_arc() -> None:

@@ -168,7 +168,7 @@ def test_a_layout_without_contents_is_reported(tmp_path: Path) -> None:
     )
     result = run("sheet", str(EX3), "--layout", str(path), "-o", str(tmp_path))
     assert result.exit_code == 2, result.output
-    assert "No block of the layout has anything to show" in result.output
+    assert "All blocks of the layout are empty" in result.output
 
 
 # Sketches ----------------------------------------------------------------------------------------

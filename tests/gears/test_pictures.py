@@ -1,4 +1,4 @@
-"""Pictures of velocities as a construction: exact values, readings, errors, protocol, audit."""
+"""Velocity diagrams as a construction: exact values, readings, errors, protocol, audit."""
 
 from __future__ import annotations
 
@@ -165,7 +165,9 @@ def test_the_protocol_describes_every_point_line_and_reading() -> None:
         "U^H_5-4 = −3/2",
     ):
         assert said in told, said
-    assert "The picture closes from 3" in run("protocol", file("gears-ex6"), "--lang", "en")
+    assert "The diagram is drawn starting from 3" in run(
+        "protocol", file("gears-ex6"), "--lang", "en"
+    )
     coarse = run(*words, "--profile", "coarse", "--ruler", "2")
     assert "(o1) = 10,0 мм" in coarse
     assert coarse != told

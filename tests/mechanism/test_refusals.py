@@ -72,15 +72,15 @@ REFUSED = {
     ),
     "wedge": (
         mechanism("", "1/0@A 2/1@B 2/0@B"),
-        "The frame and links 1, 2 close a contour of 3 prismatic pairs only (PPP): it is not "
-        "an Assur group, because nothing in it turns and one pair repeats what the others say of "
-        "the angles. Make one of the pairs revolute.",
+        "The frame and links 1, 2 form a contour of 3 prismatic pairs only (PPP): it is not "
+        "an Assur group, because its links do not turn and one pair repeats the constraints "
+        "of the others on the angles. Make one of the pairs revolute.",
     ),
     "PPP dyad": (
         mechanism("A:01 B:14 D:45 E:05", "2/4@C 3/2@C 3/4@C"),
-        "Links 2, 3, 4 close a contour of 3 prismatic pairs only (PPP): it is not an Assur group, "
-        "because nothing in it turns and one pair repeats what the others say of the angles. "
-        "Make one of the pairs revolute.",
+        "Links 2, 3, 4 form a contour of 3 prismatic pairs only (PPP): it is not an Assur "
+        "group, because its links do not turn and one pair repeats the constraints of the "
+        "others on the angles. Make one of the pairs revolute.",
     ),
     "PPP closed through the crank": (
         mechanism("A:01", "2/1@B 3/2@C 3/0@C"),

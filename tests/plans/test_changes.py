@@ -241,14 +241,14 @@ def test_a_linkage_that_is_not_a_parallelogram_cannot_be_kept_parallel() -> None
         k=[0.7, -0.2], ab=0.1, bc=0.41, kc=0.1, phi=20.0, rule='{ keep = "parallel" }'
     )
     assert faulty(loads(text, name="near")) == (
-        "assembly.C.keep: the opposite sides of a parallelogram are equal, and here AB = 0.1 m and "
-        'KC = 0.1 m; AK = 0.4 m and BC = 0.41 m. Correct the lengths, or say keep = "continuous" '
-        "with the closing that is meant"
+        "assembly.C.keep: the opposite sides of a parallelogram are equal, but here AB = "
+        "0.1 m and KC = 0.1 m; AK = 0.4 m and BC = 0.41 m. Correct the lengths, or give "
+        'keep = "continuous" with a rule for the assembly that is meant'
     )
     text = SLIDER_CRANK.format(angle=0, ab=0.1, phi=30, rule='{ keep = "parallel" }')
     assert faulty(loads(text, name="slider")) == (
-        "assembly.C.keep: links 2, 3 are no two sides of a quadrilateral of four joints. Leave "
-        'keep = "parallel" out, and say which closing is meant'
+        "assembly.C.keep: links 2, 3 are not two sides of a quadrilateral of four joints. "
+        'Leave keep = "parallel" out, and give a rule for the assembly that is meant'
     )
 
 

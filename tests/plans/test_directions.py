@@ -59,7 +59,7 @@ def slot(angle: float, offset: float = 0.02, through: str = "C") -> Problem:
         try:
             problem = loads(text, name="slot")
             Solution(problem)
-        except Exception as caught:  # another way of assembly
+        except Exception as caught:  # another assembly configuration
             error = caught
             continue
         return problem

@@ -298,8 +298,7 @@ FAULTS = {
     "letters twice": (
         A + V + "letters = 'V'\n" + A + "what = 'a C'\nletters = ['V']\n",
         [
-            "answers[1].letters: 'V' stands for answers[0] too. Give each of them letters "
-            "of its own.",
+            "answers[1].letters: 'V' denotes answers[0] too. Give each of them letters of its own.",
         ],
     ),
     "letters": (
@@ -338,13 +337,13 @@ FAULTS = {
     "mm of omega": (
         A + "what = 'omega 2'\nform = 'mm'\n",
         [
-            "answers[0].form: 'omega 2' is no segment of a plan. Leave it, or form = \"value\".",
+            "answers[0].form: 'omega 2' is not a segment of a plan. Leave it, or form = \"value\".",
         ],
     ),
     "mm of a quotient": (
         A + "what = 'v C / omega 1'\nform = 'mm'\n",
         [
-            "answers[0].form: 'v C / omega 1' is no segment of a plan. Leave it, or form = "
+            "answers[0].form: 'v C / omega 1' is not a segment of a plan. Leave it, or form = "
             '"value".',
         ],
     ),
@@ -377,7 +376,7 @@ FAULTS = {
     "sense of x": (
         A + "what = 'x C'\nsense = true\n",
         [
-            "answers[0].sense: 'x' has no sense to be asked for. Leave sense out: the sign "
+            "answers[0].sense: 'x' has no sense that could be requested. Leave sense out: the sign "
             "of a number, or the size of a load, says all.",
         ],
     ),

@@ -57,10 +57,10 @@ def test_all_faults_at_once_with_place_and_nearest_name(tmp_path: Path) -> None:
     )
     assert found == [
         "stamps: unknown key. Did you mean 'stamp'?",
-        "stamp.side_columns: unknown key. It stands in [sheet].",
+        "stamp.side_columns: unknown key. It belongs in [sheet].",
         "stamp.autor: unknown key. Did you mean 'author'?",
         "stamp.group: expected a string, got the integer 31. Put it in quotes.",
-        "sheet.author: unknown key. It stands in [stamp].",
+        "sheet.author: unknown key. It belongs in [stamp].",
         "sheet.paper: A4 cannot lie: by GOST 2.301 it stands, its title block along the short "
         "side. Take A4, or a lying A3",
         "sheet.form: expected one of 1, 1+2a, 2, 2a, got the string '3'",

@@ -52,7 +52,7 @@ FAULTS = {
     ),
     "mass of the frame": (
         "[dynamics.links.0]\nmass = 1\n",
-        ["dynamics.links.0: 0 is the frame (стойка), which stands still. Moving links have mass: "
+        ["dynamics.links.0: 0 is the frame (стойка), which does not move. Moving links have mass: "
          "1, 2, 3."],
     ),
     "mass negative": (
@@ -134,7 +134,7 @@ FAULTS = {
     ),
     "load on the frame": (
         '[[loads]]\nlink = "0"\nat = "A"\nforce = 1\n' + A,
-        ["loads[0].link: 0 is the frame (стойка), which stands still. Moving links carry loads: "
+        ["loads[0].link: 0 is the frame (стойка), which does not move. Moving links carry loads: "
          "1, 2, 3."],
     ),
     "at missing": (

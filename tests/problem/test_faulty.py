@@ -72,7 +72,8 @@ def test_a_name_without_its_ending_is_reported_with_it(typed: str, tmp_path: Pat
 
 def test_missing_folder(tmp_path: Path) -> None:
     assert message_of(tmp_path / "no" / "ex.toml").endswith(
-        f"there is no such file. There is no folder '{tmp_path / 'no'}' either. Check the path."
+        f"there is no such file. The folder '{tmp_path / 'no'}' does not exist either. "
+        "Check the path."
     )
     assert message_of(tmp_path / "ex.toml").endswith("there is no such file. Check the path.")
 

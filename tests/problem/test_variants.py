@@ -189,7 +189,7 @@ def test_unknown_variant(asked: str, hint: str) -> None:
     text = '"А" = { driver.phi = 1 }\n"Б" = { driver.phi = 2 }\nC1 = { driver.phi = 3 }'
     with pytest.raises(ProblemError) as caught:
         read(text, asked)
-    assert str(caught.value.faults[0]) == f"variants: there is no variant '{asked}'. {hint}"
+    assert str(caught.value.faults[0]) == f"variants: variant '{asked}' does not exist. {hint}"
 
 
 def test_no_variants_at_all() -> None:

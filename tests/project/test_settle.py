@@ -265,7 +265,7 @@ def test_a_train_is_read_from_a_file_beside_the_project(tmp_path: Path) -> None:
             'parts = ["gears"]',
             "project.parts: the file has no part 'gears'. It has kinematics, note.",
         ),
-        ('gears = "none.toml"', "project.gears: there is no file none.toml beside this one"),
+        ('gears = "none.toml"', "project.gears: none.toml is not in the folder of this file"),
         ('gears = "my.toml"', "project.gears: my.toml has no table [gears]"),
         ('meshing = "my.toml"', "project.meshing: my.toml has no table [meshing]"),
     ],

@@ -218,7 +218,7 @@ def test_the_table_has_every_position() -> None:
 def test_a_diagram_that_cannot_be_drawn_is_reported() -> None:
     with pytest.raises(LayoutError, match="needs several positions"):
         draw(problem_of("press/press"), [98.9])
-    with pytest.raises(ProblemError, match="no forces to analyse"):
+    with pytest.raises(ProblemError, match="forces cannot be analysed"):
         draw(problem_of("linkages/ex3"), TURN)
     run = CliRunner().invoke(
         cli, ["sheet", str(path_of("press/press")), "--layout", "forces-cycle", "--phi", "98.9"]

@@ -260,7 +260,7 @@ def test_a_position_that_does_not_exist_is_reported_and_play_turns_back(
     assert page.ask("byId('why').hidden")
     page.ask("planmethod.show(60)")
     told = page.ask("byId('why').textContent")
-    assert told.startswith("There is no such position: point C cannot be placed.")
+    assert told.startswith("This position does not exist: point C cannot be placed.")
     near = [float(text) for text in re.findall(r"= ([\d.]+)°", told)]
     sweep = Sweep(watt())
     for edge, inside in zip(near, (-0.001, 0.001), strict=True):

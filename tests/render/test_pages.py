@@ -57,7 +57,7 @@ def test_other_formats_have_no_pages(fmt: str) -> None:
 
 
 def test_no_sheet_at_all() -> None:
-    with pytest.raises(OutputError, match="There is no sheet"):
+    with pytest.raises(OutputError, match="The file would have no sheets"):
         render_pages([])
 
 

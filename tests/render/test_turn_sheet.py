@@ -141,11 +141,11 @@ def test_a_number_names_one_position_of_the_sheet(
 def test_positions_that_the_cycle_does_not_number_are_rejected() -> None:
     problem = problem_of("press/press")
     for asked in ([20.0, 140.0, 260.0], [0.0, 10.0, 90.0], EVEN[:6]):
-        with pytest.raises(LayoutError, match="a number would name two positions") as told:
+        with pytest.raises(LayoutError, match="a number would refer to two positions") as told:
             kinematics_sheets(problem, positions=asked, layout="coursework")
         assert "an even turn" in str(told.value)
     numbered = numbering.number(replace(problem, cycle=CycleTask("B", zero=10.0)))
-    with pytest.raises(LayoutError, match=r"tell zero and count of \[cycle\]"):
+    with pytest.raises(LayoutError, match=r"give zero and count of \[cycle\]"):
         kinematics_sheets(numbered, positions=EVEN, layout="coursework")
     own = [phi + 10.0 for phi in EVEN]
     assert numbering.counting(numbered, own) is numbered

@@ -148,20 +148,21 @@ def test_the_nearer_assembly_is_taken(near: str, wanted: complex) -> None:
 def test_a_missing_rule_is_requested_with_both_places() -> None:
     (fault,) = faulty(four_bar(""))
     assert fault == (
-        "assembly.C: links 2, 3 close in two ways, with C at (0.2826, 0.2761) or at "
-        '(0.1674, -0.1895) m, and no rule says which. Add C = "above A" for the first or "below A" '
-        "for the second to [assembly]"
+        "assembly.C: links 2, 3 can be assembled in two ways, with C at (0.2826, 0.2761) or "
+        'at (0.1674, -0.1895) m, and no rule selects one. Add C = "above A" for the first '
+        'or "below A" for the second to [assembly]'
     )
     (fault,) = faulty(slider_crank(""))
     assert fault.startswith(
-        "assembly.C: links 2, 3 close in two ways, with C at (0.3372, 0) or at (-0.2372, 0) m,"
+        "assembly.C: links 2, 3 can be assembled in two ways, with C at (0.3372, 0) or at "
+        "(-0.2372, 0) m,"
     )
 
 
 def test_missing_rules_of_all_groups_are_reported_at_once() -> None:
     problem = replace(problem_of("levers/six-link"), assembly=())
     (fault,) = faulty(problem)
-    assert fault.startswith("assembly.C: links 2, 3 close in two ways")
+    assert fault.startswith("assembly.C: links 2, 3 can be assembled in two ways")
     assert len(faulty(replace(problem_of("linkages/ex3"), assembly=()))) == 1
     rules = (Rule("A", Where.ABOVE, ("B",)), Rule("B", Where.LEFT, ("C",)))
     faults = faulty(replace(problem_of("linkages/ex1"), assembly=rules))
@@ -176,19 +177,19 @@ def test_a_rule_that_does_not_distinguish() -> None:
     """The slider's two places are at one height."""
     (fault,) = faulty(slider_crank('C = "above B"'))
     assert fault == (
-        "assembly.C: 'C above B' does not tell the two closings apart at phi = 60 deg: both give "
-        "-0.0866 m. Compare with another point or with a directed line"
+        "assembly.C: 'C above B' does not distinguish the two assemblies at phi = 60 deg: both "
+        "give -0.0866 m. Compare with another point or with a directed line"
     )
     # As far from the one as from the other: between them.
     (fault,) = faulty(slider_crank("C = { near = [0.05, 7.0] }", phi=60))
     assert fault.startswith(
-        "assembly.C: 'C near [0.05, 7]' does not tell the two closings apart at phi = 60 deg:"
+        "assembly.C: 'C near [0.05, 7]' does not distinguish the two assemblies at phi = 60 deg:"
     )
 
 
 def test_a_rule_about_a_line_is_reported_as_it_was_written() -> None:
     message = refused(far())
-    assert message.startswith("'C left of FG' holds for neither closing at phi = 60 deg:")
+    assert message.startswith("'C left of FG' holds for neither assembly at phi = 60 deg:")
 
 
 def far() -> Problem:
@@ -201,7 +202,7 @@ def far() -> Problem:
 def test_a_rule_that_holds_for_neither_assembly() -> None:
     message = refused(four_bar('C = "right of D"'))
     assert message == (
-        "'C right of D' holds for neither closing at phi = 60 deg: they miss it by 0.1174 m and "
+        "'C right of D' holds for neither assembly at phi = 60 deg: they miss it by 0.1174 m and "
         "0.2326 m. Check the lengths or the rule assembly.C."
     )
 
@@ -239,9 +240,9 @@ def test_a_rule_that_both_assemblies_satisfy_is_rejected_with_one_that_distingui
     rule: str, first: str, second: str
 ) -> None:
     assert faulty(four_bar(f'C = "{rule}"')) == [
-        f"assembly.C: 'C {rule}' holds for both closings at phi = 60 deg: with C at "
+        f"assembly.C: 'C {rule}' holds for both assemblies at phi = 60 deg: with C at "
         f"(0.2826, 0.2761) and at (0.1674, -0.1895) m. "
-        f"Say '{first}' for the first or '{second}' for the second"
+        f"Give '{first}' for the first or '{second}' for the second"
     ]
     assert place(four_bar(f'C = "{first}"'), "C") == pytest.approx(UPPER, abs=1e-4)
     assert place(four_bar(f'C = "{second}"'), "C") == pytest.approx(LOWER, abs=1e-4)
@@ -252,7 +253,7 @@ def test_without_a_point_between_two_assemblies_a_line_or_a_place_distinguishes_
     text = FOUR_BAR.replace("D = [0.4, 0.0]", "D = [-0.1, -0.06]")
     problem = loads(text.format(rule='C = "right of A"', bc=0.1, dc=0.31, phi=30), name="four-bar")
     (said,) = faulty(problem)
-    told = re.search(r"Say '(.*)' for the first or '(.*)' for the second", said)
+    told = re.search(r"Give '(.*)' for the first or '(.*)' for the second", said)
     assert told is not None
     for rule, place_of_it in zip(told.groups(), re.findall(r"\((\S+), (\S+)\)", said), strict=True):
         x, y = map(float, place_of_it)
@@ -311,9 +312,9 @@ def test_an_offset_pin_is_on_its_side_of_the_line(offset: float) -> None:
 def test_arcs_that_do_not_meet() -> None:
     message = refused(four_bar('C = "above A"', dc=0.05))
     assert message == (
-        "Cannot place C at phi = 60 deg: arcs from B (0.3 m) and D (0.05 m) do not "
-        "meet, |BD| = 0.3606 m. Check l_BC, l_DC. The arcs miss by 0.01056 m, "
-        "by 0.15 m at the most over a turn (at phi = 180 deg)."
+        "Cannot place C at phi = 60 deg: arcs from B (0.3 m) and D (0.05 m) do not meet, "
+        "|BD| = 0.3606 m. Check l_BC, l_DC. The arcs miss by 0.01056 m, by 0.15 m at most "
+        "over a turn (at phi = 180 deg)."
     )
 
 
@@ -333,9 +334,9 @@ def test_the_first_impossible_position_is_named_and_the_others_counted() -> None
 def test_an_arc_that_does_not_reach_the_guide() -> None:
     message = refused(slider_crank('C = "right of B"', above=0.5))
     assert message == (
-        "Cannot place C at phi = 60 deg: the arc from B (0.3 m) does not reach the "
-        "guide of C. Check l_BC and the place of the guide. It misses by 0.1134 m, by 0.3 m at the "
-        "most over a turn (at phi = 270 deg)."
+        "Cannot place C at phi = 60 deg: the arc from B (0.3 m) does not reach the guide of "
+        "C. Check l_BC and the place of the guide. It misses by 0.1134 m, by 0.3 m at most "
+        "over a turn (at phi = 270 deg)."
     )
 
 
@@ -372,8 +373,8 @@ def test_parallel_guides() -> None:
     assert place(problem, "C") == pytest.approx(0.2 / np.tan(np.pi / 3) + 0.2j)
     message = refused(problem, [180.0])
     assert message == (
-        "Cannot place C at phi = 180 deg: its two guides are parallel. "
-        "Ask another position, or check their angles."
+        "Cannot place C at phi = 180 deg: its two guides are parallel. Choose another "
+        "position, or check their angles."
     )
 
 
@@ -383,9 +384,9 @@ def test_a_dead_position_is_reported_with_its_reason() -> None:
     problem = loads(exact.format(rule='C = "above D"', bc=4.0, dc=1.0, phi=60), name="dead")
     message = refused(problem, [60.0, 0.0])
     assert message == (
-        "Cannot close the velocity plan at position 1 (phi = 0 deg): the rays that meet in c are "
-        "parallel, the mechanism stands in a dead position. Ask another position: there the "
-        "velocities are not determined by the driver."
+        "Cannot close the velocity plan at position 1 (phi = 0 deg): the rays that meet in "
+        "c are parallel, because the mechanism is in a dead position, where the driver does "
+        "not determine the velocities. Choose another position."
     )
 
 
@@ -544,7 +545,9 @@ omega = 3
 [assembly]
 C = "left of AB"
 """
-    with pytest.raises(StructureError, match=r"Wheels 1, 4 of \[gears\] .* is no pair here yet"):
+    with pytest.raises(
+        StructureError, match=r"Wheels 1, 4 of \[gears\] .* is not supported as a pair yet"
+    ):
         Solution(loads(text, name="geared"))
     with pytest.raises(StructureError) as told:
         Solution(loads(text.replace("1 = 60, 4 = 20", "5 = 60, 6 = 20"), name="apart"))

@@ -82,4 +82,4 @@ def test_the_reported_bound_is_relative_to_the_largest_of_a_kind() -> None:
     (doubt,) = doubts(solution)
     turned = abs(float(solution.links["2"].epsilon[0]))
     assert turned <= doubt.bound * 5.0
-    assert f"good to about {doubt.bound:.0e} of the largest of their kind" in str(doubt)
+    assert f"accurate to about {doubt.bound:.0e} of the largest of their kind" in str(doubt)

@@ -79,7 +79,7 @@ def test_the_change_point_itself_cannot_choose_an_assembly() -> None:
     for act in (lambda: solution.si, lambda: solution.moved([50.0])):
         with pytest.raises(AssemblyError, match=r"dead position"):
             act()
-    with pytest.raises(AssemblyError, match="both closings put C at one place"):
+    with pytest.raises(AssemblyError, match="both assemblies place C at one point"):
         Sweep(solution.problem, ["C"]).run([0.0, 50.0])
 
 
@@ -127,7 +127,7 @@ def test_where_arcs_touch_the_place_is_given_without_motion(
 
 def test_the_assembly_is_determined_by_the_first_position_that_can() -> None:
     solution = parallelogram("[0, 50]")
-    with pytest.raises(AssemblyError, match=r"at position 0 .* stands in a dead position"):
+    with pytest.raises(AssemblyError, match=r"at position 0 .* is in a dead position"):
         _ = solution.si
 
 
@@ -136,6 +136,6 @@ def test_rules_of_one_group_must_agree() -> None:
         parallelogram("50", "E = { near = [0.19, -0.1] }")
     (fault,) = caught.value.faults
     assert str(fault) == (
-        "assembly.E: 'E near [0.19, -0.1]' and 'C left of BD' ask for different closings of links "
-        "2, 3. Keep the one that is meant"
+        "assembly.E: 'E near [0.19, -0.1]' and 'C left of BD' require different assemblies of "
+        "links 2, 3. Keep the correct one"
     )

@@ -311,7 +311,7 @@ FAULTS = {
     "loads[1].like: load P_{5} cannot be like itself": 'like = "P5"\nshift = 180',
     "loads[1].like: load P_{6} is like P_{3} itself": SAME.replace("P3", "P6")
     + '\n[[loads]]\nname = "P6"\nlink = "5"\nat = "D"\nangle = 0\nlike = "P3"\nshift = 0',
-    "loads[1].like: load P_{6} is no indicator diagram": SAME.replace("P3", "P6")
+    "loads[1].like: load P_{6} is not an indicator diagram": SAME.replace("P3", "P6")
     + '\n[[loads]]\nname = "P6"\nlink = "5"\nat = "D"\nangle = 0\nforce = 5',
     "loads[1].shift: missing": 'like = "P3"',
     "loads[1].shift: expected from 0 to less than 720 degrees, got 720": SAME.replace("180", "720"),

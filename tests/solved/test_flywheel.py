@@ -283,7 +283,7 @@ FAULTS = {
     "machine.count: expected a whole number from 4": ("count = 12", "count = 3"),
     "machine.deta: unknown key. Did you mean 'delta'?": ("delta =", "deta ="),
     "a share of the stroke from 0 to 1": ('law = "table"', 'law = "path"'),
-    "is given for the positions of the file only": (
+    "is given only for the positions of the file": (
         PRESS[PRESS.index('law = "table"') : PRESS.index("[machine]")],
         'over = "position"\nvalues = [5]\n',
     ),

@@ -307,7 +307,7 @@ MASS = '[dynamics.links.3]\nmass = 2\ncentre = "C"\n'
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        (COUPLE, "Cannot close the force plan at position 7 (phi = 180 deg): the mechanism stands"),
+        (COUPLE, "Cannot close the force plan at position 7 (phi = 180 deg): the mechanism is"),
         (MASS + COUPLE, "Cannot close the velocity plan at position 7 (phi = 180 deg)"),
         (COUPLE + 'against = "rotation"\n', "Cannot close the velocity plan at position 7"),
         (COUPLE + "phases = { phi = [0, 190] }\n", "Cannot close the force plan at position 7"),

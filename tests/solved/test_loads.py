@@ -324,9 +324,10 @@ def test_values_for_positions_are_not_known_elsewhere() -> None:
     with pytest.raises(ProblemError) as caught:
         sizes(size, [30.0, 45.0])
     assert str(caught.value) == (
-        "v: 1 fault in the problem file\n"
-        "  loads[0].couple.values: given for the positions of the file, and phi = 45 deg is none "
-        "of them. Give the table over phi, s, x or y, or ask the file's own positions."
+        "v: 1 fault in the problem file\n  "
+        "loads[0].couple.values: given for the positions of the file, and phi = 45 deg is "
+        "not one of them. Give the table over phi, s, x or y, or request the file's own "
+        "positions."
     )
 
 

@@ -302,7 +302,7 @@ def test_a_driving_load_works_where_it_gives_the_most() -> None:
 def test_a_sense_that_the_output_has_not_is_a_fault() -> None:
     with pytest.raises(ProblemError, match=r"cycle.working: C slides: it does not turn"):
         read(SHAPER, ('zero = "extreme"', 'working = "ccw"'))
-    with pytest.raises(ProblemError, match=r"C does not go so on either stroke"):
+    with pytest.raises(ProblemError, match=r"C does not move in this direction on either stroke"):
         read(SHAPER, ('zero = "extreme"', 'working = "up"'))
 
 

@@ -19,6 +19,6 @@ def test_a_rule_cannot_compare_with_a_point_of_a_later_group() -> None:
         Solution(loads(text, name="late"))
     (fault,) = caught.value.faults
     assert str(fault) == (
-        "assembly.C: H is placed after C, so it cannot tell its place. "
+        "assembly.C: H is placed after C, so it cannot determine its place. "
         "Compare with a fixed point or with one that an earlier group places"
     )

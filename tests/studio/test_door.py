@@ -143,7 +143,7 @@ def test_a_request_of_another_site_changes_no_state(own: TestClient, served: Tes
             if method not in ("GET", "HEAD"):
                 answer = asked(client, method, f"{address}?lang=en", **heads)
                 assert answer.status_code == 403, (method, address, heads)
-                assert answer.text == "Another site asks for this. Open the studio itself."
+                assert answer.text == "Another site made this request. Open the studio itself."
         assert sessions(client) == before
 
 

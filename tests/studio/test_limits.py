@@ -80,7 +80,7 @@ def test_a_request_that_takes_too_long_is_stopped_and_another_process_goes_on(
     hurried: TestClient,
 ) -> None:
     said = found(hurried, enter(hurried), "burn 60")["refused"]
-    assert said.startswith("This takes more than 0.5 s of a processor")
+    assert said.startswith("This takes more than 0.5 s of processor time")
     who = enter(hurried, TOKEN)
     assert found(hurried, who, "good morning")["said"] == "good morning"
 

@@ -659,8 +659,8 @@ def test_a_pane_names_results_that_a_kind_of_problem_does_not_have(
     open_task(page, "moving-point")
     for view, words in (
         ("motion", "Such a problem has no page that moves."),
-        ("structure", "There are no links and joints here"),
-        ("assemblies", "Only linkages close in several ways."),
+        ("structure", "This problem has no links and joints"),
+        ("assemblies", "Only linkages have several assembly configurations."),
     ):
         click(page, f"#to-{view}")
         page.wait(f"document.querySelector('#{view} .told').textContent.startsWith({words!r})")

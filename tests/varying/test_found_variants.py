@@ -392,8 +392,8 @@ def test_too_few_variants_are_reported_by_the_exit_code(tmp_path: Path) -> None:
     [
         ("links.1.XY", "has no such number"),
         ("driver.phi=a..b", "FROM..TO is expected"),
-        ("driver.phi=91..94", "no round number lies there"),
-        (" , ", "nothing is to be varied"),
+        ("driver.phi=91..94", "contains no round number"),
+        (" , ", "found no numbers to vary"),
     ],
 )
 def test_a_value_that_cannot_be_varied_is_reported(vary: str, said: str) -> None:
@@ -404,7 +404,7 @@ def test_a_value_that_cannot_be_varied_is_reported(vary: str, said: str) -> None
 
 def test_a_file_without_values_to_vary_is_reported() -> None:
     done = run(PROBLEMS / "meshing/z12-30.toml", "--lang", "en")
-    assert done.exit_code == 2 and "nothing is to be varied" in done.output
+    assert done.exit_code == 2 and "found no numbers to vary" in done.output
 
 
 def test_the_problem_file_is_not_written_over(tmp_path: Path) -> None:

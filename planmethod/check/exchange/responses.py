@@ -117,8 +117,8 @@ def read_responses(
     at = _head(rows, columns)
     if at is None:
         raise WorksError(
-            "{}: no head with columns of answers: 'Response 1', 'Response 2'. It has {}. "
-            "Say what they are: --columns 'HEAD=v_B3'.",
+            "{}: no header row with columns of answers: 'Response 1', 'Response 2'. It has "
+            "{}. Specify the columns: --columns 'HEAD=v_B3'.",
             path,
             _told(rows[0] if rows else ()),
         )
@@ -130,7 +130,7 @@ def read_responses(
     for one, what in columns.items():
         if _column(one, told) == Head() and what != "-":
             raise WorksError(
-                "{}: column '{}' is told to be '{}', which is neither a quantity nor one of {}.",
+                "{}: column '{}' is given as '{}', which is neither a quantity nor one of {}.",
                 path,
                 one,
                 what,
@@ -243,8 +243,8 @@ class _Export:
                 _put(draft, one, cell)
         elif any(not cell.is_blank for cell in cells):
             raise WorksError(
-                "{0}: {1} column{1:||s} of answers, but {2} gaps are asked: {3}. Say what each "
-                "column is: --columns 'Response 1=v_B3'.",
+                "{0}: {1} column{1:||s} of answers, but {2} gaps are expected: {3}. Specify "
+                "each column: --columns 'Response 1=v_B3'.",
                 self.path,
                 len(cells),
                 len(names),

@@ -74,7 +74,7 @@ def read_dxf(path: Path) -> MeasuredDrawing:
     if data.startswith(b"AutoCAD Binary DXF"):
         raise WorksError("{}: this is a binary DXF. Save it as an ASCII one.", path)
     if find_spec("ezdxf") is None:
-        raise WorksError("{}: to read a DXF takes ezdxf: pip install ezdxf", path)
+        raise WorksError("{}: reading a DXF file requires ezdxf: pip install ezdxf", path)
     return _Reader(path, _document(data, path)).read()
 
 
@@ -85,7 +85,7 @@ def _document(data: bytes, path: Path) -> Any:
     try:
         document, _ = recover.read(BytesIO(data), errors="ignore")
     except Exception as error:  # the library meets whatever a stranger has written
-        raise WorksError("{}: this is no DXF that can be read: {}.", path, _told(error)) from None
+        raise WorksError("{}: this is not a readable DXF file: {}.", path, _told(error)) from None
     return document
 
 
@@ -117,7 +117,7 @@ class _Reader:
             raise
         except Exception as error:  # as above: incomplete entities raise many kinds of exception
             raise WorksError(
-                "{}: this is no DXF that can be read: {}.", self.path, _told(error)
+                "{}: this is not a readable DXF file: {}.", self.path, _told(error)
             ) from None
         self._end_run()
         return self.drawing

@@ -58,7 +58,7 @@ def read_layers(told: Iterable[str]) -> dict[str, str]:
         kind = _OF_NAME.get(_key(plan), "") if equal else ""
         if not name.strip() or not kind:
             raise WorksError(
-                "--layer {}: say NAME=velocity, NAME=acceleration or NAME=plans.", one[:60]
+                "--layer {}: write NAME=velocity, NAME=acceleration or NAME=plans.", one[:60]
             )
         found[_key(name)] = kind
     return found

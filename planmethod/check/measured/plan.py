@@ -149,8 +149,8 @@ def _plans(
     if not mixed and not any(own.values()):
         shown = ", ".join(dict.fromkeys(line.layer for line in drawing.lines)) or "—"
         raise WorksError(
-            "{}: no layer is that of a plan. Layers with lines: {}. Name one: --layer "
-            "NAME=velocity, NAME=acceleration, or NAME=plans where both stand on it.",
+            "{}: no layer contains a plan. Layers with lines: {}. Name one: --layer "
+            "NAME=velocity, NAME=acceleration, or NAME=plans for both plans.",
             drawing.path,
             shown[:300],
         )

@@ -43,14 +43,14 @@ def read_svg(path: Path) -> MeasuredDrawing:
     try:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
-        raise WorksError("{}: this is no SVG: {}.", path, str(error)[:80]) from None
+        raise WorksError("{}: this is not an SVG file: {}.", path, str(error)[:80]) from None
     if root.tag != f"{_SVG}svg" or not str(root.get("height", "")).endswith("mm"):
-        raise WorksError("{}: this is no sheet of planmethod as SVG. Save it as DXF.", path)
+        raise WorksError("{}: this is not an SVG sheet of planmethod. Save it as DXF.", path)
     drawing = MeasuredDrawing(path)
     try:
         _take(root, drawing)
     except ValueError as error:
-        raise WorksError("{}: this is no SVG: {}.", path, str(error)[:80]) from None
+        raise WorksError("{}: this is not an SVG file: {}.", path, str(error)[:80]) from None
     return drawing
 
 

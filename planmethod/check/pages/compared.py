@@ -67,7 +67,7 @@ def unread_lines(checked: Sequence[CheckedWork], words: Language) -> Iterator[tu
         for judged in one.answers:
             if judged.verdict is not Verdict.UNREADABLE:
                 continue
-            reason = say("no quantity {!r} that the problem has", judged.id)
+            reason = say("the problem has no quantity {!r}", judged.id)
             if judged.written is not None and judged.written.unreadable:
                 reason = speech.unread(judged.written)
             yield say("Unreadable: {}: {}", judged.where or judged.id, reason), True

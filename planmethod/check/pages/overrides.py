@@ -177,7 +177,7 @@ def _rows(path: Path) -> tuple[list[list[str]], str]:
     try:
         rows = list(csv.reader(io.StringIO(text.replace("\0", ""), newline=""), delimiter=mark))
     except csv.Error as error:
-        raise OverridesError("{} is no table: {}. Save it as CSV again.", path, error) from error
+        raise OverridesError("{} is not a table: {}. Save it as CSV again.", path, error) from error
     return rows, mark
 
 

@@ -44,10 +44,10 @@ def read_works(path: Path) -> list[Work]:
     reader = read_xlsx if data.startswith(_ZIP) else _READERS.get(path.suffix.lower())
     if reader is None:
         known = ", ".join(_READERS)
-        raise WorksError("{}: not one of {}. Save the works as one of these.", path, known)
+        raise WorksError("{}: not one of {}. Save the submissions as one of these.", path, known)
     works = reader(data, path)
     if not works:
-        raise WorksError("{}: there is no work in it. Is this the right file?", path)
+        raise WorksError("{}: it contains no submission. Is this the right file?", path)
     return works
 
 

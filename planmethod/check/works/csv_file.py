@@ -38,7 +38,7 @@ def read_csv(data: bytes, path: Path) -> list[Work]:
     gathering = Gathering(str(path))
     if not read_table(rows, gathering, path.stem, closed=True):
         raise WorksError(
-            "{}: none of the first {} rows is a head. Name the columns: student, what, "
+            "{}: none of the first {} rows is a header. Name the columns: student, what, "
             "value, unit, mm, sense; or student and the quantities.",
             path,
             HEAD_ROWS,

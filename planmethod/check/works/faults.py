@@ -34,8 +34,8 @@ def read_bytes(path: Path, limit: int = SIZE_LIMIT) -> bytes:
         raise WorksError("{}: cannot be read: {}. Check the path.", path, reason) from None
     if len(data) > limit:
         raise WorksError(
-            "{}: larger than {} MiB. Works of a group are a few hundred kilobytes; is "
-            "this the right file?",
+            "{}: larger than {} MiB. Submissions of a group take a few hundred kilobytes; "
+            "is this the right file?",
             path,
             limit // 2**20,
         )

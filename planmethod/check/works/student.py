@@ -51,11 +51,11 @@ def read_json(data: bytes, path: Path) -> list[Work]:
             error.colno,
         ) from None
     except RecursionError:
-        raise WorksError("{}: nested too deeply; a work needs three levels.", path) from None
+        raise WorksError("{}: nested too deeply; a submission needs three levels.", path) from None
     if not isinstance(whole, list):
         return [_work(whole, path, "")]
     if len(whole) > STUDENT_LIMIT:
-        raise WorksError("{}: over {} students. Part the file.", path, STUDENT_LIMIT)
+        raise WorksError("{}: over {} students. Split the file.", path, STUDENT_LIMIT)
     works = []
     for number, one in enumerate(whole):
         try:

@@ -71,7 +71,7 @@ def read_xlsx(data: bytes, path: Path) -> list[Work]:
             raise
         except Exception as error:  # whatever a broken workbook makes of its reader
             raise WorksError(
-                "{}: this workbook cannot be opened ({}). Save it anew as XLSX in the "
+                "{}: this workbook cannot be opened ({}). Save it again as XLSX in the "
                 "spreadsheet program.",
                 path,
                 type(error).__name__,
@@ -82,7 +82,7 @@ def read_xlsx(data: bytes, path: Path) -> list[Work]:
     ]
     if not any(known):
         raise WorksError(
-            "{}: no sheet has a head among its first {} rows. Name the columns: student, "
+            "{}: no sheet has a header among its first {} rows. Name the columns: student, "
             "what, value, unit, mm, sense; or student and the quantities.",
             path,
             HEAD_ROWS,
@@ -162,8 +162,8 @@ class _Counts:
 
     def _refuse(self, *_: object) -> None:
         raise WorksError(
-            "{}: besides cells there is too much in this workbook. Copy the answers into a new "
-            "one, and save that as XLSX.",
+            "{}: this workbook has too much content besides cells. Copy the answers into a "
+            "new one, and save that as XLSX.",
             self.path,
         )
 
@@ -199,11 +199,11 @@ def _opened(data: bytes, path: Path) -> Any:
             named: dict[str, str] = {}
             for number, (sheet, part) in enumerate(self.parser.find_sheets(), 1):
                 if number > SHEET_LIMIT:
-                    raise WorksError("{}: over {} sheets. Part the file.", path, SHEET_LIMIT)
+                    raise WorksError("{}: over {} sheets. Split the file.", path, SHEET_LIMIT)
                 if part.target in named:
                     raise WorksError(
-                        "{}: sheets {!r} and {!r} are the same part of the file. Save it anew as "
-                        "XLSX in the spreadsheet program.",
+                        "{}: sheets {!r} and {!r} are the same part of the file. Save it "
+                        "again as XLSX in the spreadsheet program.",
                         path,
                         cut(named[part.target]),
                         cut(sheet.name),
@@ -258,8 +258,8 @@ def _rows(book: Any, sheet: Any, path: Path, whole: _Whole) -> Iterator[Row]:
     whole.cells += there.rows * there.columns
     if whole.cells > CELL_LIMIT:
         raise WorksError(
-            "{}: sheet {!r} reaches to {}: with it there are {} cells, the limit is {}. Delete "
-            "what stands far from the table.",
+            "{}: sheet {!r} extends to {}: with it there are {} cells, the limit is {}. "
+            "Delete the cells far from the table.",
             path,
             title,
             there.last,

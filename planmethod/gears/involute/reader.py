@@ -88,7 +88,7 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
         return None
     z = given.z
     if cutter and given.beta:
-        what = "the internal pairs that are computed here are spur"
+        what = "only spur internal pairs are supported"
         faults.add("meshing.beta", what, "Leave beta out.")
         return None
     beta = radians(given.beta)
@@ -189,7 +189,7 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
     elif "a_w" not in given:
         faults.add("meshing.x", "missing", _WAYS)
     elif len(alone) == 2:
-        faults.add("meshing.x2", "a_w and x1 tell it already", "Leave one of the three out.")
+        faults.add("meshing.x2", "a_w and x1 already determine it", "Leave one of the three out.")
     return None
 
 
@@ -217,7 +217,7 @@ def _settle(
     asked = limits(tip, overlap, internal=bool(pair.cutter))
     found = choose(pair, asked, total, aim)
     if found is None and aim is not ShiftAim.BLOCKING and choose(pair, asked, total) is not None:
-        what = "no shifts that keep all limits have equal specific sliding"
+        what = "no shifts that meet all limits have equal specific sliding"
         faults.add("meshing.x", what, 'Take x = "blocking", or another a_w.')
     elif found is None:
         faults.add("meshing.x", *_why_none(pair, total, tip, overlap))
@@ -233,10 +233,10 @@ def _why_none(pair: Pair, total: float | None, tip: float, overlap: float) -> tu
         most = np.max(np.where(is_kept(every, others), every.epsilon, 0.0))
     sum_of = "x2 - x1" if pair.cutter else "x1 + x2"
     fixed = "" if total is None else say(", {} being {:.4f} by a_w", sum_of, total)
-    what = say("no shifts from {:g} to {:g} keep all limits{}", LOW, HIGH, fixed)
+    what = say("no shifts from {:g} to {:g} meet all limits{}", LOW, HIGH, fixed)
     if most >= 1:
         hint = (
-            "Where the others are kept ε_α is at most {:.3f}: give a smaller epsilon_min than "
+            "If the others are met, ε_α is at most {:.3f}: give a smaller epsilon_min than "
             "{:g}, or x."
         )
         return what, say(hint, most, overlap)
@@ -250,7 +250,7 @@ def _check_teeth(faults: Faults, pair: Pair) -> None:
         least = abs(sum(pair.z)) * float(involute(pair.alpha_t)) / (2 * np.tan(pair.rack.alpha))
         sum_of = "x2 - x1" if pair.cutter else "x1 + x2"
         what = say(
-            "{} = {:g}: such wheels cannot come so near to each other", sum_of, pair.side * total
+            "{} = {:g}: such wheels cannot come that close to each other", sum_of, pair.side * total
         )
         faults.add("meshing.x", what, say("It must be at least {:.4f}.", -least))
         return

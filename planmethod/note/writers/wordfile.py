@@ -49,7 +49,9 @@ def opened(template: Path | None) -> Any:
     if template is None:
         return docx.Document()
     if not template.is_file():
-        raise OutputError("There is no template {}. Give the path of a .docx file.", template)
+        raise OutputError(
+            "The template {} does not exist. Give the path of a .docx file.", template
+        )
     try:
         with template.open("rb") as stream:
             data = stream.read(UNPACKED_LIMIT + 1)
@@ -74,8 +76,8 @@ def opened(template: Path | None) -> Any:
 def damaged(template: Path) -> OutputError:
     """Return the error for a template that cannot be used."""
     return OutputError(
-        "The template {} is no file of Word, or is damaged. Open it in Word and save it anew "
-        "as .docx.",
+        "The template {} is not a Word file, or is damaged. Open it in Word and save it "
+        "again as .docx.",
         template,
     )
 
@@ -114,7 +116,7 @@ def _look_through(data: bytes, template: Path) -> None:
 
         def refuse(*_: object) -> None:
             raise OutputError(
-                "There is too much in the template {}: over {} elements, or some nested over {} "
+                "The template {} is too large: over {} elements, or some nested over {} "
                 "deep. Leave only its page and its styles.",
                 template,
                 XML_LIMIT,

@@ -119,7 +119,7 @@ def base_points(problem: Problem, triad: Legs) -> list[str]:
     apart = next((point for point in found[1:] if body[point] != body[found[0]]), None)
     if apart is None:
         raise AssemblyError(
-            "The base link {} of links {} has no two points: give it another one.",
+            "The base link {} of links {} does not have two points: add one.",
             triad.base,
             ", ".join([triad.base, *(lead.link for lead, _ in triad.legs)]),
         )
@@ -236,9 +236,9 @@ def _refusal(problem: Problem, group: AssurGroup) -> tuple[str, int, int, str, s
     """Return why a group is not built, with the links that may drive instead."""
     mechanism = problem.mechanism
     able = [link for link in mechanism.links if _is_built(replace(mechanism, driver=link))]
-    told = "Of links joined with the frame none makes it fall into these as the driving one."
+    told = "No driving link joined to the frame splits it into these."
     if able:
-        told = "It falls into these where link {} drives: state its motion in [driver]."
+        told = "It splits into these if link {} drives: give its motion in [driver]."
     return (
         "Group of class {}, order {} (links {}) cannot be built: dyads (class II) and triads "
         "(class III, order 3) are. {}",

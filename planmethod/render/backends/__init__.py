@@ -69,7 +69,7 @@ def render_pages(
     if fmt not in PAGED:
         raise OutputError("'{}' has no pages. Use one of: {}.", fmt, ", ".join(sorted(PAGED)))
     if not drawings:
-        raise OutputError("There is no sheet to be put into the file. Draw at least one.")
+        raise OutputError("The file would have no sheets. Draw at least one.")
     canvas = make_canvas(fmt, options or Options())
     for drawing in drawings:
         draw_sheet(drawing, canvas)

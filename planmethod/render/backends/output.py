@@ -26,7 +26,7 @@ _CAUSES = {
     errno.EDQUOT: "the disk quota is used up. Free some space, or choose another directory "
     "with --out",
     errno.EFBIG: "the file is larger than the system lets this user write. Raise the limit "
-    "(ulimit -f), or ask for less",
+    "(ulimit -f), or request less",
     errno.ENAMETOOLONG: "the name is too long. Choose a shorter one",
     errno.ENOTDIR: "a part of the path is a file, not a directory. Choose another directory "
     "with --out",
@@ -166,7 +166,7 @@ def whither(asked: Path, *, within: Path | None = None) -> Path:
     target = Path(os.path.realpath(asked))
     if asked.is_symlink() and not target.exists():
         raise OutputError(
-            "Cannot write {}: it is a link to {}, where there is nothing. Remove the link.",
+            "Cannot write {}: it is a link to {}, which does not exist. Remove the link.",
             asked,
             target,
         )

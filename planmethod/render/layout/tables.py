@@ -238,7 +238,7 @@ def _check(columns: Sequence[TableColumn]) -> None:
     counts = {len(column.values) for column in columns}
     if len(counts) != 1:
         told = ", ".join(f"{c.head}: {len(c.values)}" for c in columns) or "no columns"
-        raise LayoutError("Cannot draw a table from columns of unlike length ({}).", told)
+        raise LayoutError("Cannot draw a table from columns of different lengths ({}).", told)
 
 
 def _set_all(columns: Sequence[TableColumn], size: float) -> tuple[_Set, ...]:

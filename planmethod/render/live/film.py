@@ -109,8 +109,8 @@ class Film(Struct):
         turns = 360.0 * round((low + high) / 720.0)
         low, high = low - turns, high - turns
         told = (
-            "{} of {} positions do not exist and are skipped; the driver goes to and fro from "
-            "{:.6g} to {:.6g}."
+            "{} of {} positions do not exist and are skipped; the driver moves to and fro "
+            "from {:.6g} to {:.6g}."
         )
         return say(told, self.total - there, self.total, low, high)
 
@@ -254,7 +254,7 @@ class _Cutting:
         runs = [r for r in np.split(np.arange(len(tried)), cuts) if there[r[0]]]
         if not runs:
             raise AssemblyError(
-                "None of {} positions of the driver exists: there is nothing to animate. "
+                "None of {} positions of the driver exists, so no animation is possible. "
                 "Give more --frames, or change the lengths.",
                 self.frames,
             )

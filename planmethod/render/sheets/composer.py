@@ -236,8 +236,8 @@ def packed(group: Group, room: Room) -> list[Placed] | None:
     parts = [[(way.width, way.height) for way in part.ways] for part in group.parts()]
     if not parts:
         raise LayoutError(
-            "No block of the layout has anything to show of this problem. Graphs need "
-            "--ask, asked in their block, or [cycle] graphs; take other blocks, or another layout."
+            "All blocks of the layout are empty for this problem. Graphs need --ask, asked "
+            "in their block, or [cycle] graphs; choose other blocks, or another layout."
         )
     if sum(min(wide * tall for wide, tall in ways) for ways in parts) > free_area(room):
         return None

@@ -132,7 +132,7 @@ def kinematics_sheets(
     """
     problem = of_type("problem", problem, Problem, "planmethod.load()")
     if positions is not None and not len(numbers("positions", positions)):
-        raise ArgumentError("positions: at least one is wanted, got [].")
+        raise ArgumentError("positions: expected at least one, got [].")
     if paper is not None:
         text("paper", paper)
     if fields is not None:
@@ -244,7 +244,7 @@ def _misfit(problem: Problem) -> Misfit:
         lambda paper, advice: LayoutError(
             "{}: the views do not fit {}. {}", problem.name, paper, advice
         ),
-        say("Ask fewer positions (--phi), or leave out blocks of the layout."),
+        say("Request fewer positions (--phi), or leave out blocks of the layout."),
         None if problem.scales.decided else problem.scales,
     )
 
@@ -291,8 +291,8 @@ def _check_positions(layout: Composition, solution: Solution) -> None:
     count = len(solution.positions)
     if count > MOST_DRAWN:
         raise LayoutError(
-            "{}: sheets are drawn for at most {} positions, {} are asked. Ask fewer "
-            "(--phi 0:360:30); for tables take solve --csv.",
+            "{}: sheets are drawn for at most {} positions, {} are requested. Request fewer "
+            "(--phi 0:360:30); for tables use solve --csv.",
             solution.problem.name,
             MOST_DRAWN,
             count,
@@ -300,7 +300,8 @@ def _check_positions(layout: Composition, solution: Solution) -> None:
     calculated = solution.problem.calculated
     if calculated is not None and calculated >= count:
         raise LayoutError(
-            "{}: there is no position {} to be calculated. Of {} positions the last is {}.",
+            "{}: the position to be calculated, {}, does not exist. The last of {} "
+            "positions is {}.",
             solution.problem.name,
             calculated,
             count,
@@ -310,8 +311,8 @@ def _check_positions(layout: Composition, solution: Solution) -> None:
         named = [*entry.positions, *([] if entry.position is None else [entry.position])]
         if named and max(named) >= count:
             raise LayoutError(
-                "{}: blocks[{}].position is {}, but of {} positions the last is {}. Name one "
-                "of them, or ask more with --phi.",
+                "{}: blocks[{}].position is {}, but the last of {} positions is {}. Name "
+                "one of them, or request more with --phi.",
                 layout.name,
                 number,
                 max(named),

@@ -149,7 +149,7 @@ class TurnMotion:
             raise _fault(
                 problem,
                 "driver",
-                say("link {} slides: there is no turn of a crank", drive.link),
+                say("link {} slides: the driver is not a crank", drive.link),
                 "The cycle of a machine is that of a driving crank: give phi and n.",
             )
         if not drive.rate:
@@ -242,7 +242,7 @@ class TurnMotion:
         """Hint for links that are not where they were after a cycle."""
         if self._solution.closes_after == 2.0:
             return "The motion closes after 720 degrees: give [machine] cycle_deg = 720."
-        return "Check [assembly]: the way of closing must come back with the cycle."
+        return "Check [assembly]: the assembly must repeat with the cycle."
 
     def at(self, turned: Reals) -> Moved:
         """Return the motion at angles turned, rad, ndarray of shape (n,)."""
@@ -387,8 +387,8 @@ class TurnMotion:
             self.problem,
             f"loads[{index}].force.shift",
             say(
-                "{0:g} degrees after the first stroke of {1} point {2} does not begin such a "
-                "stroke: it does {3} degrees after it",
+                "{0:g} degrees after the first stroke of {1} point {2} does not begin such "
+                "a stroke: it begins one {3} degrees after it",
                 load.size.shift,
                 load.size.like,
                 load.at,
@@ -440,7 +440,7 @@ class TurnMotion:
             raise _fault(
                 self.problem,
                 "loads",
-                say("point {} does not move to and fro", point),
+                say("point {} does not reciprocate", point),
                 "Check `at`.",
             )
         last, following = np.abs(first.place[0] - places[[-1, 0]])

@@ -119,7 +119,7 @@ def changing(solution: MotionValues) -> dict[str, Applied]:
         As of `applied`.
     """
     dynamics = solution.problem.dynamics
-    assert dynamics is not None, "who has no loads has none that change"
+    assert dynamics is not None, "changing loads need [dynamics]"
     links = solution.problem.mechanism.links
     found = (one for link in links for one in external(solution, dynamics, link))
     return {one.name: one for one in found if one.steady is None}
@@ -421,8 +421,8 @@ def _numbers(solution: MotionValues, path: str) -> npt.NDArray[np.intp]:
         first = problem.drive.coordinate.told(float(asked[strange[0]]), problem.unit)
         fault = Fault(
             f"{path}.values",
-            say("given for the positions of the file, and {} is none of them", first),
-            "Give the table over phi, s, x or y, or ask the file's own positions.",
+            say("given for the positions of the file, and {} is not one of them", first),
+            "Give the table over phi, s, x or y, or request the file's own positions.",
         )
         raise ProblemError(problem.name, [fault])
     return number

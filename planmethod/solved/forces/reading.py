@@ -228,7 +228,7 @@ def require_dynamics(problem: Problem) -> None:
     """
     if problem.dynamics is None:
         hint = "Give the masses in [dynamics] and the loads in [[loads]]."
-        fault = Fault("dynamics", "missing, so there are no forces to analyse", hint)
+        fault = Fault("dynamics", "missing, so forces cannot be analysed", hint)
         raise ProblemError(problem.name, [fault])
 
 

@@ -115,7 +115,9 @@ class Balancing(Remembering):
         for link in self.task.radii:
             if link not in may:
                 hint = say("Counterweights are on {}.", say(" and ").join(may))
-                raise self._fault(f"radii.{link}", say("link {} gets no counterweight", link), hint)
+                raise self._fault(
+                    f"radii.{link}", say("link {} cannot have a counterweight", link), hint
+                )
 
     def _fault(self, key: str, message: str, hint: str) -> ProblemError:
         path = f"balancing.{key}" if key else "balancing"
@@ -197,7 +199,7 @@ class Balancing(Remembering):
             elif c is not None:
                 raise self._fault(
                     "share",
-                    say("link {} is a rocker: a share is of a slider's mass", self.last),
+                    say("link {} is a rocker: a share refers to a slider's mass", self.last),
                     "Leave the share out: the crank then balances the first harmonic.",
                 )
             else:

@@ -135,7 +135,7 @@ class Flywheel(Remembering):
         try:
             found = reduced_curves(self.turn, self.machine)
         except AssemblyError as error:
-            told = "a flywheel needs a crank that turns all round: {}"
+            told = "a flywheel needs a crank that turns fully: {}"
             raise AssemblyError(told, error) from error
         self.moment, self.inertia, self.slope = (
             Piecewise(found.edges, found.terms[:, :, k : k + 1]) for k in range(3)
@@ -164,7 +164,7 @@ class Flywheel(Remembering):
         done = -self.sign * self.work_per_cycle  # by the loads; positive where they drive
         nothing = abs(done) <= least
         message = say(told, 0.0 if nothing else done)
-        hint = 'Check their directions and phases, or say constant = "{}".'
+        hint = 'Check their directions and phases, or set constant = "{}".'
         hint = say(hint, "resisting" if driving else "driving")
         if nothing:
             hint = "Check their directions and phases."

@@ -110,7 +110,7 @@ def reduced_curves(turn: TurnMotion, machine: Machine) -> Piecewise:
     assert dynamics is not None
     for index, load in enumerate(dynamics.loads):
         if isinstance(load.size, SizeTable) and load.size.over is Over.POSITION:
-            raise _load_fault(turn, index, "{} is given for the positions of the file only", _OVER)
+            raise _load_fault(turn, index, "{} is given only for the positions of the file", _OVER)
     cuts = [turn.curve.edges, *(_breaks(turn, load, k) for k, load in enumerate(dynamics.loads))]
     edges = np.unique(np.concatenate(cuts))
     edges = edges[np.append(True, np.diff(edges) > 1e-12)]
@@ -133,7 +133,7 @@ def reduced_curves(turn: TurnMotion, machine: Machine) -> Piecewise:
     for index, peak in enumerate(peaks[:-3]):
         if peak <= NEVER * peaks[:-2].max():
             raise _load_fault(
-                turn, index, "{} never works: its power is 0 all over the cycle", _WORK
+                turn, index, "{} does no work: its power is 0 over the whole cycle", _WORK
             )
     sums = np.zeros((len(peaks), 3))
     sums[:-2, 0] = sums[-2, 1] = sums[-1, 2] = 1.0

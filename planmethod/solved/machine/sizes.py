@@ -130,10 +130,10 @@ def too_wide(wheel: FlywheelTask, inertia: float, omega: float) -> str | None:
     # of a shaft that turns r times as quickly J is r² times less, D = r^(-2/5), v = r^(3/5)
     slower = wheel.ratio * (wheel.greatest_speed / free.speed) ** (5.0 / 3.0)
     return say(
-        "the flywheel is {0:.3g} m wide and {1:.3g} m across, b/D = {2:.2g} for the usual {3:.3g}: "
-        "its rim may run at {4:.3g} m/s. In [machine.flywheel] allow speed = {5} (D = {6:.3g} m, "
-        "b = {7:.3g} m; cast iron stands 30 m/s, steel 50), or set it on a slower shaft, "
-        "ratio = {8:.2g}.",
+        "the flywheel is {0:.3g} m wide and {1:.3g} m in diameter, b/D = {2:.2g} instead of "
+        "the usual {3:.3g}: its rim may run at {4:.3g} m/s. In [machine.flywheel] allow "
+        "speed = {5} (D = {6:.3g} m, b = {7:.3g} m; cast iron withstands 30 m/s, steel 50), "
+        "or set it on a slower shaft, ratio = {8:.2g}.",
         sizes.width, sizes.diameter, sizes.width / sizes.diameter, free.width / free.diameter,
         wheel.greatest_speed, ceil(free.speed), free.diameter, free.width, slower,
     )  # fmt: skip

@@ -272,15 +272,15 @@ class Varied:
             follows = [name for name in unknown if name in case.constants]
             if follows:
                 raise SweepError(
-                    "{} follows from other numbers of the file, and is not varied alone. Known: "
-                    "{}.",
+                    "{} follows from other numbers of the file and cannot be varied alone. "
+                    "Known: {}.",
                     ", ".join(follows),
                     known,
                 )
             raise SweepError("no parameter {} to vary. Known: {}.", ", ".join(unknown), known)
         own = [one for one in found.values() if one is not None]
         if len({one.key for one in own}) < len(own):
-            raise SweepError("two of the parameters {} are one number", ", ".join(names))
+            raise SweepError("two of the parameters {} are the same number", ", ".join(names))
         try:
             self.parameters.check(own)
         except ProblemError as error:
@@ -323,14 +323,14 @@ class Varied:
             try:
                 problems.append(self.parameters.read(dict(zip(sizes, column, strict=True))))
             except (ProblemError, AssemblyError) as error:
-                raise SweepError("with {} the file is refused. {}", named, str(error)) from error
+                raise SweepError("with {} the file is rejected. {}", named, str(error)) from error
         found = []
         for problem, made, named in zip(problems, constructed(problems), told, strict=True):
             try:
                 built = self._told_alike(made or self._unclosed(problem))
                 case = self.task.like(self.case, problem, built)
             except ProblemError as error:
-                raise SweepError("with {} the file is refused. {}", named, str(error)) from error
+                raise SweepError("with {} the file is rejected. {}", named, str(error)) from error
             found.append(replace(case, told=named))
         return found
 

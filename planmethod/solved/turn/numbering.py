@@ -109,11 +109,11 @@ def counting(problem: Problem, positions: Sequence[float]) -> Problem:
             positions[0] + TURN * turns,
         )
         if free
-        else say("Name one position, leave --phi out, or tell zero and count of [cycle].")
+        else say("Name one position, leave --phi out, or give zero and count of [cycle].")
     )
     raise LayoutError(
-        "{}: tables and diagrams of the cycle number {} positions from {:.5g}° on, and {} others "
-        "from {:.5g}° on are asked for: a number would name two positions. {}",
+        "{}: tables and diagrams of the cycle number {} positions from {:.5g}° on, but {} "
+        "others from {:.5g}° on are requested: a number would refer to two positions. {}",
         problem.name,
         len(told),
         told[0] % (TURN * turns),

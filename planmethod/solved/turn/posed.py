@@ -368,11 +368,11 @@ def _chosen(
             every = np.abs(every) if posed.by is PosedBy.BETWEEN else every
             ends = [_told(posed, float(end(every)), problem) for end in (np.nanmin, np.nanmax)]
             reached = say(
-                ": {} goes from {} to {} as the groups are closed", posed.key, ends[0], ends[1]
+                ": {} ranges from {} to {} in these assemblies", posed.key, ends[0], ends[1]
             )
         raise AssemblyError(
-            "{}: {} is not reached{}. Check driver.{}, the lengths, and that the rules of "
-            "[assembly] hold in this position.",
+            "{}: {} is not reached{}. Check driver.{}, the lengths, and whether the rules "
+            "of [assembly] hold in this position.",
             problem.name,
             said,
             reached,
@@ -399,17 +399,17 @@ def _chosen(
     senses = [going for _, going in kept]
     near = ", ".join(f'root = "near {place}"' for place in places)
     if posed.number:
-        message = say("{} fits {}: there is no position {} of them", said, told, posed.number)
+        message = say("{} fits {}: position {} of them does not exist", said, told, posed.number)
         raise ProblemError(
-            problem.name, [Fault("driver.root", message, say("Say one of {}", near))]
+            problem.name, [Fault("driver.root", message, say("Give one of {}", near))]
         )
-    hint = say("Say one of {}", near) if places else "Leave root out to see the positions"
+    hint = say("Give one of {}", near) if places else "Leave root out to see the positions"
     if ways_of[0] and senses in ([1.0, -1.0], [-1.0, 1.0]):
         one, two = ways_of[:: 1 if senses[0] > 0 else -1]
         hint = say(
-            'Say root = "going {}" for the first or root = "going {}" for the second', one, two
+            'Give root = "going {}" for the first or root = "going {}" for the second', one, two
         )
-    message = say("{} fits {}, and one is meant", said, told)
+    message = say("{} fits {}, but one position is required", said, told)
     raise ProblemError(problem.name, [Fault("driver.root", message, hint)])
 
 

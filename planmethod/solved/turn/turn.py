@@ -116,7 +116,7 @@ class Turn(Remembering):
             )
         if not isfinite(solution.closes_after):
             message = say("the links are not where they were after {} turns of the crank", MOST)
-            hint = "Ask for positions in place of a cycle: phi = [...] in [driver]"
+            hint = "Request positions instead of a cycle: phi = [...] in [driver]"
             raise ProblemError(problem.name, [Fault("cycle", message, hint)])
         self.solution = solution
         self.task = task_of(problem)
@@ -439,8 +439,8 @@ class Turn(Remembering):
             size = np.inf
         if abs(way) > 1e-6 * size:
             return way > 0.0
-        message = say("{} does not go so on either stroke", self.output.name)
-        hint = "Say how it goes: left, right, up or down, a link that turns ccw or cw."
+        message = say("{} does not move in this direction on either stroke", self.output.name)
+        hint = "Give its direction: left, right, up or down; ccw or cw for a link that turns."
         raise ProblemError(problem.name, [Fault("cycle.working", message, hint)])
 
     @cached_property

@@ -84,7 +84,9 @@ def _read_block(faults: Faults, path: str, table: Table, sheet: int) -> Entry | 
     given = read_keys(faults, path, table, (*ALWAYS, *known))
     for key in ("of", "text"):
         if key in known and key not in given:
-            hint = 'Say whose: of = "velocity".' if key == "of" else 'For example: text = "...".'
+            hint = (
+                'Name the plan: of = "velocity".' if key == "of" else 'For example: text = "...".'
+            )
             faults.add(f"{path}.{key}", say("missing in a block of kind {}", kind), hint)
     values: dict[str, Any] = {"sheet": sheet}
     for key, item in given.items():
@@ -179,7 +181,7 @@ def _check_order(faults: Faults, entries: list[tuple[int, Entry]]) -> None:
             faults.add(
                 f"{path}.sheet",
                 say("sheet {} after sheet {}", entry.sheet, last),
-                "Blocks stand in the order of the sheets.",
+                "Put the blocks in the order of the sheets.",
             )
         elif entry.sheet > last + 1 or (k == 0 and entry.sheet != 1):
             faults.add(
@@ -198,7 +200,7 @@ def _check_order(faults: Faults, entries: list[tuple[int, Entry]]) -> None:
                 name = ".".join(entry.group[:depth])
                 faults.add(
                     f"{path}.group",
-                    say("group '{}' is taken up again after another", name),
+                    say("group '{}' is resumed after another group", name),
                     "Put the blocks of a group one after another.",
                 )
                 break

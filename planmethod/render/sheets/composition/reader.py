@@ -77,7 +77,7 @@ def composition(asked: str | Path, lang: str = LANGUAGES[0]) -> Composition:
     if path.suffix != ".toml" and not path.exists():
         hint = near_hint(str(asked), SHIPPED, say("Shipped are {}.", ", ".join(SHIPPED)))
         faults = Faults()
-        faults.add("", "there is no such layout and no such file", hint)
+        faults.add("", "neither a layout nor a file has this name", hint)
         raise CompositionError(str(asked), faults.found)
     try:
         text = read_source(path)

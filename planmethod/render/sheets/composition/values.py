@@ -60,7 +60,7 @@ def read_paragraph(faults: Faults, path: str, value: object) -> str:
     lines = [read_line(faults, path, line, TEXT_LIMIT) for line in value.strip("\n").split("\n")]
     text = "\n".join(lines)
     if not text.strip():
-        faults.add(path, "the text is empty", "Say something, or leave the block out.")
+        faults.add(path, "the text is empty", "Write a text, or leave the block out.")
         return ""
     return text if _is_markup(faults, path, text) else ""
 
