@@ -710,7 +710,7 @@ def test_several_positions_on_every_format(paper: str) -> None:
 def test_a_sheet_of_too_many_positions_is_rejected_at_once() -> None:
     result = run("sheet", EX1, "--phi", "0:360:1")
     assert result.exit_code == 2
-    assert "at most 120 positions, 360 are asked" in result.stderr
+    assert "at most 120 positions, 360 are requested" in result.stderr
     assert "solve --csv" in result.stderr
 
 

@@ -95,7 +95,7 @@ def test_a_printer_at_home_has_sheets_of_a4(desk: Path) -> None:
 def test_small_paper_is_for_a_few_positions_and_not_with_a_layout() -> None:
     done = run("sheet", EX1, "--compact", "--phi", "0:360:30")
     assert done.exit_code == 2
-    assert "--compact is for at most 5 positions, 12 are asked" in done.output
+    assert "--compact is for at most 5 positions, 12 are requested" in done.output
     assert run("sheet", EX1, "--compact", "--layout", "homework").exit_code == 2
 
 

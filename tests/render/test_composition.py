@@ -364,7 +364,7 @@ kind = "results"
     assert "План скоростей" in shown(sheet)
     assert "Расчёт скоростей (положение 2)" in shown(sheet)
     assert {span.position for span in view(sheet, "velocity").spans} == {2}
-    with pytest.raises(LayoutError, match=r"blocks\[0\]\.position is 2, but of 2"):
+    with pytest.raises(LayoutError, match=r"blocks\[0\]\.position is 2, but the last of 2"):
         kinematics_sheets(problem, layout=made(text), positions=[20.0, 50.0])
 
 

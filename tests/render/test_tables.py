@@ -150,7 +150,7 @@ def test_a_column_wider_than_the_sheet_is_an_error() -> None:
 
 @pytest.mark.parametrize("columns", [(), (TableColumn("a", ("1",)), TableColumn("b", ()))])
 def test_unlike_columns_are_an_error(columns: tuple[TableColumn, ...]) -> None:
-    with pytest.raises(LayoutError, match="unlike length"):
+    with pytest.raises(LayoutError, match="different lengths"):
         table_block(columns)
 
 

@@ -535,10 +535,10 @@ def test_groups_of_class_four_are_rejected_with_the_reason(
         Solution(problem)
     text, mechanism = str(caught.value), problem.mechanism
     assert refused in text
-    assert ("where link" in text) == bool(able) and (
+    assert ("if link" in text) == bool(able) and (
         "No driving link joined to the frame" in text
     ) != bool(able)
-    assert f"where link {able} drives" in text or not able
+    assert f"if link {able} drives" in text or not able
     for link in (x for x in mechanism.links if any({FRAME, x} <= {*j.links}
                  for j in mechanism.revolutes)):  # fmt: skip
         groups = analyse(replace(mechanism, driver=link)).groups

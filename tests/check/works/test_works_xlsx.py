@@ -242,8 +242,8 @@ def entity() -> bytes:
         (lambda: saved([["a", "b"], [1, 2]]), "no sheet has a head"),
         (bomb, "17 MiB"),
         (bomb_by_another_name, "17 MiB"),
-        (filled("OJ20000"), "reaches to OJ20000: with it there are 8000000 cells"),
-        (three_far_sheets, "reaches to D17000: with it there are 204"),
+        (filled("OJ20000"), "extends to OJ20000: with it there are 8000000 cells"),
+        (three_far_sheets, "extends to D17000: with it there are 204"),
         (with_many(b'<row r="9"><c r="A9"/></row>', 100_001, b"</sheetData>"), "over 200000 cells"),
         (with_many(b'<mergeCell ref="A1:B2"/>', 2001), "over 2000 merged ranges"),
         (
