@@ -149,7 +149,7 @@ def test_a_change_point_between_the_positions_is_reported_once(command: tuple[st
         "mechanism may continue either way: the side that was chosen in the first position is "
         "kept, so that one branch of the motion passes into another there. In [assembly] give "
         'C = { keep = "parallel" } for the parallelogram, C = { near = [x, y], keep = '
-        '"continuous" } for the motion that goes on smoothly.\n'
+        '"continuous" } for the motion that continues smoothly.\n'
     )
     assert run(*command, case, "--phi", "80,170").stderr == ""
 

@@ -204,7 +204,7 @@ def test_a_position_is_where_its_rule_holds_though_the_motion_needs_two_turns(
 
 
 def test_a_position_in_which_the_rule_does_not_hold_is_not_a_first_position() -> None:
-    with pytest.raises(AssemblyError, match=r"x_B goes from 4\.78\d+e-05 m"):
+    with pytest.raises(AssemblyError, match=r"x_B ranges from 4\.78\d+e-05 m"):
         loads(f"{SQUARE}x_B = -0.1\n", name="square")
     with pytest.raises(AssemblyError, match="at = extreme left is not reached"):
         loads(f'{SQUARE}at = "left extreme"\n', name="square")
