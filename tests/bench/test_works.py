@@ -60,7 +60,7 @@ def test_the_section_is_printed_without_the_referee() -> None:
     for heading in (
         "Submissions without a mistake",
         "Submissions with a mistake",
-        "What the answers cannot show",
+        "Mistakes that the answers cannot show",
         "Speed",
     ):
         assert f"## {heading}" in run.output

@@ -197,7 +197,7 @@ def test_an_internal_error_in_a_file_stops_no_other(
     monkeypatch.setattr(works, "read_works", faulty)
     paths, out = [put(tmp_path, name, GOOD) for name in ("bad.csv", "good.csv")], tmp_path / "out"
     result = run(EX3, *paths, "-o", str(out))
-    assert result.exit_code == 1 and "bad.csv: a fault of the program" in result.stderr
+    assert result.exit_code == 1 and "bad.csv: an internal error" in result.stderr
     assert "IndexError: 9" in record(out)["unread"][0]["trace"]
 
 

@@ -321,7 +321,7 @@ FAULTS = {
     "loads[1].force.area: does not go with like": 'force = { like = "P3", shift = 0, area = 1 }',
     "loads[1].shift: goes with like only": "shift = 180",
     "loads[1].like: the size of the load is given, too": SAME + "\nforce = 3",
-    "it does 180, 540 degrees after it. Give one of these angles": SAME.replace("180", "90"),
+    "it begins one 180, 540 degrees after it. Give one of these angles": SAME.replace("180", "90"),
 }
 
 

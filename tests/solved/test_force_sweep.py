@@ -216,7 +216,7 @@ def test_a_load_over_positions_is_known_there_only() -> None:
     agree(problem, np.array([0.0, 90.0, 180.0, 270.0]))
     agree(problem, np.array([270.0, 90.0]))
     assert Sweep(problem, ["v_C"]).run([33.0]).shape == (2, 1)
-    with pytest.raises(ProblemError, match="phi = 33 deg is none of them"):
+    with pytest.raises(ProblemError, match="phi = 33 deg is not one of them"):
         Sweep(problem, ["M_dr"]).run([0.0, 33.0])
 
 

@@ -520,8 +520,8 @@ def test_a_text_is_saved_to_its_own_file_or_the_user_is_asked(page: Page, desk: 
     at(page, "'a'", "'c'")
     named("b")
     press(page, "s", 2, letter="ы")
-    asked("The page says b.toml, and the text came from a.toml", 1)
-    asked("There is a file b.toml already", 1)  # that of the file is taken
+    asked("The page says b.toml, but the text came from a.toml", 1)
+    asked("The file b.toml already exists", 1)  # that of the file is taken
     page.wait("studio.text() === \"title = 'b'\\n\"")
     assert [(desk / f"{name}.toml").read_text()[9] for name in "ab"] == ["a", "b"]
     named("new")
