@@ -87,7 +87,7 @@ def test_sentences_are_replaced_everywhere(tree: Path, capsys: pytest.CaptureFix
     "row, told",
     [
         (",,a text,a line", "more than one meaning (note.toml same, note.toml list)"),
-        (",,Of a \\ turn,as before", "exists already"),
+        (",,Of a \\ turn,as before", "the new sentence exists already"),
         (",,as before,as {} before", "other places"),
         ("note.toml,same,a text,a line\nnote.toml,same,a text,a word", "two rows"),
     ],

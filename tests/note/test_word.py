@@ -297,7 +297,8 @@ def test_a_template_that_is_not_there_or_broken_is_a_fault(tmp_path: Path) -> No
     with ZipFile(tmp_path / "empty.docx", "w") as other:
         other.writestr("a.txt", "a")
     for name, fault in (
-        ("own", "is not a Word file"), ("empty", "is not a Word file"), ("absent", "does not exist"),
+        ("own", "is not a Word file"), ("empty", "is not a Word file"),
+        ("absent", "does not exist"),
     ):  # fmt: skip
         with pytest.raises(OutputError, match=fault) as raised:
             word_document(note(), RU, template=tmp_path / f"{name}.docx")
