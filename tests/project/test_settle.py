@@ -141,7 +141,10 @@ def test_the_load_of_the_calculated_position_is_considerable() -> None:
 
 def test_a_position_that_there_is_not_is_a_fault_of_the_file() -> None:
     task = ProjectTask(calculated=6)
-    with pytest.raises(ProblemError, match=r"project\.calculated: .* 6\. Of 6 positions .* 5\."):
+    with pytest.raises(
+        ProblemError,
+        match=r"project\.calculated: position 6 does not exist\. Of 6 positions .* 5\.",
+    ):
         settle(replace(scaled("shaper"), project=task))
 
 

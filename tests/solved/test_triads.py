@@ -209,7 +209,7 @@ def test_another_rule_distinguishes_the_assembly_if_one_alone_satisfies_it() -> 
 def test_an_assembly_ends_in_dead_positions_and_they_are_named() -> None:
     solution = Solution(fixture(), positions=[33.0, 45.0, 57.0])
     verify(solution)
-    with pytest.raises(PositionError, match=r"from phi = 32\.8569 deg to phi = 57\.3086 deg only"):
+    with pytest.raises(PositionError, match=r"only from phi = 32\.8569 deg to phi = 57\.3086 deg"):
         _ = Solution(fixture(), positions=[20.0]).si
 
 
