@@ -97,6 +97,7 @@ def test_requested_paper_is_taken_or_rejected(name: str, paper: str) -> None:
     assert marks(sheets) == []
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", MANY)
 def test_many_positions_with_the_scales_of_the_file(name: str) -> None:
     """A sheet holds as many as fit; the others go on further sheets of the same format."""
@@ -119,6 +120,7 @@ GIVEN = [name for name in MANY if without_scales(name) != path_of(name).read_tex
 """Files with scales; those of the others are free in the test above."""
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", thinned(GIVEN, 2))
 def test_many_positions_fit_when_the_scales_are_free(name: str) -> None:
     problem = loads(without_scales(name), name=path_of(name).stem)
@@ -126,6 +128,7 @@ def test_many_positions_fit_when_the_scales_are_free(name: str) -> None:
     assert marks(kinematics_sheets(problem, positions=MANY[name])) == []
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("count", [1, 3, 12])
 def test_sheets_and_numbers_speak_of_the_same_scales(count: int) -> None:
     """One decision: the sheet has the scales and the paper that `solve` and `protocol` speak of."""

@@ -193,6 +193,7 @@ def test_every_figure_and_table_is_referred_to_and_has_a_number(name: str) -> No
     assert all(found for node, found in numbers_of(written) if node in shown)
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", ("template", "homework"))
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_every_source_is_cited_by_its_number(name: str, lang: str) -> None:
@@ -339,6 +340,7 @@ def test_differences_of_tables_are_readings_of_the_plans_less_exact_values(name:
     assert count > 2
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", ["shaper", "engine", "rubbing"])
 def test_the_largest_differences_are_those_of_the_position_that_is_named(name: str) -> None:
     every = project_of(name).solution
@@ -853,6 +855,7 @@ def test_the_reduced_moment_has_the_sign_of_its_terms(name: str) -> None:
     assert (f"{letter} = \\frac{{−" in terms or "−P" in first) is resists
 
 
+@pytest.mark.dear
 @pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
 @pytest.mark.parametrize("name", ["homework", "slider"])
 def test_pages_of_pdf_have_the_frames_of_word_and_no_text_runs_into_them(

@@ -98,6 +98,7 @@ def per_mm(sheet: Drawing, view: View, letter: str) -> float:
     return 1.0 / value if found[2] else value
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize(("name", "positions"), SHEETS)
 def test_the_sheet_passes_the_norm_control(name: str, positions: tuple[float, ...]) -> None:
     sheet = drawn(name, positions)
@@ -312,6 +313,7 @@ def test_a_line_of_a_point_breaks_off_where_it_runs_away() -> None:
     assert heights and max(heights) - min(heights) < 300.0
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize(("name", "wide"), [("machines/compressor", 594.0), ("press/press", 841.0)])
 def test_a_smaller_paper_keeps_the_letters_of_the_positions(name: str, wide: float) -> None:
     """The crank of the press is small beside its mechanism: on A2 names do not fit at its pin."""

@@ -81,6 +81,7 @@ def ellipses_in(sheet: Drawing) -> list[Stroke]:
 # Whole sheets -------------------------------------------------------------------------------------
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize(
     ("name", "profile"),
     [
@@ -203,6 +204,7 @@ def test_every_vertex_but_the_first_has_its_ellipse(name: str) -> None:
             assert len(drawn.strokes) >= len(places)
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", LOADED)
 def test_the_disc_is_where_the_construction_begins(name: str) -> None:
     """It is the vertex without an error, from which the first force is laid off."""

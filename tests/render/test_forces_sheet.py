@@ -450,6 +450,7 @@ def test_missing_masses_and_loads_are_reported() -> None:
     assert "Give the masses in [dynamics]" in result.output
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", LOADED)
 def test_norm_control_of_the_command_is_clean(name: str) -> None:
     result = CliRunner().invoke(cli, ["lint", str(path_of(name)), "--layout", "forces"])

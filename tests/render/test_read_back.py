@@ -81,6 +81,7 @@ MANY += [("levers/task-49", 3, "compact")]
 MANY += [(name, 1, "compact") for name in thinned(OTHERS, 60)]
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize(("name", "count", "layout"), MANY)
 def test_a_ruler_finds_it_in_each_of_many_positions(
     name: str, count: int, layout: str | None, monkeypatch: pytest.MonkeyPatch
@@ -117,6 +118,7 @@ FORCED = [(name, 1) for name in ("levers/six-link", *thinned(LOADED, 18))]
 FORCED += [(name, 3) for name in ("press/press", *thinned(LOADED, len(LOADED))[1:])]
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize(("name", "count"), FORCED)
 def test_a_ruler_finds_the_forces_and_their_arms_on_links_and_lever(
     name: str, count: int, monkeypatch: pytest.MonkeyPatch

@@ -61,6 +61,7 @@ def shift_and_force(name: str) -> tuple[float, complex]:
     return mass.inertia * abs(epsilon) / (mass.mass * abs(a)), -mass.mass * a
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", [*SHIFTED, "levers/task12", "press/press-stone"])
 def test_norm_control_finds_no_errors(name: str) -> None:
     sheet = sheet_of(name)

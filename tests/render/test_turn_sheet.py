@@ -123,6 +123,7 @@ def test_of_one_position_its_own_plans_are_shown() -> None:
 EVEN = [float(phi) for phi in range(0, 360, 30)]
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", ["press/press", *SIX[: some(len(SIX), 1)]])
 @pytest.mark.parametrize("sense", [1, -1])
 def test_a_number_names_one_position_of_the_sheet(
