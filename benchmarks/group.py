@@ -14,11 +14,11 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from planmethod.bench.checking import places_of
-from planmethod.check.drawn import drawn_works
 from planmethod.check.group import Variants
 from planmethod.check.key import key_of_task
 from planmethod.check.mistakes.model import Change
-from planmethod.check.model import Sense, Work, WrittenAnswer
+from planmethod.check.model import Sense, Submission, WrittenAnswer
+from planmethod.check.simulation import simulate_submissions
 from planmethod.check.task import Task
 
 PROBLEM = Path("problems/linkages/ex3-variants.toml")
@@ -97,15 +97,17 @@ GROUP = (
 )
 
 
-def works(problem: Path = PROBLEM) -> Iterator[tuple[Student, Work]]:
+def works(problem: Path = PROBLEM) -> Iterator[tuple[Student, Submission]]:
     """Yield the students with their works."""
     variants = Variants(problem)
     for number, student in enumerate(GROUP):
         task = variants.task(student.variant)
         if student.code == "P2":
-            task = next(task.others())
+            task = next(task.other_variants())
         change = _change(task, student)
-        (work,) = drawn_works(task, change, 1, number, scales=student.scales, mm=student.mm)
+        (work,) = simulate_submissions(
+            task, change, 1, number, scales=student.scales, mm=student.mm
+        )
         answers = tuple(_slipped(a) if student.code == "slip" else a for a in work.answers)
         yield student, replace(work, student=student.name, answers=answers)
 

@@ -13,9 +13,9 @@ from msgspec import Struct
 
 from benchmarks.bounds import Bound
 from benchmarks.scenes import chain, slotted, train, with_loads
-from planmethod.bench.speed import clock, turn
+from planmethod.bench.speed import clock, crank_angles
 from planmethod.check.checking import check
-from planmethod.check.drawn import drawn_works
+from planmethod.check.simulation import simulate_submissions
 from planmethod.check.task import Task
 from planmethod.gears import reader as trains
 from planmethod.gears.record import record
@@ -75,13 +75,13 @@ def worked(act: Callable[[], object]) -> float:
 
     Growth is measured by it, since other processes on the same core do not count.
     """
-    return clock(act, enough=0.3, least=9, timer=time.thread_time).median
+    return clock(act, enough=0.3, min_runs=9, timer=time.thread_time).median
 
 
 def by_links(dyads: Sequence[int] = DYADS, *, count: int = 10_000) -> list[Chain]:
     """Measure chains with these numbers of dyads, all quantities requested, in NumPy's blocks."""
     found = []
-    angles = turn(count)
+    angles = crank_angles(count)
     for k in dyads:
         problem = chain(k)
         ready = worked(partial(Sweep, problem, native=False))
@@ -100,7 +100,7 @@ def by_loads(numbers: Sequence[int] = LOADS) -> list[Cost]:
         problem = with_loads(number)
 
         def solved(problem: Problem = problem) -> object:
-            return statics_of(Solution(problem, positions=turn(36).tolist())).si
+            return statics_of(Solution(problem, positions=crank_angles(36).tolist())).si
 
         found.append(Cost("loads, 36 positions", number, worked(solved)))
     return found
@@ -121,7 +121,7 @@ def by_wheels(numbers: Sequence[int] = WHEELS) -> list[Cost]:
 def by_works(numbers: Sequence[int] = WORKS) -> list[Cost]:
     """Measure the checking of correct submissions of one task by their number."""
     task = Task(Solution(slotted()))
-    works = drawn_works(task, count=numbers[-1], seed=1)
+    works = simulate_submissions(task, count=numbers[-1], seed=1)
     answers = len(works[0].answers)
 
     def checked(number: int) -> None:

@@ -15,7 +15,7 @@ from enum import Enum
 import numpy as np
 
 from planmethod.construct.condition import UNIT_ROUNDOFF
-from planmethod.construct.referee import DIGITS
+from planmethod.construct.multiprecision import DIGITS
 from planmethod.errors import PlanMethodError
 from planmethod.plans.legend import QuantityKind
 from planmethod.problem import loads

@@ -12,10 +12,10 @@ from statistics import fmean
 
 from planmethod.errors import PlanMethodError
 from planmethod.problem import load
-from planmethod.render.control.misleading import holds, is_of_point, own_and_other
+from planmethod.render.control.misleading import box_contains, is_of_point, measure_letter_distances
 from planmethod.render.control.texts import writings_of
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.crowd import SIDE, densest
+from planmethod.solved.label_density import SIDE, densest
 
 PROBLEMS = Path(__file__).parent.parent / "problems"
 
@@ -36,10 +36,14 @@ def measured(every: int, count: int) -> str:
             continue
         for sheet in sheets:
             writings = writings_of(sheet.items)
-            near += [own <= other for _, own, other in own_and_other(writings, sheet.views)]
+            near += [
+                own <= other for _, own, other in measure_letter_distances(writings, sheet.views)
+            ]
             for view in (view for view in sheet.views if view.kind == "position"):
                 left, low, right, high = view.box
-                inside = [w for w in writings if is_of_point(w.name) and holds(view.box, w.where)]
+                inside = [
+                    w for w in writings if is_of_point(w.name) and box_contains(view.box, w.place)
+                ]
                 dense.append(
                     densest([complex(w.ink.centroid.x, w.ink.centroid.y) for w in inside])[0]
                 )

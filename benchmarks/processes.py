@@ -16,7 +16,7 @@ from pathlib import Path
 from benchmarks.scenes import MANY_LOADS
 from planmethod.bench.speed import Timing, clock
 from planmethod.kinds import part_of
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem import load, template
 from planmethod.render.backends import render
 from planmethod.render.ink.drawing import Drawing
@@ -159,18 +159,18 @@ def warm_sheets() -> list[tuple[str, Timing, Timing]]:
         again = partial(_sketched, path)
         redrawn = (
             "svg of sketch --watch",
-            clock(again, enough=1.0, least=3),
-            clock(partial(render, again(), "svg"), enough=1.0, least=3),
+            clock(again, enough=1.0, min_runs=3),
+            clock(partial(render, again(), "svg"), enough=1.0, min_runs=3),
         )
 
     def drawn() -> list[Drawing]:
         _placed.cache_clear()  # else the letters would have their places already
         return kinematics_sheets(problem)
 
-    make = clock(drawn, enough=2.0, least=3)
+    make = clock(drawn, enough=2.0, min_runs=3)
     sheet = kinematics_sheets(problem)[0]
     return [
-        *((f, make, clock(partial(render, sheet, f), enough=1.0, least=3)) for f in FORMATS),
+        *((f, make, clock(partial(render, sheet, f), enough=1.0, min_runs=3)) for f in FORMATS),
         redrawn,
     ]
 
@@ -179,7 +179,7 @@ def _sketched(path: Path) -> Drawing:
     """Read a file again and draw its sketch, as ``--watch`` does."""
     _placed.cache_clear()
     title, part = part_of(path, variant=None, views=VIEWS)
-    return sketch(part, title, language("en"), [])
+    return sketch(part, title, get_language("en"), [])
 
 
 PEAK = (

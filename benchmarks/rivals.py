@@ -11,7 +11,15 @@ import numpy.typing as npt
 
 from benchmarks.peers import peers
 from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
-from planmethod.bench.speed import Timing, clock, everything, right_rows, row_error, spread, turn
+from planmethod.bench.speed import (
+    Timing,
+    clock,
+    crank_angles,
+    everything,
+    right_rows,
+    row_error,
+    spread,
+)
 from planmethod.solved.many.sweep import Sweep
 
 Array = npt.NDArray[Any]
@@ -47,7 +55,7 @@ def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 9) -> list[Rival]:
     machine = Sweep(fourbar(), FOURBAR_ROWS, native=True)
     buffers = {n: np.empty((len(sweep.rows), n)) for n in sizes}
     more = {n: np.empty((len(angled.rows), n)) for n in sizes}
-    angles = {n: turn(n) for n in sizes}
+    angles = {n: crank_angles(n) for n in sizes}
     shuffled = {n: np.random.default_rng(1).permutation(angles[n]) for n in sizes}
 
     def swept(n: int) -> Array:
@@ -101,7 +109,7 @@ def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 9) -> list[Rival]:
         for n in sizes:
             for name, _, act, _ in acts:
                 times.setdefault((name, n), []).append(
-                    clock(lambda a=act, k=n: a(k), enough=0.1, least=3)  # type: ignore[misc]
+                    clock(lambda a=act, k=n: a(k), enough=0.1, min_runs=3)  # type: ignore[misc]
                 )
     right = {n: right_rows(fourbar(), FOURBAR_ROWS, angles[n][spread(n)]) for n in sizes}
     found = []
@@ -126,7 +134,7 @@ def by_positions(counts: Sequence[int]) -> list[tuple[int, float]]:
     found = []
     for n in counts:
         out = None if n <= 40 else np.empty((len(sweep.rows), n))
-        angles = turn(n)
+        angles = crank_angles(n)
         found.append((n, clock(lambda a=angles, o=out: sweep.run(a, out=o)).median))  # type: ignore[misc]
     return found
 
@@ -143,7 +151,7 @@ SCENES: tuple[tuple[str, tuple[str, ...] | None], ...] = (
 def by_scene(count: int = 10_000) -> list[tuple[str, int, int, float, float]]:
     """Return (requested quantities, steps, operations, seconds for one position, for ``count``)."""
     problem = slotted()
-    angles = turn(count)
+    angles = crank_angles(count)
     found = []
     for name, asked in SCENES:
         sweep = Sweep(problem, asked)

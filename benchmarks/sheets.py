@@ -26,10 +26,10 @@ from planmethod.problem.model import Problem
 from planmethod.render.control.sheet import inspect
 from planmethod.render.control.unused import (
     FRAME,
+    area_percentage,
     ink_points,
-    inked_share,
+    inked_percentage,
     largest_empty,
-    share_of,
 )
 from planmethod.render.frame.frame import MARGIN_NOTE
 from planmethod.render.ink.drawing import Bounds, Drawing
@@ -171,11 +171,11 @@ def white_share(drawing: Drawing, far: float = FAR) -> tuple[float, float]:
 
 def _empty(drawing: Drawing) -> float:
     inner = paper_format(paper_of(drawing)).inner
-    return share_of(largest_empty(drawing.items, inner), inner)
+    return area_percentage(largest_empty(drawing.items, inner), inner)
 
 
 def _inked(drawing: Drawing) -> float:
-    return inked_share(drawing.items, paper_format(paper_of(drawing)).inner)
+    return inked_percentage(drawing.items, paper_format(paper_of(drawing)).inner)
 
 
 def aligned_share(drawing: Drawing, near: float = 0.6) -> float:
@@ -229,7 +229,7 @@ def filled(problem: Problem, count: int) -> Filled:
     start = perf_counter()
     drawings = kinematics_sheets(problem, positions=positions)
     seconds = perf_counter() - start
-    whole = [drawing for drawing in drawings if not drawing.goes_on]
+    whole = [drawing for drawing in drawings if not drawing.is_continuation]
     shares = [white_share(drawing) for drawing in whole]
     scheme = next(v.box for one in whole for v in one.views if v.kind == "position")
     plans = list(_plans(whole))

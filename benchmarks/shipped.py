@@ -25,9 +25,9 @@ from planmethod.problem import variant_names
 from planmethod.problem.tasks import home
 from planmethod.render.control.remarks import REMARKS
 from planmethod.render.sheets.controlled import (
-    Controlled,
+    CheckedSheet,
+    check_drawings,
     controlled_kinematics,
-    looked_over,
 )
 from planmethod.solved.solution import Solution
 
@@ -43,12 +43,12 @@ def solved(path: Path, variant: str | None) -> None:
         kind.record(kind.load(path, variant), "ru")
 
 
-def looked(path: Path, variant: str | None, count: int) -> list[Controlled]:
+def looked(path: Path, variant: str | None, count: int) -> list[CheckedSheet]:
     """Draw the default sheets in ``count`` positions and check them; a train has only one."""
     kind = kind_of(path)
     if kind is not None:
         problem = kind.load(path, variant)
-        return looked_over(
+        return check_drawings(
             kind.drawings(problem, fields={}, profile=PROFILES["board"]), kind.scales
         )
     linkage = load(path, variant=variant)

@@ -15,7 +15,7 @@ from msgspec.structs import asdict, replace
 
 from planmethod.kinds import kind_of, load
 from planmethod.mechanism.structure import analyse
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem import variant_names
 from planmethod.problem.model import Scales
 from planmethod.problem.tasks import LINKAGE, ShippedTask, home
@@ -101,7 +101,7 @@ def contact_sheet(tasks: list[ShippedTask], title: str) -> Drawing:
         corner = complex(column * WIDTH, height - row * HEIGHT)
         box = [corner, corner + WIDTH, corner + complex(WIDTH, -HEIGHT), corner - 1j * HEIGHT]
         sheet.add(Stroke((*box, corner), Pen.THIN))
-        picture = scheme_picture(_first(task), 0, letter_height=LETTER, bare=True)
+        picture = scheme_picture(_first(task), 0, letter_height=LETTER, hide_motion=True)
         middle = corner + complex(WIDTH, -(HEIGHT - 2 * HEAD)) / 2
         sheet.extend(picture.place(middle + complex(-picture.width, picture.height) / 2))
         sheet.extend(
@@ -115,12 +115,12 @@ def contact_sheet(tasks: list[ShippedTask], title: str) -> Drawing:
 def _first(task: ShippedTask) -> Solution:
     """Return a task solved in its first position, small enough for a cell."""
     problem = replace(load(home() / task.file), scales=Scales())
-    return Solution(problem, positions=problem.drive.positions[:1], views=Views.alone(ROOM))
+    return Solution(problem, positions=problem.drive.positions[:1], views=Views.for_scheme(ROOM))
 
 
 def document(tasks: list[ShippedTask]) -> dict[Path, bytes]:
     """Return docs/tasks.md and its pictures."""
-    kinds = language("en").tasks
+    kinds = get_language("en").tasks
     files: dict[Path, bytes] = {}
     text = [INTRODUCTION]
     for (kind, structure), some in groupby(tasks, lambda task: (task.kind, task.structure)):

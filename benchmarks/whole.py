@@ -10,7 +10,7 @@ from benchmarks.random_report import random_section
 from benchmarks.random_run import Tally, run, wrong_branches
 from benchmarks.scenes import loaded
 from planmethod.bench import forces
-from planmethod.bench.drawn import compare_all
+from planmethod.bench.drafting import compare_all
 from planmethod.bench.report import Table, drafting_section, forces_section, machine_section
 from planmethod.problem.model import Problem
 

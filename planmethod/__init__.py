@@ -98,11 +98,11 @@ def solve(
     >>> print(f"{turn.links['3'].omega.min():.3f} to {turn.links['3'].omega.max():.3f} 1/s")
     -69.565 to 18.391 1/s
     """
-    from planmethod.solved.selfcheck import tell_doubts
+    from planmethod.solved.selfcheck import warn_of_doubts
     from planmethod.solved.solution import Solution
 
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
-    tell_doubts(solution)
+    warn_of_doubts(solution)
     return solution
 
 

@@ -30,11 +30,11 @@ def main() -> None:
         _run()
     except KeyboardInterrupt:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        from planmethod.languages import say, speaking, spoken_to
+        from planmethod.languages import choose_language, speaking, translate
 
-        with speaking(spoken_to(sys.argv[1:])):
-            told = say("Stopped; the files that are there are whole.")
-        sys.stderr.write(f"\n{told}\n")
+        with speaking(choose_language(sys.argv[1:])):
+            text = translate("Stopped; the files that are there are whole.")
+        sys.stderr.write(f"\n{text}\n")
         sys.exit(INTERRUPTED)
 
 

@@ -15,9 +15,9 @@ from typing import Any
 
 import click
 
-from planmethod.commands.helptext import Spoken, answering
+from planmethod.commands.helptext import LocalizedCommand, answering
 from planmethod.errors import ExitCode
-from planmethod.languages import LANGUAGES, say, spoken_to
+from planmethod.languages import LANGUAGES, choose_language, translate
 
 HELP = {
     "To begin with": {
@@ -76,7 +76,7 @@ def command_of(name: str) -> click.Command:
     return command
 
 
-class Commanded(Spoken, click.Group):
+class Commanded(LocalizedCommand, click.Group):
     """Group of commands in the language of the command line; it imports them late."""
 
     def list_commands(self, _ctx: click.Context) -> list[str]:
@@ -90,13 +90,15 @@ class Commanded(Spoken, click.Group):
     def format_commands(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write what the commands do, none of them imported."""
         for group, names in HELP.items():
-            with formatter.section(say(group)):
-                formatter.write_dl([(name.ljust(10), say(told)) for name, told in names.items()])
+            with formatter.section(translate(group)):
+                formatter.write_dl(
+                    [(name.ljust(10), translate(text)) for name, text in names.items()]
+                )
 
     def main(self, args: Sequence[str] | None = None, *rest: Any, **more: Any) -> Any:
         """Run a command."""
         words = sys.argv[1:] if args is None else args
-        with answering(spoken_to(words)):
+        with answering(choose_language(words)):
             return super().main(args, *rest, **more)
 
 
@@ -117,7 +119,7 @@ def cli(ctx: click.Context, lang: str | None) -> None:
     if lang is not None:
         ctx.default_map = {name: {"lang": lang} for name in COMMANDS}
     if ctx.invoked_subcommand is None:
-        click.echo(say(FIRST))
+        click.echo(translate(FIRST))
 
 
 LESS = "Request fewer positions at once."
@@ -128,7 +130,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a Russian console has no Greek or arrows
-    with answering(spoken_to(sys.argv[1:])):
+    with answering(choose_language(sys.argv[1:])):
         _run()
 
 
@@ -149,7 +151,7 @@ def _run() -> None:
         sys.exit(ExitCode.DONE)
     except UnicodeEncodeError as error:
         text = str(error.object)[max(0, error.start - 20) : error.end + 20]
-        told = say(
+        told = translate(
             "Error: '{}': an argument of the command line, or the name of a file, is not "
             "UTF-8. Type it again, or rename the file.",
             text,
@@ -157,10 +159,10 @@ def _run() -> None:
         click.echo(told, err=True)
         sys.exit(ExitCode.USAGE)
     except MemoryError:
-        click.echo(say("Error: there is not enough memory. {}", LESS), err=True)
+        click.echo(translate("Error: there is not enough memory. {}", LESS), err=True)
         sys.exit(ExitCode.USAGE)
     except ImportError as error:
-        told = say(
+        told = translate(
             "Error: a part of the program cannot be loaded: {}. Reinstall planmethod with "
             "its dependencies; or there is not enough memory.",
             (str(error).strip() or type(error).__name__).splitlines()[-1],
@@ -171,10 +173,10 @@ def _run() -> None:
         from planmethod.render.backends.output import cause_of, unwritten
 
         if (cause := unwritten(error)) is not None:
-            click.echo(say("Error: cannot write the output: {}.", cause_of(cause)), err=True)
+            click.echo(translate("Error: cannot write the output: {}.", cause_of(cause)), err=True)
             sys.exit(ExitCode.USAGE)
         click.echo(
-            say(
+            translate(
                 "Error: planmethod failed inside ({}: {}). Please report the problem file "
                 "and the command.",
                 type(error).__name__,

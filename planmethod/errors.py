@@ -13,7 +13,7 @@ from enum import IntEnum
 from msgspec import Struct
 from msgspec.structs import force_setattr
 
-from planmethod.languages import say
+from planmethod.languages import translate
 
 
 class ExitCode(IntEnum):
@@ -33,7 +33,7 @@ class PlanMethodError(Exception):
     exit_code: ExitCode = ExitCode.SELF_CHECK
 
     def __init__(self, message: str = "", *facts: object) -> None:
-        super().__init__(say(message, *facts))
+        super().__init__(translate(message, *facts))
 
     def __reduce__(self) -> tuple[object, ...]:
         """Return the parts to rebuild it in another process: translated message and facts."""
@@ -58,8 +58,8 @@ class Fault(Struct, frozen=True):
     choices: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        force_setattr(self, "message", say(self.message))
-        force_setattr(self, "hint", say(self.hint))
+        force_setattr(self, "message", translate(self.message))
+        force_setattr(self, "hint", translate(self.hint))
 
     def __str__(self) -> str:
         text = f"{self.path}: {self.message}" if self.path else self.message
@@ -75,7 +75,7 @@ class ProblemError(PlanMethodError):
     def __init__(self, source: str, faults: Sequence[Fault]) -> None:
         self.source = source
         self.faults = tuple(faults)
-        head = say(self.head, source, len(self.faults))
+        head = translate(self.head, source, len(self.faults))
         super().__init__("\n".join([head, *(f"  {fault}" for fault in self.faults)]))
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
-from planmethod.problem.head import KindProblem
+from planmethod.languages import translate
+from planmethod.problem.common import KindProblem
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -49,7 +49,7 @@ class ProblemKind(ABC, Generic[P]):
         """Return the record of ``solve --json``."""
 
     @abstractmethod
-    def solved_document(self, problem: P, words: Language) -> Document:
+    def solved_document(self, problem: P, language: Language) -> Document:
         """Return the document of ``solve``."""
 
     def spreadsheet(self, problem: P) -> SpreadsheetRows | None:
@@ -60,12 +60,12 @@ class ProblemKind(ABC, Generic[P]):
         """Return the record of ``structure --json``; None for a kind without a structure."""
         return None
 
-    def structure_document(self, problem: P, words: Language) -> Document | None:
+    def structure_document(self, problem: P, language: Language) -> Document | None:
         """Return the document of ``structure``; None for a kind without a structure."""
         return None
 
     @abstractmethod
-    def protocol_document(self, problem: P, words: Language, profile: Profile) -> Document:
+    def protocol_document(self, problem: P, language: Language, profile: Profile) -> Document:
         """Return the document of ``protocol``."""
 
     @abstractmethod
@@ -104,7 +104,7 @@ class ProblemKind(ABC, Generic[P]):
         """
         raise self._without(problem, "audit of printed values")
 
-    def given(self, problem: P, words: Language) -> list[GivenFact]:
+    def given_facts(self, problem: P, language: Language) -> list[GivenFact]:
         """Return the given data, one fact each; the file can be rebuilt from them."""
         return []
 
@@ -122,6 +122,6 @@ class ProblemKind(ABC, Generic[P]):
         """
         raise self._without(problem, "checking of answers")
 
-    def _without(self, problem: P, what: str) -> ProblemError:
-        message = say("such a problem has no {}; its numbers: planmethod solve", what)
+    def _without(self, problem: P, item: str) -> ProblemError:
+        message = translate("such a problem has no {}; its numbers: planmethod solve", item)
         return ProblemError(problem.name, [Fault(self.table, message)])

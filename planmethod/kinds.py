@@ -21,8 +21,8 @@ from planmethod.problem.source import parse, read_source
 
 if TYPE_CHECKING:
     from planmethod.problem.fields import Faults
-    from planmethod.problem.model import Geared, Lifted, Problem
-    from planmethod.solved.part import MechanismPart
+    from planmethod.problem.model import CamDrive, GearDrive, Problem
+    from planmethod.solved.partial_mechanism import MechanismPart
     from planmethod.solved.scaling import Views
 
 KINDS: tuple[ProblemKind[Any], ...] = (GearTrains(), MovingPoints(), Meshings(), Cams())
@@ -89,14 +89,14 @@ def load_each(path: str | Path, variants: Iterable[str | None]) -> Iterator[Prob
         try:
             problem = next(found)
         except ProblemError as error:
-            raise type(error)(error.source, _with_beside(error.faults, path, name)) from error
-        faults = _with_beside((), path, name) if problem.tables else []
+            raise type(error)(error.source, _with_other_faults(error.faults, path, name)) from error
+        faults = _with_other_faults((), path, name) if problem.tables else []
         if faults:
             raise ProblemError(str(path), faults)
         yield _posed(problem)
 
 
-def _with_beside(faults: Iterable[Fault], path: Path, variant: str | None) -> list[Fault]:
+def _with_other_faults(faults: Iterable[Fault], path: Path, variant: str | None) -> list[Fault]:
     """Return the faults of a linkage, and those of the other problems of its file."""
     found = [*faults]
     try:
@@ -133,7 +133,7 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Mech
     """
     from planmethod.problem.fields import Faults
     from planmethod.problem.variants import with_table
-    from planmethod.solved.part import MechanismPart, largest_part
+    from planmethod.solved.partial_mechanism import MechanismPart, largest_part
 
     text = read_source(path)
     try:
@@ -149,7 +149,7 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Mech
         views=views,
         posed=_posed,
     )
-    faults = _with_beside(part.faults, path, variant)
+    faults = _with_other_faults(part.faults, path, variant)
     if len(faults) > len(part.faults):
         part = replace(part, faults=tuple(faults), trouble=ProblemError(str(path), faults))
     title = table.get("title")
@@ -170,12 +170,12 @@ def _posed(problem: Problem) -> Problem:
 
 
 def _driven(
-    faults: Faults, given: Mapping[str, Any], driver: Mapping[str, Any]
-) -> Geared | Lifted | None:
+    faults: Faults, document: Mapping[str, Any], driver: Mapping[str, Any]
+) -> GearDrive | CamDrive | None:
     if "train" in driver:
         from planmethod.gears.driving import driven
 
-        return driven(faults, given["gears"], driver["train"])
-    from planmethod.cams.driving import followed
+        return driven(faults, document["gears"], driver["train"])
+    from planmethod.cams.driving import read_follower_drive
 
-    return followed(faults, given["cam"])
+    return read_follower_drive(faults, document["cam"])

@@ -38,11 +38,11 @@ OWN_VARIABLE = "PLANMETHOD_LANG"
 SYSTEM_VARIABLES = ("LC_ALL", "LC_MESSAGES", "LANG")
 """Variables that name the language of the system, the first that outranks the others."""
 
-_SPOKEN: ContextVar[str] = ContextVar("language", default=WRITTEN)
+_LANGUAGE: ContextVar[str] = ContextVar("language", default=WRITTEN)
 """Language of the current context: threads and tasks may use different ones at once."""
 
 
-class _Said(str):
+class _Translated(str):
     """Translated sentence; translating it again changes nothing (сказанное)."""
 
     __slots__ = ()
@@ -66,7 +66,7 @@ class _Sentences(Formatter):
 _SENTENCES = _Sentences()
 
 
-def say(sentence: str, *facts: object, **named: object) -> str:
+def translate(sentence: str, *facts: object, **named: object) -> str:
     """Translate a sentence into the current language.
 
     Parameters
@@ -77,15 +77,17 @@ def say(sentence: str, *facts: object, **named: object) -> str:
     *facts, **named : object
         Facts that are English phrases themselves are translated.
     """
-    if isinstance(sentence, _Said):
+    if isinstance(sentence, _Translated):
         return sentence
-    text = translated(sentence)
+    text = look_up_translation(sentence)
     if facts or named:
-        if spoken() != WRITTEN:  # one word may be a name
-            facts = tuple(translated(f) if isinstance(f, str) and " " in f else f for f in facts)
+        if current_language() != WRITTEN:  # one word may be a name
+            facts = tuple(
+                look_up_translation(f) if isinstance(f, str) and " " in f else f for f in facts
+            )
         fill = _SENTENCES.format if ":|" in text else str.format
         text = visible(fill(text, *facts, **named))
-    return _Said(text)
+    return _Translated(text)
 
 
 HIDDEN = (
@@ -102,12 +104,12 @@ def visible(text: str) -> str:
     return re.sub(HIDDEN, "\ufffd", text)
 
 
-def translated(sentence: str) -> str:
+def look_up_translation(sentence: str) -> str:
     """Return the template of a sentence in the current language.
 
     Only the message catalogues that have the sentence as a key are parsed.
     """
-    lang = spoken()
+    lang = current_language()
     if lang != WRITTEN:
         import json
 
@@ -144,12 +146,12 @@ def catalogue(lang: str, name: str) -> dict[str, Any]:
     return tomllib.loads((WORDING / lang / f"{name}.toml").read_text(encoding="utf-8"))
 
 
-def spoken() -> str:
+def current_language() -> str:
     """Return the current language of messages."""
-    return _SPOKEN.get()
+    return _LANGUAGE.get()
 
 
-def spoken_to(args: Sequence[str], environ: Mapping[str, str] = os.environ) -> str:
+def choose_language(args: Sequence[str], environ: Mapping[str, str] = os.environ) -> str:
     """Return the language of the messages for a command line (язык сообщений).
 
     That of ``--lang``, else of `OWN_VARIABLE`, else the system's; English where that is none of
@@ -187,8 +189,8 @@ def known_language(name: str) -> str | None:
 @contextmanager
 def speaking(lang: str) -> Iterator[None]:
     """Use a language for a while, in this thread. Default: English."""
-    before = _SPOKEN.set(lang)
+    before = _LANGUAGE.set(lang)
     try:
         yield
     finally:
-        _SPOKEN.reset(before)
+        _LANGUAGE.reset(before)

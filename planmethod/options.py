@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import click
 from msgspec.structs import replace
 
-from planmethod.languages import LANGUAGES, named_language, say, spoken, translated
+from planmethod.languages import (
+    LANGUAGES,
+    current_language,
+    look_up_translation,
+    named_language,
+    translate,
+)
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,14 +29,14 @@ class UsageError(click.UsageError):
     """A command that is called wrongly: a sentence, and its facts."""
 
     def __init__(self, message: str, *facts: object) -> None:
-        super().__init__(say(message, *facts))
+        super().__init__(translate(message, *facts))
 
 
 class BadParameter(click.BadParameter):
     """A value that an option does not take: a sentence, and its facts."""
 
     def __init__(self, message: str, *facts: object) -> None:
-        super().__init__(say(message, *facts))
+        super().__init__(translate(message, *facts))
 
 
 class PathType(click.Path):
@@ -47,7 +53,7 @@ class PathType(click.Path):
     @property
     def name(self) -> str:
         """Name of the type: a file, a directory or a path."""
-        return translated(self._english)
+        return look_up_translation(self._english)
 
     @name.setter
     def name(self, english: str) -> None:
@@ -71,10 +77,10 @@ F = TypeVar("F", bound=Callable[..., Any])
 Positions: TypeAlias = "npt.NDArray[np.float64]"
 """Driver positions, ndarray of shape (n,): degrees, or metres of a slider."""
 
-MOST_POSITIONS = 1_000_000
+MAX_POSITIONS = 1_000_000
 """Most positions that ``--phi`` may ask for."""
 
-MOST_SWEPT = 10_000_000
+MAX_SWEPT_POSITIONS = 10_000_000
 """The same where they are swept, not drawn: ``--npz`` and ``--ask``."""
 
 COUNTED = 72
@@ -82,7 +88,7 @@ COUNTED = 72
 
 
 def read_positions(
-    ctx: click.Context, param: click.Parameter, value: str | None, *, most: int = MOST_POSITIONS
+    ctx: click.Context, param: click.Parameter, value: str | None, *, limit: int = MAX_POSITIONS
 ) -> Positions | None:
     """Return driver positions: ``20``, ``0,30,60``, or ``from:to:step`` without the end."""
     if value is None:
@@ -98,14 +104,14 @@ def read_positions(
         numbers = [float(number) for number in read if number is not None]
         if len(numbers) != len(read):
             raise BadParameter("{!r} is neither a number nor from:to:step", part)
-        parts.append(_expanded(numbers, part, most))
+        parts.append(_expanded(numbers, part, limit))
         count += len(parts[-1])
-        if count > most:
-            raise BadParameter("more than {} positions", most)
+        if count > limit:
+            raise BadParameter("more than {} positions", limit)
     return np.concatenate(parts)
 
 
-def _expanded(numbers: list[float], part: str, most: int) -> Positions:
+def _expanded(numbers: list[float], part: str, limit: int) -> Positions:
     """Return the positions of one part of ``--phi``."""
     import numpy as np
 
@@ -117,14 +123,14 @@ def _expanded(numbers: list[float], part: str, most: int) -> Positions:
         raise BadParameter("{!r} is not from:to:step with a step that is not 0", part)
     start, stop, step = numbers
     count = (stop - start) / step
-    if count <= 0 or count > most:
+    if count <= 0 or count > limit:
         raise BadParameter("{!r} gives {} positions", part, max(0, round(count)))
     near = max(1, round(count))
     is_met = abs(count - near) < 1e-9 * max(1.0, count)
     whole = near if is_met else int(count) + 1
     if is_met and whole <= COUNTED and (stop - start) % 360:
-        said = "Note: --phi {0} is {1} position{1:||s} without {2:g}; {3:g}:{4:g}:{5:g} has it."
-        click.echo(say(said, part, whole, stop, start, stop + step, step), err=True)
+        phrase = "Note: --phi {0} is {1} position{1:||s} without {2:g}; {3:g}:{4:g}:{5:g} has it."
+        click.echo(translate(phrase, part, whole, stop, start, stop + step, step), err=True)
     return np.asarray(start + step * np.arange(whole), dtype=float)
 
 
@@ -189,7 +195,7 @@ def ruler_option(command: F) -> F:
     )(command)
 
 
-def hand_options(command: F) -> F:
+def drafting_options(command: F) -> F:
     """Add the ruler and the profile of the hand; `drawn_by` makes one of them."""
     command = click.option(
         "--profile",
@@ -211,11 +217,11 @@ def drawn_by(profile: str | None, ruler: float | None, *, usual: str = "board") 
     return hand if ruler is None else replace(hand, ruler=ruler)
 
 
-def positions_option(most: int) -> Callable[[F], F]:
-    """Add the option of the driver positions, at most ``most``."""
+def positions_option(limit: int) -> Callable[[F], F]:
+    """Add the option of the driver positions, at most ``limit``."""
     return click.option(
         "--phi",
-        callback=functools.partial(read_positions, most=most),
+        callback=functools.partial(read_positions, limit=limit),
         metavar="POSITIONS",
         help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30 "
         "(without its end).",
@@ -224,7 +230,7 @@ def positions_option(most: int) -> Callable[[F], F]:
 
 def reading_options(command: F) -> F:
     """Add the options of the positions and of the reading of the plans."""
-    return positions_option(MOST_POSITIONS)(hand_options(command))
+    return positions_option(MAX_POSITIONS)(drafting_options(command))
 
 
 def jobs_option(command: F) -> F:
@@ -341,7 +347,7 @@ def _lang_option(read: Callable[[str | None], str | None]) -> Callable[[F], F]:
 
 def lang_option(command: F) -> F:
     """Add the language of texts that are of no problem; the command gets the one to write in."""
-    return _lang_option(lambda named: named or spoken())(command)
+    return _lang_option(lambda named: named or current_language())(command)
 
 
 def problem_lang_option(command: F) -> F:

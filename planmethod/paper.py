@@ -62,7 +62,7 @@ class Format(Struct, frozen=True):
         return (right - STAMP_WIDTH, FRAME_OTHER, right, FRAME_OTHER + STAMP_HEIGHT)
 
     @property
-    def stands(self) -> bool:
+    def is_portrait(self) -> bool:
         """True if the short side is horizontal, with the title block along it."""
         return self.width < self.height
 
@@ -110,7 +110,7 @@ def _formats() -> Iterator[Format]:
 BASIC = tuple(_BASIC)
 """Basic formats, from A4 to A0."""
 
-TRIED = ("A3", "A2", "A1")
+DEFAULT_SERIES = ("A3", "A2", "A1")
 """Formats that are tried in turn when none is requested."""
 
 FORMATS: Mapping[str, Format] = MappingProxyType({fmt.name: fmt for fmt in _formats()})
@@ -157,7 +157,7 @@ def paper_format(name: str) -> Format:
         )
     base, times = match[1], match[2]
     if times is not None and int(times) not in _ELONGATED[base]:
-        _refuse_times(base, times)
+        _reject_times(base, times)
     if colon and turn.casefold() not in _TURNS:
         raise LayoutError(
             "Unknown orientation {0!r} of the paper {1!r}. Write {2}:portrait (книжная) "
@@ -178,7 +178,7 @@ def paper_format(name: str) -> Format:
     return FORMATS[f"{plain}:portrait" if stands else plain]
 
 
-def _refuse_times(base: str, times: str) -> NoReturn:
+def _reject_times(base: str, times: str) -> NoReturn:
     known = ", ".join(f"{base}x{number}" for number in _ELONGATED[base])
     raise LayoutError(
         "GOST 2.301 has no paper format {0}x{1}. {0} can be elongated to {2}.",

@@ -20,19 +20,19 @@ from msgspec import NODEFAULT
 from msgspec.structs import fields
 
 from planmethod.problem import keys
-from planmethod.problem.declared import (
+from planmethod.problem.common import STAMP_LIMIT, TITLE_BLOCK, TITLE_BLOCK_IN
+from planmethod.problem.key_types import (
     AngleKey,
     ChoiceKey,
+    CustomKey,
     FlagKey,
     FlatField,
+    IntegerKey,
     NumberKey,
-    OwnKey,
     TextKey,
-    WholeKey,
     WordKey,
     declared,
 )
-from planmethod.problem.head import STAMP_LIMIT, TITLE_BLOCK, TITLE_BLOCK_IN
 
 ROOT = Path(__file__).resolve().parents[1]
 SCHEMA = ROOT / "planmethod" / "problem" / "schema.json"
@@ -150,7 +150,7 @@ def _property(one: FlatField, by_hand: Mapping[str, Any]) -> dict[str, Any]:
             zero = {"exclusiveMinimum": 0} if key.positive else {}
             bounds = {"minimum": _short(key.low), "maximum": _short(key.high)}
             return {"$ref": "#/$defs/number", **zero, **bounds, **said}
-        case WholeKey() as key:
+        case IntegerKey() as key:
             return {"type": "integer", "minimum": key.low, "maximum": key.high, **said}
         case AngleKey():
             return {"$ref": "#/$defs/angle", **said}
@@ -162,7 +162,7 @@ def _property(one: FlatField, by_hand: Mapping[str, Any]) -> dict[str, Any]:
             return {"enum": [word.value for word in one.kind], **said}
         case ChoiceKey() as key:
             return {"enum": list(key.words), **said}
-        case OwnKey():
+        case CustomKey():
             assert by_hand, f"{one.name}: write its type into the schema by hand"
             return {**by_hand, **said}
 
@@ -273,7 +273,7 @@ def _bounds(one: FlatField, words: tuple[str, str, str]) -> str:
             return ", " + most.format(key.limit)
         case NumberKey(low=low, high=high) if 1e-3 <= abs(high) <= 1e5 and low > -1e5:
             return ", " + span.format(f"{low:g}", f"{high:g}")
-        case WholeKey() as key:
+        case IntegerKey() as key:
             return ", " + span.format(key.low, key.high)
         case FlagKey():
             return f": {flag}"
@@ -283,7 +283,7 @@ def _bounds(one: FlatField, words: tuple[str, str, str]) -> str:
 
 def _written(one: FlatField, default: object) -> str:
     """Return a default as a file has it; empty where it is none."""
-    if isinstance(one.key, OwnKey | TextKey) or default is None:
+    if isinstance(one.key, CustomKey | TextKey) or default is None:
         return ""
     if isinstance(one.key, NumberKey) and not one.key.low <= cast("float", default) <= one.key.high:
         return ""  # the default is outside the bounds: it means that there is no value

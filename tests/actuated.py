@@ -16,7 +16,7 @@ from newton import solve as newton
 from benchmarks.generator import Pose, random_problem
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import loads
-from planmethod.problem.model import Drive, Posed, PosedBy, Problem
+from planmethod.problem.model import Drive, OutputPositionKind, OutputPositions, Problem
 
 _LEAST = 0.15
 """Share of the speed of its ends that its rate has at least: else it is nearly dead."""
@@ -109,5 +109,5 @@ def _driven(problem: Problem, names: tuple[str, str], *, stands: bool) -> Proble
     drive: Drive = problem.drive
     if stands:
         drive = replace(drive, rate=0.0, acceleration=0.0)
-    posed = Posed(PosedBy.LENGTH, "".join(names), (1.0,))
+    posed = OutputPositions(OutputPositionKind.LENGTH, "".join(names), (1.0,))
     return replace(problem, drive=replace(drive, posed=posed))

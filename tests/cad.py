@@ -9,10 +9,10 @@ from typing import Any
 import ezdxf
 from ezdxf.enums import TextEntityAlignment
 
-from planmethod.check.letters import plain
+from planmethod.check.letters import normalize
 from planmethod.check.sheet import Sheet, point
 from planmethod.construct.evaluate import Trace
-from planmethod.note.narrate.letters import shown_letters
+from planmethod.note.narrate.letters import plan_letters
 from planmethod.plans.model import RATES, PlanKind
 
 ORIGINS = {PlanKind.VELOCITY: 100 + 150j, PlanKind.ACCELERATION: 300 + 150j}
@@ -60,8 +60,8 @@ def draw(
         assert plan.pole is not None
         pole = point(value[plan.pole])
         letters = {
-            name: [one for one in own if plain(one) not in without]
-            for name, own in shown_letters(problem, plan).items()
+            name: [one for one in own if normalize(one) not in without]
+            for name, own in plan_letters(problem, plan).items()
         }
         pairs = [(vector.tail, vector.head) for vector in plan.vectors]
         pairs += [(plan.pole, name) for name in letters if name != plan.pole]
@@ -72,7 +72,7 @@ def draw(
             return (origin + (point(value[name]) - pole) * turn) * per_unit  # type: ignore[index]
 
         for tail, head in sorted(vectors):
-            said = f"{plain(letters[tail][0])}-{plain(letters[head][0])}" if (
+            said = f"{normalize(letters[tail][0])}-{normalize(letters[head][0])}" if (
                 letters.get(tail) and letters.get(head)) else ""  # fmt: skip
             a, b = at(tail), at(head) + (moved or {}).get(said, 0j) * per_unit
             if abs(b - a) < 1e-6:

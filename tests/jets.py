@@ -15,8 +15,8 @@ import numpy as np
 from planmethod.construct.arithmetic import Exact, Number
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.jet import Jet
+from planmethod.construct.multiprecision import DIGITS, Precise
 from planmethod.construct.program import Program
-from planmethod.construct.referee import DIGITS, Precise
 
 
 def adjudicate(program: Program, data: Mapping[str, Number], *, digits: int = DIGITS) -> Trace:

@@ -10,32 +10,32 @@ from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.solved.forces.reading import ForceReading
 
 
 def load_lines(reading: ForceReading, lang: str = "ru") -> list[str]:
-    return [*map(inlined, LoadNarrator(lettered(reading, language(lang))).formulas())]
+    return [*map(inlined, LoadNarrator(lettered(reading, get_language(lang))).formulas())]
 
 
 def moment_lines(reading: ForceReading, plan: ForcePlan, lang: str = "ru") -> list[str]:
-    voice = MomentNarrator(lettered(reading, language(lang)), plan)
+    voice = MomentNarrator(lettered(reading, get_language(lang)), plan)
     return [inlined(line) for equation in plan.moments for line in voice.lines(equation)]
 
 
 def place_lines(reading: ForceReading, plan: ForcePlan, lang: str = "ru") -> list[str]:
-    return [*map(inlined, MomentNarrator(lettered(reading, language(lang)), plan).places())]
+    return [*map(inlined, MomentNarrator(lettered(reading, get_language(lang)), plan).places())]
 
 
 def closing_lines(reading: ForceReading, number: int, lang: str = "ru") -> list[str]:
     plan = reading.plans[number]
-    voice = ForcePlanNarrator(lettered(reading, language(lang)), plan, number)
-    return [inlined(voice.closing(edge)) for edge in plan.reactions]
+    voice = ForcePlanNarrator(lettered(reading, get_language(lang)), plan, number)
+    return [inlined(voice.force_text(edge)) for edge in plan.reactions]
 
 
 def lever_lines(reading: ForceReading, lang: str = "ru") -> list[str]:
-    return [*map(inlined, LeverNarrator(lettered(reading, language(lang))).lines())]
+    return [*map(inlined, LeverNarrator(lettered(reading, get_language(lang))).lines())]
 
 
 def force_lines(reading: ForceReading, lang: str) -> list[str]:

@@ -14,9 +14,12 @@ from dataclasses import dataclass
 from msgspec.structs import replace
 
 from planmethod.mechanism.model import FRAME
-from planmethod.problem.model import Body, Problem, Rule, Scales, Slide, Where
+from planmethod.problem.model import AssemblyRelation, Body, Problem, Rule, Scales, Slide
 
-MIRRORED = {Where.LEFT_OF: Where.RIGHT_OF, Where.RIGHT_OF: Where.LEFT_OF}
+MIRRORED = {
+    AssemblyRelation.LEFT_OF: AssemblyRelation.RIGHT_OF,
+    AssemblyRelation.RIGHT_OF: AssemblyRelation.LEFT_OF,
+}
 
 
 @dataclass(frozen=True)
@@ -109,11 +112,12 @@ class Move:
 
     def _rule(self, rule: Rule, near: Mapping[str, complex] | None) -> Rule:
         if near is not None:
-            return Rule(rule.point, Where.NEAR, (), self.place(near[rule.point]))
-        if rule.where is Where.NEAR:
+            return Rule(rule.point, AssemblyRelation.NEAR, (), self.place(near[rule.point]))
+        if rule.relation is AssemblyRelation.NEAR:
             return replace(rule, at=self.place(rule.at))
         return replace(
-            rule, where=MIRRORED.get(rule.where, rule.where) if self.mirrors else rule.where
+            rule,
+            relation=MIRRORED.get(rule.relation, rule.relation) if self.mirrors else rule.relation,
         )
 
 

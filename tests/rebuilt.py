@@ -31,7 +31,7 @@ def rebuilt(facts: Iterable[GivenFact], name: str = "rebuilt") -> Problem:
     of_driving = file_of(table_of([GivenFact("", driving)]))
     problem = loads("\n".join([of_driving, *_toml(data)]), name=name)
     if judged is not None:
-        problem = replace(problem, drive=replace(problem.drive, judged=tuple(judged)))
+        problem = replace(problem, drive=replace(problem.drive, assembly_positions=tuple(judged)))
     return problem
 
 

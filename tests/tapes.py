@@ -35,10 +35,10 @@ def drawn(rng: random.Random, tape: Tape, steps: int) -> list[tuple[Ref, Callabl
             case "abs":
                 made.append((tape.abs(a), lambda *v, f=f: abs(f(*v))))
             case "sqrt":
-                root = tape.make("sqrt", tape.abs(a))
+                root = tape.add_node("sqrt", tape.abs(a))
                 made.append((root, lambda *v, f=f: math.sqrt(abs(f(*v)))))
             case kind:
                 pick = max if kind == "max" else min
-                node = tape.make(kind, a, b)
+                node = tape.add_node(kind, a, b)
                 made.append((node, lambda *v, f=f, g=g, pick=pick: pick(f(*v), g(*v))))
     return made

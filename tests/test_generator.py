@@ -12,7 +12,7 @@ from benchmarks.generator import random_problem
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.mechanism.structure import analyse
 from planmethod.problem import loads
-from planmethod.problem.model import Problem, Where
+from planmethod.problem.model import AssemblyRelation, Problem
 
 SEEDS = range(some(200, few=100))
 
@@ -64,13 +64,13 @@ def test_everything_occurs_several_times() -> None:
             len(joint.links) > 2 for joint in problem.mechanism.revolutes
         )
         for rule in problem.assembly:
-            seen[rule.where.value] += 1
+            seen[rule.relation.value] += 1
         for slide in problem.slides.values():
             seen["offset"] += slide.offset != 0
             seen["along two points"] += slide.towards is not None
         for group in structure.groups:
             seen[group.signature] += 1
-            for joint in (*(lead.joint for lead in group.leads), *group.inner):
+            for joint in (*(lead.joint for lead in group.legs), *group.inner):
                 if isinstance(joint, Revolute):
                     continue
                 slide = problem.slides[joint.slider]
@@ -87,9 +87,13 @@ def test_everything_occurs_several_times() -> None:
     wanted = ["RRR", "RRP", "RPR", "PRP", "RPP", "crank", "driving slider", "hinge of three links"]
     wanted += ["inner, first slides", "inner, last slides", "offset", "along two points"]
     wanted += ["outer, the known link slides", "outer, the group's link slides"]
-    wanted += ["guide on a moving link", "guide on the frame", *(where.value for where in Where)]
+    wanted += [
+        "guide on a moving link",
+        "guide on the frame",
+        *(where.value for where in AssemblyRelation),
+    ]
     # No random dyad is a parallelogram by chance, or needs a rule of its side on its own bar.
-    for side in (Where.PARALLEL, Where.TOWARDS, Where.AWAY):
+    for side in (AssemblyRelation.PARALLEL, AssemblyRelation.TOWARDS, AssemblyRelation.AWAY):
         wanted.remove(side.value)
     assert {name: seen[name] for name in wanted if seen[name] < some(10, few=4)} == {}
 

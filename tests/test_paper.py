@@ -8,7 +8,7 @@ from planmethod.errors import ExitCode, LayoutError
 from planmethod.paper import FORMATS, Format, paper_format
 from planmethod.solved.scaling import Views
 
-LYING = [fmt for fmt in FORMATS.values() if not fmt.stands]
+LYING = [fmt for fmt in FORMATS.values() if not fmt.is_portrait]
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_every_size_belongs_to_one_format_and_only_a4_is_upright() -> None:
     assert len({(fmt.width, fmt.height) for fmt in FORMATS.values()}) == len(FORMATS)
     assert [name for name in FORMATS if name.startswith("A4") and "x" not in name] == ["A4"]
     for fmt in FORMATS.values():
-        assert fmt.stands == (fmt.name == "A4" or fmt.name.endswith(":portrait"))
+        assert fmt.is_portrait == (fmt.name == "A4" or fmt.name.endswith(":portrait"))
         assert Views.for_paper(fmt.name, 1).paper == fmt.name  # every format has boxes of views
 
 

@@ -138,7 +138,7 @@ def test_sheets_and_numbers_speak_of_the_same_scales(count: int) -> None:
         solution = Solution(problem, positions=positions)
         sheet, *more = kinematics_sheets(problem, positions=positions)
         assert size(sheet) == (FORMATS[solution.views.paper].width, format_of(sheet).height)
-        assert all(one.goes_on for one in more) and len(more) <= 1  # beside measured values
+        assert all(one.is_continuation for one in more) and len(more) <= 1  # beside measured values
         told = {kind.value: scale.per_mm for kind, scale in solution.scales.items()}
         assert {view.kind: view.per_mm for view in sheet.views} == pytest.approx(told)
 

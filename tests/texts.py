@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from planmethod.check.key import Key
-from planmethod.check.model import CheckedWork
+from planmethod.check.model import GradedSubmission
 from planmethod.check.pages.compared import compared_document
 from planmethod.check.pages.keypage import key_document
 from planmethod.mechanism.model import Mechanism
@@ -13,36 +13,36 @@ from planmethod.mechanism.structure import Structure
 from planmethod.note.document import Document
 from planmethod.note.narrate.structure import structure_document
 from planmethod.note.protocol import protocol_document
+from planmethod.note.tables.cycle import cycle_steps, cycle_tables
 from planmethod.note.tables.referee import referee_document
 from planmethod.note.tables.results import results_document
-from planmethod.note.tables.turn import cycle_steps, cycle_tables
-from planmethod.note.wording import Language, language
-from planmethod.note.writers.plain import plain_document
+from planmethod.note.wording import Language, get_language
+from planmethod.note.writers.terminal import plain_document
 from planmethod.solved.solution import Solution
 
 
 def protocol(solution: Solution, *, lang: str = "ru", position: int = 0) -> str:
-    words = language(lang)
+    words = get_language(lang)
     return plain_document(protocol_document(solution, words, position), words) + "\n"
 
 
 def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) -> str:
-    words = language(lang)
+    words = get_language(lang)
     return plain_document(results_document(solution, words, sigma=sigma), words)
 
 
 def referee_tables(solution: Solution, digits: int, lang: str = "ru") -> str:
-    words = language(lang)
+    words = get_language(lang)
     return plain_document(referee_document(solution, digits, words), words)
 
 
 def structure_text(mechanism: Mechanism, structure: Structure, lang: str = "ru") -> str:
-    words = language(lang)
+    words = get_language(lang)
     return plain_document(structure_document(mechanism, structure, words), words)
 
 
 def cycle_protocol(solution: Solution, lang: str) -> str:
-    words = language(lang)
+    words = get_language(lang)
     nodes = [*cycle_tables(solution, words), *cycle_steps(solution, words)]
     return plain_document(Document.of(nodes), words)
 
@@ -51,5 +51,5 @@ def key_text(keys: Sequence[Key], words: Language) -> str:
     return plain_document(key_document(keys, words), words) + "\n"
 
 
-def compared_text(checked: Sequence[CheckedWork], words: Language) -> str:
+def compared_text(checked: Sequence[GradedSubmission], words: Language) -> str:
     return plain_document(compared_document(checked, words), words) + "\n"

@@ -15,13 +15,13 @@ from msgspec.structs import replace
 from planmethod.bench.speed import clock
 from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check
-from planmethod.check.drawn import drawn_works, planted
 from planmethod.check.key import Key, key_of_task
 from planmethod.check.marks import DEFAULT, PROFILES
 from planmethod.check.mistakes.model import Change
-from planmethod.check.model import CheckedWork, Judged, KeyEntry, Verdict
+from planmethod.check.model import GradedAnswer, GradedSubmission, KeyEntry, Verdict
 from planmethod.check.pages.files import write_all
 from planmethod.check.questions import Sign
+from planmethod.check.simulation import planted, simulate_submissions
 from planmethod.check.task import Task, TaskItem
 from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
@@ -35,7 +35,7 @@ PLACES = 4
 
 GROUP = 30
 
-ALIKE = 1e-3
+SAME_TOLERANCE = 1e-3
 """Answers of two mistakes that differ by no more of themselves are the same when written."""
 
 FEW = 3
@@ -44,7 +44,7 @@ FEW = 3
 OFF = (Verdict.WRONG, Verdict.NEAR, Verdict.INHERITED, Verdict.INCONSISTENT)
 
 
-class Honest(Struct):
+class FaultlessStats(Struct):
     """Works without a mistake, by problem and profile.
 
     Attributes
@@ -79,7 +79,7 @@ class Detected(Struct):
     ----------
     works : int
         Without places where the key says that no answer shows it.
-    seen : int
+    noticed : int
         Works in which an answer is faulted.
     named, among, unknown, misnamed : int
         Named surely, or one that gives the same answers; among two or three; not recognised, or
@@ -92,13 +92,13 @@ class Detected(Struct):
     code: str
     family: str = ""
     works: int = 0
-    seen: int = 0
+    noticed: int = 0
     named: int = 0
     among: int = 0
     unknown: int = 0
     misnamed: int = 0
     over_half: int = 0
-    taken_for: Counter[str] = field(default_factory=Counter)
+    named_as: Counter[str] = field(default_factory=Counter)
 
 
 def tasks_of(problems: Sequence[Problem], profile: str = DEFAULT.profile) -> list[Task]:
@@ -107,10 +107,10 @@ def tasks_of(problems: Sequence[Problem], profile: str = DEFAULT.profile) -> lis
     tasks: list[Task] = []
     for problem in problems:
 
-        def others(name: str = problem.name) -> Iterator[Task]:
+        def list_variants(name: str = problem.name) -> Iterator[Task]:
             return (task for task in tasks if task.solution.problem.name == name)
 
-        tasks.append(Task(Solution(problem), settings, others))
+        tasks.append(Task(Solution(problem), settings, list_variants))
     return tasks
 
 
@@ -136,12 +136,12 @@ def first_items(task: Task) -> list[TaskItem]:
 # Honest works --------------------------------------------------------------------------------
 
 
-def honest(task: Task, count: int) -> Honest:
+def check_faultless(task: Task, count: int) -> FaultlessStats:
     """Check submissions without a mistake."""
-    found = Honest(called(task), task.settings.profile)
-    for work in drawn_works(task, count=count, seed=SEED):
+    found = FaultlessStats(called(task), task.settings.profile)
+    for work in simulate_submissions(task, count=count, seed=SEED):
         checked = check(task, work)
-        off = {share: sum(_is_beyond(a, share) for a in checked.answers) for share in FLAT}
+        off = {share: sum(_is_rejected(a, share) for a in checked.answers) for share in FLAT}
         faulted = sum(answer.points < answer.of for answer in checked.answers)
         found.works += 1
         found.answers += len(checked.answers)
@@ -154,17 +154,17 @@ def honest(task: Task, count: int) -> Honest:
     return found
 
 
-def _is_beyond(answer: Judged, share: float) -> bool:
+def _is_rejected(answer: GradedAnswer, tolerance: float) -> bool:
     """Return whether a flat tolerance rejects an answer; False for a zero one."""
     key, value = answer.key, answer.value
     if key is None or value is None or key.zero:
         return False
-    return abs(abs(value) - abs(key.exact)) > share * abs(key.exact)
+    return abs(abs(value) - abs(key.exact)) > tolerance * abs(key.exact)
 
 
-def all_honest(problems: Sequence[Problem], count: int) -> list[Honest]:
+def check_all_faultless(problems: Sequence[Problem], count: int) -> list[FaultlessStats]:
     """Check faultless submissions of every problem, drawn and graded by every profile."""
-    return [honest(task, count) for name in PROFILES for task in tasks_of(problems, name)]
+    return [check_faultless(task, count) for name in PROFILES for task in tasks_of(problems, name)]
 
 
 # Planted mistakes ----------------------------------------------------------------------------
@@ -173,14 +173,14 @@ def all_honest(problems: Sequence[Problem], count: int) -> list[Honest]:
 def places_of(task: Task, key: Key) -> Iterator[Change]:
     """Yield mistakes at a few places each, those that the answers cannot show left out."""
     made: dict[str, list[Change]] = {}
-    for change, values in given_by(task, first_items(task)):
+    for change, values in predict_answers(task, first_items(task)):
         if any(map(shows, key.entries, values)):
             made.setdefault(change.code, []).append(change)
     for changes in made.values():
         yield from changes[:: -(-len(changes) // PLACES)]
 
 
-def given_by(task: Task, items: Sequence[TaskItem]) -> Iterator[tuple[Change, list[float]]]:
+def predict_answers(task: Task, items: Sequence[TaskItem]) -> Iterator[tuple[Change, list[float]]]:
     """Yield every mistake with its predictions, sizes unsigned."""
     sheet = task.sheet(items[0].position)
     for change in planted(sheet, items):
@@ -197,28 +197,30 @@ def given_by(task: Task, items: Sequence[TaskItem]) -> Iterator[tuple[Change, li
 
 
 def twins(
-    given: Sequence[tuple[Change, list[float]]], change: Change, right: Sequence[float]
+    predictions: Sequence[tuple[Change, list[float]]], change: Change, right: Sequence[float]
 ) -> set[str]:
     """Return the codes of all mistakes that give the same answers."""
-    mine = next(values for one, values in given if one == change)
-    codes = {one.code for one, values in given if np.allclose(values, mine, rtol=ALIKE)}
+    mine = next(values for one, values in predictions if one == change)
+    codes = {
+        one.code for one, values in predictions if np.allclose(values, mine, rtol=SAME_TOLERANCE)
+    }
     turned = sum(a * b < 0 for a, b in zip(mine, right, strict=True))
-    if turned == 1 and np.allclose(np.abs(mine), np.abs(right), rtol=ALIKE):
+    if turned == 1 and np.allclose(np.abs(mine), np.abs(right), rtol=SAME_TOLERANCE):
         codes.add("sign")  # only one sense differs
     return codes
 
 
-def of_other(
+def codes_of_variant(
     task: Task,
     items: Sequence[TaskItem],
-    given: Sequence[tuple[Change, list[float]]],
+    predictions: Sequence[tuple[Change, list[float]]],
     change: Change,
 ) -> set[str]:
     """Return P2 where a mistake gives the answers of another variant: its angle of the crank."""
-    mine = next(values for one, values in given if one == change)
+    mine = next(values for one, values in predictions if one == change)
     for _, sheet in task.theirs(task.sheet(items[0].position)):
         theirs = [sheet.exact[item.question.id] for item in items]
-        if np.allclose(np.abs(theirs), np.abs(mine), rtol=ALIKE):
+        if np.allclose(np.abs(theirs), np.abs(mine), rtol=SAME_TOLERANCE):
             return {"P2"}
     return set()
 
@@ -234,38 +236,38 @@ def detection(task: Task, count: int) -> list[Detected]:
     """Plant every mistake in some submissions, and count the diagnoses."""
     found: dict[str, Detected] = {}
     items = first_items(task)
-    key, given = key_of_task(task, items), [*given_by(task, items)]
+    key, given = key_of_task(task, items), [*predict_answers(task, items)]
     right = [entry.exact for entry in key.entries]
     for number, change in enumerate(places_of(task, key)):
         row = found.setdefault(change.code, Detected(called(task), change.code, family_of(task)))
-        alike = twins(given, change, right) | of_other(task, items, given, change)
-        for work in drawn_works(task, change, count, SEED + number):
-            count_work(row, check(task, work), alike)
-    for other in task.others():
+        alike = twins(given, change, right) | codes_of_variant(task, items, given, change)
+        for work in simulate_submissions(task, change, count, SEED + number):
+            count_submission(row, check(task, work), alike)
+    for other in task.other_variants():
         row = found.setdefault("P2", Detected(called(task), "P2", family_of(task)))
-        for work in drawn_works(other, None, count, SEED):
-            count_work(row, check(task, replace(work, variant=task.variant)), {"P2"})
+        for work in simulate_submissions(other, None, count, SEED):
+            count_submission(row, check(task, replace(work, variant=task.variant)), {"P2"})
     return list(found.values())
 
 
-def count_work(row: Detected, checked: CheckedWork, right: set[str]) -> None:
+def count_submission(row: Detected, checked: GradedSubmission, expected: set[str]) -> None:
     """Count a submission in which any of several equivalent mistakes is right to name."""
     sure = sure_codes(checked)
     row.works += 1
     row.over_half += checked.points > checked.of / 2
-    row.seen += any(answer.verdict in OFF for answer in checked.answers)
-    if sure - right:
+    row.noticed += any(answer.verdict in OFF for answer in checked.answers)
+    if sure - expected:
         row.misnamed += 1
-        row.taken_for.update(sure - right)
+        row.named_as.update(sure - expected)
     elif sure:
         row.named += 1
-    elif any(right & {*d.codes} for d in checked.diagnosis if len(d.codes) <= FEW):
+    elif any(expected & {*d.codes} for d in checked.diagnosis if len(d.codes) <= FEW):
         row.among += 1
     else:
         row.unknown += 1
 
 
-def sure_codes(checked: CheckedWork) -> set[str]:
+def sure_codes(checked: GradedSubmission) -> set[str]:
     """Return the mistakes that are named surely."""
     return {diagnosis.codes[0] for diagnosis in checked.diagnosis if diagnosis.sure}
 
@@ -290,7 +292,7 @@ class Speed(Struct, frozen=True):
     ----------
     first : float
         Problem solved, tolerances found, one submission with a mistake graded and explained.
-    honest, mistaken : float
+    faultless, mistaken : float
         A further submission without a mistake, and with one.
     key : float
         The key of a solved problem.
@@ -301,7 +303,7 @@ class Speed(Struct, frozen=True):
     problem: str
     answers: int
     first: float
-    honest: float
+    faultless: float
     mistaken: float
     key: float
     group: float
@@ -312,7 +314,10 @@ def speed(problem: Problem) -> Speed:
     (task,) = tasks_of([problem])
     items = first_items(task)
     change = _common(task, items)
-    works, wrong = drawn_works(task, count=GROUP, seed=SEED), drawn_works(task, change, GROUP, SEED)
+    works, wrong = (
+        simulate_submissions(task, count=GROUP, seed=SEED),
+        simulate_submissions(task, change, GROUP, SEED),
+    )
     first = _seconds(lambda: check(Task(Solution(problem)), wrong[0]))
     honestly = clock(lambda: [check(task, work) for work in works]).median / len(works)
     mistaken = clock(lambda: [check(task, work) for work in wrong]).median / len(wrong)

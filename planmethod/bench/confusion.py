@@ -13,15 +13,15 @@ from msgspec.structs import replace
 from planmethod.bench.checking import (
     SEED,
     Detected,
-    Honest,
+    FaultlessStats,
     called,
-    count_work,
+    check_faultless,
+    codes_of_variant,
+    count_submission,
     detection,
     family_of,
     first_items,
-    given_by,
-    honest,
-    of_other,
+    predict_answers,
     shows,
     sure_codes,
     tasks_of,
@@ -29,17 +29,17 @@ from planmethod.bench.checking import (
 )
 from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check
-from planmethod.check.drawn import as_written, drawn_works
 from planmethod.check.explain import Explanation
 from planmethod.check.key import Key, key_of_task
 from planmethod.check.marks import DEFAULT
 from planmethod.check.mistakes.model import Change, MistakeContext, times
-from planmethod.check.model import CheckedWork, Sense, Work, WrittenAnswer
+from planmethod.check.model import GradedSubmission, Sense, Submission, WrittenAnswer
 from planmethod.check.questions import Sign
-from planmethod.check.routes import Role, roles_of, ways
+from planmethod.check.routes import Role, find_routes, roles_of
+from planmethod.check.simulation import as_written, simulate_submissions
 from planmethod.check.task import Task, TaskItem
 from planmethod.kind import ProblemKind
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 from planmethod.problem.model import Problem
 
 Computed = tuple[ProblemKind[Any], KindProblem]
@@ -47,7 +47,7 @@ Computed = tuple[ProblemKind[Any], KindProblem]
 PAIRS = 12
 """Pairs of mistakes that are planted in a problem, chosen at random."""
 
-APART = 3
+MIN_DIFFERENT_ANSWERS = 3
 """Minimum number of answers that surely differ from the predictions of either mistake alone."""
 
 FACTORS = (0.7, 1.4)
@@ -62,17 +62,17 @@ class Inherited(Struct):
 
     Attributes
     ----------
-    way : str
+    route : str
         "plans": continued on the plans; "routes": by another formula of the textbook.
-    answers, lost : int
+    answers, faulted : int
         Those that follow, and those of them that lose points.
     """
 
     family: str
     problem: str
-    way: str
+    route: str
     answers: int = 0
-    lost: int = 0
+    faulted: int = 0
 
 
 def tasks_of_kinds(problems: Sequence[Computed]) -> list[Calculation]:
@@ -80,10 +80,10 @@ def tasks_of_kinds(problems: Sequence[Computed]) -> list[Calculation]:
     tasks: list[Calculation] = []
     for kind, problem in problems:
 
-        def others(name: str = problem.name) -> Iterator[Task]:
+        def list_variants(name: str = problem.name) -> Iterator[Task]:
             return (task for task in tasks if task.problem.name == name)
 
-        tasks.append(Calculation(kind, problem, DEFAULT, others))
+        tasks.append(Calculation(kind, problem, DEFAULT, list_variants))
     return tasks
 
 
@@ -98,14 +98,14 @@ def two_at_once(task: Task, count: int) -> Detected:
     """
     row = Detected(called(task), "two", family_of(task))
     items = first_items(task)
-    key, given = key_of_task(task, items), [*given_by(task, items)]
+    key, given = key_of_task(task, items), [*predict_answers(task, items)]
     right = [entry.exact for entry in key.entries]
     for number, (one, two, both) in enumerate(_pairs(task, key, items)):
         first, second = (
-            twins(given, change, right) | of_other(task, items, given, change)
+            twins(given, change, right) | codes_of_variant(task, items, given, change)
             for change in (one, two)
         )
-        for work in drawn_works(task, both, count, SEED + number):
+        for work in simulate_submissions(task, both, count, SEED + number):
             _count_two(row, check(task, work), first, second)
     return row
 
@@ -120,7 +120,7 @@ def _pairs(
     made = 0
     for one, two in pairs:
         both = explained.of_both(one, two)
-        if both is None or not all(_apart(key, items, both, e) for e in (one, two)):
+        if both is None or not all(_is_distinct(key, items, both, e) for e in (one, two)):
             continue
         assert one.change is not None and two.change is not None and both.change is not None
         yield one.change, two.change, both.change
@@ -129,17 +129,17 @@ def _pairs(
             return
 
 
-def _apart(key: Key, items: Sequence[TaskItem], one: Explanation, two: Explanation) -> bool:
+def _is_distinct(key: Key, items: Sequence[TaskItem], one: Explanation, two: Explanation) -> bool:
     """Return whether some answers are surely others."""
     differ = (
         shows(replace(entry, exact=two.values[item.question.id]), one.values[item.question.id])
         for entry, item in zip(key.entries, items, strict=True)
     )
-    return sum(differ) >= APART
+    return sum(differ) >= MIN_DIFFERENT_ANSWERS
 
 
-def _count_two(row: Detected, checked: CheckedWork, first: set[str], second: set[str]) -> None:
-    count_work(row, checked, first | second)
+def _count_two(row: Detected, checked: GradedSubmission, first: set[str], second: set[str]) -> None:
+    count_submission(row, checked, first | second)
     sure = sure_codes(checked)
     if not sure - first - second and sure and not (sure & first and sure & second):
         row.named, row.among = row.named - 1, row.among + 1  # but one of them
@@ -168,15 +168,15 @@ def by_plans(task: Task, count: int) -> Inherited:
                 for entry, one in zip(key.entries, items, strict=True)
                 if one is not item and shows(entry, made.values[one.question.id])
             }
-            for work in drawn_works(task, change, count, SEED + number):
+            for work in simulate_submissions(task, change, count, SEED + number):
                 _count_inherited(row, check(task, work), follow)
     return row
 
 
-def _count_inherited(row: Inherited, checked: CheckedWork, follow: set[str]) -> None:
+def _count_inherited(row: Inherited, checked: GradedSubmission, follow: set[str]) -> None:
     told = [answer for answer in checked.answers if answer.id in follow]
     row.answers += len(told)
-    row.lost += sum(answer.points < answer.of for answer in told)
+    row.faulted += sum(answer.points < answer.of for answer in told)
 
 
 def by_routes(task: Task, count: int) -> Inherited:
@@ -187,29 +187,29 @@ def by_routes(task: Task, count: int) -> Inherited:
     exact = {item.id: abs(entry.exact) for item, entry in zip(items, key.entries, strict=True)}
     of = {item.id: [*roles_of(sheet, item.question.selector)] for item in items if exact[item.id]}
     told: dict[Role, str] = {role: name for name, roles in of.items() for role in roles}
-    works = drawn_works(task, None, count, SEED)
+    works = simulate_submissions(task, None, count, SEED)
     for name, roles in of.items():
-        for route in (way for role in roles for way in ways(sheet, role, told)):
+        for route in (way for role in roles for way in find_routes(sheet, role, told)):
             wrong = next((parent for parent, _ in route if parent != name), None)
             if wrong is None:
                 continue
             for work in works:
                 for factor in FACTORS:
                     own = {answer.id: answer for answer in work.answers}
-                    own[wrong] = _put(own[wrong], abs(own[wrong].value or 0.0) * factor)
+                    own[wrong] = _with_value(own[wrong], abs(own[wrong].value or 0.0) * factor)
                     ratios = (
                         (abs(own[parent].value or 0.0) / exact[parent]) ** power
                         for parent, power in route
                     )
-                    own[name] = _put(own[name], exact[name] * float(np.prod([*ratios])))
+                    own[name] = _with_value(own[name], exact[name] * float(np.prod([*ratios])))
                     checked = check(task, replace(work, answers=tuple(own.values())))
                     both = [answer for answer in checked.answers if answer.id in (wrong, name)]
                     row.answers += 1  # one of the two is wrong, and the other follows from it
-                    row.lost += sum(answer.points < answer.of for answer in both) > 1
+                    row.faulted += sum(answer.points < answer.of for answer in both) > 1
     return row
 
 
-def _put(answer: WrittenAnswer, value: float) -> WrittenAnswer:
+def _with_value(answer: WrittenAnswer, value: float) -> WrittenAnswer:
     """Return an answer with another size, its sense as it was."""
     rounded, step = as_written(value)
     sign = -1.0 if answer.sense is None and (answer.value or 0.0) < 0 else 1.0
@@ -219,9 +219,9 @@ def _put(answer: WrittenAnswer, value: float) -> WrittenAnswer:
 # What is computed ----------------------------------------------------------------------------
 
 
-def computed_works(
+def compute_submissions(
     task: Calculation, values: Mapping[str, float], count: int, seed: int
-) -> Iterator[Work]:
+) -> Iterator[Submission]:
     """Yield submissions with some computed values, rounded to three digits or four."""
     random = np.random.default_rng(seed)
     for number in range(1, count + 1):
@@ -238,13 +238,15 @@ def computed_works(
             answers.append(
                 WrittenAnswer(id=item.id, value=size, step=0.0 if whole else step, sense=sense)
             )
-        yield Work(f"{number:02d}", tuple(answers), task.variant)
+        yield Submission(f"{number:02d}", tuple(answers), task.variant)
 
 
-def computed_honest(task: Calculation, count: int) -> Honest:
+def check_computed(task: Calculation, count: int) -> FaultlessStats:
     """Check computed submissions without a mistake."""
-    found = Honest(called(task), "computed")
-    for work in computed_works(task, task.sheet(first_items(task)[0].position).exact, count, SEED):
+    found = FaultlessStats(called(task), "computed")
+    for work in compute_submissions(
+        task, task.sheet(first_items(task)[0].position).exact, count, SEED
+    ):
         checked = check(task, work)
         faulted = sum(answer.points < answer.of for answer in checked.answers)
         found.works += 1
@@ -276,15 +278,15 @@ def computed_detection(task: Calculation, count: int) -> list[Detected]:
         ):
             alike.add("sign")
         planted = dict(zip(ids, values, strict=True))
-        for work in computed_works(task, planted, count, SEED + number):
-            count_work(row, check(task, work), alike)
-    for other in task.others():
-        theirs = task.asked_of(other, sheet)
+        for work in compute_submissions(task, planted, count, SEED + number):
+            count_submission(row, check(task, work), alike)
+    for other in task.other_variants():
+        theirs = task.find_matching_sheet(other, sheet)
         if theirs is None:
             continue
         row = found.setdefault("P2", Detected(called(task), "P2", family_of(task)))
-        for work in computed_works(task, theirs.exact, count, SEED):
-            count_work(row, check(task, work), {"P2"})
+        for work in compute_submissions(task, theirs.exact, count, SEED):
+            count_submission(row, check(task, work), {"P2"})
     return list(found.values())
 
 
@@ -301,12 +303,12 @@ def computed_inherited(task: Calculation, count: int) -> Inherited:
             values = {**sheet.exact, item.question.id: own[wrong]}
             follow = set()
             for name, one in names.items():
-                for value, by in task.figures.followed(name, own):
+                for value, by in task.figures.derive_values(name, own):
                     if by == wrong and np.isfinite(value) and name != wrong:
                         values[one.question.id] = value
                         follow.add(one.id)
                         break
-            for work in computed_works(task, values, count, SEED + number) if follow else ():
+            for work in compute_submissions(task, values, count, SEED + number) if follow else ():
                 _count_inherited(row, check(task, work), follow)
     return row
 
@@ -319,7 +321,7 @@ class Confusion(Struct, frozen=True):
 
     Attributes
     ----------
-    honest : list of tuple of str and Honest
+    faultless : list of tuple of str and FaultlessStats
         With the family that each is of.
     detected : list of Detected
         One mistake, also the numbers of another variant: ``P2``.
@@ -327,7 +329,7 @@ class Confusion(Struct, frozen=True):
     inherited : list of Inherited
     """
 
-    honest: list[tuple[str, Honest]]
+    faultless: list[tuple[str, FaultlessStats]]
     detected: list[Detected]
     two: list[Detected]
     inherited: list[Inherited]
@@ -344,12 +346,12 @@ def confused(problems: Sequence[Problem], computed: Sequence[Computed], works: i
     few = max(1, works // 10)
     found = Confusion([], [], [], [])
     for task in tasks_of(problems):
-        found.honest.append((family_of(task), honest(task, works)))
+        found.faultless.append((family_of(task), check_faultless(task, works)))
         found.detected.extend(detection(task, few))
         found.two.append(two_at_once(task, few))
         found.inherited.extend((by_plans(task, 1), by_routes(task, 1)))
     for one in tasks_of_kinds(computed):
-        found.honest.append((family_of(one), computed_honest(one, works)))
+        found.faultless.append((family_of(one), check_computed(one, works)))
         found.detected.extend(computed_detection(one, few))
         found.inherited.append(computed_inherited(one, few))
     return found

@@ -8,15 +8,15 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.bench.speed import clock
-from planmethod.construct.hand import Hand
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.problem.cycle_records import Differentiation
 from planmethod.problem.machine_records import Quadrature
 from planmethod.problem.model import Problem
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.machine.runup import RunUp
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import CrankCycle
 from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations
-from planmethod.solved.turn.turn import Turn
 
 COUNTS = (12, 24, 36, 72, 144)
 """Positions of a turn."""
@@ -32,50 +32,50 @@ class Calculus(Struct, frozen=True):
     """Errors of graphical calculus with a number of positions, mm of the diagrams.
 
     ``v`` and ``a`` by chords, ``s`` integrated from exact velocities by middle ordinates;
-    ``moved``: by how much a ruler moves v and a, at the most, for each of `RULERS`.
+    ``ruler_effect``: by how much a ruler moves v and a, at the most, for each of `RULERS`.
     """
 
     count: int
     v: Deviation
     a: Deviation
     s: Deviation
-    moved: tuple[tuple[float, float], ...]
+    ruler_effect: tuple[tuple[float, float], ...]
 
 
-def turn_for(problem: Problem) -> Turn | None:
+def turn_for(problem: Problem) -> CrankCycle | None:
     """Return the cycle of a problem; None without a fully rotating crank."""
     if not problem.drive.goes_round:
         return None
-    turn = Turn(Solution(problem))
+    turn = CrankCycle(Solution(problem))
     return None if turn.range is not None else turn
 
 
-def calculus(turn: Turn, count: int) -> Calculus:
+def calculus(turn: CrankCycle, count: int) -> Calculus:
     """Measure the errors of graphical differentiation and integration for a number of positions."""
     diagrams, way = Diagrams(turn, count), Differentiation.CHORDS
     found = deviations(diagrams, [way])
-    s = Deviation.of(diagrams.integrated(), diagrams.exact(diagrams.shares)[0])
+    s = Deviation.of(diagrams.integrated(), diagrams.exact(diagrams.fractions)[0])
     _, v, a = diagrams.drawn(way)
     moved = []
     for ruler in RULERS:
-        _, read_v, read_a = diagrams.drawn(way, Hand(ruler=ruler))
+        _, read_v, read_a = diagrams.drawn(way, RulerArithmetic(ruler=ruler))
         moved.append((float(np.nanmax(np.abs(read_v - v))), float(np.nanmax(np.abs(read_a - a)))))
     return Calculus(count, found[way, "v"], found[way, "a"], s, tuple(moved))
 
 
-def takes_over(rows: list[Calculus], which: int) -> int | None:
+def ruler_limit_count(rows: list[Calculus], which: int) -> int | None:
     """Return the smallest count at which the ruler affects v more than the construction errs."""
-    return next((row.count for row in rows if row.moved[which][0] > row.v.most), None)
+    return next((row.count for row in rows if row.ruler_effect[which][0] > row.v.maximum), None)
 
 
-def _diagrams(turn: Turn, count: int) -> None:
+def _diagrams(turn: CrankCycle, count: int) -> None:
     Diagrams(turn, count).drawn(Differentiation.CHORDS)
 
 
 def costs(problem: Problem) -> list[tuple[str, int, float]]:
     """Return times of a cycle, s: its characteristics, diagrams, exact positions."""
-    turn = Turn(Solution(problem))
-    facts = clock(lambda: Turn(Solution(problem)).pressure, least=3).median
+    turn = CrankCycle(Solution(problem))
+    facts = clock(lambda: CrankCycle(Solution(problem)).pressure, min_runs=3).median
     found = [("range, extremes, pressure angle", 1, facts)]
     for count in (COUNTS[0], COUNTS[-1]):
         found.append(("diagrams by chords", count, clock(partial(_diagrams, turn, count)).median))
@@ -85,7 +85,7 @@ def costs(problem: Problem) -> list[tuple[str, int, float]]:
     return found
 
 
-WAYS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way in Quadrature)
+METHODS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way in Quadrature)
 """Methods: how the work is integrated, and which tangents are drawn."""
 
 
@@ -112,13 +112,13 @@ def constructed(wheel: Flywheel) -> list[Constructed]:
             count,
             tuple(
                 off(wheel.by_points(count, way, slopes[method]).tangents.inertia)
-                for way, method in WAYS
+                for way, method in METHODS
             ),
         )
         for count in COUNTS
     ]
     whole = tuple(
-        off(wheel.tangents(*slopes[method], wheel.middle_speed).inertia) for _, method in WAYS
+        off(wheel.tangents(*slopes[method], wheel.middle_speed).inertia) for _, method in METHODS
     )
     return [*found, Constructed(None, whole)]
 

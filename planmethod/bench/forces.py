@@ -13,9 +13,9 @@ from msgspec import Struct
 
 from planmethod.bench.speed import RIGHT, ReadSpeed, clock, places, spread, turns_round
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.condition import plain
+from planmethod.construct.condition import as_scalar
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.referee import Precise
+from planmethod.construct.multiprecision import Precise
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.model import Problem
 from planmethod.solved.errors.forces import drawn_forces, size_label
@@ -24,7 +24,7 @@ from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 
 Array = npt.NDArray[Any]
 
-JUDGED = 12
+CHECKED_POSITIONS = 12
 """Positions of a batch checked in high precision, evenly spread."""
 
 DRAWS = 4000
@@ -39,19 +39,19 @@ def forces_of(statics: Statics, value: Any) -> list[Number]:
     return [*found, value[statics.driving.balance]]
 
 
-def error_of(statics: Statics, found: Sequence[Array]) -> float:
+def error_of(statics: Statics, results: Sequence[Array]) -> float:
     """Return the largest error of a position in units of its largest force (and moment)."""
     worst = 0.0
-    for i in spread(len(statics.solution.positions), JUDGED):
-        right = _judged(statics, RIGHT, int(i))
-        exact = [complex(plain(value)) for value in right]
+    for i in spread(len(statics.solution.positions), CHECKED_POSITIONS):
+        right = _reference_forces(statics, RIGHT, int(i))
+        exact = [complex(as_scalar(value)) for value in right]
         size = max(abs(force) for force in exact[:-1])
-        gaps = [abs(complex(row[i]) - v) for row, v in zip(found, exact, strict=True)]
+        gaps = [abs(complex(row[i]) - v) for row, v in zip(results, exact, strict=True)]
         worst = max(worst, max(gaps[:-1]) / size, gaps[-1] / max(abs(exact[-1]), 1e-9 * size))
     return worst
 
 
-def _judged(statics: Statics, digits: int, index: int = 0) -> list[Number]:
+def _reference_forces(statics: Statics, digits: int, index: int = 0) -> list[Number]:
     """Return the forces of a position in multiprecision arithmetic with a number of digits."""
     referee = Precise(digits)
     data = statics.data(SI, EVERY)
@@ -75,12 +75,15 @@ def readings(problem: Problem, counts: Sequence[int]) -> list[ReadSpeed]:
         def read(s: Statics = statics) -> Any:
             return s.read(Float64(), SI)
 
-        def alone(s: Solution = solution) -> Any:
+        def read_motion(s: Solution = solution) -> Any:
             return s.read(Float64(), UNIT_SCALES)
 
         name = problem.name
         found += [
-            ReadSpeed("motion alone, step by step", name, count, clock(alone).median, float("nan")),
+            ReadSpeed(
+                "motion alone, step by step",
+                name, count, clock(read_motion).median, float("nan"),
+            ),
             ReadSpeed(
                 "motion and force plans, step by step",
                 name, count, clock(read).median, error_of(statics, _batch(statics, read())),
@@ -96,7 +99,7 @@ def _of_one(problem: Problem) -> list[ReadSpeed]:
     statics, name = statics_of(solution), problem.name
 
     def precisely() -> list[Number]:
-        return _judged(statics, 50)
+        return _reference_forces(statics, 50)
 
     found = [
         ReadSpeed(
@@ -117,10 +120,12 @@ def _of_one(problem: Problem) -> list[ReadSpeed]:
     return found
 
 
-def _precise_error(statics: Statics, found: Sequence[Number]) -> float:
-    right = _judged(statics, RIGHT)
-    size = max(abs(plain(force)) for force in right[:-1])
-    return float(max(abs(plain(a) - plain(b)) for a, b in zip(found, right, strict=True)) / size)
+def _precise_error(statics: Statics, results: Sequence[Number]) -> float:
+    right = _reference_forces(statics, RIGHT)
+    size = max(abs(as_scalar(force)) for force in right[:-1])
+    return float(
+        max(abs(as_scalar(a) - as_scalar(b)) for a, b in zip(results, right, strict=True)) / size
+    )
 
 
 def _hand_error(statics: Statics) -> float:
@@ -137,7 +142,7 @@ class Discrepancy(Struct, frozen=True):
     Attributes
     ----------
     positions : int
-    least, most : float
+    minimum, maximum : float
         First-order sigma over that of random sheets (half of the middle 68 %).
     usual : (float, float)
         Smallest and largest sigma as a part of the largest balance of the turn.
@@ -145,8 +150,8 @@ class Discrepancy(Struct, frozen=True):
 
     problem: str
     positions: int
-    least: float
-    most: float
+    minimum: float
+    maximum: float
     usual: tuple[float, float]
 
 

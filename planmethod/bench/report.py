@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
 from planmethod.bench import checking, confusion, cycle, forces, speed
-from planmethod.bench.drawn import DRAWS, Compared, compare_all
+from planmethod.bench.drafting import DRAWS, Compared, compare_all
 from planmethod.check.key import Key
 from planmethod.problem.model import Problem
 from planmethod.solved.machine.flywheel import Flywheel
@@ -53,7 +53,7 @@ def load() -> str:
     return f"{os.getloadavg()[0]:.1f} processes were busy on {os.cpu_count()} cores"
 
 
-def timed(found: Sequence[speed.ReadSpeed]) -> Table:
+def timed(readings: Sequence[speed.ReadSpeed]) -> Table:
     """Return the table of times and errors."""
     rows = [
         (
@@ -64,7 +64,7 @@ def timed(found: Sequence[speed.ReadSpeed]) -> Table:
             span(one.per_position),
             number(one.error),
         )
-        for one in found
+        for one in readings
     ]
     return table(
         ("reading", "problem", "positions", "time", "for a position", "largest error"), rows
@@ -78,8 +78,8 @@ def speed_section(readings: Sequence[speed.ReadSpeed]) -> Table:
         "",
         "Position, velocity and acceleration of every point and link. The error is the largest one "
         f"against a referee of {speed.RIGHT} digits: of a sweep, each row in units of its own "
-        f"largest value (at most {speed.JUDGED} positions, evenly spread); of one position and of "
-        "the hand, in units of the largest result of its kind. The hand reads the plans at the "
+        f"largest value (at most {speed.CHECKED_POSITIONS} positions, evenly spread); of "
+        "one position and of the hand, in units of the largest result of its kind. The hand reads the plans at the "
         "scales that planmethod chooses; its error is that of reading alone. Sweeps take turns, "
         f"nine rounds; {load()}.",
         "",
@@ -101,7 +101,7 @@ def forces_section(
         (
             one.problem,
             str(one.positions),
-            f"{one.least:.2f}–{one.most:.2f}",
+            f"{one.minimum:.2f}–{one.maximum:.2f}",
             f"{100 * one.usual[0]:.1f}–{100 * one.usual[1]:.1f} %",
         )
         for one in lever
@@ -149,9 +149,9 @@ def drafting_section(rows: Sequence[Compared]) -> Table:
                     row.problem,
                     row.profile,
                     str(row.compared),
-                    f"{row.least:.3f}",
-                    f"{row.most:.3f}",
-                    str(row.given_up),
+                    f"{row.minimum:.3f}",
+                    f"{row.maximum:.3f}",
+                    str(row.nonlinear),
                     str(row.short),
                 )
                 for row in rows
@@ -160,11 +160,11 @@ def drafting_section(rows: Sequence[Compared]) -> Table:
     ]
 
 
-def _percent(part: float, whole: float) -> str:
-    return f"{100 * part / whole:.1f} %" if whole else "—"
+def _percent(part: float, total: float) -> str:
+    return f"{100 * part / total:.1f} %" if total else "—"
 
 
-def honest_table(found: Sequence[checking.Honest]) -> Table:
+def faultless_table(results: Sequence[checking.FaultlessStats]) -> Table:
     """Return the rates of false alarms, next to flat tolerances on the same submissions."""
     rows = [
         (
@@ -177,7 +177,7 @@ def honest_table(found: Sequence[checking.Honest]) -> Table:
             *(_percent(one.flat[share], one.answers) for share in checking.FLAT),
             *(_percent(one.flat_hurt[share], one.works) for share in checking.FLAT),
         )
-        for one in found
+        for one in results
     ]
     flat = [f"{share:.0%}".replace("%", " %") for share in checking.FLAT]
     header = (
@@ -187,25 +187,25 @@ def honest_table(found: Sequence[checking.Honest]) -> Table:
     return table(header, rows)
 
 
-def _codes(found: Sequence[checking.Detected]) -> list[str]:
+def _codes(results: Sequence[checking.Detected]) -> list[str]:
     """Return the codes of mistakes: of plans, of scales and numbers, of forces."""
     families = "VANESPFZ"
-    return sorted({o.code for o in found}, key=lambda c: (f"{families}{c[0]}".index(c[0]), c))
+    return sorted({o.code for o in results}, key=lambda c: (f"{families}{c[0]}".index(c[0]), c))
 
 
-def mistakes_table(found: Sequence[checking.Detected]) -> Table:
+def mistakes_table(results: Sequence[checking.Detected]) -> Table:
     """Return the detection of planted mistakes, over all problems together."""
     rows = []
-    for code in [*_codes(found), ""]:
-        of = [one for one in found if code in ("", one.code)]
+    for code in [*_codes(results), ""]:
+        of = [one for one in results if code in ("", one.code)]
         works = sum(one.works for one in of)
         shares = [
             _percent(sum(counts), works)
             for counts in zip(
-                *((o.seen, o.named, o.among, o.unknown, o.misnamed) for o in of), strict=True
+                *((o.noticed, o.named, o.among, o.unknown, o.misnamed) for o in of), strict=True
             )
         ]
-        taken = sum((one.taken_for for one in of), Counter[str]())
+        taken = sum((one.named_as for one in of), Counter[str]())
         names = ", ".join(f"{name} {n}" for name, n in taken.most_common(4)) if code else ""
         rows.append((code or "all", str(works), *shares, names))
     return table(
@@ -213,14 +213,14 @@ def mistakes_table(found: Sequence[checking.Detected]) -> Table:
     )
 
 
-def power_table(found: Sequence[checking.Detected]) -> Table:
+def power_table(results: Sequence[checking.Detected]) -> Table:
     """Return the percentages of planted mistakes noticed and named, by mistake and problem."""
-    problems = list(dict.fromkeys(one.problem for one in found))
+    problems = list(dict.fromkeys(one.problem for one in results))
     rows = []
-    for code in _codes(found):
+    for code in _codes(results):
         cells = {
-            one.problem: f"{100 * one.seen / one.works:.0f}/{100 * one.named / one.works:.0f}"
-            for one in found
+            one.problem: f"{100 * one.noticed / one.works:.0f}/{100 * one.named / one.works:.0f}"
+            for one in results
             if one.code == code and one.works
         }
         rows.append((code, *(cells.get(problem, "") for problem in problems)))
@@ -242,13 +242,13 @@ FAMILIES = {"levers": "levers", "forces": "with forces", "gears": "trains", "poi
 """Families of problems as the tables call them; others by their own table."""
 
 
-def confusion_tables(found: confusion.Confusion) -> Table:
+def confusion_tables(results: confusion.Confusion) -> Table:
     """Return by families whom the checking faults, what it names, and what it inherits."""
-    families = list(dict.fromkeys(family for family, _ in found.honest))
+    families = list(dict.fromkeys(family for family, _ in results.faultless))
     mistaken = {
-        "one mistake": [one for one in found.detected if one.code != "P2"],
-        "two mistakes": found.two,
-        "another variant": [one for one in found.detected if one.code == "P2"],
+        "one mistake": [one for one in results.detected if one.code != "P2"],
+        "two mistakes": results.two,
+        "another variant": [one for one in results.detected if one.code == "P2"],
     }
     rows = []
     for what, planted in mistaken.items():
@@ -258,16 +258,16 @@ def confusion_tables(found: confusion.Confusion) -> Table:
                 rows.append((f"{FAMILIES.get(family, family)}, {what}", *_named_row(of)))
     lost = []
     for family in [*families, "all"]:
-        honest = [one for of, one in found.honest if family in (of, "all")]
-        own = [one for one in found.inherited if family in (one.family, "all")]
+        honest = [one for of, one in results.faultless if family in (of, "all")]
+        own = [one for one in results.inherited if family in (one.family, "all")]
         answers = sum(one.answers for one in honest), sum(one.answers for one in own)
-        faulted, inherited = sum(o.faulted for o in honest), sum(o.lost for o in own)
+        faulted, inherited = sum(o.faulted for o in honest), sum(o.faulted for o in own)
         cells = _percent(faulted, answers[0]), str(answers[1]), _percent(inherited, answers[1])
         lost.append((FAMILIES.get(family, family), str(answers[0]), *cells))
     taken = Counter[str]()
-    for one in (*found.detected, *found.two):
-        taken.update({f"{one.code} as {name}": n for name, n in one.taken_for.items()})
-    said = ", ".join(f"{name} {n}" for name, n in taken.most_common(12)) or "none"
+    for one in (*results.detected, *results.two):
+        taken.update({f"{one.code} as {name}": n for name, n in one.named_as.items()})
+    phrase = ", ".join(f"{name} {n}" for name, n in taken.most_common(12)) or "none"
     return [
         *table(
             ("family", "honest answers", "faulted", "inherited answers", "losing points"), lost
@@ -279,28 +279,28 @@ def confusion_tables(found: confusion.Confusion) -> Table:
             rows,
         ),
         "",
-        f"Wrongly named, the commonest: {said}.",
+        f"Wrongly named, the commonest: {phrase}.",
     ]  # fmt: skip
 
 
-def _named_row(found: Sequence[checking.Detected]) -> list[str]:
-    works = sum(one.works for one in found)
+def _named_row(results: Sequence[checking.Detected]) -> list[str]:
+    works = sum(one.works for one in results)
     counts = (
-        sum(getattr(one, name) for one in found)
-        for name in ("seen", "named", "among", "unknown", "misnamed", "over_half")
+        sum(getattr(one, name) for one in results)
+        for name in ("noticed", "named", "among", "unknown", "misnamed", "over_half")
     )
     return [str(works), *(_percent(count, works) for count in counts)]
 
 
-def checking_speed(found: Sequence[checking.Speed]) -> Table:
+def checking_speed(timings: Sequence[checking.Speed]) -> Table:
     """Return how long the checking takes."""
     rows = [
         (
             one.problem,
             str(one.answers),
-            *map(span, (one.first, one.honest, one.mistaken, one.key, one.group)),
+            *map(span, (one.first, one.faultless, one.mistaken, one.key, one.group)),
         )
-        for one in found
+        for one in timings
     ]
     return table(
         (
@@ -332,8 +332,8 @@ def checking_section(
         "",
         "Works of the board's profile; of trains and points, numbers computed and rounded to three "
         f"digits or four. Two mistakes: at most {confusion.PAIRS} pairs in each linkage, of which "
-        f"neither mistake alone gives {confusion.APART} of the answers; *named*: both, *among*: "
-        "one of them, or a right one among two or three. Inherited: one number is wrong, and the "
+        f"neither mistake alone gives {confusion.MIN_DIFFERENT_ANSWERS} of the answers; *named*: "
+        "both, *among*: one of them, or a right one among two or three. Inherited: one number is wrong, and the "
         "plans, another formula of the textbook or the formulas of a train go on with it.",
         "",
         *confusion_tables(confused),
@@ -352,7 +352,7 @@ def checking_section(
         "what loses points; *named*: works in which a mistake is named, or several that it may "
         "be. Flat tolerances reject answers of the same works, those that are nothing left out.",
         "",
-        *honest_table(checking.all_honest(problems, works)),
+        *faultless_table(checking.check_all_faultless(problems, works)),
         "",
         "## Submissions with a mistake",
         "",
@@ -405,17 +405,17 @@ def _cycle(problems: Sequence[Problem]) -> Table:
     rows, said, cost = [], [], []
     for problem in problems:
         turn = cycle.turn_for(problem)
-        if turn is None or turn.is_still:
+        if turn is None or turn.is_stationary:
             continue
         found = [cycle.calculus(turn, count) for count in cycle.COUNTS]
         for one in found:
-            errors = (part for off in (one.v, one.a, one.s) for part in (off.most, off.rms))
-            moved = (part for pair in one.moved for part in pair)
+            errors = (part for off in (one.v, one.a, one.s) for part in (off.maximum, off.rms))
+            moved = (part for pair in one.ruler_effect for part in pair)
             rows.append((problem.name, str(one.count), *(f"{x:.3g}" for x in (*errors, *moved))))
         for which, ruler in enumerate(cycle.RULERS):
-            first = cycle.takes_over(found, which)
-            told = f"from {first} positions on" if first else "at none of these counts"
-            said.append(f"- {problem.name}: the ruler of {ruler:g} mm limits v {told}.")
+            first = cycle.ruler_limit_count(found, which)
+            text = f"from {first} positions on" if first else "at none of these counts"
+            said.append(f"- {problem.name}: the ruler of {ruler:g} mm limits v {text}.")
         cost += [
             (what, problem.name, str(count), span(seconds), span(seconds / count))
             for what, count, seconds in cycle.costs(problem)
@@ -456,7 +456,7 @@ def machine_section(problems: Sequence[Problem]) -> Table:
         ]
     if not rows:
         return []
-    head = [f"{method}, {way.value}" for way, method in cycle.WAYS]
+    head = [f"{method}, {way.value}" for way, method in cycle.METHODS]
     return [
         "## Flywheels by construction",
         "",

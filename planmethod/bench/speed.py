@@ -17,9 +17,9 @@ from msgspec import Struct
 
 from planmethod.compiled import FEW
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.condition import plain
+from planmethod.construct.condition import as_scalar
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.referee import Precise
+from planmethod.construct.multiprecision import Precise
 from planmethod.errors import AssemblyError
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
@@ -33,8 +33,8 @@ class Timing(Struct, frozen=True):
     """Median and spread of repeated runs, seconds."""
 
     median: float
-    least: float
-    most: float
+    minimum: float
+    maximum: float
     runs: int
 
 
@@ -42,14 +42,14 @@ def clock(
     act: Callable[[], object],
     *,
     enough: float = 0.4,
-    least: int = 5,
+    min_runs: int = 5,
     timer: Callable[[], float] = time.perf_counter,
 ) -> Timing:
     """Time something warm: once to warm up, then until it has run long enough and often enough."""
     act()
     times: list[float] = []
     began = timer()
-    while len(times) < least or (timer() - began < enough and len(times) < 2000):
+    while len(times) < min_runs or (timer() - began < enough and len(times) < 2000):
         start = timer()
         act()
         times.append(timer() - start)
@@ -61,13 +61,13 @@ def clock_all(acts: Sequence[Callable[[], object]], *, rounds: int = 9) -> list[
     found: list[list[Timing]] = [[] for _ in acts]
     for _ in range(rounds):
         for own, act in zip(found, acts, strict=True):
-            own.append(clock(act, enough=0.02, least=3))
+            own.append(clock(act, enough=0.02, min_runs=3))
     return [sorted(own, key=lambda timing: timing.median)[rounds // 2] for own in found]
 
 
 Array = npt.NDArray[Any]
 
-JUDGED = 60
+CHECKED_POSITIONS = 60
 """Positions of a batch checked in high precision, evenly spread."""
 
 RIGHT = 60
@@ -95,7 +95,7 @@ class ReadSpeed(Struct, frozen=True):
         return self.seconds / self.positions
 
 
-def turn(count: int) -> Array:
+def crank_angles(count: int) -> Array:
     """Return equally spaced angles over one turn, degrees."""
     return np.arange(count) * (360.0 / count)
 
@@ -104,7 +104,7 @@ def turns_round(problem: Problem) -> bool:
     """Return whether the driver is a crank that turns all round."""
     drive = problem.drive
     try:
-        verify(Solution(problem, positions=(turn(36) + drive.positions[0]).tolist()))
+        verify(Solution(problem, positions=(crank_angles(36) + drive.positions[0]).tolist()))
     except AssemblyError:
         return False
     return drive.is_crank
@@ -119,13 +119,13 @@ def places(problem: Problem, count: int) -> Array:
         Degrees, or metres of a slider.
     """
     if turns_round(problem):
-        return turn(count) + problem.drive.positions[0]
+        return crank_angles(count) + problem.drive.positions[0]
     return np.resize(np.array(problem.drive.positions), count)
 
 
-def spread(count: int, judged: int = JUDGED) -> Array:
+def spread(count: int, limit: int = CHECKED_POSITIONS) -> Array:
     """Return the positions of a batch to check in high precision."""
-    return np.unique(np.linspace(0, count - 1, min(count, judged)).astype(int))
+    return np.unique(np.linspace(0, count - 1, min(count, limit)).astype(int))
 
 
 def _right(problem: Problem, results: Sequence[Quantity], position: float) -> list[Number]:
@@ -137,12 +137,12 @@ def _right(problem: Problem, results: Sequence[Quantity], position: float) -> li
     referee = Precise(RIGHT)
     lifted = {name: referee.lift(np.ravel(value)[0]) for name, value in data.items()}
     value = evaluate(program, lifted, referee).value
-    return [plain(value[result.name]) for result in results]
+    return [as_scalar(value[result.name]) for result in results]
 
 
-def right_rows(problem: Problem, asked: Sequence[str], positions: Array) -> Array:
+def right_rows(problem: Problem, labels: Sequence[str], positions: Array) -> Array:
     """Return the rows of a sweep, rounded from 60 digits: shape (rows, positions)."""
-    results = quantities_of(Solution(problem).construction).choose(asked)
+    results = quantities_of(Solution(problem).construction).choose(labels)
     columns = []
     for position in positions:
         column: list[float] = []
@@ -160,29 +160,29 @@ def everything(problem: Problem) -> list[str]:
     return [r.label for r in whole.all if r.kind is not QuantityKind.DIRECTION]
 
 
-def row_error(right: Array, found: Array) -> float:
+def row_error(right: Array, results: Array) -> float:
     """Return the largest error of a batch, each row in units of its own largest value."""
     size = np.abs(right).max(axis=1)
     some = size > 1e-12 * size.max()
-    error = np.abs(found.astype(float) - right).max(axis=1)
+    error = np.abs(results.astype(float) - right).max(axis=1)
     return float((error[some] / size[some]).max())
 
 
 def sweeps(
-    problem: Problem, counts: Sequence[int], asked: Sequence[str] | None = None
+    problem: Problem, counts: Sequence[int], labels: Sequence[str] | None = None
 ) -> list[ReadSpeed]:
     """Time sweeps into buffers, taking turns: NumPy's blocks, machine code, float32, no work."""
-    asked = everything(problem) if asked is None else asked
-    machine = Sweep(problem, asked, native=True)
+    labels = everything(problem) if labels is None else labels
+    machine = Sweep(problem, labels, native=True)
     kinds = [
-        ("sweep, float64", Sweep(problem, asked, native=False)),
+        ("sweep, float64", Sweep(problem, labels, native=False)),
         ("sweep, machine code", machine),
-        ("sweep, float32", Sweep(problem, asked, dtype=np.float32)),
+        ("sweep, float32", Sweep(problem, labels, dtype=np.float32)),
     ]
     found = []
     for count in counts:
         batch = places(problem, count)
-        right = right_rows(problem, asked, batch[spread(count)])
+        right = right_rows(problem, labels, batch[spread(count)])
         acts: dict[str, Callable[[], Array | None]] = {}
         for name, sweep in kinds:
             if sweep is machine and machine.uncompiled:

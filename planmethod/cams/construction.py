@@ -21,7 +21,7 @@ from planmethod.cams.divisions import (
     CamNode,
     CamScales,
     is_plate,
-    moved_in,
+    motion_in_division,
     nodes_of,
     scales_of,
     step_between,
@@ -32,11 +32,11 @@ from planmethod.cams.model import Contact
 from planmethod.construct.arithmetic import Arithmetic, Float64
 from planmethod.construct.drafting import Profile, sigmas
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
-from planmethod.construct.steps import LineName, NumberName, PointName, Way
+from planmethod.construct.ruler import RulerArithmetic
+from planmethod.construct.steps import LineName, LineSense, NumberName, PointName
 
-APART = 140.0
+DIAGRAM_SPACING = 140.0
 """Distance between the axes of neighbouring diagrams, mm."""
 
 FREE = frozenset(map(PointName, ("O_a", "O_v", "O_s", "B", "O")))
@@ -79,7 +79,7 @@ class CamConstruction(Struct, frozen=True, dict=True):
 
     def ruled(self, ruler: float) -> Trace:
         """Return the readings of a ruler of this step, mm."""
-        return self.read(Hand(ruler=ruler))
+        return self.read(RulerArithmetic(ruler=ruler))
 
     def sigma(self, profile: Profile) -> dict[str, float]:
         """Return the drafting errors of all numbers, one standard deviation."""
@@ -90,7 +90,7 @@ class CamConstruction(Struct, frozen=True, dict=True):
         """Return the exact theoretical profile in the divisions, mm of the drawing."""
         phi = np.array([node.phi for node in self.nodes])
         at = self.design.geometry.points(
-            phi, np.array([moved_in(self.design.problem, n) for n in self.nodes]).T
+            phi, np.array([motion_in_division(self.design.problem, n) for n in self.nodes]).T
         )
         found = at.actual if is_plate(self.design) else at.theoretical
         return np.asarray(found / self.scales.profile)
@@ -109,9 +109,9 @@ class _Draft(Struct):
     ends: dict[int, PointName] = field(default_factory=dict)
     results: dict[str, NumberName] = field(default_factory=dict)
 
-    def given(self, name: str, at: complex = 0j) -> PointName:
+    def take_point(self, name: str, at: complex = 0j) -> PointName:
         self.data[name] = at
-        return self.b.given(name)
+        return self.b.take_point(name)
 
     def known(self, name: str, value: float) -> NumberName:
         self.data[name] = float(value)
@@ -122,43 +122,45 @@ class _Draft(Struct):
     def integrate(self) -> None:
         """Integrate the diagram of a_q twice."""
         b, scales, problem = self.b, self.scales, self.design.problem
-        origins = [self.given(f"O_{name}", -1j * APART * k) for k, name in enumerate("avs")]
+        origins = [
+            self.take_point(f"O_{name}", -1j * DIAGRAM_SPACING * k) for k, name in enumerate("avs")
+        ]
         level = self.known("0", 0.0)
         axes = [b.at_angle(origin, None, level) for origin in origins]
         ups = [b.perpendicular(origin, axis) for origin, axis in zip(origins, axes, strict=True)]
         poles = [
-            b.lay_off(f"π_{name}", origins[k], axes[k], self.known(f"H_{name}", -size))
+            b.lay_off_length(f"π_{name}", origins[k], axes[k], self.known(f"H_{name}", -size))
             for k, (name, size) in enumerate((("a", scales.pole_a), ("v", scales.pole_v)))
         ]
 
         def upright(k: str, phi: float) -> LineName:
             at = self.known(f"φ {k}", degrees(phi) / scales.degree)
-            return b.perpendicular(b.lay_off(f"x {k}", origins[0], axes[0], at), axes[0])
+            return b.perpendicular(b.lay_off_length(f"x {k}", origins[0], axes[0], at), axes[0])
 
         end: dict[str, PointName] = {}
         for last, node in zip((None, *self.nodes), self.nodes, strict=False):
             k, line = node.number, upright(str(node.number), node.phi)
-            feet = [b.meet_lines(f"{name}_{{{k}}} axis", line, axis)
+            feet = [b.intersect_lines(f"{name}_{{{k}}} axis", line, axis)
                     for name, axis in zip("vs", axes[1:], strict=True)]  # fmt: skip
             if last is None or node.starts:
                 end["v"] = feet[0]
-                if jump := float(moved_in(problem, node)[1]):
+                if jump := float(motion_in_division(problem, node)[1]):
                     height = self.known(f"jump {k}", jump / scales.v)
-                    end["v"] = b.lay_off(f"V_{{{k}}}", feet[0], line, height)
+                    end["v"] = b.lay_off_length(f"V_{{{k}}}", feet[0], line, height)
                 flat = b.parallel(end["s"], axes[2]) if last else axes[2]
-                end["s"] = b.meet_lines(f"S_{{{k}}}", line, flat) if last else feet[1]
+                end["s"] = b.intersect_lines(f"S_{{{k}}}", line, flat) if last else feet[1]
             else:
                 middle = (last.phi + node.phi) / 2
                 size = step_between(problem, last.phi, node.phi)
-                up = b.lay_off(
+                up = b.lay_off_length(
                     f"m_{{{k}}}", origins[0], ups[0], self.known(f"y {k}", size / scales.a)
                 )
                 chord = b.parallel(end["v"], b.join(poles[0], up))
-                end["v"] = b.meet_lines(f"V_{{{k}}}", chord, line)
-                half = b.meet_lines(f"M_{{{k}}}", chord, upright(f"{k}'", middle))
-                side = b.meet_lines(f"n_{{{k}}}", b.parallel(half, axes[1]), ups[1])
+                end["v"] = b.intersect_lines(f"V_{{{k}}}", chord, line)
+                half = b.intersect_lines(f"M_{{{k}}}", chord, upright(f"{k}'", middle))
+                side = b.intersect_lines(f"n_{{{k}}}", b.parallel(half, axes[1]), ups[1])
                 chord = b.parallel(end["s"], b.join(poles[1], side))
-                end["s"] = b.meet_lines(f"S_{{{k}}}", chord, line)
+                end["s"] = b.intersect_lines(f"S_{{{k}}}", chord, line)
             self.s[k] = b.measure_along(f"s_{{{k}}}", feet[1], end["s"], line)
             self.v[k] = b.measure_along(f"v_{{{k}}}", feet[0], end["v"], line)
 
@@ -170,34 +172,38 @@ class _Draft(Struct):
         one, plate = design.problem, is_plate(design)
         if plate and one.r_min is not None:
             return {}  # the axis is given
-        start = self.given("B")
+        start = self.take_point("B")
         level = b.at_angle(start, None, self.known("level", 0.0))
         up = b.perpendicular(start, level)
         rays: dict[int, LineName] = {}
         pivot = base = None
         if one.oscillates:
-            pivot = b.lay_off("O_{2}", start, level, self.known("l", design.side * one.arm / mm))
+            pivot = b.lay_off_length(
+                "O_{2}", start, level, self.known("l", design.side * one.arm / mm)
+            )
             base = b.join(pivot, start)
         for node in self.nodes:
             k = node.number
-            v = self._taken(f"v {k}:", self.v[k], self.scales.v / mm)
+            v = self._scale_length(f"v {k}:", self.v[k], self.scales.v / mm)
             if pivot is not None and base is not None:
                 turn = -design.side * degrees(self.scales.s / one.arm)
-                rays[k] = b.at_angle(pivot, base, self._taken(f"ψ_{{{k}}}", self.s[k], turn))
+                rays[k] = b.at_angle(pivot, base, self._scale_length(f"ψ_{{{k}}}", self.s[k], turn))
                 if plate:
                     self.ends[k] = self._swung_end(node, pivot, rays[k], v)
                     continue
-                at = b.lay_off(f"B_{{{k}}}'", pivot, rays[k], self.known(f"l {k}", one.arm / mm))
+                at = b.lay_off_length(
+                    f"B_{{{k}}}'", pivot, rays[k], self.known(f"l {k}", one.arm / mm)
+                )
                 along = b.compute(f"v {k}'", (v, 1), factor=design.side)
-                self.ends[k] = b.lay_off(f"D_{{{k}}}", at, rays[k], along)
+                self.ends[k] = b.lay_off_length(f"D_{{{k}}}", at, rays[k], along)
                 continue
-            s = self._taken(f"s {k}:", self.s[k], self.scales.s / mm)
-            at = b.lay_off(f"B_{{{k}}}'", start, up, s)
+            s = self._scale_length(f"s {k}:", self.s[k], self.scales.s / mm)
+            at = b.lay_off_length(f"B_{{{k}}}'", start, up, s)
             across = b.compute(f"v {k}'", (v, 1), factor=-1.0)
             if plate:
-                size = float(moved_in(one, node)[2])
+                size = float(motion_in_division(one, node)[2])
                 across = self.known(f"a {k}", size / mm)
-            self.ends[k] = b.lay_off(f"D_{{{k}}}", at, b.parallel(at, level), across)
+            self.ends[k] = b.lay_off_length(f"D_{{{k}}}", at, b.parallel(at, level), across)
         if pivot is not None and base is not None and plate:
             return self._swung_plate(pivot, base)
         if plate:
@@ -211,18 +217,18 @@ class _Draft(Struct):
                 "a", b.measure("O_{1}O_{2}", axis, pivot)
             )
         else:
-            foot = b.meet_lines("E", b.parallel(axis, level), up)
+            foot = b.intersect_lines("E", b.parallel(axis, level), up)
             self.results["e"] = self._result("e", b.measure_along("O_{1}E", axis, foot, level))
         return drawn
 
     def _plate(self, start: PointName, up: LineName) -> dict[int, int]:
         """Lead a line at 45° to the curve of s over a_q: it cuts off r_min."""
-        sums = [float(moved_in(self.design.problem, n)[::2].sum()) for n in self.nodes]
+        sums = [float(motion_in_division(self.design.problem, n)[::2].sum()) for n in self.nodes]
         k, b = int(np.argmin(sums)), self.b
         line = b.at_angle(self.ends[k], None, self.known("45", -45.0))
-        foot = b.meet_lines("K", line, up)
+        foot = b.intersect_lines("K", line, up)
         reach = b.measure("KB", foot, start)
-        added = self.known("ρ", self.design.problem.least / self.scales.region)
+        added = self.known("ρ", self.design.problem.min_radius / self.scales.region)
         length = b.total("r_min, mm", reach, added)
         self.results["r_min"] = self._result("r_min", length)
         return {0: k}
@@ -237,27 +243,27 @@ class _Draft(Struct):
         b, k, mm = self.b, node.number, self.scales.region
         v = b.compute(f"v {k}'", (v, 1), factor=float(self.design.side))
         arm = self.known(f"l {k}", self.design.problem.arm / mm)
-        at = b.lay_off(f"B_{{{k}}}'", pivot, ray, b.total(f"l + 2v {k}", arm, v, v))
-        gain = self.known(f"a {k}", float(moved_in(self.design.problem, node)[2]) / mm)
+        at = b.lay_off_length(f"B_{{{k}}}'", pivot, ray, b.total(f"l + 2v {k}", arm, v, v))
+        gain = self.known(f"a {k}", float(motion_in_division(self.design.problem, node)[2]) / mm)
         ahead = b.total(f"l + v {k}", arm, v)
         # The perpendicular is the ray turned by +90°: upwards where the pivot is on the left.
         up = -self.design.side * self.design.problem.arm / mm
         across = b.compute(f"a {k}'", (gain, 1), (ahead, -1), factor=up)
-        return b.lay_off(f"D_{{{k}}}", at, b.perpendicular(at, ray), across)
+        return b.lay_off_length(f"D_{{{k}}}", at, b.perpendicular(at, ray), across)
 
     def _swung_plate(self, pivot: PointName, base: LineName) -> dict[int, int]:
         """Draw the steepest line through the pivot and a D: it meets the circle of the axis."""
         b, design, mm = self.b, self.design, self.scales.region
         one, k = design.problem, self._steepest()
         line = b.join(pivot, self.ends[k])
-        if one.least:
+        if one.min_radius:
             reach = b.measure(f"O_{{2}}D_{{{k}}}", pivot, self.ends[k])
             size = (NumberName(f"l + v {k}"), 2), (reach, -1)
-            off = b.compute("ρ'", *size, factor=design.side * one.least / one.arm)
-            line = b.parallel(b.lay_off("G", pivot, b.perpendicular(pivot, line), off), line)
+            off = b.compute("ρ'", *size, factor=design.side * one.min_radius / one.arm)
+            line = b.parallel(b.lay_off_length("G", pivot, b.perpendicular(pivot, line), off), line)
         centre = self.known("a, mm", design.geometry.centre / mm)
-        axis = b.meet_line_circle("O_{1}", line, pivot, centre, Way.FORWARD)
-        foot = b.meet_lines("K", b.perpendicular(axis, base), base)
+        axis = b.intersect_line_circle("O_{1}", line, pivot, centre, LineSense.FORWARD)
+        foot = b.intersect_lines("K", b.perpendicular(axis, base), base)
         self.results["r_min"] = self._result("r_min", b.measure("O_{1}K", axis, foot))
         return {0: k}
 
@@ -266,18 +272,18 @@ class _Draft(Struct):
         one, geometry, side = self.design.problem, self.design.geometry, self.design.side
 
         def spare(node: CamNode) -> float:
-            s, v, a = moved_in(one, node) / one.arm
+            s, v, a = motion_in_division(one, node) / one.arm
             ahead, delta = 1 + side * v, geometry.delta0 + s
             across, along = 1 + 2 * side * v, a / ahead
             kept = geometry.centre * (across * np.sin(delta) + along * np.cos(delta))
-            return float((kept - one.least * ahead**2) / np.hypot(across, along))
+            return float((kept - one.min_radius * ahead**2) / np.hypot(across, along))
 
         return min(self.nodes, key=spare).number
 
     def _result(self, name: str, length: NumberName) -> NumberName:
         return self.b.compute(name, (length, 1), factor=self.scales.region)
 
-    def _taken(self, name: str, of: NumberName, factor: float) -> NumberName:
+    def _scale_length(self, name: str, of: NumberName, factor: float) -> NumberName:
         return self.b.compute(name, (of, 1), factor=factor)
 
     def _axis(
@@ -301,16 +307,16 @@ class _Draft(Struct):
             lines.append(b.at_angle(self.ends[k], rays.get(k), turned))
             drawn[number] = k
         if len(lines) == 2:
-            return b.meet_lines("O_{1}", *lines), drawn
+            return b.intersect_lines("O_{1}", *lines), drawn
         if not lines:
             return None, drawn
         if pivot is not None and one.centre is not None:
             size = self.known("a, mm", one.centre / mm)
-            return b.meet_line_circle("O_{1}", lines[0], pivot, size, Way.FORWARD), drawn
+            return b.intersect_line_circle("O_{1}", lines[0], pivot, size, LineSense.FORWARD), drawn
         if one.offset is not None:
-            foot = b.lay_off("G", start, level, self.known("e, mm", -one.offset / mm))
-            return b.meet_lines("O_{1}", lines[0], b.perpendicular(foot, level)), drawn
-        return b.meet_lines("O_{1}", lines[0], b.perpendicular(start, lines[0])), drawn
+            foot = b.lay_off_length("G", start, level, self.known("e, mm", -one.offset / mm))
+            return b.intersect_lines("O_{1}", lines[0], b.perpendicular(foot, level)), drawn
+        return b.intersect_lines("O_{1}", lines[0], b.perpendicular(start, lines[0])), drawn
 
     def _tangent(self, bound: Bound, z: complex) -> int:
         """Return the division whose limiting line has the points D of all others inside."""
@@ -329,7 +335,7 @@ class _Draft(Struct):
         """Find the profile by inverted motion."""
         design, b, mm = self.design, self.b, self.scales.profile
         one, geometry = design.problem, design.geometry
-        axis = self.given("O")
+        axis = self.take_point("O")
         sizes = {
             "e": geometry.e, "r_{min}": geometry.r_min, "a": geometry.centre,
             "r_{p}": -geometry.roller, "l": one.arm,
@@ -339,25 +345,29 @@ class _Draft(Struct):
             k = node.number
             turn = -degrees(node.phi) + (180.0 if one.oscillates and design.side < 0 else 0.0)
             ray = b.at_angle(axis, None, self.known(f"−φ {k}", turn))
-            s = self._taken(f"s {k}, mm", self.s[k], self.scales.s / mm)
-            v = self._taken(f"v {k}, mm", self.v[k], self.scales.v / mm)
+            s = self._scale_length(f"s {k}, mm", self.s[k], self.scales.s / mm)
+            v = self._scale_length(f"v {k}, mm", self.v[k], self.scales.v / mm)
             if one.oscillates:
                 point, pole = self._swung(node, axis, ray, size)
             elif is_plate(design):
                 upright = b.perpendicular(axis, ray)
-                foot = b.lay_off(f"K_{{{k}}}", axis, upright, b.total(f"h {k}", s, size["r_{min}"]))
-                b.lay_off(f"B_{{{k}}}", foot, b.parallel(foot, ray), v)
+                foot = b.lay_off_length(
+                    f"K_{{{k}}}", axis, upright, b.total(f"h {k}", s, size["r_{min}"])
+                )
+                b.lay_off_length(f"B_{{{k}}}", foot, b.parallel(foot, ray), v)
                 b.measure(f"R_{{{k}}}", axis, PointName(f"B_{{{k}}}"))
                 continue
             else:
-                pole = b.lay_off(f"P_{{{k}}}", axis, ray, v)
-                foot = b.lay_off(f"K_{{{k}}}", axis, ray, size["e"])
+                pole = b.lay_off_length(f"P_{{{k}}}", axis, ray, v)
+                foot = b.lay_off_length(f"K_{{{k}}}", axis, ray, size["e"])
                 line = b.perpendicular(foot, ray)
-                low = b.meet_line_circle(f"L_{{{k}}}", line, axis, size["r_{min}"], Way.FORWARD)
-                point = b.lay_off(f"B_{{{k}}}", low, line, s)
+                low = b.intersect_line_circle(
+                    f"L_{{{k}}}", line, axis, size["r_{min}"], LineSense.FORWARD
+                )
+                point = b.lay_off_length(f"B_{{{k}}}", low, line, s)
             b.measure(f"R_{{{k}}}", axis, point)
             if one.contact is Contact.ROLLER:
-                b.lay_off(f"A_{{{k}}}", point, b.join(pole, point), size["r_{p}"])
+                b.lay_off_length(f"A_{{{k}}}", point, b.join(pole, point), size["r_{p}"])
 
     def _swung(
         self, node: CamNode, axis: PointName, ray: LineName, size: Mapping[str, NumberName]
@@ -365,18 +375,18 @@ class _Draft(Struct):
         """Return an oscillating follower's roller, or the point of its flat face, and the pole."""
         b, design, k = self.b, self.design, node.number
         one, side = design.problem, design.side
-        pivot = b.lay_off(f"C_{{{k}}}", axis, ray, size["a"])
+        pivot = b.lay_off_length(f"C_{{{k}}}", axis, ray, size["a"])
         rest = self.known(f"δ {k}", 180.0 - side * degrees(design.geometry.delta0))
         turn = -side * degrees(self.scales.s / one.arm)
-        delta = b.total(f"δ_{{{k}}}", rest, self._taken(f"ψ {k}", self.s[k], turn))
+        delta = b.total(f"δ_{{{k}}}", rest, self._scale_length(f"ψ {k}", self.s[k], turn))
         arm = b.at_angle(pivot, ray, delta)
-        speed = self._taken(f"ψ' {k}", self.v[k], side * self.scales.v / one.arm)
+        speed = self._scale_length(f"ψ' {k}", self.v[k], side * self.scales.v / one.arm)
         ahead = b.total(f"1 + ψ' {k}", self.known(f"1 {k}", 1.0), speed)
         reach = b.compute(f"OP {k}", (size["a"], 1), (speed, 1), (ahead, -1))
-        pole = b.lay_off(f"P_{{{k}}}", axis, ray, reach)
+        pole = b.lay_off_length(f"P_{{{k}}}", axis, ray, reach)
         if is_plate(design):
-            return b.meet_lines(f"B_{{{k}}}", b.perpendicular(pole, arm), arm), pole
-        return b.lay_off(f"B_{{{k}}}", pivot, arm, size["l"]), pole
+            return b.intersect_lines(f"B_{{{k}}}", b.perpendicular(pole, arm), arm), pole
+        return b.lay_off_length(f"B_{{{k}}}", pivot, arm, size["l"]), pole
 
 
 def construct(design: CamDesign, scales: CamScales | None = None) -> CamConstruction:

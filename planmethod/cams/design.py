@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from planmethod.cams.geometry import CamGeometry, Complexes
 from planmethod.cams.laws import Reals
 from planmethod.cams.model import CamPhase, CamProblem, Closure, Contact, Jump, Stretch
-from planmethod.cams.peaks import first_kept, least, nearest_to_origin, peak
+from planmethod.cams.peaks import first_nonpositive, minimize, nearest_to_origin, peak
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 
 Flags: TypeAlias = NDArray[np.bool_]
 
@@ -81,13 +81,13 @@ class CamDesign(Struct, frozen=True, dict=True):
 
     # Places of the axis ---------------------------------------------------------------------------
 
-    def velocity_end(self, moved: Reals) -> tuple[Complexes, Complexes]:
+    def velocity_end(self, motion: Reals) -> tuple[Complexes, Complexes]:
         """Return D from the roller at rest, m, and the rotation to an upright follower path.
 
         The frame is that of the follower: at rest it moves along +y; the pivot is at ``side·arm``.
         """
         one = self.problem
-        s, v, _ = moved
+        s, v, _ = motion
         if not one.oscillates:
             return 1j * s - v, np.ones_like(s) + 0j
         side = self.side
@@ -194,7 +194,7 @@ class CamDesign(Struct, frozen=True, dict=True):
             z = at(delta)
             return float(np.max(x * z.real + y * z.imag - bound))
 
-        delta = first_kept(roughly, broken, np.linspace(0.0, np.pi, 361)[1:-1])
+        delta = first_nonpositive(roughly, broken, np.linspace(0.0, np.pi, 361)[1:-1])
         if delta is None:
             raise self._impossible()
         return at(delta)
@@ -212,18 +212,20 @@ class CamDesign(Struct, frozen=True, dict=True):
         def broken(angle: float) -> float:
             return self.worst(r_min * np.cos(angle), r_min * np.sin(angle))[0]
 
-        angle = least(broken, -np.pi, 0.0)
+        angle = minimize(broken, -np.pi, 0.0)
         return r_min * complex(np.exp(1j * angle))
 
     def _impossible(self) -> ProblemError:
-        message = say("no place of the axis keeps the allowed pressure angles at every position")
+        message = translate(
+            "no place of the axis keeps the allowed pressure angles at every position"
+        )
         hint = "Allow greater angles, take a smaller swing, longer phases or another centre."
         return ProblemError(self.problem.name, [Fault("cam.pressure", message, hint)])
 
     # Sizes ----------------------------------------------------------------------------------------
 
     @cached_property
-    def bare(self) -> CamGeometry:
+    def pitch_geometry(self) -> CamGeometry:
         """Geometry of the pitch curve, or of the cam under the flat face."""
         one = self.problem
         if one.contact is not Contact.FLAT:
@@ -234,23 +236,25 @@ class CamDesign(Struct, frozen=True, dict=True):
         e = one.offset or 0.0
         if one.oscillates:
             assert one.centre is not None
-            return CamGeometry(one, one.r_min or self._least_plate(one.centre), centre=one.centre)
+            return CamGeometry(
+                one, one.r_min or self._min_plate_distance(one.centre), centre=one.centre
+            )
         if one.r_min is not None:
             return CamGeometry(one, one.r_min, e=e)
         found = self.highest(lambda stretch, phi: -np.sum(one.on(stretch, phi)[::2], axis=0))
-        if found.value + one.least <= 0:
-            what = say("any r_min leaves the profile convex")
+        if found.value + one.min_radius <= 0:
+            what = translate("any r_min leaves the profile convex")
             raise ProblemError(one.name, [Fault("cam.r_min", what, "Give r_min, or curvature.")])
-        return CamGeometry(one, found.value + one.least, e=e)
+        return CamGeometry(one, found.value + one.min_radius, e=e)
 
-    def _least_plate(self, centre: float) -> float:
+    def _min_plate_distance(self, centre: float) -> float:
         """Return the minimum distance of a swinging flat face for a convex enough profile."""
         one = self.problem
 
         def broken(delta: float) -> float:
             trial = CamGeometry(one, centre * np.sin(delta), centre=centre)
             return self.highest(
-                lambda stretch, phi: one.least - self._rho(trial, stretch, phi)
+                lambda stretch, phi: one.min_radius - self._rho(trial, stretch, phi)
             ).value
 
         def roughly(delta: float) -> float:
@@ -259,12 +263,12 @@ class CamDesign(Struct, frozen=True, dict=True):
                 np.min(self._rho(trial, part, np.linspace(part.start, part.end, 33)))
                 for part in one.stretches
             ]
-            return one.least - float(min(rho))
+            return one.min_radius - float(min(rho))
 
         most = np.pi / 2 - one.stroke / one.arm
-        delta = first_kept(roughly, broken, np.linspace(0.0, most, 91)[1:-1])
+        delta = first_nonpositive(roughly, broken, np.linspace(0.0, most, 91)[1:-1])
         if delta is None:
-            what = say("no r_min keeps the profile convex under the plate")
+            what = translate("no r_min keeps the profile convex under the plate")
             hint = "Take a larger centre, a smaller swing or longer phases."
             raise ProblemError(one.name, [Fault("cam.centre", what, hint)])
         return float(centre * np.sin(delta))
@@ -283,13 +287,13 @@ class CamDesign(Struct, frozen=True, dict=True):
             return 1 / of.points(phi, self.problem.on(stretch, phi)).curvature
 
     def _curvature(self, sign: int, stretch: Stretch, phi: Reals) -> Reals:
-        return sign * self.bare.points(phi, self.problem.on(stretch, phi)).curvature
+        return sign * self.pitch_geometry.points(phi, self.problem.on(stretch, phi)).curvature
 
     @cached_property
     def rho_min(self) -> CamExtreme:
         """Least radius of curvature of the convex theoretical profile, m; 0 at a corner."""
         if self.problem.contact is Contact.FLAT:
-            low = self.highest(lambda stretch, phi: -self._rho(self.bare, stretch, phi))
+            low = self.highest(lambda stretch, phi: -self._rho(self.pitch_geometry, stretch, phi))
             return CamExtreme(-low.value, low.phi)
         for jump in self.problem.jumps:
             if jump.order == 1 and self._turns(jump) < 0:
@@ -300,7 +304,9 @@ class CamDesign(Struct, frozen=True, dict=True):
     def _turns(self, jump: Jump) -> float:
         """Return the turn of the profile at a jump, rad; negative where it is convex."""
         phi = np.array(jump.phi)
-        first, second = (self.bare.points(phi, at).normal for at in (jump.before, jump.after))
+        first, second = (
+            self.pitch_geometry.points(phi, at).normal for at in (jump.before, jump.after)
+        )
         return float(np.angle(second / first))
 
     @cached_property
@@ -312,7 +318,7 @@ class CamDesign(Struct, frozen=True, dict=True):
     @cached_property
     def geometry(self) -> CamGeometry:
         """The cam with its roller."""
-        one, bare = self.problem, self.bare
+        one, bare = self.problem, self.pitch_geometry
         if one.contact is not Contact.ROLLER:
             return bare
         if one.roller is not None:
@@ -338,7 +344,7 @@ class CamDesign(Struct, frozen=True, dict=True):
         )
 
     def _pressure(self, stretch: Stretch, phi: Reals) -> Reals:
-        return np.abs(self.bare.points(phi, self.problem.on(stretch, phi)).pressure)
+        return np.abs(self.pitch_geometry.points(phi, self.problem.on(stretch, phi)).pressure)
 
     @cached_property
     def bounds(self) -> tuple[Bound, ...]:
@@ -379,8 +385,8 @@ class CamDesign(Struct, frozen=True, dict=True):
         """Return an undercut with its range of angles."""
         offsets = np.linspace(0.0, np.pi, 20001)
 
-        def reach(way: int) -> float:
-            cut = is_cut(self.geometry.at(phi + way * offsets).curvature)
+        def reach(direction: int) -> float:
+            cut = is_cut(self.geometry.at(phi + direction * offsets).curvature)
             return float(offsets[np.argmin(cut)]) if cut[1] else 0.0
 
         at = self.geometry.at(np.array([phi]))

@@ -16,7 +16,7 @@ from planmethod.construct.scale import Scale, angle_scale, series_near
 BOX_S, BOX_V, BOX_A = 50.0, 45.0, 60.0
 """Greatest ordinates of the diagrams, mm."""
 
-LEAST_S = 25.0
+MIN_S_HEIGHT = 25.0
 """Least height of the diagram of s, mm: from it the profile is laid off."""
 
 
@@ -64,16 +64,16 @@ class CamScales(Struct, frozen=True):
 
 
 def scales_of(
-    design: CamDesign, share: float = 1.0, region: float = 150.0, profile: float = 220.0
+    design: CamDesign, fraction: float = 1.0, region: float = 150.0, profile: float = 220.0
 ) -> CamScales:
     """Return scales from the series: diagrams by a factor, region and profile by size in mm."""
     sizes = np.abs(
         np.concatenate([ends(design.problem, one) for one in design.problem.stretches], 1)
     )
     s, v, a = sizes.max(axis=1)
-    boxes = ((s, share * BOX_S), (v, share * BOX_V), (a or s, share * BOX_A))
+    boxes = ((s, fraction * BOX_S), (v, fraction * BOX_V), (a or s, fraction * BOX_A))
     mu_s, mu_v, mu_a = (series_near(float(x) / mm, up=True) for x, mm in boxes)
-    mu_s = min(mu_s, series_near(float(s) / LEAST_S, up=False))
+    mu_s = min(mu_s, series_near(float(s) / MIN_S_HEIGHT, up=False))
     geometry = design.geometry
     room = max(geometry.r_min + s, 2 * (a if is_plate(design) else v))
     if design.problem.oscillates:
@@ -84,7 +84,7 @@ def scales_of(
         wide, *(float(np.ptp(part)) + 2 * geometry.roller for part in (line.real, line.imag))
     )
     return CamScales(
-        angle_scale(180.0 / share), mu_s, mu_v, mu_a,
+        angle_scale(180.0 / fraction), mu_s, mu_v, mu_a,
         region=series_near(float(room) / region, up=True),
         profile=series_near(wide / profile, up=True),
     )  # fmt: skip
@@ -126,7 +126,7 @@ def stretch_of(problem: CamProblem, node: CamNode) -> Stretch:
     return next(one for one in own if node.starts or node.phi <= one.end + 1e-9)
 
 
-def moved_in(problem: CamProblem, node: CamNode) -> Reals:
+def motion_in_division(problem: CamProblem, node: CamNode) -> Reals:
     """Return s, v_q, a_q in a division, m, from within its phase."""
     return problem.on(stretch_of(problem, node), np.array(node.phi))
 

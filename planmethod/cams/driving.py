@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 from planmethod.cams.model import ArmSense, CamPhase, CamProblem
 from planmethod.cams.reader import read_cam
-from planmethod.cams.text import motion_given
+from planmethod.cams.text import motion_facts
 from planmethod.note.document import GivenFact
 from planmethod.note.wording import Language
 from planmethod.problem.fields import Faults
-from planmethod.problem.model import LawPiece, Lifted
+from planmethod.problem.model import CamDrive, LawPiece
 
 
-class CamFollower(Lifted, frozen=True, kw_only=True):
+class CamFollower(CamDrive, frozen=True, kw_only=True):
     """Follower that drives a linkage, with its cam.
 
     Attributes
@@ -23,12 +23,12 @@ class CamFollower(Lifted, frozen=True, kw_only=True):
 
     cam: CamProblem
 
-    def given(self, words: Language) -> list[GivenFact]:
+    def given_facts(self, language: Language) -> list[GivenFact]:
         """Return the given facts of the follower's motion: its law."""
-        return motion_given(self.cam, words)
+        return motion_facts(self.cam, language)
 
 
-def followed(faults: Faults, table: object) -> Lifted | None:
+def read_follower_drive(faults: Faults, table: object) -> CamDrive | None:
     """Return the motion that the follower gives the driving link over a turn of the cam.
 
     Parameters
@@ -49,10 +49,10 @@ def followed(faults: Faults, table: object) -> Lifted | None:
     if not problem.n:
         faults.add("cam.n", "missing", "Give the speed of the cam that drives, rev/min: n = 120.")
         return None
-    return lifted(problem)
+    return follower_drive(problem)
 
 
-def lifted(problem: CamProblem) -> Lifted:
+def follower_drive(problem: CamProblem) -> CamDrive:
     """Return the motion of the follower from its lowest position.
 
     The displacement of a translating follower grows with the rise; during the rise an oscillating

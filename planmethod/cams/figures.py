@@ -13,10 +13,10 @@ from msgspec.structs import replace
 from planmethod.cams.construction import CamConstruction, construct
 from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamPhase, CamProblem, Contact
-from planmethod.cams.reader import PLACED, WHOLE
+from planmethod.cams.reader import PLACED, SIZE_NAMES
 from planmethod.cams.sheet import sheet_scales
 from planmethod.errors import ProblemError
-from planmethod.problem.figures import AnswerValue, Mistaken, Taken
+from planmethod.problem.figures import AnswerValue, Mistaken, QuantityReader
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -37,7 +37,7 @@ class CamFigures:
     def __init__(self, problem: CamProblem) -> None:
         self.problem, self.count = problem, problem.count
         self.design = CamDesign(problem)
-        self.names = tuple(n for n in (*WHOLE, *PLACED) if self._of(n, 0) is not None)
+        self.names = tuple(n for n in (*SIZE_NAMES, *PLACED) if self._of(n, 0) is not None)
 
     def figure(self, name: str, position: int) -> AnswerValue | None:
         """Return a quantity by its name in ``[[answers]]``."""
@@ -84,20 +84,24 @@ class CamFigures:
         one = self.problem
         rise, back = one.allowed
         if back is not None and back != rise:
-            yield from self._other("Q1", replace(one, allowed=(back, rise)))
+            yield from self._another_cam("Q1", replace(one, allowed=(back, rise)))
         if one.phases[1] > 0:
             first, upper, second, lower = one.phases
-            yield from self._other("Q2", replace(one, phases=(first, 0.0, second, lower + upper)))
+            yield from self._another_cam(
+                "Q2", replace(one, phases=(first, 0.0, second, lower + upper))
+            )
         if one.laws[0] != one.laws[1]:
-            yield from self._other("Q3", replace(one, laws=(one.laws[0], one.laws[0])))
-        if not one.oscillates and self.design.bare.e and one.contact is not Contact.FLAT:
-            given = replace(one, r_min=self.design.bare.r_min, offset=-self.design.bare.e)
-            yield from self._other("Q4", given)
+            yield from self._another_cam("Q3", replace(one, laws=(one.laws[0], one.laws[0])))
+        if not one.oscillates and self.design.pitch_geometry.e and one.contact is not Contact.FLAT:
+            given = replace(
+                one, r_min=self.design.pitch_geometry.r_min, offset=-self.design.pitch_geometry.e
+            )
+            yield from self._another_cam("Q4", given)
         yield Mistaken("Q5", "", self._in_degrees)
 
-    def _other(self, code: str, problem: CamProblem) -> Iterator[Mistaken]:
+    def _another_cam(self, code: str, problem: CamProblem) -> Iterator[Mistaken]:
         """Yield a mistake that results in another cam, if that exists."""
-        take: Taken = partial(value_of, CamDesign(problem))
+        take: QuantityReader = partial(value_of, CamDesign(problem))
         try:
             take("r_min", 0)
         except ProblemError:
@@ -108,7 +112,7 @@ class CamFigures:
         value = self._of(name, position)
         return None if value is None else value * PER_DEGREE ** POWERS.get(name, 0)
 
-    def followed(self, name: str, own: Mapping[str, float]) -> Iterator[tuple[float, str]]:
+    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[tuple[float, str]]:
         """Yield nothing: no number of a cam follows from another one alone."""
         yield from ()
 
@@ -137,5 +141,5 @@ def value_of(design: CamDesign, name: str, position: int) -> float | None:
     return found[name]() if name in found else None
 
 
-asked_of = CamFigures
+FIGURES = CamFigures
 """Quantities of this kind of problem."""

@@ -77,13 +77,13 @@ class CamGeometry(Struct, frozen=True):
         """Pivot of an oscillating follower in the resting frame, m."""
         return complex(self.side * self.centre)
 
-    def points(self, phi: Reals, moved: Reals) -> CamPoints:
+    def points(self, phi: Reals, motion: Reals) -> CamPoints:
         """Return the points for angles of the cam.
 
         Parameters
         ----------
         phi : array of float, rad
-        moved : array of float, shape (3, ...)
+        motion : array of float, shape (3, ...)
             s, v_q, a_q there, m.
         """
         flat = self.problem.contact is Contact.FLAT
@@ -91,45 +91,45 @@ class CamGeometry(Struct, frozen=True):
             made = self._plate if flat else self._arm
         else:
             made = self._level if flat else self._line
-        roller, normal, pressure, curvature = made(moved)
+        roller, normal, pressure, curvature = made(motion)
         turn = np.exp(-1j * phi)
         shift = 0.0 if flat else self.roller * normal
         actual, outer = (roller - shift) * turn, (roller + shift) * turn
         return CamPoints(roller, roller * turn, actual, outer, pressure, curvature, normal)
 
     def _traced(
-        self, b: Complexes, b1: Complexes, b2: Complexes, way: Complexes
+        self, b: Complexes, b1: Complexes, b2: Complexes, direction: Complexes
     ) -> tuple[Complexes, Complexes, Reals, Reals]:
         """Return centre, normal, pressure angle and curvature of a centre and its derivatives."""
         w = b1 - 1j * b  # seen from the cam
         w1 = b2 - 1j * b1
         size = np.abs(w)
-        q = w / way
+        q = w / direction
         pressure = np.arctan2(q.real, -q.imag)
         curvature = (size**2 - np.imag(np.conj(w) * w1)) / size**3
         return b, 1j * w / size, pressure, curvature
 
-    def _line(self, moved: Reals) -> tuple[Complexes, Complexes, Reals, Reals]:
-        s, v, a = moved
+    def _line(self, motion: Reals) -> tuple[Complexes, Complexes, Reals, Reals]:
+        s, v, a = motion
         return self._traced(self.e + 1j * (self.s0 + s), 1j * v, 1j * a, 1j * np.ones_like(s))
 
-    def _arm(self, moved: Reals) -> tuple[Complexes, Complexes, Reals, Reals]:
+    def _arm(self, motion: Reals) -> tuple[Complexes, Complexes, Reals, Reals]:
         arm, side = self.problem.arm, self.side
-        s, v, a = moved / arm
+        s, v, a = motion / arm
         out = -side * np.exp(-1j * side * (self.delta0 + s))  # from the pivot to the roller
         b1 = -1j * side * v * arm * out
         b2 = (-1j * side * a - v * v) * arm * out
         return self._traced(self.pivot + arm * out, b1, b2, -1j * side * out)
 
-    def _level(self, moved: Reals) -> tuple[Complexes, Complexes, Reals, Reals]:
-        s, v, a = moved
+    def _level(self, motion: Reals) -> tuple[Complexes, Complexes, Reals, Reals]:
+        s, v, a = motion
         with np.errstate(divide="ignore"):
             curvature = 1 / (self.r_min + s + a)
         return v + 1j * (self.r_min + s), np.full(np.shape(s), 1j), 0 * s, curvature
 
-    def _plate(self, moved: Reals) -> tuple[Complexes, Complexes, Reals, Reals]:
+    def _plate(self, motion: Reals) -> tuple[Complexes, Complexes, Reals, Reals]:
         side, centre = self.side, self.centre
-        s, v, a = moved / self.problem.arm
+        s, v, a = motion / self.problem.arm
         delta, ahead = self.delta0 + s, 1 + side * v
         out = -side * np.exp(-1j * side * delta)
         reach = centre * np.cos(delta) / ahead

@@ -41,17 +41,19 @@ class Cams(ProblemKind["CamProblem"]):
 
         return spreadsheet(problem)
 
-    def solved_document(self, problem: CamProblem, words: Language) -> Document:
+    def solved_document(self, problem: CamProblem, language: Language) -> Document:
         """Return the document of ``solve``."""
         from planmethod.cams.text import solved_document
 
-        return Document.of(solved_document(problem, words))
+        return Document.of(solved_document(problem, language))
 
-    def protocol_document(self, problem: CamProblem, words: Language, profile: Profile) -> Document:
+    def protocol_document(
+        self, problem: CamProblem, language: Language, profile: Profile
+    ) -> Document:
         """Return the document of ``protocol``."""
         from planmethod.cams.protocol import protocol_document
 
-        return Document.of(protocol_document(problem, words, profile))
+        return Document.of(protocol_document(problem, language, profile))
 
     def drawings(
         self,
@@ -73,14 +75,14 @@ class Cams(ProblemKind["CamProblem"]):
 
         return live_page(problem, lang)
 
-    def given(self, problem: CamProblem, words: Language) -> list[GivenFact]:
+    def given_facts(self, problem: CamProblem, language: Language) -> list[GivenFact]:
         """Return the given data, one fact each; the file can be rebuilt from them."""
-        from planmethod.cams.text import given
+        from planmethod.cams.text import given_facts
 
-        return given(problem, words, numbered=True)
+        return given_facts(problem, language, numbered=True)
 
     def figures(self, problem: CamProblem) -> Figures:
         """Return the quantities for questions to students."""
-        from planmethod.cams.figures import asked_of
+        from planmethod.cams.figures import FIGURES
 
-        return asked_of(problem)
+        return FIGURES(problem)

@@ -73,7 +73,7 @@ class UnitLaw(Struct, frozen=True, dict=True):
         First derivative at the start, in the size of the bits.
     balance : float
         Factor of the decelerations of a table, for the law to end at rest.
-    told : tuple of (str, object)
+    parameters : tuple of (str, object)
         Numbers of the file that make it this law: ``("ratio", 2.0)``, ``("values", (0.0, 1.0))``.
     """
 
@@ -81,7 +81,7 @@ class UnitLaw(Struct, frozen=True, dict=True):
     bits: tuple[Bit, ...]
     start: float = 0.0
     balance: float = 1.0
-    told: tuple[tuple[str, object], ...] = ()
+    parameters: tuple[tuple[str, object], ...] = ()
 
     @cached_property
     def _constants(self) -> list[tuple[float, float]]:
@@ -96,7 +96,7 @@ class UnitLaw(Struct, frozen=True, dict=True):
         return found
 
     @property
-    def knots(self) -> tuple[float, ...]:
+    def breakpoints(self) -> tuple[float, ...]:
         """Boundaries of the bits."""
         return (*(bit.start for bit in self.bits), 1.0)
 
@@ -124,7 +124,7 @@ class UnitLaw(Struct, frozen=True, dict=True):
         return np.array([self.on(k, np.array(bit[:2])).T for k, bit in enumerate(self.bits)])
 
 
-def _even(values: Sequence[float]) -> list[tuple[float, float]]:
+def _evenly_spaced(values: Sequence[float]) -> list[tuple[float, float]]:
     return [(k / (len(values) - 1), value) for k, value in enumerate(values)]
 
 
@@ -200,14 +200,14 @@ def law_of(
         case CamLawName.CONSTANT:
             turn = 1 / (1 + ratio)
             rates = (Bit(0, turn, (ratio,)), Bit(turn, 1, (-1.0,)))
-            return UnitLaw(name, rates, told=(("ratio", ratio),))
+            return UnitLaw(name, rates, parameters=(("ratio", ratio),))
         case CamLawName.COSINE:
             return UnitLaw(name, (Bit(0, 1, size=1.0, rate=pi, phase=pi / 2),))
         case CamLawName.SINE:
             return UnitLaw(name, (Bit(0, 1, size=1.0, rate=2 * pi),))
         case CamLawName.TRAPEZOIDAL | CamLawName.MODIFIED:
             trapezoids = _ramped(ramp, sine=name is CamLawName.MODIFIED)
-            return UnitLaw(name, trapezoids, told=(("ramp", ramp),))
+            return UnitLaw(name, trapezoids, parameters=(("ramp", ramp),))
         case CamLawName.LINEAR:
             if not blend:
                 return UnitLaw(name, (Bit(0, 1, (0.0,)),), start=1.0)
@@ -216,13 +216,13 @@ def law_of(
                 Bit(blend, 1 - blend, (0.0,)),
                 Bit(1 - blend, 1, (-1.0,)),
             )
-            return UnitLaw(name, bits, told=(("blend", blend),))
+            return UnitLaw(name, bits, parameters=(("blend", blend),))
         case CamLawName.CUBIC:
             return UnitLaw(name, (Bit(0, 1, (0.0, 60.0, -180.0, 120.0)),))
         case CamLawName.QUARTIC:
             return UnitLaw(name, (Bit(0, 1, (0.0, 0.0, 420.0, -1680.0, 2100.0, -840.0)),))
         case CamLawName.TABLE | CamLawName.PIECEWISE:
             is_even = name is CamLawName.TABLE
-            line, factor = balanced(_even(values) if is_even else points)
+            line, factor = balanced(_evenly_spaced(values) if is_even else points)
             told = ("values", tuple(values)) if is_even else ("points", tuple(points))
-            return UnitLaw(name, _straight(line), balance=factor, told=(told,))
+            return UnitLaw(name, _straight(line), balance=factor, parameters=(told,))

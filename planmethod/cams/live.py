@@ -18,7 +18,7 @@ from planmethod.cams.construction import construct
 from planmethod.cams.design import CamDesign
 from planmethod.cams.model import TURN, CamProblem, Closure, Contact
 from planmethod.cams.pictures import CamView, diagrams_picture
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing
@@ -43,18 +43,18 @@ def live_page(problem: CamProblem, lang: str) -> str:
     ProblemError
         No cam satisfies the requirements.
     """
-    words, design = language(lang), CamDesign(problem)
+    language, design = get_language(lang), CamDesign(problem)
     canvas = SvgCanvas(Options())
     canvas.open(Drawing(0.0, 0.0))
     built = construct(design)
-    picture = diagrams_picture(CamView(built, words, LETTER))
+    picture = diagrams_picture(CamView(built, language, LETTER))
     left, low, right, high = picture.bounds
     cursor = f'<path id="cursor" class="seg thin" d="M0 {-high:.2f}V{-low:.2f}"/>'
     box = f"{left - 2:.2f} {-high - 2:.2f} {right - left + 4:.2f} {high - low + 4:.2f}"
-    views = _figure(words.cam["views"]["profile"], *_mechanism(design))
+    views = _figure(language.cam["views"]["profile"], *_mechanism(design))
     drawn = canvas.parts(picture.items)
-    views += _figure(words.cam["views"]["diagrams"], drawn + cursor, box)
-    said = words.live
+    views += _figure(language.cam["views"]["diagrams"], drawn + cursor, box)
+    texts = language.live
     scene: dict[str, Any] = {
         "rows": _rows(design),
         "mirror": problem.mirror,
@@ -64,16 +64,16 @@ def live_page(problem: CamProblem, lang: str) -> str:
         "pivot": design.geometry.centre * design.side,
         "per_degree": 1 / built.scales.degree,
         "pace": min(QUICK, abs(problem.n or 0.0) * 6.0) or PACE,
-        "decimal": words.say.decimal,
-        "words": {"play": said.play, "pause": said.pause},
+        "decimal": language.notation.decimal,
+        "words": {"play": texts.play, "pause": texts.pause},
     }
     bar = (
-        f'<div id="bar"><section><button id="play" aria-label="{escape(said.play)}">▶</button>'
+        f'<div id="bar"><section><button id="play" aria-label="{escape(texts.play)}">▶</button>'
         f'<input id="slider" type="range" min="0" max="360" step="any" value="0" '
-        f'aria-label="{escape(said.driver)}"><label>φ = <input id="exact" type="number" '
-        f'step="any"> °</label>{speed_choice(said.speed)}</section></div>'
+        f'aria-label="{escape(texts.driver)}"><label>φ = <input id="exact" type="number" '
+        f'step="any"> °</label>{speed_choice(texts.speed)}</section></div>'
     )
-    heads = dict(zip(TABLE, words.cam["heads"][2:6], strict=True))
+    heads = dict(zip(TABLE, language.cam["heads"][2:6], strict=True))
     cells = "".join(
         f'<tr><th>{rich(heads[key])}</th><td><span id="{key}"></span></td></tr>' for key in TABLE
     )
@@ -82,7 +82,7 @@ def live_page(problem: CamProblem, lang: str) -> str:
         problem,
         lang=lang,
         body="\n".join((bar, f'<main id="views">{views}</main>', table)),
-        made=words.cam.made_live,
+        credit=language.cam.made_live,
         letters=canvas.letters(),
         scene=scene,
         script=files("planmethod.cams").joinpath("live.js").read_text("utf-8"),

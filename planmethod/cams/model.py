@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planmethod.cams.laws import Reals, UnitLaw
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 
 TURN = 2 * pi
 
@@ -92,7 +92,7 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
         Pressure angle of rise and return; None: any.
     offset, r_min, roller, centre : float or None, m
         None: chosen.
-    least : float, m
+    min_radius : float, m
         Minimum allowed radius of curvature under a flat-faced follower.
     count : int
         Positions of a turn.
@@ -116,7 +116,7 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
     r_min: float | None
     roller: float | None
     centre: float | None
-    least: float
+    min_radius: float
     count: int
     parts: int
     n: float | None

@@ -65,7 +65,7 @@ def nearest_to_origin(normals: Reals, bounds: Reals) -> Reals | None:
     return None
 
 
-def _nearest_corner(unit: Reals, off: Reals, slack: float) -> Reals | None:
+def _nearest_corner(unit: Reals, off: Reals, tolerance: float) -> Reals | None:
     """Return the nearest foot or corner of a few lines that keeps to all of them, or None."""
     i, j = np.triu_indices(len(unit), 1)
     det = unit[i, 0] * unit[j, 1] - unit[i, 1] * unit[j, 0]
@@ -78,12 +78,12 @@ def _nearest_corner(unit: Reals, off: Reals, slack: float) -> Reals | None:
         ).T
     tried = np.concatenate([unit * off[:, None], corners])
     tried = tried[np.all(np.isfinite(tried), axis=1)]
-    kept = tried[np.all(tried @ unit.T <= off + slack, axis=1)]
+    kept = tried[np.all(tried @ unit.T <= off + tolerance, axis=1)]
     return np.asarray(kept[np.argmin(np.hypot(*kept.T))]) if len(kept) else None
 
 
-def first_kept(
-    rough: Callable[[float], float], exact: Callable[[float], float], tried: Reals
+def first_nonpositive(
+    rough: Callable[[float], float], exact: Callable[[float], float], candidates: Reals
 ) -> float | None:
     """Return the first number at which a function is not positive; None if it is positive.
 
@@ -91,15 +91,15 @@ def first_kept(
     ----------
     rough, exact : callable
         The function from below, and as it is: where the rough one is positive, so is the other.
-    tried : array of float
+    candidates : array of float
         Numbers in order, the steps of the search.
     """
-    for k, x in enumerate(tried):
+    for k, x in enumerate(candidates):
         if rough(float(x)) > 0 or exact(float(x)) > 0:
             continue
         if not k:
             return float(x)
-        low, high = float(tried[k - 1]), float(x)
+        low, high = float(candidates[k - 1]), float(x)
         above, below = exact(low), exact(high)
         for _ in range(100):  # regula falsi; an end that stays weighs half
             middle = high - below * (high - low) / (below - above)
@@ -114,7 +114,9 @@ def first_kept(
     return None
 
 
-def least(of: Callable[[float], float], start: float, end: float, *, samples: int = 121) -> float:
+def minimize(
+    of: Callable[[float], float], start: float, end: float, *, samples: int = 121
+) -> float:
     """Return the minimizer of a function of one number, by finer and finer grids."""
     for _ in range(14):
         x = np.linspace(start, end, samples)

@@ -17,7 +17,7 @@ from planmethod.cams.geometry import Complexes
 from planmethod.cams.laws import Reals
 from planmethod.cams.model import TURN, CamPhase, Closure, Contact
 from planmethod.construct.scale import series_near
-from planmethod.construct.steps import MeetLines, PointName
+from planmethod.construct.steps import IntersectLines, PointName
 from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import typeset
@@ -42,8 +42,8 @@ POINTS = 721
 _SMALL = 2.5  # mm: numbers of positions
 _BETWEEN = 8.0  # mm: between diagrams one below the other
 _DOT = 0.6
-_BEYOND = 12.0  # mm: limiting lines go on beyond the axis
-_STEM = 34.0  # mm: of a translating follower
+_OVERSHOOT = 12.0  # mm: limiting lines go on beyond the axis
+_ROD_LENGTH = 34.0  # mm: of a translating follower
 _HATCH = 4.0  # mm: between the strokes of the region's edge
 
 
@@ -51,7 +51,7 @@ class CamView(Struct, frozen=True):
     """A construction as it is drawn."""
 
     built: CamConstruction
-    words: Language
+    language: Language
     letter: float
 
     @property
@@ -63,7 +63,7 @@ class CamView(Struct, frozen=True):
         """Return a point of the construction without errors of drawing, mm."""
         return complex(np.ravel(self.built.exact.value[PointName(name)])[0])
 
-    def seen(self, points: Complexes | Iterable[complex]) -> tuple[complex, ...]:
+    def on_paper(self, points: Complexes | Iterable[complex]) -> tuple[complex, ...]:
         """Return points as they are drawn: mirrored where the cam turns clockwise."""
         return tuple(map(self.spot, points))
 
@@ -75,7 +75,7 @@ class CamView(Struct, frozen=True):
         """Return a label at a point of the construction."""
         place, way = self.spot(at), self.spot(prefer)
         height = size or self.letter
-        return Label(typeset(text, height), place, prefer=way, gap=1.6, name=text, manner=BUSY)
+        return Label(typeset(text, height), place, prefer=way, gap=1.6, name=text, style=BUSY)
 
 
 # Diagrams -----------------------------------------------------------------------------------------
@@ -96,7 +96,7 @@ def diagrams_picture(view: CamView) -> Picture:
     return Picture(tuple(items), (left, level + _BETWEEN, right, 0.0))
 
 
-def _across(view: CamView) -> Abscissae:
+def _angle_axis(view: CamView) -> Abscissae:
     nodes, per = view.built.nodes, view.built.scales.degree
     at = [degrees(node.phi) / per for node in nodes]
     end = 360.0 / per
@@ -151,14 +151,17 @@ def _diagram(view: CamView, k: int) -> Picture:
         for node in built.nodes:
             point = f"{letter}_{{{node.number}}}"
             if any(
-                isinstance(step, MeetLines) and step.out == point for step in built.program.steps
+                isinstance(step, IntersectLines) and step.out == point
+                for step in built.program.steps
             ):
                 place = view.at(point) - origin
                 construction.append(Disc(place, _DOT, Ink.BLACK, tag="drawn"))
-    symbol = {"a": "a_{q}", "v": "v_{q}", "s": "s"}[name] + f", {view.words.say.units['mm']}"
+    symbol = {"a": "a_{q}", "v": "v_{q}", "s": "s"}[
+        name
+    ] + f", {view.language.notation.units['mm']}"
     return diagram_picture(
-        _across(view),
-        Ordinates(symbol, 1000.0 * per_mm, view.words.say),
+        _angle_axis(view),
+        Ordinates(symbol, 1000.0 * per_mm, view.language.notation),
         [_curve(view, row, per_mm)],
         letter_height=view.letter,
         name=f"cam {name}",
@@ -191,15 +194,15 @@ def _pressure(view: CamView) -> Picture:
         start, end = problem.starts[phase], problem.starts[phase] + problem.length(phase)
         height = sign * degrees(limit) / per_mm
         line = tuple(complex(degrees(x) / per, height) for x in (start, end))
-        curves.append(Curve(view.words.cam["limits"][phase.value].format(), (line,), Pen.HIDDEN))
+        curves.append(Curve(view.language.cam["limits"][phase.value].format(), (line,), Pen.HIDDEN))
     return diagram_picture(
-        _across(view), Ordinates("ϑ, °", per_mm, view.words.say), curves,
+        _angle_axis(view), Ordinates("ϑ, °", per_mm, view.language.notation), curves,
         letter_height=view.letter, name="cam pressure",
     )  # fmt: skip
 
 
-def _per_mm(values: Sequence[Reals], room: float) -> float:
-    return series_near(max(float(np.max(np.abs(y))) for y in values) / max(room, 20.0), up=True)
+def _per_mm(values: Sequence[Reals], height: float) -> float:
+    return series_near(max(float(np.max(np.abs(y))) for y in values) / max(height, 20.0), up=True)
 
 
 # Region -------------------------------------------------------------------------------------------
@@ -215,14 +218,14 @@ def region_picture(view: CamView) -> Picture | None:
     start = view.at("B")
     ends = np.array([view.at(f"D_{{{node.number}}}") for node in built.nodes])
     items: list[Item] = [
-        Stroke(view.seen(part), Pen.MAIN, tag="velocity ends", smooth=True)
+        Stroke(view.on_paper(part), Pen.MAIN, tag="velocity ends", smooth=True)
         for part in _region_curve(view)
     ]
     labels: list[Label] = []
     for node, end in zip(built.nodes, ends, strict=True):
         foot = view.at(f"B_{{{node.number}}}'")
         if abs(end - foot) > _DOT:
-            items.append(Stroke(view.seen((foot, end)), Pen.THIN, tag="aid"))
+            items.append(Stroke(view.on_paper((foot, end)), Pen.THIN, tag="aid"))
         items.append(Disc(view.spot(end), _DOT, Ink.BLACK, tag="drawn"))
         if node.number % 2 == 0 and abs(end - foot) > 4.0:
             labels.append(view.label(str(node.number), end, end - foot, size=_SMALL))
@@ -232,25 +235,25 @@ def region_picture(view: CamView) -> Picture | None:
     if swung:
         items += _arm_lines(view, labels)
     else:
-        top = max(ends.imag.max(), 0.0) + _BEYOND
-        items.append(Stroke(view.seen((start - 4j, start + 1j * top)), Pen.AXIS, tag="line"))
+        top = max(ends.imag.max(), 0.0) + _OVERSHOOT
+        items.append(Stroke(view.on_paper((start - 4j, start + 1j * top)), Pen.AXIS, tag="line"))
         items += arrowhead(view.spot(start + 1j * (top + 3.0)), 1j, length=3.5, tag="line")
         labels.append(view.label("s", start + 1j * top, 1 + 0j))
     for number, k in built.drawn.items():
         items += _limit_line(view, number, k, axis)
         if not plate and axis is not None:
-            sign = view.words.cam["limits"][built.bounds[number].phase.value].format()
+            sign = view.language.cam["limits"][built.bounds[number].phase.value].format()
             end = view.at(f"D_{{{k}}}")
             labels.append(
                 view.label(f"90° − {sign.strip('−')}", 0.6 * axis + 0.4 * end, end - start)
             )
     if plate and axis is not None:
         foot, pivot = view.at("K"), view.at("O_{2}")
-        items.append(Stroke(view.seen((pivot, axis)), Pen.THIN, tag="line"))
-        items.append(Stroke(view.seen((axis, foot)), Pen.MAIN, tag="r_min"))
-        items.append(Stroke(view.seen((pivot, foot)), Pen.THIN, tag="line"))
+        items.append(Stroke(view.on_paper((pivot, axis)), Pen.THIN, tag="line"))
+        items.append(Stroke(view.on_paper((axis, foot)), Pen.MAIN, tag="r_min"))
+        items.append(Stroke(view.on_paper((pivot, foot)), Pen.THIN, tag="line"))
         if "G" in made:
-            items.append(Stroke(view.seen((view.at("G"), axis)), Pen.THIN, tag="limit"))
+            items.append(Stroke(view.on_paper((view.at("G"), axis)), Pen.THIN, tag="limit"))
         items += revolute(view.spot(axis), factor=0.8)
         labels.append(view.label("O_{1}", axis, -1j))
         labels.append(view.label("K", foot, 1j))
@@ -260,12 +263,12 @@ def region_picture(view: CamView) -> Picture | None:
     if plate:
         foot = view.at("K")
         items += dimension(view.spot(foot), view.spot(start), 12.0 + 0j, tag="dimension")
-        name = "r_{0} − ρ" if built.design.problem.least else "r_{0}"
+        name = "r_{0} − ρ" if built.design.problem.min_radius else "r_{0}"
         labels += [view.label("K", foot, -1 - 1j)]
         labels.append(view.label(name, (foot + start) / 2 + 12.0 * view.mirror, 1 + 0j))
         return lettered(items, labels)
     if axis is not None:
-        items.append(Stroke(view.seen((axis, start)), Pen.MAIN, tag="r_min"))
+        items.append(Stroke(view.on_paper((axis, start)), Pen.MAIN, tag="r_min"))
         items += revolute(view.spot(axis), factor=0.8)
         labels += [view.label("O_{1}", axis, -1 - 1j)]
         middle = (axis + start) / 2
@@ -274,7 +277,7 @@ def region_picture(view: CamView) -> Picture | None:
             low = min(axis.imag, view.at("E").imag)
             gap = complex(0.0, low - 9.0 - axis.imag)
             items += dimension(view.spot(axis), view.spot(view.at("E")), gap, tag="dimension")
-            items.append(Stroke(view.seen((start - 4j, view.at("E"))), Pen.THIN, tag="line"))
+            items.append(Stroke(view.on_paper((start - 4j, view.at("E"))), Pen.THIN, tag="line"))
             labels.append(view.label("e", (axis + view.at("E")) / 2 + gap, 1j))
     return lettered(items, labels)
 
@@ -306,7 +309,7 @@ def _arm_lines(view: CamView, labels: list[Label]) -> list[Item]:
     items: list[Item] = []
     for node in view.built.nodes:
         items.append(
-            Stroke(view.seen((pivot, view.at(f"B_{{{node.number}}}'"))), Pen.THIN, tag="arm")
+            Stroke(view.on_paper((pivot, view.at(f"B_{{{node.number}}}'"))), Pen.THIN, tag="arm")
         )
     items += fixed_pivot(view.spot(pivot), factor=0.8)
     labels.append(view.label("O_{2}", pivot, 1 + 1j))
@@ -318,23 +321,23 @@ def _limit_line(view: CamView, number: int, k: int, axis: complex | None) -> lis
     end, plate = view.at(f"D_{{{k}}}"), is_plate(view.built.design)
     if plate and axis is not None:
         pivot = view.at("O_{2}")
-        far = end + _BEYOND * (end - pivot) / abs(end - pivot)
-        return [Stroke(view.seen((pivot, far)), Pen.THIN, tag="limit")]
+        far = end + _OVERSHOOT * (end - pivot) / abs(end - pivot)
+        return [Stroke(view.on_paper((pivot, far)), Pen.THIN, tag="limit")]
     tip = view.at("K") if plate else axis
     assert tip is not None
     way = (tip - end) / abs(tip - end) if abs(tip - end) > 1e-6 else -1j
-    last = tip + (2.0 if plate else 3.0) * _BEYOND * way
-    first = end - _BEYOND * way
-    items: list[Item] = [Stroke(view.seen((first, last)), Pen.THIN, tag="limit")]
+    last = tip + (2.0 if plate else 3.0) * _OVERSHOOT * way
+    first = end - _OVERSHOOT * way
+    items: list[Item] = [Stroke(view.on_paper((first, last)), Pen.THIN, tag="limit")]
     if plate:
         return items
     bound = view.built.bounds[number]
     # Beyond the axis lies the region; on its edge it is hatched towards the inside.
     inside = (-1j if bound.sign > 0 else 1j) * way
-    steps = int(2.6 * _BEYOND / _HATCH)
+    steps = int(2.6 * _OVERSHOOT / _HATCH)
     for step in range(1, steps + 1):
         at = tip + way * step * _HATCH
-        items.append(Stroke(view.seen((at, at + (inside + way) * 2.0)), Pen.HATCH, tag="limit"))
+        items.append(Stroke(view.on_paper((at, at + (inside + way) * 2.0)), Pen.HATCH, tag="limit"))
     return items
 
 
@@ -359,11 +362,11 @@ def profile_picture(view: CamView) -> Picture:
     for node in view.built.nodes:
         items += _inverted(view, node, labels)
     if problem.contact is Contact.ROLLER:
-        theoretical = view.seen(at.theoretical / mm)
+        theoretical = view.on_paper(at.theoretical / mm)
         items.append(Stroke(theoretical, Pen.AXIS, closed=True, tag=f"{PROFILE} theoretical"))
     sides = (at.actual, at.outer) if problem.closure is Closure.FORM else (at.actual,)
     for side in sides:
-        items.append(Stroke(view.seen(side / mm), Pen.MAIN, closed=True, tag=PROFILE))
+        items.append(Stroke(view.on_paper(side / mm), Pen.MAIN, closed=True, tag=PROFILE))
     items += _follower(view, labels)
     if (cut := design.undercut) is not None:
         items += mark_items(Mark.CROSS, view.spot(cut.point / mm))
@@ -394,12 +397,12 @@ def _inverted(view: CamView, node: CamNode, labels: list[Label]) -> list[Item]:
         along = 1j * origin / max(abs(origin), 1e-9)
         half = max(abs(view.at(f"B_{{{one.number}}}") - view.at(f"K_{{{one.number}}}"))
                    for one in view.built.nodes) + 3.0  # fmt: skip
-        items.append(Stroke(view.seen((origin - along * half, origin + along * half)), Pen.THIN,
+        items.append(Stroke(view.on_paper((origin - along * half, origin + along * half)), Pen.THIN,
                             tag="inverted"))  # fmt: skip
         out = origin
     else:
-        items.append(Stroke(view.seen((origin, out if not problem.oscillates else point)), Pen.THIN,
-                            tag="inverted"))  # fmt: skip
+        end = point if problem.oscillates else out
+        items.append(Stroke(view.on_paper((origin, end)), Pen.THIN, tag="inverted"))
     if geometry.roller:
         items.append(Arc(view.spot(point), geometry.roller / mm, pen=Pen.THIN, tag="roller"))
     items.append(Disc(view.spot(point), _DOT, Ink.BLACK, tag="drawn"))
@@ -431,7 +434,7 @@ def _follower(view: CamView, labels: list[Label]) -> list[Item]:
             half = max(abs(view.at(f"B_{{{k.number}}}") - view.at(f"K_{{{k.number}}}"))
                        for k in nodes) + 3.0  # fmt: skip
             items.append(Stroke((foot - half, foot + half), Pen.MAIN, tag="follower"))
-        stem = _STEM + problem.stroke / mm
+        stem = _ROD_LENGTH + problem.stroke / mm
         items.append(Stroke((foot, foot + 1j * stem), Pen.MAIN, tag="follower"))
         items += guide_plates(foot + 1j * (stem - 9.0), angle=90.0, width=4.0)
     if geometry.roller:

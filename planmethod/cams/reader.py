@@ -10,11 +10,11 @@ from typing import Any
 from planmethod.cams.laws import CamLawName, UnitLaw, law_of
 from planmethod.cams.model import ArmSense, CamProblem, Closure, Contact, Follower
 from planmethod.errors import ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem import fields
-from planmethod.problem.answers import Plain, read_answers
+from planmethod.problem.answers import ComputedAnswerNames, read_answers
 from planmethod.problem.fields import Faults
-from planmethod.problem.flat import OwnReader, read_flat
+from planmethod.problem.flat_tables import CustomReader, read_flat
 from planmethod.problem.names import short
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
@@ -24,7 +24,7 @@ from planmethod.problem.units import measured
 TOP = ("title", "source", "units", "stamp", "sheet", "answers", "compare", "variants", "cam")
 """Tables of the file that a cam may have."""
 
-WHOLE = ("r_min", "e", "centre_distance", "roller", "theta_max", "theta_max_return", "rho_min")
+SIZE_NAMES = ("r_min", "e", "centre_distance", "roller", "theta_max", "theta_max_return", "rho_min")
 PLACED = ("s", "v_q", "a_q", "theta")
 """Quantities that students answer: of the cam, and of each of its positions."""
 
@@ -63,7 +63,7 @@ def load(path: str | Path, *, variant: str | None = None) -> CamProblem:
     count = 1 if told is None else told["count"]
     answers = read_answers(faults, given, _scene(count))
     if faults or told is None:
-        raise ProblemError(str(path), faults.found)
+        raise ProblemError(str(path), faults.listed)
     return CamProblem(
         name=path.stem,
         source_file=str(path),
@@ -81,12 +81,12 @@ def read_cam(faults: Faults, table: object) -> dict[str, Any] | None:
     return None if body is None else _read(faults, body, None)
 
 
-def _scene(count: int) -> Plain:
+def _scene(count: int) -> ComputedAnswerNames:
     def fault(name: str) -> str:
-        return "" if name in (*WHOLE, *PLACED) else say("a cam has no '{}'", short(name))
+        return "" if name in (*SIZE_NAMES, *PLACED) else translate("a cam has no '{}'", short(name))
 
-    hint = say("Known here: {}.", ", ".join((*WHOLE, *PLACED)))
-    return Plain(fault, lambda name: False, hint, count)
+    hint = translate("Known here: {}.", ", ".join((*SIZE_NAMES, *PLACED)))
+    return ComputedAnswerNames(fault, lambda name: False, hint, count)
 
 
 def _speed(crank: object) -> float | None:
@@ -103,8 +103,8 @@ def _speed(crank: object) -> float | None:
 def _read(faults: Faults, body: Mapping[str, Any], speed: float | None) -> dict[str, Any] | None:
     """Return the fields of a problem that its table has."""
     sizes = ("offset", "centre", "r_min", "roller")
-    own: dict[str, OwnReader] = dict.fromkeys(sizes, _read_size)
-    own |= dict.fromkeys(("law", "pressure"), _kept)  # both need other keys
+    own: dict[str, CustomReader] = dict.fromkeys(sizes, _read_size)
+    own |= dict.fromkeys(("law", "pressure"), _accept)  # both need other keys
     found = read_flat(faults, "cam", body, CamTable, own, example=CAM_EXAMPLE)
     if faults:
         return None
@@ -124,7 +124,9 @@ def _read(faults: Faults, body: Mapping[str, Any], speed: float | None) -> dict[
     stroke = arm * radians(given.swing or 0.0) if oscillates else given.stroke or 0.0
     _check_sizes(faults, chosen, oscillates=oscillates, flat=flat, arm=arm)
     if flat and any(law.start for law in laws):
-        what = say("a plate cannot follow a jump of the velocity, which law '{}' has", "linear")
+        what = translate(
+            "a plate cannot follow a jump of the velocity, which law '{}' has", "linear"
+        )
         faults.add("cam.law", what, "Take another law, or linear with blend.")
     return None if faults else {
         "follower": Follower(given.follower),
@@ -137,7 +139,7 @@ def _read(faults: Faults, body: Mapping[str, Any], speed: float | None) -> dict[
         "laws": laws,
         "allowed": allowed,
         **chosen,
-        "least": given.curvature,
+        "min_radius": given.curvature,
         "count": given.count,
         "parts": given.parts,
         "n": speed if given.n is None else given.n,
@@ -147,7 +149,7 @@ def _read(faults: Faults, body: Mapping[str, Any], speed: float | None) -> dict[
     }  # fmt: skip
 
 
-def _kept(faults: Faults, path: str, value: object) -> object:
+def _accept(faults: Faults, path: str, value: object) -> object:
     return value
 
 
@@ -156,7 +158,7 @@ def _read_size(faults: Faults, path: str, value: object) -> float | str | None:
         return CHOOSE
     if isinstance(value, str) and measured(value) is None:
         hint = f'{path.rpartition(".")[2]} = "{CHOOSE}"'
-        faults.expected(path, say("a length in metres, or '{}'", CHOOSE), value, hint)
+        faults.expected(path, translate("a length in metres, or '{}'", CHOOSE), value, hint)
         return None
     low = -10.0 if path.endswith("offset") else 1e-5
     return fields.read_metres(faults, path, value, "length", low=low, high=10.0)
@@ -169,10 +171,10 @@ def _check_keys(faults: Faults, body: Mapping[str, Any], *, oscillates: bool, co
     whose = "an oscillating follower" if oscillates else "a translating follower"
     for key in needed:
         if key not in body:
-            faults.add(f"cam.{key}", "missing", say("For example: {}", _NEEDED[key]))
+            faults.add(f"cam.{key}", "missing", translate("For example: {}", _NEEDED[key]))
     for key in alien:
         if key in body:
-            faults.add(f"cam.{key}", say("{} has none", say(whose)), "Leave it out.")
+            faults.add(f"cam.{key}", translate("{} has none", translate(whose)), "Leave it out.")
     if contact != "roller" and body.get("roller", CHOOSE) != CHOOSE:
         faults.add("cam.roller", "goes with contact = 'roller'", "Leave it out.")
     if contact != "flat" and "curvature" in body:
@@ -187,40 +189,46 @@ def _check_sizes(
     """Note sizes that do not go together."""
     r_min, offset, centre = (chosen[key] for key in ("r_min", "offset", "centre"))
     if r_min is not None and offset is not None and abs(offset) >= r_min:
-        what = say("{:g} m, the least radius is {:g} m", offset, r_min)
+        what = translate("{:g} m, the least radius is {:g} m", offset, r_min)
         faults.add("cam.offset", what, "The line of the follower meets the base circle.")
     if not oscillates:
         return
     if flat and centre is None:
         faults.add("cam.centre", "missing", "Under a plate the distance of the pivot is given.")
     elif flat and centre is not None and r_min is not None and r_min >= centre:
-        faults.add("cam.r_min", say("{:g} m reach the pivot at {:g} m", r_min, centre))
+        faults.add("cam.r_min", translate("{:g} m reach the pivot at {:g} m", r_min, centre))
     elif flat or centre is None or r_min is None:
         return
     elif not abs(centre - arm) < r_min < centre + arm:
-        what = say("no triangle: r_min = {:g}, centre = {:g}, arm = {:g} m", r_min, centre, arm)
-        hint = say("r_min lies between {:g} and {:g} m.", abs(centre - arm), centre + arm)
+        what = translate(
+            "no triangle: r_min = {:g}, centre = {:g}, arm = {:g} m", r_min, centre, arm
+        )
+        hint = translate("r_min lies between {:g} and {:g} m.", abs(centre - arm), centre + arm)
         faults.add("cam.r_min", what, hint)
 
 
-def _phases(faults: Faults, given: CamTable) -> tuple[float, float, float, float] | None:
+def _phases(faults: Faults, table: CamTable) -> tuple[float, float, float, float] | None:
     """Return the phases, rad."""
-    told = given.rise + given.upper_dwell + given.return_
-    rest = 360.0 - told if given.lower_dwell is None else given.lower_dwell
+    told = table.rise + table.upper_dwell + table.return_
+    rest = 360.0 - told if table.lower_dwell is None else table.lower_dwell
     if rest < -1e-9 or not isclose(told + rest, 360.0, abs_tol=1e-9):
-        what = say("the phases are {:g}° in all, a turn is 360°", told + max(rest, 0.0))
+        what = translate("the phases are {:g}° in all, a turn is 360°", told + max(rest, 0.0))
         left = 360.0 - told
-        hint = say("lower_dwell = {:g}", left) if left >= 0 else say("Take shorter phases.")
+        hint = (
+            translate("lower_dwell = {:g}", left)
+            if left >= 0
+            else translate("Take shorter phases.")
+        )
         faults.add("cam.lower_dwell", what, hint)
         return None
-    one, two, three = (radians(x) for x in (given.rise, given.upper_dwell, given.return_))
+    one, two, three = (radians(x) for x in (table.rise, table.upper_dwell, table.return_))
     four = 2 * pi - one - two - three
     return one, two, three, four if four > 1e-9 else 0.0
 
 
-def _read_pressure(faults: Faults, given: CamTable) -> tuple[float, float | None] | None:
+def _read_pressure(faults: Faults, table: CamTable) -> tuple[float, float | None] | None:
     """Return the allowed angles of rise and return, rad."""
-    value = given.pressure
+    value = table.pressure
     told = value if isinstance(value, Mapping) else {} if value is None else {"rise": value}
     known = fields.read_keys(faults, "cam.pressure", told, ("rise", "return"))
     read = {
@@ -229,8 +237,8 @@ def _read_pressure(faults: Faults, given: CamTable) -> tuple[float, float | None
         )
         for key, one in known.items()
     }
-    rise = read.get("rise", 45.0 if given.follower == "oscillating" else 30.0)
-    back = read.get("return", rise if given.closure == "form" else None)
+    rise = read.get("rise", 45.0 if table.follower == "oscillating" else 30.0)
+    back = read.get("return", rise if table.closure == "form" else None)
     return None if rise is None else (radians(rise), None if back is None else radians(back))
 
 
@@ -258,7 +266,9 @@ def _read_law(faults: Faults, path: str, value: object) -> UnitLaw | None:
     for other in given:
         needed = {CamLawName.TABLE: "values", CamLawName.PIECEWISE: "points"}.get(name, key)
         if other not in ("law", needed):
-            faults.add(f"{path}.{other}", say("law '{}' has none", name.value), "Leave it out.")
+            faults.add(
+                f"{path}.{other}", translate("law '{}' has none", name.value), "Leave it out."
+            )
     if key in given:
         own[key] = fields.read_number(faults, f"{path}.{key}", given[key], low=low, high=high)
         if own[key] is None:
@@ -274,7 +284,7 @@ def _read_law(faults: Faults, path: str, value: object) -> UnitLaw | None:
         return None
     sizes = [y for _, y in points]
     if min(sizes) >= 0 or max(sizes) <= 0:
-        what = say("the follower does not come to rest: accelerations of one sign only")
+        what = translate("the follower does not come to rest: accelerations of one sign only")
         faults.add(f"{path}.law", what, "Give positive and negative ones.")
         return None
     law = law_of(name, **own)

@@ -28,7 +28,7 @@ class CamReadings(Struct, frozen=True, dict=True):
     """Ruler readings of a construction beside the exact values (снятые величины)."""
 
     built: CamConstruction
-    words: Language
+    language: Language
     profile: Profile
 
     @cached_property
@@ -46,7 +46,7 @@ class CamReadings(Struct, frozen=True, dict=True):
         trace: Any = self.built.exact if exact else self.ruled
         return float(np.ravel(trace.value[NumberName(name)])[0])
 
-    def found(self) -> Iterator[tuple[str, ComparedNumber]]:
+    def compare_sizes(self) -> Iterator[tuple[str, ComparedNumber]]:
         """Yield the sizes read off the region beside the exact ones, mm."""
         geometry = self.built.design.geometry
         exact = {
@@ -57,13 +57,13 @@ class CamReadings(Struct, frozen=True, dict=True):
 
     def table(self) -> Table:
         """Return the sizes read off the region beside the exact ones, mm."""
-        say, rows, symbols = self.words.say, [], dict(SYMBOLS)
+        notation, rows, symbols = self.language.notation, [], dict(SYMBOLS)
         if self.built.design.problem.contact is Contact.FLAT:
             symbols["r_min"] = "r_{0}"
-        for name, one in self.found():
-            read, sigma = say.number(one.read_text), say.number(one.sigma_text)
-            rows.append((symbols[name], say.found(one.exact), read, sigma))
-        return table_of(self.words.cam["region_heads"], rows)
+        for name, one in self.compare_sizes():
+            read, sigma = notation.number(one.read_text), notation.number(one.sigma_text)
+            rows.append((symbols[name], notation.computed(one.exact), read, sigma))
+        return table_of(self.language.cam["region_heads"], rows)
 
     def off(self, trace: Trace) -> float:
         """Return the maximum deviation of a reading's profile from the exact one, mm of the cam."""
@@ -81,9 +81,9 @@ class CamReadings(Struct, frozen=True, dict=True):
 
     def deviation(self) -> Rich:
         """Return the text on the deviation of the drawn profile from the exact one."""
-        say = self.words.say
-        return self.words.cam.deviation.format(
-            most=say.number(f"{self.off(self.ruled):.2f}"),
-            method=say.number(f"{self.off(self.built.exact):.2f}"),
-            sigma=say.number(sigma_text(MM * self.built.scales.profile * self._widest)),
+        notation = self.language.notation
+        return self.language.cam.deviation.format(
+            most=notation.number(f"{self.off(self.ruled):.2f}"),
+            method=notation.number(f"{self.off(self.built.exact):.2f}"),
+            sigma=notation.number(sigma_text(MM * self.built.scales.profile * self._widest)),
         )

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from planmethod.cams.design import CamDesign
-from planmethod.cams.divisions import moved_in, nodes_of
+from planmethod.cams.divisions import motion_in_division, nodes_of
 from planmethod.cams.laws import Reals
 from planmethod.cams.model import TURN, CamPhase, CamProblem
 from planmethod.note.numbers import finite_or_none
@@ -38,18 +38,18 @@ def division_rows(design: CamDesign) -> list[tuple[int, dict[str, float]]]:
     """Return the same in the divisions of the diagrams, with their numbers."""
     nodes = nodes_of(design.problem)
     phi = np.array([node.phi for node in nodes])
-    moved = np.array([moved_in(design.problem, node) for node in nodes]).T
+    moved = np.array([motion_in_division(design.problem, node) for node in nodes]).T
     found = _rows(design, np.degrees(phi), phi, moved)
     return [(node.number, row) for node, row in zip(nodes, found, strict=True)]
 
 
-def _rows(design: CamDesign, degrees: Reals, phi: Reals, moved: Reals) -> list[dict[str, float]]:
-    at = design.geometry.points(phi, moved)
+def _rows(design: CamDesign, degrees: Reals, phi: Reals, motion: Reals) -> list[dict[str, float]]:
+    at = design.geometry.points(phi, motion)
     mirror = design.problem.mirror
     with np.errstate(divide="ignore"):
         rho = 1 / at.curvature
     columns = (
-        degrees, *moved, np.degrees(at.pressure),
+        degrees, *motion, np.degrees(at.pressure),
         mirror * at.actual.real, at.actual.imag,
         mirror * at.theoretical.real, at.theoretical.imag, rho,
     )  # fmt: skip

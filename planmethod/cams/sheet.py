@@ -15,31 +15,31 @@ from planmethod.cams.divisions import CamScales, scales_of
 from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture, region_picture
 from planmethod.cams.readings import CamReadings
-from planmethod.cams.text import MM, checks, forces, given, positions, sizes
+from planmethod.cams.text import MM, checks, forces, given_facts, positions, sizes
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import Scale
 from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES, say
+from planmethod.languages import LANGUAGES, translate
 from planmethod.note.document import Table
 from planmethod.note.formula import Rich
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import Language, get_language
 from planmethod.paper import STAMP_WIDTH
 from planmethod.problem.model import Scales
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
-from planmethod.render.layout.cuttings import Group, Packed
+from planmethod.render.layout.cuttings import Group, LayoutItem
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.sheets.composer import (
-    Blank,
-    Laid,
-    Misfit,
+    NoFitAdvice,
     Packing,
+    SheetLayout,
     Sizes,
-    Viewed,
+    TrialPaper,
+    ViewBlock,
     compose,
-    composed,
-    enlarged,
+    find_layout,
+    grow_scales,
 )
 
 TEXT_WIDTH = STAMP_WIDTH - 5.0
@@ -48,7 +48,7 @@ TEXT_WIDTH = STAMP_WIDTH - 5.0
 class CamTry(Struct, frozen=True):
     """Sizes of an attempt: diagrams as a fraction, region and profile in mm; letters."""
 
-    share: float
+    fraction: float
     region: float
     profile: float
     sizes: Sizes
@@ -90,31 +90,31 @@ def drawings(
     LayoutError
         The content does not fit on the requested paper.
     """
-    words = language(problem.sheet.lang or LANGUAGES[0])
+    language = get_language(problem.sheet.lang or LANGUAGES[0])
     furniture = Furniture.of(problem.sheet, before=before, total=total)
-    strategy = _Cam(CamDesign(problem), words, profile)
-    title = problem.title or words.cam.sheet
-    misfit = _misfit(problem)
+    strategy = _Cam(CamDesign(problem), language, profile)
+    title = problem.title or language.cam.sheet
+    misfit = _no_space_advice(problem)
     return compose(problem, strategy, misfit, fields=fields, furniture=furniture, title=title)
 
 
 def sheet_scales(problem: CamProblem) -> CamScales:
     """Return the scales that the sheet is drawn at."""
-    words = language(problem.sheet.lang or LANGUAGES[0])
-    strategy = _Cam(CamDesign(problem), words, PROFILES["board"])
-    _, laid = composed(problem, strategy, _misfit(problem), Furniture.of(problem.sheet))
+    language = get_language(problem.sheet.lang or LANGUAGES[0])
+    strategy = _Cam(CamDesign(problem), language, PROFILES["board"])
+    _, laid = find_layout(problem, strategy, _no_space_advice(problem), Furniture.of(problem.sheet))
     return CamScales(**laid.scales)
 
 
-def _misfit(problem: CamProblem) -> Misfit:
-    return Misfit(
+def _no_space_advice(problem: CamProblem) -> NoFitAdvice:
+    return NoFitAdvice(
         lambda paper, advice: LayoutError(
             "{}: the cam, its diagrams and its tables do not fit {}. {}",
             problem.name,
             paper,
             advice,
         ),
-        say("Request fewer positions with count."),
+        translate("Request fewer positions with count."),
     )
 
 
@@ -122,27 +122,29 @@ class CamProposal(Struct, frozen=True):
     """The blocks at attempted sizes, enlarged into the free space (`Proposal`)."""
 
     of: _Cam
-    paper: Blank
-    tried: CamTry
+    paper: TrialPaper
+    attempt: CamTry
     scales: CamScales
 
-    def laid(self) -> Laid | None:
+    def arrange(self) -> SheetLayout | None:
         """Return the sheet with the largest views that fit, or None."""
 
         def draw(
-            wish: Mapping[str, float], seen: CamReadings | None = self.of.rough
-        ) -> Laid | None:
+            wish: Mapping[str, float], readings: CamReadings | None = self.of.rough
+        ) -> SheetLayout | None:
             scales = replace(self.scales, **wish)
-            parts = tuple(self.of.parts(self.tried, scales, seen))
-            return Packing(self.paper, (Group(parts),), scales=asdict(scales)).laid()
+            parts = tuple(self.of.parts(self.attempt, scales, readings))
+            return Packing(self.paper, (Group(parts),), scales=asdict(scales)).arrange()
 
         own = {name: float(getattr(self.scales, name)) for name in GROW}
         laid = draw({})
         if laid is None:
             return None
-        grown = enlarged(replace(laid, scales=own), GROW, Scales(), draw)
+        grown = grow_scales(replace(laid, scales=own), GROW, Scales(), draw)
         told = draw(grown.scales, None)
-        if told is None or not told.is_as_good_as(grown):  # a line of text more than in the trial
+        if told is None or not told.is_no_worse_than(
+            grown
+        ):  # a line of text more than in the trial
             grown = replace(laid, scales=own)
             told = draw(own, None)
         return told and replace(told, scales={**laid.scales, **grown.scales})
@@ -152,7 +154,7 @@ class _Cam(Struct, frozen=True, dict=True):
     """Search for the sheet of a cam, by smaller views and letters."""
 
     design: CamDesign
-    words: Language
+    language: Language
     profile: Profile
 
     formats = ("A1",)
@@ -161,54 +163,62 @@ class _Cam(Struct, frozen=True, dict=True):
     def rough(self) -> CamReadings:
         """Readings at the first scales tried: their table has the same size as any other."""
         first = TRIES[0]
-        scales = scales_of(self.design, first.share, first.region, first.profile)
-        return CamReadings(construct(self.design, scales), self.words, self.profile)
+        scales = scales_of(self.design, first.fraction, first.region, first.profile)
+        return CamReadings(construct(self.design, scales), self.language, self.profile)
 
-    def proposals(self, papers: Sequence[Blank]) -> Iterator[CamProposal]:
+    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[CamProposal]:
         """Yield the blocks, smaller and smaller."""
         for paper, tried in product(papers, TRIES):
-            scales = scales_of(self.design, tried.share, tried.region, tried.profile)
+            scales = scales_of(self.design, tried.fraction, tried.region, tried.profile)
             yield CamProposal(self, paper, tried, scales)
 
-    def parts(self, tried: CamTry, scales: CamScales, seen: CamReadings | None) -> Iterator[Packed]:
-        """Yield the blocks in reading order; ``seen`` are readings for a trial."""
-        built, said, letters = construct(self.design, scales), self.words.cam, tried.sizes
-        view = CamView(built, self.words, letters.letter)
-        yield Packed(self._viewed(diagrams_picture(view), "diagrams", built, letters, "sva"))
+    def parts(
+        self, attempt: CamTry, scales: CamScales, readings: CamReadings | None
+    ) -> Iterator[LayoutItem]:
+        """Yield the blocks in reading order; ``readings`` are readings for a trial."""
+        built, said, letters = construct(self.design, scales), self.language.cam, attempt.sizes
+        view = CamView(built, self.language, letters.letter)
+        yield LayoutItem(self._viewed(diagrams_picture(view), "diagrams", built, letters, "sva"))
         region = region_picture(view)
         if region is not None:
             plate = self.design.problem.contact is Contact.FLAT
             arm = self.design.problem.oscillates
             name = ("swung" if arm else "plate") if plate else "region"
-            yield Packed(self._viewed(region, name, built, letters, ("region",)))
-        yield Packed(self._viewed(profile_picture(view), "profile", built, letters, ("profile",)))
-        facts = "; ".join(fact.text for fact in given(self.design.problem, self.words))
-        texts = [self.words.note.given.format(given=facts), *checks(self.design, self.words)]
+            yield LayoutItem(self._viewed(region, name, built, letters, ("region",)))
+        yield LayoutItem(
+            self._viewed(profile_picture(view), "profile", built, letters, ("profile",))
+        )
+        facts = "; ".join(fact.text for fact in given_facts(self.design.problem, self.language))
+        texts = [self.language.note.given.format(given=facts), *checks(self.design, self.language)]
         if self.design.problem.has_forces:
-            texts += forces(self.design, self.words)
+            texts += forces(self.design, self.language)
         lines: list[Block] = [paragraph(text, letters.text, TEXT_WIDTH) for text in texts]
-        lines.append(_table(sizes(self.design, self.words), letters, said.sizes))
-        drawn = seen or CamReadings(built, self.words, self.profile)
+        lines.append(_table(sizes(self.design, self.language), letters, said.sizes))
+        drawn = readings or CamReadings(built, self.language, self.profile)
         if built.results:
             lines.append(_table(drawn.table(), letters, said.drawn))
         lines.append(paragraph(drawn.deviation(), letters.text, TEXT_WIDTH))
-        yield Packed(Column(lines, gap=2.0), text=True)
-        yield Packed(_table(positions(self.design, self.words), letters, said.positions), text=True)
+        yield LayoutItem(Column(lines, gap=2.0), text=True)
+        yield LayoutItem(
+            _table(positions(self.design, self.language), letters, said.positions), text=True
+        )
 
     def _viewed(
         self, picture: Picture, name: str, built: CamConstruction, letters: Sizes,
         scales: Sequence[str],
-    ) -> Viewed:  # fmt: skip
-        said, say = self.words.cam, self.words.say
+    ) -> ViewBlock:  # fmt: skip
+        texts, notation = self.language.cam, self.language.notation
 
         def inscribed(of: str) -> Rich:
             symbol = f"μ_{{{of}}}" if of in "avs" else "μ_{l}"
-            return said.scale.format(symbol=symbol, value=say.given(MM * getattr(built.scales, of)))
+            return texts.scale.format(
+                symbol=symbol, value=notation.as_input(MM * getattr(built.scales, of))
+            )
 
         told = [inscribed(of) for of in scales]
         if name == "diagrams":
-            told.append(said.scale_phi.format(degree=say.given(built.scales.degree)))
-        title: str = said["views"][name]
+            told.append(texts.scale_phi.format(degree=notation.as_input(built.scales.degree)))
+        title: str = texts["views"][name]
         wide = max(picture.width, 140.0)
         lines: list[Block] = [
             heading(title, letters.title, width=wide),
@@ -217,11 +227,11 @@ class _Cam(Struct, frozen=True, dict=True):
         ]
         kind, letter = ("diagram", "s") if name == "diagrams" else ("cam", "l")
         mu = Scale(f"mu_{letter}", getattr(built.scales, scales[0]), "m")
-        return Viewed(Column(lines, gap=2.5, align="centre"), kind, mu)
+        return ViewBlock(Column(lines, gap=2.5, align="centre"), kind, mu)
 
 
-def _table(told: Table, letters: Sizes, title: str) -> Block:
-    columns = [TableColumn(head, cells) for head, cells in told.columns()]
+def _table(content: Table, letters: Sizes, title: str) -> Block:
+    columns = [TableColumn(head, cells) for head, cells in content.columns()]
     table = table_block(
         columns, letters.text, width=TEXT_WIDTH, units="none", row_height=letters.row
     )

@@ -28,104 +28,110 @@ from planmethod.note.wording import Language
 MM = 1000.0
 
 
-def solved_document(problem: CamProblem, words: Language) -> Iterator[Node]:
+def solved_document(problem: CamProblem, language: Language) -> Iterator[Node]:
     """Yield the given data, the sizes, the checks and the positions.
 
     Raises
     ------
     ProblemError
     """
-    design, said = CamDesign(problem), words.cam
-    yield from head(problem, words)
-    yield Caption(said.sizes)
-    yield sizes(design, words)
-    yield Caption(said.checked)
-    yield from map(Item, checks(design, words))
+    design, texts = CamDesign(problem), language.cam
+    yield from head(problem, language)
+    yield Caption(texts.sizes)
+    yield sizes(design, language)
+    yield Caption(texts.checked)
+    yield from map(Item, checks(design, language))
     if problem.has_forces:
-        yield Caption(said.forces)
-        yield from map(Item, forces(design, words))
-    yield Caption(said.positions)
-    yield positions(design, words)
+        yield Caption(texts.forces)
+        yield from map(Item, forces(design, language))
+    yield Caption(texts.positions)
+    yield positions(design, language)
 
 
-def head(problem: CamProblem, words: Language) -> Iterator[Node]:
+def head(problem: CamProblem, language: Language) -> Iterator[Node]:
     """Yield the title and the given data."""
     variant = f" ({problem.variant})" if problem.variant else ""
-    yield Title(words.cam.title.format(title=escape((problem.title or problem.name) + variant)))
-    facts = given(problem, words)
-    told = words.note.given.format(given="; ".join(fact.text for fact in facts))
-    yield Paragraph(told, facts=tuple(facts))
+    yield Title(language.cam.title.format(title=escape((problem.title or problem.name) + variant)))
+    facts = given_facts(problem, language)
+    text = language.note.given.format(given="; ".join(fact.text for fact in facts))
+    yield Paragraph(text, facts=tuple(facts))
 
 
-def given(problem: CamProblem, words: Language, *, numbered: bool = False) -> list[GivenFact]:
+def given_facts(
+    problem: CamProblem, language: Language, *, numbered: bool = False
+) -> list[GivenFact]:
     """Return the given data, part by part: they suffice to design the cam again.
 
     ``numbered``: with the meaning of the position numbers of answers.
     """
-    facts = [*_follower(problem, words), *_turn(problem, words), *_limits(problem, words)]
+    facts = [*_follower(problem, language), *_turn(problem, language), *_limits(problem, language)]
     if numbered:
-        text = words.cam.numbered.format(count=problem.count)
+        text = language.cam.numbered.format(count=problem.count)
         facts.append(GivenFact(text, {"cam.count": problem.count}))
     return facts
 
 
-def motion_given(problem: CamProblem, words: Language) -> list[GivenFact]:
+def motion_facts(problem: CamProblem, language: Language) -> list[GivenFact]:
     """Return the given data of the follower's motion, but for the speed of the cam."""
-    facts = [*_follower(problem, words), *_turn(problem, words)]
+    facts = [*_follower(problem, language), *_turn(problem, language)]
     others = {"cam.closure", "cam.parts", "cam.n"}
     return [fact for fact in facts if not others & {*fact.data}]
 
 
-def _follower(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
+def _follower(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
     """Yield the follower, its stroke and its closure."""
-    said, say = words.cam, words.say
+    texts, notation = language.cam, language.notation
     kind = {"cam.follower": problem.follower.value, "cam.contact": problem.contact.value}
-    yield GivenFact(said["followers"][problem.follower.value][problem.contact.value], kind)
+    yield GivenFact(texts["followers"][problem.follower.value][problem.contact.value], kind)
     if problem.oscillates:
         swing = degrees(problem.stroke / problem.arm)
-        text = said.swing.format(swing=say.given(swing), arm=say.given(MM * problem.arm))
+        text = texts.swing.format(
+            swing=notation.as_input(swing), arm=notation.as_input(MM * problem.arm)
+        )
         yield GivenFact(text, {"cam.swing": swing, "cam.arm": problem.arm})
-        yield GivenFact(said["senses"][problem.sense.value], {"cam.sense": problem.sense.value})
+        yield GivenFact(texts["senses"][problem.sense.value], {"cam.sense": problem.sense.value})
     else:
-        text = said.stroke.format(h=say.given(MM * problem.stroke))
+        text = texts.stroke.format(h=notation.as_input(MM * problem.stroke))
         yield GivenFact(text, {"cam.stroke": problem.stroke})
     closure = problem.closure.value
-    yield GivenFact(said["closures"][closure], {"cam.closure": closure})
+    yield GivenFact(texts["closures"][closure], {"cam.closure": closure})
 
 
-def _turn(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
+def _turn(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
     """Yield the phases of a turn, the laws, and the number of divisions of a turn."""
-    said, say = words.cam, words.say
+    texts, notation = language.cam, language.notation
     names, keys = (
         ("rise", "upper", "back", "lower"),
         ("rise", "upper_dwell", "return", "lower_dwell"),
     )
     angles = [degrees(x) for x in problem.phases]
-    shown = dict(zip(names, map(say.given, angles), strict=True))
+    shown = dict(zip(names, map(notation.as_input, angles), strict=True))
     data = {f"cam.{key}": angle for key, angle in zip(keys, angles, strict=True)}
-    yield GivenFact(said.phases.format(**shown), data)
-    rise, back = (_law(law, words) for law in problem.laws)
+    yield GivenFact(texts.phases.format(**shown), data)
+    rise, back = (_law(law, language) for law in problem.laws)
     own = dict[str, object]()
     for key, law in zip(("rise", "return"), problem.laws, strict=True):
         own[f"cam.law.{key}.law"] = law.name.value
-        own |= {f"cam.law.{key}.{number}": value for number, value in law.told}
-    yield GivenFact((said.law if rise == back else said.two_laws).format(rise=rise, back=back), own)
-    yield GivenFact(said.divided_in.format(parts=problem.parts), {"cam.parts": problem.parts})
+        own |= {f"cam.law.{key}.{number}": value for number, value in law.parameters}
+    yield GivenFact(
+        (texts.law if rise == back else texts.two_laws).format(rise=rise, back=back), own
+    )
+    yield GivenFact(texts.divided_in.format(parts=problem.parts), {"cam.parts": problem.parts})
     if problem.n:
-        speed = said["speed"]["ccw" if problem.n > 0 else "cw"]
-        yield GivenFact(speed.format(n=say.given(abs(problem.n))), {"cam.n": problem.n})
+        speed = texts["speed"]["ccw" if problem.n > 0 else "cw"]
+        yield GivenFact(speed.format(n=notation.as_input(abs(problem.n))), {"cam.n": problem.n})
 
 
-def _limits(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
+def _limits(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
     """Yield allowed pressure angles, sizes, and the sources of forces."""
-    said, say = words.cam, words.say
+    texts, notation = language.cam, language.notation
     flat = problem.contact is Contact.FLAT
     if not flat:
         up, down = problem.allowed
-        text = said.allowed.format(rise=say.given(degrees(up)))
+        text = texts.allowed.format(rise=notation.as_input(degrees(up)))
         data = {"cam.pressure.rise": degrees(up)}
         if down is not None:
-            text += said.allowed_back.format(back=say.given(degrees(down)))
+            text += texts.allowed_back.format(back=notation.as_input(degrees(down)))
             data["cam.pressure.return"] = degrees(down)
         yield GivenFact(text, data)
     for name, symbol, key in (
@@ -137,40 +143,42 @@ def _limits(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
     ):
         value = getattr(problem, name)
         if value if name == "least" else value is not None:
-            text = f"{symbol} = {say.given(MM * value)} {say.units['mm']}"
+            text = f"{symbol} = {notation.as_input(MM * value)} {notation.units['mm']}"
             yield GivenFact(text, {f"cam.{key}": value})
     if problem.mass:
-        mass = f"{say.given(problem.mass)} {say.units['kg']}"
-        yield GivenFact(said.mass.format(mass=mass), {"cam.mass": problem.mass})
+        mass = f"{notation.as_input(problem.mass)} {notation.units['kg']}"
+        yield GivenFact(texts.mass.format(mass=mass), {"cam.mass": problem.mass})
     if problem.load:
-        load = f"{say.given(problem.load)} {say.units['N']}"
-        yield GivenFact(said.load.format(load=load), {"cam.load": problem.load})
+        load = f"{notation.as_input(problem.load)} {notation.units['N']}"
+        yield GivenFact(texts.load.format(load=load), {"cam.load": problem.load})
     if problem.has_forces:
-        margin = said.margin.format(margin=say.given(problem.margin))
+        margin = texts.margin.format(margin=notation.as_input(problem.margin))
         yield GivenFact(margin, {"cam.margin": problem.margin})
 
 
-def _law(law: UnitLaw, words: Language) -> Rich:
+def _law(law: UnitLaw, language: Language) -> Rich:
     """Return a law with the numbers that make it this one."""
-    said, say = words.cam, words.say
-    name: str = said["laws"][law.name.value]
-    for key, value in law.told:
+    texts, notation = language.cam, language.notation
+    name: str = texts["laws"][law.name.value]
+    for key, value in law.parameters:
         match value:
             case float():
                 is_usual = key in ("ratio", "blend") and value == float(key == "ratio")
-                name += "" if is_usual else said[key].format(**{key: say.given(value)})
+                name += "" if is_usual else texts[key].format(**{key: notation.as_input(value)})
             case tuple() if key == "values":
-                listed = "; ".join(map(say.given, value))
-                name += said.by_values.format(parts=len(value) - 1, values=listed)
+                listed = "; ".join(map(notation.as_input, value))
+                name += texts.by_values.format(parts=len(value) - 1, values=listed)
             case tuple():
-                pairs = ", ".join(f"({say.given(x)}; {say.given(y)})" for x, y in value)
-                name += said.by_points.format(points=pairs)
+                pairs = ", ".join(
+                    f"({notation.as_input(x)}; {notation.as_input(y)})" for x, y in value
+                )
+                name += texts.by_points.format(points=pairs)
     return name
 
 
-def sizes(design: CamDesign, words: Language) -> Table:
+def sizes(design: CamDesign, language: Language) -> Table:
     """Return the table of the sizes, mm."""
-    problem, geometry, said = design.problem, design.geometry, words.cam
+    problem, geometry, texts = design.problem, design.geometry, language.cam
     flat = problem.contact is Contact.FLAT
     told: list[tuple[str, str, float]] = [
         ("r_plate" if flat else "r_min", "r_{0}" if flat else "r_{min}", geometry.r_min)
@@ -183,19 +191,22 @@ def sizes(design: CamDesign, words: Language) -> Table:
         told.append(("roller", "r_{p}", geometry.roller))
     if np.isfinite(design.rho_min.value):
         told.append(("rho", "ρ_{min}", design.rho_min.value))
-    rows = [(said["names"][name], symbol, words.say.found(MM * x)) for name, symbol, x in told]
-    return table_of(said["columns"], rows, names=2)
+    rows = [
+        (texts["names"][name], symbol, language.notation.computed(MM * x))
+        for name, symbol, x in told
+    ]
+    return table_of(texts["columns"], rows, names=2)
 
 
-def checks(design: CamDesign, words: Language) -> Iterator[Rich]:
+def checks(design: CamDesign, language: Language) -> Iterator[Rich]:
     """Yield the remarks on pressure angles, undercut, the roller and impacts."""
-    problem, said, say = design.problem, words.cam, words.say
+    problem, texts, notation = design.problem, language.cam, language.notation
 
     def mm(value: float) -> Rich:
-        return say.found(MM * value)
+        return notation.computed(MM * value)
 
     def at(phi: float) -> Rich:
-        return say.given(round(degrees(phi), 2) % 360.0)
+        return notation.as_input(round(degrees(phi), 2) % 360.0)
 
     for phase in (CamPhase.RISE, CamPhase.RETURN):
         if problem.contact is Contact.FLAT:
@@ -203,59 +214,59 @@ def checks(design: CamDesign, words: Language) -> Iterator[Rich]:
         value, phi = design.pressure(phase)
         limit = problem.limit(phase)
         fields = {
-            "phase": said["phase"][phase.value],
-            "value": say.found(degrees(value)),
+            "phase": texts["phase"][phase.value],
+            "value": notation.computed(degrees(value)),
             "phi": at(phi),
         }
         if limit is None:
-            yield said.free.format(**fields)
+            yield texts.free.format(**fields)
         else:
-            told = said.within if value <= limit * (1 + 1e-9) else said.exceeded
-            yield told.format(limit=say.given(degrees(limit)), **fields)
+            text = texts.within if value <= limit * (1 + 1e-9) else texts.exceeded
+            yield text.format(limit=notation.as_input(degrees(limit)), **fields)
     cut, (rho, phi) = design.undercut, design.rho_min
     if cut is not None:
-        told = said.hollow if problem.contact is Contact.FLAT else said.undercut
-        yield told.format(
+        text = texts.hollow if problem.contact is Contact.FLAT else texts.undercut
+        yield text.format(
             start=at(cut.start), end=at(cut.end), phi=at(cut.phi), rho=mm(cut.rho),
             roller=mm(design.geometry.roller), x=mm(problem.mirror * cut.point.real),
             y=mm(cut.point.imag),
         )  # fmt: skip
     elif not np.isfinite(rho):
-        yield said.straight
+        yield texts.straight
     else:
-        yield said.no_undercut.format(rho=mm(rho), phi=at(phi))
+        yield texts.no_undercut.format(rho=mm(rho), phi=at(phi))
     if problem.contact is Contact.ROLLER and np.isfinite(rho):
         share, curved = OF_R_MIN * design.geometry.r_min, OF_RHO * rho
-        yield said.roller_limits.format(
+        yield texts.roller_limits.format(
             roller=mm(design.geometry.roller), share=mm(share), curved=mm(curved)
         )
     for jump in problem.jumps:
-        told = said.hard if jump.order == 1 else said.soft
+        text = texts.hard if jump.order == 1 else texts.soft
         before, after = jump.before[jump.order], jump.after[jump.order]
-        yield told.format(phi=at(jump.phi), before=mm(float(before)), after=mm(float(after)))
+        yield text.format(phi=at(jump.phi), before=mm(float(before)), after=mm(float(after)))
     if not problem.jumps:
-        yield said.smooth
+        yield texts.smooth
     for law in dict.fromkeys(problem.laws):
         if abs(law.balance - 1) > 1e-9:
-            yield said.balanced.format(factor=say.short(law.balance))
+            yield texts.balanced.format(factor=notation.short(law.balance))
 
 
-def hundredths(value: float, words: Language) -> Rich:
+def hundredths(value: float, language: Language) -> Rich:
     """Return a number with two decimals, never a negative zero."""
-    return words.say.number(f"{round(value, 2) + 0.0:.2f}")
+    return language.notation.number(f"{round(value, 2) + 0.0:.2f}")
 
 
-def positions(design: CamDesign, words: Language) -> Table:
+def positions(design: CamDesign, language: Language) -> Table:
     """Return the table of the positions, mm and degrees: the divisions of the diagrams."""
-    say = words.say
+    notation = language.notation
     told = []
     for k, row in division_rows(design):
-        cells = [str(k), say.given(round(row["phi_deg"], 2))]
+        cells = [str(k), notation.as_input(round(row["phi_deg"], 2))]
         for key in ("s", "v_q", "a_q", "pressure_deg", "x", "y", "rho"):
             value = row[key] if key == "pressure_deg" else MM * row[key]
-            cells.append(hundredths(value, words) if abs(value) < 1e5 else "∞")
+            cells.append(hundredths(value, language) if abs(value) < 1e5 else "∞")
         told.append(cells)
-    return table_of(words.cam["heads"], told, names=0)
+    return table_of(language.cam["heads"], told, names=0)
 
 
 # Forces -------------------------------------------------------------------------------------------
@@ -288,16 +299,16 @@ def forces_of(design: CamDesign) -> CamForces:
     return CamForces(needed, spring, design.highest(normal))
 
 
-def forces(design: CamDesign, words: Language) -> Iterator[Rich]:
+def forces(design: CamDesign, language: Language) -> Iterator[Rich]:
     """Yield the force of the spring and the greatest reaction."""
-    told, said, say = forces_of(design), words.cam, words.say
+    told, texts, notation = forces_of(design), language.cam, language.notation
 
     def at(phi: float) -> Rich:
-        return say.given(round(degrees(phi), 2) % 360.0)
+        return notation.as_input(round(degrees(phi), 2) % 360.0)
 
     if design.problem.closure is Closure.FORCE:
-        yield said.spring.format(
-            spring=say.found(told.spring), needed=say.found(told.needed.value),
-            phi=at(told.needed.phi), margin=say.given(design.problem.margin),
+        yield texts.spring.format(
+            spring=notation.computed(told.spring), needed=notation.computed(told.needed.value),
+            phi=at(told.needed.phi), margin=notation.as_input(design.problem.margin),
         )  # fmt: skip
-    yield said.normal.format(force=say.found(told.normal.value), phi=at(told.normal.phi))
+    yield texts.normal.format(force=notation.computed(told.normal.value), phi=at(told.normal.phi))

@@ -14,27 +14,27 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from planmethod.check.copied import copied
-from planmethod.check.explain import Explanation, Fit
-from planmethod.check.following import passed_on
-from planmethod.check.judge import Examined, decide, distance
-from planmethod.check.letters import plain
+from planmethod.check.copied import detect_copied_variant
+from planmethod.check.explain import Explanation, ExplanationFit
+from planmethod.check.following import propagate_mistake
+from planmethod.check.grading import ExaminedAnswer, assign_verdicts, distance
+from planmethod.check.letters import normalize
 from planmethod.check.marks import Settings
 from planmethod.check.model import Diagnosis, Unread, Verdict, WrittenAnswer
 from planmethod.check.questions import Question, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.check.slips import METRES, PLACES, UNITS
+from planmethod.check.submissions.cells import mark_unreadable
+from planmethod.check.submissions.units import ratio
 from planmethod.check.task import Task, TaskItem
-from planmethod.check.works.cells import refused
-from planmethod.check.works.units import ratio
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.errors import Fault, ProblemError
 from planmethod.kind import ProblemKind
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.plans.model import Plan
+from planmethod.problem.common import AnswerForm, KindProblem, QuestionSpec
 from planmethod.problem.figures import AnswerValue, Figures, Mistaken
-from planmethod.problem.head import AnswerForm, AskedAnswer, KindProblem
 from planmethod.problem.selector import Selector
 from planmethod.solved.selectors.steps import NoValue, NoValueError
 
@@ -47,24 +47,24 @@ COUNTED = 0.3
 COARSE = 0.01
 """Relative weight of the last digit from which a number cannot indicate another variant."""
 
-_NOTHING = Trace({}, {})
+_EMPTY_TRACE = Trace({}, {})
 
 
 class CalculationSheet(Sheet):
     """Requested quantities of one position of a computed problem."""
 
     def __init__(
-        self, figures: Figures, position: int, asked: Iterable[Question], by: Profile
+        self, figures: Figures, position: int, requested: Iterable[Question], by: Profile
     ) -> None:
         self.figures, self.position = figures, position
-        self.asked, self.profile = tuple(asked), by
-        self.scales, self.order, self.made = {}, {}, {}
-        self._seen: dict[str, tuple[float, float]] = {}
+        self.requested, self.profile = tuple(requested), by
+        self.scales, self.order, self.steps_by_name = {}, {}, {}
+        self._readings: dict[str, tuple[float, float]] = {}
 
     @cached_property
     def trace(self) -> Trace:
         """Nothing is constructed."""
-        return _NOTHING
+        return _EMPTY_TRACE
 
     @cached_property
     def keyed(self) -> Sheet:
@@ -74,16 +74,16 @@ class CalculationSheet(Sheet):
     @cached_property
     def exact(self) -> dict[str, float]:
         """Exact answers by the id of the question."""
-        return {question.id: float(question.take(_NOTHING)) for question in self.asked}
+        return {question.id: float(question.evaluate(_EMPTY_TRACE)) for question in self.requested}
 
     def _drawn(self, question: Question) -> tuple[float, float]:
         if question.selector.kind != READ:
             return math.nan, 0.0
         name = question.selector.names[0]
-        if name not in self._seen:
+        if name not in self._readings:
             read = self.figures.read_off(name, self.position, self.profile)
-            self._seen[name] = read or (math.nan, 0.0)
-        return self._seen[name]
+            self._readings[name] = read or (math.nan, 0.0)
+        return self._readings[name]
 
     def length(self, question: Question) -> float | None:
         """Return the length of its segment on the picture, mm."""
@@ -118,13 +118,13 @@ class Calculation(Task):
         kind: ProblemKind[Any],
         problem: KindProblem,
         settings: Settings,
-        others: Callable[[], Iterable[Task]] | None = None,
+        other_variants: Callable[[], Iterable[Task]] | None = None,
     ) -> None:
         self.problem, self.settings = problem, replace(settings, floor_mm=0.0)
-        self.variant, self._others = problem.variant, others
+        self.variant, self._other_variants = problem.variant, other_variants
         self.table = kind.table
         self.figures = kind.figures(problem)
-        self._found: dict[tuple[str, int, bool, bool], Question] = {}
+        self._question_cache: dict[tuple[str, int, bool, bool], Question] = {}
         self._forms: dict[str, TaskItem] = {}
         self._numbers: dict[tuple[object, ...], CalculationSheet] = {}
         # Computed once for all works and positions: each may be another cam.
@@ -134,54 +134,54 @@ class Calculation(Task):
         if not (problem.answers or self.figures.names):
             fault = Fault(kind.table, "no quantity has a value that could be requested")
             raise ProblemError(problem.name, [fault])
-        self.declared = tuple(self._stated(at, one) for at, one in enumerate(problem.answers))
+        self.declared = tuple(self._declare_item(at, one) for at, one in enumerate(problem.answers))
 
-    def for_one_work(self) -> Calculation:
+    def copy_for_submission(self) -> Calculation:
         """Return a copy of the task for one submission: its extra answers do not affect others."""
         other = copy.copy(self)
-        other._found = dict(self._found)
+        other._question_cache = dict(self._question_cache)
         return other
 
-    def _stated(self, at: int, asked: AskedAnswer) -> TaskItem:
-        position = asked.position or 0
-        drawn = asked.form is not AnswerForm.VALUE
-        question = self._question(asked.what, position, drawn=drawn, turns=asked.sense is not None)
+    def _declare_item(self, at: int, spec: QuestionSpec) -> TaskItem:
+        position = spec.position or 0
+        drawn = spec.form is not AnswerForm.VALUE
+        question = self._question(spec.what, position, drawn=drawn, turns=spec.sense is not None)
         if question is None:
-            said = say("{} has no value in this problem", asked.what)
+            phrase = translate("{} has no value in this problem", spec.what)
             fault = Fault(
                 f"answers[{at}].what",
-                said,
+                phrase,
                 "planmethod solve shows the reason; choose another quantity.",
             )
             raise ProblemError(self.problem.name, [fault])
-        item = self._item(question, position, asked.what)
+        item = self._item(question, position, spec.what)
         item = replace(
             item,
-            id=asked.id,
-            name=asked.id,
-            points=asked.points,
-            asks_sense=asked.sense is not None,
-            fixed=asked.tolerance or item.fixed,
-            label=asked.letters[0] if asked.letters else "",
-            unit=self.unit_of(asked, question),
+            id=spec.id,
+            name=spec.id,
+            points=spec.points,
+            asks_sense=spec.sense is not None,
+            fixed=spec.tolerance or item.fixed,
+            label=spec.letters[0] if spec.letters else "",
+            unit=self.unit_of(spec, question),
         )
-        for form in (asked.id, *asked.letters, asked.what):
+        for form in (spec.id, *spec.letters, spec.what):
             self._forms.setdefault(form, item)
-            self._forms.setdefault(plain(form), item)
+            self._forms.setdefault(normalize(form), item)
         return item
 
     def _question(
         self, name: str, position: int, *, drawn: bool = False, turns: bool = False
     ) -> Question | None:
         key = (name, position, drawn, turns)
-        figure = self.figures.figure(name, position) if key not in self._found else None
+        figure = self.figures.figure(name, position) if key not in self._question_cache else None
         if figure is not None:
-            self._found[key] = _question_of(name, figure, drawn=drawn, turns=turns)
-        return self._found.get(key)
+            self._question_cache[key] = _question_of(name, figure, drawn=drawn, turns=turns)
+        return self._question_cache.get(key)
 
     def _item(self, question: Question, position: int, name: str) -> TaskItem:
         figure = self.figures.figure(name, position)
-        whole = figure is not None and figure.whole and figure.value
+        whole = figure is not None and figure.is_integer and figure.value
         fixed = COUNTED / abs(figure.value) if figure is not None and whole else None
         return TaskItem(name, question, position, fixed=fixed, label=name, name=name)
 
@@ -210,21 +210,21 @@ class Calculation(Task):
             raise NoValueError(NoValue.NO_POSITION)
         if (declared := self.stated(written)) is not None:
             return declared
-        spelled = {plain(name): name for name in self.figures.names}
+        spelled = {normalize(name): name for name in self.figures.names}
         for text in filter(None, (written.what, written.id)):
-            for name in (text, text.replace(" ", "_"), spelled.get(plain(text), "")):
+            for name in (text, text.replace(" ", "_"), spelled.get(normalize(text), "")):
                 question = self._question(name, position, drawn=written.mm is not None)
                 if question is not None:
                     item = self._item(question, position, name)
                     return replace(item, id=written.id or item.id)
-        raise NoValueError(NoValue.NO_WHAT)
+        raise NoValueError(NoValue.NO_QUANTITY)
 
     def written(self, item: TaskItem, written: WrittenAnswer) -> WrittenAnswer:
         """Return an answer in the unit of its key, its sense as the sign of its number."""
         written = super().written(item, written)
         per = ratio(written, item.question.unit)
         if per is None:
-            return refused(Unread.OTHER, written.unit, written.where, base=written)
+            return mark_unreadable(Unread.OTHER, written.unit, written.location, base=written)
         per = 1.0 if item.question.is_mm else per  # grading handles millimetres
         value, sense = written.value, written.sense
         if value is not None and sense is not None and sense.turns:
@@ -236,14 +236,14 @@ class Calculation(Task):
     def sheet(
         self,
         position: int,
-        own: Mapping[str, float] | None = None,
+        student_scales: Mapping[str, float] | None = None,
         ruler: float | None = None,
         *,
         drawn: str = "",
     ) -> CalculationSheet:
         """Return the numbers of a position, with all quantities requested so far."""
         profile = self.profile(ruler, drawn=drawn)
-        asked = {q.id: q for (_, at, *_), q in self._found.items() if at == position}
+        asked = {q.id: q for (_, at, *_), q in self._question_cache.items() if at == position}
         key = (position, profile, tuple(asked))
         if key not in self._numbers:
             self._numbers[key] = CalculationSheet(self.figures, position, asked.values(), profile)
@@ -255,36 +255,40 @@ class Calculation(Task):
         found = []
         for code, where, take in self._mistaken():
             values = {}
-            for question in sheet.asked:
+            for question in sheet.requested:
                 value = take(question.selector.names[0], sheet.position)
                 values[question.id] = sheet.exact[question.id] if value is None else value
-            found.append(Explanation(code, where, values, _NOTHING, sheet))
+            found.append(Explanation(code, where, values, _EMPTY_TRACE, sheet))
         return found
 
-    def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
+    def find_matching_sheet(self, task: Task, mine: Sheet) -> Sheet | None:
         """Return another variant's numbers for the same quantities; None if one is missing."""
-        assert isinstance(other, Calculation) and isinstance(mine, CalculationSheet)
-        their = other.for_one_work()
-        for name, at, drawn, turns in self._found:
+        assert isinstance(task, Calculation) and isinstance(mine, CalculationSheet)
+        their = task.copy_for_submission()
+        for name, at, drawn, turns in self._question_cache:
             if at == mine.position and their._question(name, at, drawn=drawn, turns=turns) is None:
                 return None
         return their.sheet(mine.position)
 
     def _copied(self, sheet: CalculationSheet) -> Iterator[Explanation]:
         for variant, theirs in self.theirs(sheet):
-            yield Explanation("P2", variant, theirs.exact, _NOTHING, sheet)
+            yield Explanation("P2", variant, theirs.exact, _EMPTY_TRACE, sheet)
 
     # Judging ---------------------------------------------------------------------------------
 
-    def judge(self, sheet: CalculationSheet, found: list[Examined]) -> list[Diagnosis]:
+    def grade(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> list[Diagnosis]:
         """Give every answer its verdict, and name the mistakes."""
-        self._replay(sheet, found)
-        decide(sheet, found, self.settings.near)
+        self._replay(sheet, examined)
+        assign_verdicts(sheet, examined, self.settings.near)
         diagnoses: list[Diagnosis] = []
-        other = copied(self, sheet, found)
+        other = detect_copied_variant(self, sheet, examined)
         if other is not None:
-            return [passed_on(self, sheet, found, [Fit(other, 0.0, 0.0, len(found))])]
-        left = [one for one in found if one.verdict is Verdict.WRONG]
+            return [
+                propagate_mistake(
+                    self, sheet, examined, [ExplanationFit(other, 0.0, 0.0, len(examined))]
+                )
+            ]
+        left = [one for one in examined if one.verdict is Verdict.WRONG]
         if not left:
             return []
         tried = [*self.named(sheet), *self._copied(sheet)]
@@ -292,37 +296,40 @@ class Calculation(Task):
             # No factor gives zero.
             for code, factor in _slips(one.item.question.unit) if one.value else ():
                 given = {**sheet.exact, one.item.question.id: one.limit.exact * factor}
-                tried.append(Explanation(code, "", given, _NOTHING, sheet))
+                tried.append(Explanation(code, "", given, _EMPTY_TRACE, sheet))
         while left:
             scored = [
-                (sum(_gives(e, one) for one in left), e)
+                (sum(_predicts(e, one) for one in left), e)
                 for e in tried
-                if not _contradicted(e, found)
+                if not _is_contradicted(e, examined)
             ]
             most = max((score for score, _ in scored), default=0)
             if not most:
                 diagnoses += [Diagnosis((), False, (one.item.id,)) for one in left]
                 break
             chosen = [e for score, e in scored if score == most]
-            taken = [one for one in left if _gives(chosen[0], one)]
-            alike = [e for e in chosen if all(_gives(e, one) for one in taken)]
+            taken = [one for one in left if _predicts(chosen[0], one)]
+            alike = [e for e in chosen if all(_predicts(e, one) for one in taken)]
             alike = [e for e in alike if e.code != "sign"] or alike  # its cause says more
-            if len({e.where for e in alike}) > 1:
-                alike = [replace(e, where="") for e in alike]
-            fits = [Fit(e, 0.0, 0.0, most) for e in alike]
-            diagnoses.append(passed_on(self, sheet, taken, fits))
+            if len({e.place for e in alike}) > 1:
+                alike = [replace(e, place="") for e in alike]
+            fits = [ExplanationFit(e, 0.0, 0.0, most) for e in alike]
+            diagnoses.append(propagate_mistake(self, sheet, taken, fits))
             left = [one for one in left if one not in taken]
         return diagnoses
 
-    def _replay(self, sheet: CalculationSheet, found: list[Examined]) -> None:
+    def _replay(self, sheet: CalculationSheet, examined: list[ExaminedAnswer]) -> None:
         """Find the values that follow from the student's own answers."""
-        for one in found:
-            slack = self.settings.k * one.limit.sigma + one.limit.least + one.step / 2
-            one.slip = one.told is not None and abs(abs(one.value) - abs(one.told)) > slack
-        names = {one.item.question.selector.names[0]: one for one in found}
+        for one in examined:
+            slack = self.settings.k * one.limit.sigma + one.limit.minimum + one.step / 2
+            one.slip = (
+                one.value_from_mm is not None
+                and abs(abs(one.value) - abs(one.value_from_mm)) > slack
+            )
+        names = {one.item.question.selector.names[0]: one for one in examined}
         own = {name: one.value for name, one in names.items()}
         for name, one in names.items():
-            for value, by in self.figures.followed(name, own):
+            for value, by in self.figures.derive_values(name, own):
                 parent = names[by]
                 if not math.isfinite(value) or (one.local is not None and parent.right):
                     continue
@@ -353,7 +360,7 @@ def _slips(unit: str) -> Iterator[tuple[str, float]]:
         yield "S4", factor
 
 
-def _gives(explanation: Explanation, one: Examined) -> bool:
+def _predicts(explanation: Explanation, one: ExaminedAnswer) -> bool:
     """Return whether an explanation gives a wrong answer."""
     given = explanation.values[one.item.question.id]
     if not math.isfinite(given) or abs(given - one.limit.exact) <= one.limit.tolerance():
@@ -365,9 +372,9 @@ def _gives(explanation: Explanation, one: Examined) -> bool:
     return distance(one.item, one.value, given, signed=one.signed) <= slack
 
 
-def _contradicted(explanation: Explanation, found: list[Examined]) -> bool:
+def _is_contradicted(explanation: Explanation, examined: list[ExaminedAnswer]) -> bool:
     """Return whether a student with this mistake could not have all these right answers."""
-    for one in found:
+    for one in examined:
         given = explanation.values[one.item.question.id]
         off = distance(one.item, given, one.limit.exact, signed=one.signed)
         if one.right and one.sense_right is not False and not off <= one.limit.tolerance(one.step):

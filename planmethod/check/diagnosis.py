@@ -8,25 +8,25 @@ from itertools import combinations
 
 from msgspec.structs import replace
 
-from planmethod.check.copied import copied
+from planmethod.check.copied import detect_copied_variant
 from planmethod.check.explain import (
     ONE_MISTAKE,
     WIDE,
     Explanation,
+    ExplanationFit,
     Explanations,
     Fact,
-    Fit,
-    OwnNumbers,
+    StudentNumbers,
 )
-from planmethod.check.following import follows, idle, passed_on, rank, repoint, values_of
-from planmethod.check.judge import Examined, facts_of, put_in
+from planmethod.check.following import follows, idle, propagate_mistake, rank, repoint, values_of
+from planmethod.check.grading import ExaminedAnswer, collect_student_values, facts_of
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.model import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Sheet
-from planmethod.check.slips import Slip, put_explanation, slips
+from planmethod.check.slips import Slip, explain_by_value, slips
 from planmethod.check.task import Task
 from planmethod.plans.model import MOTION
 
@@ -60,7 +60,7 @@ MANY = 2
 COPIED = 25.0
 """Prior of another variant's numbers where they fit: few mistakes give just these."""
 
-ALONE = 0.05
+MAX_LONE_SLIP = 0.05
 """Maximum relative error of a slip that is not confirmed by anything else on the sheet."""
 
 UNNAMED = 15.0
@@ -70,43 +70,47 @@ Some seventy mistakes can be made on a sheet: one of them comes near almost any 
 """
 
 
-def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]:
+def diagnose(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> list[Diagnosis]:
     """Name the mistakes of a sheet, and propagate their consequences.
 
     The verdicts of the answers that follow from a recognised mistake become `Verdict.INHERITED`.
     """
-    other = copied(task, sheet, found)
+    other = detect_copied_variant(task, sheet, examined)
     if other is not None:
-        return [passed_on(task, sheet, found, [Fit(other, 0.0, 0.0, len(found))])]
-    wrong = [one for one in found if one.verdict is Verdict.WRONG]
+        return [
+            propagate_mistake(
+                task, sheet, examined, [ExplanationFit(other, 0.0, 0.0, len(examined))]
+            )
+        ]
+    wrong = [one for one in examined if one.verdict is Verdict.WRONG]
     if not wrong:
         return []
     alone = wrong[0] if len(wrong) == 1 and wrong[0].item.question.unit != "N·m" else None
-    facts = facts_of(sheet, found, task.settings.k)
-    own = _numbers(sheet, found, facts)
-    whole = _whole(task, sheet, found, wrong, facts, own)
-    if alone is not None and _turned(alone):
+    facts = facts_of(sheet, examined, task.settings.k)
+    own = _student_numbers(sheet, examined, facts)
+    whole = _explain_all(task, sheet, examined, wrong, facts, own)
+    if alone is not None and _is_only_sense_wrong(alone):
         codes = {fit.explanation.code for fit in whole or ()}
         if "sign" not in codes or codes <= {"sign", ""}:  # else it may be more than the sense
-            told = _alone(sheet, alone, many=False, lone=True)
+            told = _diagnose_single(sheet, alone, many=False, lone=True)
             return [_or_driver(told, task.named(sheet), facts)]
     if whole is not None:
-        return [passed_on(task, sheet, found, whole)]
-    two = _two(task.explanations(sheet), sheet, found, facts, own)
+        return [propagate_mistake(task, sheet, examined, whole)]
+    two = _diagnose_pair(task.explanations(sheet), sheet, examined, facts, own)
     if two:
         return two
-    return _one_by_one(task, sheet, found, wrong, facts, own)
+    return _diagnose_singly(task, sheet, examined, wrong, facts, own)
 
 
-def _or_driver(told: Diagnosis, named: Sequence[Explanation], facts: list[Fact]) -> Diagnosis:
+def _or_driver(diagnosis: Diagnosis, named: Sequence[Explanation], facts: list[Fact]) -> Diagnosis:
     """Return that a sense is wrong, or the driver turns the other way: V2 where it gives all."""
     for made in (e for e in named if e.code == "V2"):
         if all(fact.sense is None or fact.sense(made.trace) is not False for fact in facts):
-            return replace(told, codes=("sign", "V2"), sure=False)
-    return told
+            return replace(diagnosis, codes=("sign", "V2"), sure=False)
+    return diagnosis
 
 
-def _explains(sheet: Sheet, wrong: list[Examined], explanation: Explanation) -> bool:
+def _explains(sheet: Sheet, wrong: list[ExaminedAnswer], explanation: Explanation) -> bool:
     """Return whether a mistake changes a wrong answer at all, its number or its sense."""
     for one in wrong:
         given, right = (e[one.item.question.id] for e in (explanation.values, sheet.exact))
@@ -117,34 +121,36 @@ def _explains(sheet: Sheet, wrong: list[Examined], explanation: Explanation) -> 
     return False
 
 
-def _numbers(sheet: Sheet, found: list[Examined], facts: list[Fact]) -> OwnNumbers:
-    own = put_in(sheet, found)
-    right = {one.item.question.id for one in found if one.right and one.sense_right is not False}
+def _student_numbers(
+    sheet: Sheet, examined: list[ExaminedAnswer], facts: list[Fact]
+) -> StudentNumbers:
+    own = collect_student_values(sheet, examined)
+    right = {one.item.question.id for one in examined if one.right and one.sense_right is not False}
     came, left = sheet.replayed(own)[0], sheet.local(own)
     squares, count = FEW, FEW
     for fact in facts:
         if fact.id in right and fact.slot in came and fact.slot is not None:
             sigma = left.sigma[fact.slot] * fact.per_slot
-            if sigma > fact.least:
+            if sigma > fact.min_sigma:
                 off = fact.value - fact.of(came[fact.slot] * fact.per_slot)
                 squares, count = squares + (off / sigma) ** 2, count + 1
     share = min(1.0, max(EXACT, math.sqrt(squares / count)))
-    return OwnNumbers(own, put_in(sheet, found, values=True), share)
+    return StudentNumbers(own, collect_student_values(sheet, examined, values=True), share)
 
 
-def _whole(
+def _explain_all(
     task: Task,
     sheet: Sheet,
-    found: list[Examined],
-    wrong: list[Examined],
+    examined: list[ExaminedAnswer],
+    wrong: list[ExaminedAnswer],
     facts: list[Fact],
-    own: OwnNumbers,
-) -> list[Fit] | None:
+    numbers: StudentNumbers,
+) -> list[ExplanationFit] | None:
     """Return the explanations of all that is answered, the best first; None where none is."""
-    fits = _fits(task, sheet, found, wrong, facts, own)
+    fits = _rank_explanations(task, sheet, examined, wrong, facts, numbers)
     best = fits[0] if fits else None
     if best is None or not best.likely or best.explanation.code == "P1":
-        others = _fits_of_variants(task, sheet, found, own.share)
+        others = _fits_of_variants(task, sheet, examined, numbers.error_fraction)
         fits = sorted([*fits, *others], key=lambda fit: fit.score)
         best = fits[0] if fits else None
     if best is not None and not best.likely:  # an unexplained number is still propagated
@@ -156,45 +162,45 @@ def _whole(
     return [fit for fit in fits if fit.likely and fit.score < best.score + CLEARLY]
 
 
-def _fits(
+def _rank_explanations(
     task: Task,
     sheet: Sheet,
-    found: list[Examined],
-    wrong: list[Examined],
+    examined: list[ExaminedAnswer],
+    wrong: list[ExaminedAnswer],
     facts: list[Fact],
-    own: OwnNumbers,
-) -> list[Fit]:
+    numbers: StudentNumbers,
+) -> list[ExplanationFit]:
     """Return how explanations fit, the best first."""
     explained = task.explanations(sheet)
     near = [e for e in explained.nearest(facts, TRIED) if _explains(sheet, wrong, e)]
     told = {fact.id for fact in facts}
     judged = [one for one in wrong if one.item.question.id in told]
     put = [_of_slip(explained, sheet, one, slip) for one in judged for slip in slips(sheet, one)]
-    fits: list[Fit] = []
-    for tried in ([*near, *_scaled(task, sheet, found)], put):
-        rough = [explained.fit(e, facts, own) for e in tried]
+    fits: list[ExplanationFit] = []
+    for tried in ([*near, *_scaled(task, sheet, examined)], put):
+        rough = [explained.evaluate(e, facts, numbers) for e in tried]
         most = min((fit.score for fit in rough), default=0.0) + CLOSE
         close = [fit.explanation for fit in rough if fit.score <= most]
-        fits += [explained.fit(e, facts, own, closely=True) for e in close]
+        fits += [explained.evaluate(e, facts, numbers, closely=True) for e in close]
     for one in judged:
         code = "slip" if one.slip else ""  # shown by their millimetres; else unknown
-        made = put_explanation(sheet, one, code, "", one.value, UNNAMED, free=True)
-        fits.append(explained.fit(made, facts, own))
+        made = explain_by_value(sheet, one, code, "", one.value, UNNAMED, free=True)
+        fits.append(explained.evaluate(made, facts, numbers))
     return _different(sorted(fits, key=lambda fit: fit.score), facts)
 
 
-def _of_slip(explained: Explanations, sheet: Sheet, one: Examined, slip: Slip) -> Explanation:
+def _of_slip(explained: Explanations, sheet: Sheet, one: ExaminedAnswer, slip: Slip) -> Explanation:
     """Return what a slip gives: by the program where it can be made there."""
     change = slip.change(sheet, one)
     item, question = one.item.id, one.item.question.id
     made = None if change is None else explained.of_slip(change, question, item)
-    return made or put_explanation(sheet, one, *slip[:4], free=False)
+    return made or explain_by_value(sheet, one, *slip[:4], free=False)
 
 
-def _different(fits: list[Fit], facts: list[Fact]) -> list[Fit]:
+def _different(ranked: list[ExplanationFit], facts: list[Fact]) -> list[ExplanationFit]:
     """Return fits without those that give the same numbers as a more common explanation."""
-    kept: list[Fit] = []
-    for fit in sorted(fits, key=lambda fit: -fit.explanation.prior):
+    kept: list[ExplanationFit] = []
+    for fit in sorted(ranked, key=lambda fit: -fit.explanation.prior):
         given = fit.explanation.values
         if fit.explanation.free or not any(
             _same(given, other.explanation.values, facts)
@@ -209,18 +215,18 @@ def _different(fits: list[Fit], facts: list[Fact]) -> list[Fit]:
 def _same(one: Mapping[str, float], two: Mapping[str, float], facts: list[Fact]) -> bool:
     """Return whether two explanations give the same answers."""
     return all(
-        abs(fact.of(one[fact.id]) - fact.of(two[fact.id])) <= fact.least * 0.5
-        and (not fact.turn or one[fact.id] * two[fact.id] >= 0)
+        abs(fact.of(one[fact.id]) - fact.of(two[fact.id])) <= fact.min_sigma * 0.5
+        and (not fact.rotation_sign or one[fact.id] * two[fact.id] >= 0)
         for fact in facts
     )
 
 
-def _scaled(task: Task, sheet: Sheet, found: list[Examined]) -> Iterator[Explanation]:
+def _scaled(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> Iterator[Explanation]:
     """Yield a plan that was drawn to another scale than it is read by."""
     for plan in MOTION[1:]:
         ratios = [
-            (abs(one.value / one.limit.exact), _share(one))
-            for one in found
+            (abs(one.value / one.limit.exact), _relative_tolerance(one))
+            for one in examined
             if one.verdict in (Verdict.WRONG, Verdict.INHERITED, Verdict.NEAR)
             and one.item.question.plan is plan
             and one.item.question.selector.kind not in RATES
@@ -238,57 +244,65 @@ def _scaled(task: Task, sheet: Sheet, found: list[Examined]) -> Iterator[Explana
                 yield made
 
 
-def _share(one: Examined) -> float:
+def _relative_tolerance(one: ExaminedAnswer) -> float:
     """Return the relative tolerance of an answer."""
     return max(one.limit.tolerance(one.step), one.limit.spread) / abs(one.limit.exact)
 
 
 def _fits_of_variants(
-    task: Task, sheet: Sheet, examined: list[Examined], tolerance_share: float
-) -> Iterator[Fit]:
+    task: Task, sheet: Sheet, examined: list[ExaminedAnswer], tolerance_share: float
+) -> Iterator[ExplanationFit]:
     """Yield how the numbers of the other variants fit, read as the program of each calls them."""
     explained = task.explanations(sheet)
     for variant, theirs in task.theirs(sheet):
-        asked = {question.id: question for question in theirs.asked}
+        asked = {question.id: question for question in theirs.requested}
         there = [
             replace(one, item=replace(one.item, question=asked[one.item.question.id]))
             for one in examined
         ]
-        own = OwnNumbers(put_in(theirs, there), put_in(theirs, there, values=True), tolerance_share)
+        own = StudentNumbers(
+            collect_student_values(theirs, there),
+            collect_student_values(theirs, there, values=True),
+            tolerance_share,
+        )
         made = Explanation("P2", variant, theirs.exact, theirs.trace, theirs, prior=COPIED)
-        yield explained.fit(made, facts_of(theirs, there, task.settings.k), own)
+        yield explained.evaluate(made, facts_of(theirs, there, task.settings.k), own)
 
 
 # Two at once ---------------------------------------------------------------------------------
 
 
-def _two(
+def _diagnose_pair(
     explained: Explanations,
     sheet: Sheet,
-    found: list[Examined],
+    examined: list[ExaminedAnswer],
     facts: list[Fact],
-    own: OwnNumbers,
+    numbers: StudentNumbers,
 ) -> list[Diagnosis]:
     """Name two mistakes that together explain a sheet, each a part of it; none where it is open.
 
     What one leaves unexplained is compared, too, with numbers that are wrong for no known reason.
     """
     singles = [e for e in explained.named if e.change is not None and not e.change.of_scale]
-    rough = sorted((explained.fit(e, facts, own) for e in singles), key=lambda fit: fit.score)
+    rough = sorted(
+        (explained.evaluate(e, facts, numbers) for e in singles), key=lambda fit: fit.score
+    )
     best = [fit.explanation for fit in rough[:PAIRED]]
-    left = {id(e): _unexplained(explained, e, facts, own) for e in best}
+    left = {id(e): _unexplained(explained, e, facts, numbers) for e in best}
     pairs: list[tuple[float, Explanation, Explanation, Explanation]] = []
     for one, two in combinations(best, 2):
         mine, theirs = left[id(one)], left[id(two)]
         if one.code == two.code or mine <= theirs or theirs <= mine:
             continue
         made = explained.of_both(one, two)
-        if made is None or not (fit := explained.fit(made, facts, own)).likely:
+        if made is None or not (fit := explained.evaluate(made, facts, numbers)).likely:
             continue
-        fit = explained.fit(made, facts, own, closely=True)
+        fit = explained.evaluate(made, facts, numbers, closely=True)
         alone = min(
             (
-                explained.fit(e, [f for f in facts if f.id not in rest], own, closely=True).score
+                explained.evaluate(
+                    e, [f for f in facts if f.id not in rest], numbers, closely=True
+                ).score
                 + sum(_unnamed(sheet, f) for f in facts if f.id in rest)
                 for e, rest in ((one, mine), (two, theirs))
             )
@@ -302,7 +316,7 @@ def _two(
     rivals = [(s, {a.code, b.code}) for s, a, b, _ in pairs if s < score + 2 * CLEARLY]
     if any(s < score + CLEARLY and not codes & {one.code, two.code} for s, codes in rivals):
         return []
-    wrong = [o for o in found if o.verdict is Verdict.WRONG]
+    wrong = [o for o in examined if o.verdict is Verdict.WRONG]
     told = []
     for mistake, other in ((one, two), (two, one)):
         begins = [o for o in wrong if o.item.question.id in left[id(other)]]
@@ -322,47 +336,47 @@ def _two(
     for answer in wrong:
         if answer not in roots and follows(answer, made, 1.0) and not idle(sheet, answer, made):
             answer.verdict, answer.source = Verdict.INHERITED, roots[0].item.id
-    repoint(found)
-    values = values_of(found, made)
+    repoint(examined)
+    values = values_of(examined, made)
     return [
-        Diagnosis(codes, len(codes) == 1, (root.item.id,), mistake.where, values)
+        Diagnosis(codes, len(codes) == 1, (root.item.id,), mistake.place, values)
         for codes, mistake, root in told
     ]
 
 
 def _unexplained(
-    explained: Explanations, explanation: Explanation, facts: list[Fact], own: OwnNumbers
+    explained: Explanations, explanation: Explanation, facts: list[Fact], numbers: StudentNumbers
 ) -> set[str]:
     """Return the ids of answers that are surely off, or reversed, with a mistake."""
     return {
         fact.id
         for fact in facts
-        if explained.fit(explanation, [fact], own).chi2 > OFF
+        if explained.evaluate(explanation, [fact], numbers).chi2 > OFF
         or (fact.sense is not None and fact.sense(explanation.trace) is False)
     }
 
 
 def _unnamed(sheet: Sheet, fact: Fact) -> float:
     """Return the cost of a wrong number of unknown cause."""
-    size = max(abs(fact.value), abs(sheet.exact[fact.id]), fact.least)
+    size = max(abs(fact.value), abs(sheet.exact[fact.id]), fact.min_sigma)
     return 2 * math.log(size * WIDE) + ONE_MISTAKE - 2 * math.log(UNNAMED)
 
 
 # One by one ----------------------------------------------------------------------------------
 
 
-def _one_by_one(
+def _diagnose_singly(
     task: Task,
     sheet: Sheet,
-    found: list[Examined],
-    wrong: list[Examined],
+    examined: list[ExaminedAnswer],
+    wrong: list[ExaminedAnswer],
     facts: list[Fact],
-    own: OwnNumbers,
+    numbers: StudentNumbers,
 ) -> list[Diagnosis]:
     """Name what can be named where no one mistake explains the whole sheet."""
     explained = task.explanations(sheet)
     diagnoses: list[Diagnosis] = []
-    by_question = {one.item.question.id: one for one in found}
+    by_question = {one.item.question.id: one for one in examined}
     left = list(wrong)
     for explanation in explained.nearest(facts, TRIED):
         kept = [f for f in facts if follows(by_question[f.id], explanation, task.settings.near)]
@@ -373,24 +387,24 @@ def _one_by_one(
         ]
         if len(gained) < 2 or len(facts) - len(kept) > max(1, len(facts) // 4):
             continue
-        fit = explained.fit(explanation, kept, own, closely=True)
-        plain = [explained.fit(e, kept, own) for e in explained.nearest(kept, 2)]
+        fit = explained.evaluate(explanation, kept, numbers, closely=True)
+        plain = [explained.evaluate(e, kept, numbers) for e in explained.nearest(kept, 2)]
         rivals = {p.explanation.code for p in plain if p.score < fit.score + CLEARLY}
         if fit.likely and rivals <= {explanation.code}:
             left = [one for one in left if one not in gained]
-            told = passed_on(task, sheet, gained, [fit])
+            told = propagate_mistake(task, sheet, gained, [fit])
             # Beside two more wrong numbers it may be what something else gives here.
             diagnoses.append(replace(told, sure=told.sure and len(left) < MANY))
             break
     left = [one for one in left if one.verdict is Verdict.WRONG]
     for one in left:
         lone = not diagnoses and len(left) == 1
-        diagnoses.append(_alone(sheet, one, many=len(left) > MANY, lone=lone))
-    repoint(found)
+        diagnoses.append(_diagnose_single(sheet, one, many=len(left) > MANY, lone=lone))
+    repoint(examined)
     return diagnoses
 
 
-def _turned(one: Examined) -> bool:
+def _is_only_sense_wrong(one: ExaminedAnswer) -> bool:
     """Return whether only the sense of an answer is wrong."""
     size = one.right or one.near
     if one.item.question.sign is not Sign.TURN:  # else their own numbers give that sense too
@@ -398,24 +412,24 @@ def _turned(one: Examined) -> bool:
     return one.sense_right is False and size
 
 
-def _alone(sheet: Sheet, one: Examined, *, many: bool, lone: bool) -> Diagnosis:
+def _diagnose_single(sheet: Sheet, one: ExaminedAnswer, *, many: bool, lone: bool) -> Diagnosis:
     """Return the diagnosis of a single number; of one among many only if it is certain.
 
     Some segment of a plan is about as long as almost any number, and some factor relates it to the
     right one: among other wrong numbers only the student's own values, or millimetres, are proof.
     """
     roots = (one.item.id,)
-    if _turned(one):
+    if _is_only_sense_wrong(one):
         return Diagnosis(("sign",), not many, roots)
-    near = [s for s in slips(sheet, one) if abs(abs(one.value / s.value) - 1.0) <= ALONE]
+    near = [s for s in slips(sheet, one) if abs(abs(one.value / s.value) - 1.0) <= MAX_LONE_SLIP]
     codes = dict.fromkeys(slip.code for slip in near)
     if not codes and one.slip:
         codes = {"slip": None}
     elif many and not one.slip:
         codes = {}
     named = tuple(codes)
-    where = near[0].where if named == ("slip",) and near else ""
+    where = near[0].place if named == ("slip",) and near else ""
     read = bool(named) and named[0] in SEGMENT_CODES.values()
-    own = one.told is not None or (one.local is not None and not read)
+    own = one.value_from_mm is not None or (one.local is not None and not read)
     sure = len(named) == 1 and (lone or own)
     return Diagnosis(named, sure, roots, where)

@@ -18,7 +18,7 @@ from msgspec.structs import replace
 
 from planmethod.check.mistakes import changes
 from planmethod.check.mistakes.model import Change, MistakeContext
-from planmethod.check.sheet import Local, Own, Sheet
+from planmethod.check.sheet import Local, Sheet, StudentValues
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName
@@ -26,16 +26,16 @@ from planmethod.construct.steps import Name, NumberName
 WIDE = math.log(1e4)
 """Range of the factors that a slip can multiply a number by, as the logarithm of a ratio."""
 
-LEAST_SHARE = 0.3
+MIN_ERROR_FRACTION = 0.3
 """An answer that a mistake makes small is drawn no better than a third of the right one."""
 
 SHARED = 2.0
 """Average number of answers affected by one stroke: its error is counted in each of them."""
 
-FAR = 30.0
+MAX_SQUARED_SIGMAS = 30.0
 """Cap of squared sigmas: larger deviations of an answer do not count more."""
 
-KEPT = 500
+MAX_CACHED_SLIPS = 500
 """Maximum number of slips whose plans are cached."""
 
 ONE_MISTAKE = 2 * math.log(20.0)
@@ -55,7 +55,7 @@ class Fact(Struct, frozen=True):
     signed : bool
     step : float
         Unit of the last digit.
-    least : float
+    min_sigma : float
         Lower bound of sigma for any value written by hand.
     slot : NumberName or None
         Number of the program that the answer determines; None if no value follows from it.
@@ -63,7 +63,7 @@ class Fact(Struct, frozen=True):
         Value of that number's unit in the unit of the answer.
     name : NumberName or None
         Number that is the answer itself.
-    turn : float
+    rotation_sign : float
         1 counter-clockwise, -1 clockwise, if the student states a sense of rotation; else 0.
     sense : callable or None
         Returns whether the stated sense is right on a sheet; None if undecidable.
@@ -73,11 +73,11 @@ class Fact(Struct, frozen=True):
     value: float
     signed: bool
     step: float
-    least: float
+    min_sigma: float
     slot: NumberName | None = None
     per_slot: float = 1.0
     name: NumberName | None = None
-    turn: float = 0.0
+    rotation_sign: float = 0.0
     sense: Callable[[Trace], bool | None] | None = None
 
     def of(self, value: float) -> float:
@@ -85,7 +85,7 @@ class Fact(Struct, frozen=True):
         return value if self.signed else abs(value)
 
 
-class OwnNumbers(Struct, frozen=True):
+class StudentNumbers(Struct, frozen=True):
     """A student's own numbers (собственные числа студента).
 
     Attributes
@@ -93,14 +93,14 @@ class OwnNumbers(Struct, frozen=True):
     all : Own
     values : Own
         Only answers, without lengths at the student's scale.
-    share : float
+    error_fraction : float
         Error of the right answers, as a fraction of the expected drafting error: for students who
         draw with a program, or compute, each number is stronger evidence.
     """
 
-    all: Own
-    values: Own
-    share: float = 1.0
+    all: StudentValues
+    values: StudentValues
+    error_fraction: float = 1.0
 
 
 class Explanation(Struct, frozen=True, eq=False):
@@ -110,13 +110,13 @@ class Explanation(Struct, frozen=True, eq=False):
     ----------
     code : str
         Empty for a wrong number of unknown cause.
-    where : str
+    place : str
     values : mapping of str to float
         Every answer.
     trace : Trace
     sheet : Sheet
         The plans that it is made on.
-    begins : tuple of str
+    first_answers : tuple of str
         Answers that it begins with, where that is known.
     free : str
         Question whose answer is accepted as written.
@@ -132,11 +132,11 @@ class Explanation(Struct, frozen=True, eq=False):
     """
 
     code: str
-    where: str
+    place: str
     values: Mapping[str, float]
     trace: Trace
     sheet: Sheet
-    begins: tuple[str, ...] = ()
+    first_answers: tuple[str, ...] = ()
     free: str = ""
     slip: str = ""
     fixed: str = ""
@@ -146,7 +146,7 @@ class Explanation(Struct, frozen=True, eq=False):
     program: Program | None = None
 
 
-class Fit(Struct, frozen=True):
+class ExplanationFit(Struct, frozen=True):
     """Goodness of fit of an explanation.
 
     Attributes
@@ -185,8 +185,8 @@ class Explanations:
         self.sheet = sheet
         self.scene = MistakeContext(sheet)
         self._named: list[Explanation] | None = None
-        self._last: OwnNumbers | None = None
-        self._came: dict[Sheet | Explanation, dict[Name, float]] = {}
+        self._last: StudentNumbers | None = None
+        self._replays: dict[Sheet | Explanation, dict[Name, float]] = {}
         self._slips: dict[tuple[object, ...], Explanation | None] = {}
         self._locals: dict[tuple[Explanation, frozenset[Name]], Local] = {}
 
@@ -197,8 +197,8 @@ class Explanations:
             self._named = [*self._evaluated(changes(self.scene))]
         return self._named
 
-    def _evaluated(self, found: Iterator[Change]) -> Iterator[Explanation]:
-        for change in found:
+    def _evaluated(self, mistakes: Iterator[Change]) -> Iterator[Explanation]:
+        for change in mistakes:
             made = self.of_change(change)
             if made is not None:
                 yield made
@@ -208,12 +208,12 @@ class Explanations:
         sheet = self.sheet
         program = change.program(sheet.program)
         trace = sheet.read(program, change.data)
-        values = sheet.taken(trace)
+        values = sheet.evaluate_answers(trace)
         if not all(math.isfinite(value) for value in values.values()):
             return None
         return Explanation(
             change.code,
-            change.where,
+            change.place,
             values,
             trace,
             sheet,
@@ -239,30 +239,30 @@ class Explanations:
 
     def of_slip(self, change: Change, question: str, item: str) -> Explanation | None:
         """Return the predictions of a mistake in one number; they are cached."""
-        key = (change.code, change.where, item, *change.steps.values(), change.prior)
+        key = (change.code, change.place, item, *change.steps.values(), change.prior)
         if key not in self._slips:
-            if len(self._slips) >= KEPT:
+            if len(self._slips) >= MAX_CACHED_SLIPS:
                 self._slips.clear()
                 self._locals.clear()
             made = self.of_change(change)
-            made = made and replace(made, slip=question, begins=(item,))
+            made = made and replace(made, slip=question, first_answers=(item,))
             self._slips[key] = made
         return self._slips[key]
 
     @cached_property
     def _table(self) -> npt.NDArray[np.float64]:
         """Return what every named explanation gives for every question, shape (e, q)."""
-        ids = [question.id for question in self.sheet.asked]
+        ids = [question.id for question in self.sheet.requested]
         return np.array([[e.values[i] for i in ids] for e in self.named]).reshape(-1, len(ids))
 
     @cached_property
     def _sigmas(self) -> npt.NDArray[np.float64]:
-        found = np.array([self.sheet.sigma(question) for question in self.sheet.asked])
+        found = np.array([self.sheet.sigma(question) for question in self.sheet.requested])
         return np.where(np.isfinite(found), found, 0.0)
 
     def nearest(self, facts: Sequence[Fact], count: int) -> list[Explanation]:
         """Return the named explanations closest to the answers; large deviations are capped."""
-        rows = {question.id: row for row, question in enumerate(self.sheet.asked)}
+        rows = {question.id: row for row, question in enumerate(self.sheet.requested)}
         chosen = [rows[fact.id] for fact in facts]
         if not self.named or not chosen:
             return []
@@ -270,26 +270,26 @@ class Explanations:
         signed = np.array([fact.signed for fact in facts])
         values = np.array([fact.value for fact in facts])
         right = np.abs(np.array([self.sheet.exact[fact.id] for fact in facts]))
-        own = np.array([fact.least**2 + fact.step**2 / 12 for fact in facts])
+        own = np.array([fact.min_sigma**2 + fact.step**2 / 12 for fact in facts])
         share = np.where(right == 0, 1.0, np.abs(given) / np.where(right == 0, 1.0, right))
-        variance = self._sigmas[chosen] ** 2 * np.maximum(share, LEAST_SHARE) ** 2
+        variance = self._sigmas[chosen] ** 2 * np.maximum(share, MIN_ERROR_FRACTION) ** 2
         off = values - np.where(signed, given, np.abs(given))
-        bad = np.minimum(off**2 / (variance + own), FAR).sum(axis=1)
-        turns = np.array([fact.turn for fact in facts])
+        bad = np.minimum(off**2 / (variance + own), MAX_SQUARED_SIGMAS).sum(axis=1)
+        turns = np.array([fact.rotation_sign for fact in facts])
         bad = bad + MISREAD_SENSE * ((turns != 0) & (np.sign(given) == -turns)).sum(axis=1)
         order = np.argsort(bad, kind="stable")[:count]
         return [self.named[number] for number in order]
 
     # Fits ------------------------------------------------------------------------------------
 
-    def fit(
+    def evaluate(
         self,
         explanation: Explanation,
         facts: Sequence[Fact],
-        numbers: OwnNumbers,
+        numbers: StudentNumbers,
         *,
         closely: bool = False,
-    ) -> Fit:
+    ) -> ExplanationFit:
         """Return how well an explanation fits what was written.
 
         Every answer is compared with the value derived from the earlier ones, with the mistake in
@@ -297,7 +297,7 @@ class Explanations:
 
         Parameters
         ----------
-        numbers : OwnNumbers
+        numbers : StudentNumbers
         closely : bool
             Use the errors of the plans with the mistake; else those of the right ones,
             in proportion.
@@ -327,44 +327,44 @@ class Explanations:
                 sigma = sigma if explanation.sigma is None else explanation.sigma
             elif not closely:
                 right = abs(sheet.exact[fact.id])
-                sigma *= max(abs(given) / right, LEAST_SHARE) if right else 1.0
+                sigma *= max(abs(given) / right, MIN_ERROR_FRACTION) if right else 1.0
             count += 1
             if not math.isfinite(given):
                 chi2 = score = math.inf
                 continue
-            off, own_error = fact.value - fact.of(given), fact.least**2 + fact.step**2 / 12
+            off, own_error = fact.value - fact.of(given), fact.min_sigma**2 + fact.step**2 / 12
             chi2 += off**2 / (sigma**2 + own_error)
-            variance = (sigma * numbers.share) ** 2 + own_error
-            score += min(off**2 / variance, FAR) + math.log(2 * math.pi * variance)
+            variance = (sigma * numbers.error_fraction) ** 2 + own_error
+            score += min(off**2 / variance, MAX_SQUARED_SIGMAS) + math.log(2 * math.pi * variance)
         score += ONE_MISTAKE - 2 * math.log(explanation.prior)
         if explanation.free:
             free = next(fact for fact in facts if fact.id == explanation.free)
             usual = abs(sheet.exact[free.id])
-            score += 2 * math.log(max(abs(free.value), usual, free.least) * WIDE)
+            score += 2 * math.log(max(abs(free.value), usual, free.min_sigma) * WIDE)
         for fact in facts:
             right_way = None if fact.sense is None else fact.sense(explanation.trace)
             score += MISREAD_SENSE if right_way is False else 0.0
-        return Fit(explanation, score, chi2, count)
+        return ExplanationFit(explanation, score, chi2, count)
 
     def _replayed(
-        self, explanation: Explanation, own: Own, numbers: OwnNumbers
+        self, explanation: Explanation, values: StudentValues, numbers: StudentNumbers
     ) -> dict[Name, float]:
         change, sheet = explanation.change, explanation.sheet
         if self._last is not numbers:
-            self._last, self._came = numbers, {}
+            self._last, self._replays = numbers, {}
         key: Sheet | Explanation = sheet if change is None else explanation  # of slips the same
-        if key not in self._came:
+        if key not in self._replays:
             data = {} if change is None else change.data
-            self._came[key] = sheet.replayed(own, explanation.program, data)[0]
-        return self._came[key]
+            self._replays[key] = sheet.replayed(values, explanation.program, data)[0]
+        return self._replays[key]
 
-    def _left(self, explanation: Explanation, own: Own) -> Local:
+    def _left(self, explanation: Explanation, values: StudentValues) -> Local:
         """Return the errors left by the student's numbers, on the plans with the mistake."""
         change, sheet = explanation.change, explanation.sheet
         if change is None:
-            return sheet.local(own)
-        key = (explanation, frozenset[Name](own))
+            return sheet.local(values)
+        key = (explanation, frozenset[Name](values))
         if key not in self._locals:
             program = explanation.program or sheet.program
-            self._locals[key] = sheet.localised(own, program, {**sheet.data, **change.data})
+            self._locals[key] = sheet.localised(values, program, {**sheet.data, **change.data})
         return self._locals[key]

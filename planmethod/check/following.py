@@ -7,54 +7,56 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from planmethod.check.explain import Explanation, Fit
-from planmethod.check.judge import Examined, distance, usable
+from planmethod.check.explain import Explanation, ExplanationFit
+from planmethod.check.grading import ExaminedAnswer, distance, usable
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Sheet, point
 from planmethod.check.slips import completed
 from planmethod.check.task import Task
-from planmethod.construct.steps import Name, PointName, makes, operands
+from planmethod.construct.steps import Name, PointName, operands, result_kind
 from planmethod.plans.model import FACTS
 
 CLOSING = ("at", "epsilon", "vs")
 """Closing vectors of a plan: their error is that of the longer vectors, however short they are."""
 
 
-def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fit]) -> Diagnosis:
+def propagate_mistake(
+    task: Task, sheet: Sheet, examined: list[ExaminedAnswer], ranked: Sequence[ExplanationFit]
+) -> Diagnosis:
     """Return the diagnosis of a whole sheet; consequences of its mistake become inherited."""
-    best = fits[0].explanation
-    codes = tuple(dict.fromkeys(fit.explanation.code for fit in fits))
+    best = ranked[0].explanation
+    codes = tuple(dict.fromkeys(fit.explanation.code for fit in ranked))
     sure = len(codes) == 1 and bool(codes[0])
     if sure and best.code == "P2":
-        _disinherit(found)
-    wrong = [one for one in found if one.verdict is Verdict.WRONG]
-    begins = [one for one in wrong if one.item.id in best.begins]
+        _disinherit(examined)
+    wrong = [one for one in examined if one.verdict is Verdict.WRONG]
+    begins = [one for one in wrong if one.item.id in best.first_answers]
     changed = [one for one in wrong if not idle(sheet, one, best)]
     root = begins[0] if begins else min(changed or wrong, key=lambda one: rank(sheet, one))
     given = [best]
     if begins:
         best = completed(best, root)
-        given = [best, completed(_with_own(best, root), root)]
-    for one in found:
+        given = [best, completed(_with_student_value(best, root), root)]
+    for one in examined:
         if one is root or one.verdict is not Verdict.WRONG or best.code == "P2":
             continue
         if best.free and not usable(root):  # the plans cannot be continued with that value
             continue
         for made in given:
-            moved = not idle(sheet, one, made) or _vector_turned(one)
+            moved = not idle(sheet, one, made) or _is_vector_reversed(one)
             if moved and follows(one, made, task.settings.near):
                 one.verdict, one.source = Verdict.INHERITED, root.item.id
-    repoint(found)
+    repoint(examined)
     if "" in codes:  # the best explanation is an unknown cause
-        codes = () if fits[0].explanation.code == "" else tuple(c for c in codes if c)
+        codes = () if ranked[0].explanation.code == "" else tuple(c for c in codes if c)
         sure = False
     roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
-    told, places = values_of(found, best), _places(best)
-    return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.where, told, places)
+    told, places = values_of(examined, best), _places(best)
+    return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.place, told, places)
 
 
-def _with_own(explanation: Explanation, root: Examined) -> Explanation:
+def _with_student_value(explanation: Explanation, root: ExaminedAnswer) -> Explanation:
     """Return an explanation with the number that the student wrote and continued with."""
     name = root.item.question.id
     own = math.copysign(root.value, explanation.values[name])
@@ -62,18 +64,18 @@ def _with_own(explanation: Explanation, root: Examined) -> Explanation:
     return replace(explanation, values=values, change=None, program=None)
 
 
-def _disinherit(found: list[Examined]) -> None:
+def _disinherit(examined: list[ExaminedAnswer]) -> None:
     """Keep credit for another variant's numbers only where they are right for the student's own."""
-    for one in found:
+    for one in examined:
         one.follows, one.source = False, ""  # their mutual consistency earns no credit
         lost = (Verdict.INHERITED, Verdict.UNSEEN, Verdict.NEAR)
         if one.verdict in lost and not (one.right and one.sense_right is not False):
             one.verdict = Verdict.WRONG
 
 
-def values_of(found: list[Examined], explanation: Explanation) -> dict[str, float]:
+def values_of(examined: list[ExaminedAnswer], explanation: Explanation) -> dict[str, float]:
     """Return what an explanation gives for the answers, by their ids."""
-    return {one.item.id: explanation.values[one.item.question.id] for one in found}
+    return {one.item.id: explanation.values[one.item.question.id] for one in examined}
 
 
 def _places(explanation: Explanation) -> dict[str, complex]:
@@ -87,7 +89,7 @@ def _places(explanation: Explanation) -> dict[str, complex]:
     }
 
 
-def follows(one: Examined, explanation: Explanation, near: float) -> bool:
+def follows(one: ExaminedAnswer, explanation: Explanation, near: float) -> bool:
     """Return whether an answer is what an explanation gives."""
     given = explanation.values[one.item.question.id]
     exact = abs(one.limit.exact)
@@ -100,15 +102,15 @@ def follows(one: Examined, explanation: Explanation, near: float) -> bool:
     return distance(one.item, one.value, given, signed=one.signed) <= tolerance
 
 
-def repoint(found: list[Examined]) -> None:
+def repoint(examined: list[ExaminedAnswer]) -> None:
     """Redirect every source to the first answer of its chain."""
-    by_id = {one.item.id: one for one in found}
-    for one in found:
+    by_id = {one.item.id: one for one in examined}
+    for one in examined:
         while one.source and by_id[one.source].source:
             one.source = by_id[one.source].source
 
 
-def rank(sheet: Sheet, one: Examined) -> tuple[int, bool, int]:
+def rank(sheet: Sheet, one: ExaminedAnswer) -> tuple[int, bool, int]:
     """Return how early on the plans an answer is found: by the last point that it needs."""
     name = one.slot
     if name is None:
@@ -119,8 +121,8 @@ def rank(sheet: Sheet, one: Examined) -> tuple[int, bool, int]:
 def _last_point(sheet: Sheet, name: Name) -> int:
     seen, todo, last = {name}, [name], -1
     while todo:
-        step = sheet.made[todo.pop()]
-        if makes(step) is PointName:
+        step = sheet.steps_by_name[todo.pop()]
+        if result_kind(step) is PointName:
             last = max(last, sheet.order[step.out])
             continue
         for other, _ in operands(step):
@@ -130,7 +132,7 @@ def _last_point(sheet: Sheet, name: Name) -> int:
     return last
 
 
-def idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
+def idle(sheet: Sheet, one: ExaminedAnswer, explanation: Explanation) -> bool:
     """Return whether an explanation leaves an answer as it is, its size and its sense."""
     given, exact = explanation.values[one.item.question.id], sheet.exact[one.item.question.id]
     sign = one.item.question.sign
@@ -139,5 +141,5 @@ def idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
     return not turned and abs(abs(given) - abs(exact)) <= one.limit.tolerance()
 
 
-def _vector_turned(one: Examined) -> bool:
+def _is_vector_reversed(one: ExaminedAnswer) -> bool:
     return one.sense_right is False and one.item.question.sign is Sign.SIZE

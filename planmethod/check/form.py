@@ -12,21 +12,29 @@ from msgspec import Struct
 from msgspec.structs import asdict
 
 from planmethod.check.model import KeyEntry
-from planmethod.check.works.gather import is_of
-from planmethod.check.works.xlsx_file import META
-from planmethod.note.wording import Words, language
+from planmethod.check.submissions.gather import is_of
+from planmethod.check.submissions.xlsx_file import META
+from planmethod.note.wording import MessageTable, get_language
 from planmethod.note.writers.workbook import saved
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 from planmethod.problem.units import ratio_of, read_unit
 
 SCHEMA = 1
 
 _WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
-_SHOWN = (
+_IRRELEVANT_PARTS = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",
-    "source_file", "given",
+    "source_file", "source_table",
 )  # fmt: skip
 """Parts of a problem that do not affect the answers."""
+
+_FINGERPRINT_NAMES = {
+    "assembly_positions": "judged", "cam_drive": "followed", "gear_drive": "geared",
+    "is_pulley": "plain", "lateral_offset": "across", "min_radius": "least",
+    "nearest_to": "near", "parameters": "told", "planets": "satellites", "relation": "where",
+    "shift_wheel": "alone", "stated_count": "told_count",
+}  # fmt: skip
+"""Names that fields had when the forms in use were handed out: a form carries its fingerprint."""
 
 _AGREE = 0.01
 """Relative difference of mm × μ and the value above which the form reports a mismatch."""
@@ -37,7 +45,7 @@ def fingerprint_of(problem: KindProblem) -> str:
 
     Comments and the order of the file, its titles and published values make no difference.
     """
-    kept = {name: part for name, part in _parts(problem).items() if name not in _SHOWN}
+    kept = {name: part for name, part in _parts(problem).items() if name not in _IRRELEVANT_PARTS}
     text = json.dumps(kept, sort_keys=True, ensure_ascii=False, default=_parts)
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -45,7 +53,7 @@ def fingerprint_of(problem: KindProblem) -> str:
 def _parts(record: Any) -> Any:
     """Return the parts of a record, for JSON."""
     if isinstance(record, Struct):
-        return asdict(record)
+        return {_FINGERPRINT_NAMES.get(name, name): part for name, part in asdict(record).items()}
     if isinstance(record, Mapping):
         return dict(record)
     if isinstance(record, Set):  # in no order that a process would choose
@@ -74,14 +82,14 @@ def form_of(
     """
     import openpyxl
 
-    words = language(lang).form
+    texts = get_language(lang).form
     book = openpyxl.Workbook()
     sheet = book.active
-    sheet.title = words.sheet
-    units = offered_units(entries, words)
+    sheet.title = texts.sheet
+    units = offered_units(entries, texts)
     _write_meta(book, entries, units, problem, variant, fingerprint)
-    scales = _write_head(sheet, entries, words, problem, variant, student, title)
-    _write_rows(sheet, entries, words, scales)
+    scales = _write_head(sheet, entries, texts, problem, variant, student, title)
+    _write_rows(sheet, entries, texts, scales)
     for number, width in enumerate(_WIDTHS, 1):
         sheet.column_dimensions[openpyxl.utils.get_column_letter(number)].width = width
     sheet.page_setup.orientation = "landscape"
@@ -123,7 +131,7 @@ def _write_meta(
 def _write_head(
     sheet: Any,
     entries: Sequence[KeyEntry],
-    words: Words,
+    texts: MessageTable,
     problem: str,
     variant: str | None,
     student: str,
@@ -132,26 +140,26 @@ def _write_head(
     """Write the fields for the student and their scales; return the cells of the scales."""
     from openpyxl.styles import Font
 
-    _write(sheet["A1"], title or words.title)
+    _write(sheet["A1"], title or texts.title)
     sheet["A1"].font = Font(bold=True, size=14)
-    for line in words["advice"]:
+    for line in texts["advice"]:
         sheet.append([line])
-    given = [(words.student, student), (words.group, ""), (words.variant, variant or "")]
-    for label, text in (*given, (words.problem, problem)):
+    given = [(texts.student, student), (texts.group, ""), (texts.variant, variant or "")]
+    for label, text in (*given, (texts.problem, problem)):
         sheet.append([label])
         cell = sheet.cell(sheet.max_row, 4)
         _write(cell, text)
-        if label != words.problem and not (label == words.variant and text):
+        if label != texts.problem and not (label == texts.variant and text):
             _open(cell)
     places: dict[str, str] = {}
     asked = {entry.scale for entry in entries if entry.mm is not None}
-    for name, label in words["scales"].items():
+    for name, label in texts["scales"].items():
         if name in asked:
             sheet.append([label])
             places[name] = f"$D${sheet.max_row}"
             _open(sheet.cell(sheet.max_row, 4))
     if places:
-        sheet.append([words.ruler])
+        sheet.append([texts.ruler])
         _open(sheet.cell(sheet.max_row, 4))
     return places
 
@@ -159,17 +167,17 @@ def _write_head(
 def _write_rows(
     sheet: Any,
     entries: Sequence[KeyEntry],
-    words: Words,
+    texts: MessageTable,
     scales: Mapping[str, str],
 ) -> None:
     """Write a row for each answer."""
     from openpyxl.styles import Font
     from openpyxl.worksheet.datavalidation import DataValidation
 
-    rows = asked_rows(entries, words)
+    rows = list_form_rows(entries, texts)
     positions = any(row.position for row in rows)
     sheet.append([])
-    sheet.append([*words["columns"], *([words.position] if positions else [])])
+    sheet.append([*texts["columns"], *([texts.position] if positions else [])])
     head = sheet.max_row
     for cell in sheet[head]:
         cell.font = Font(bold=True)
@@ -189,7 +197,7 @@ def _write_rows(
             _open(sheet.cell(row, column))
             if choices not in lists:
                 formula = f'"{",".join(choices)}"'
-                lists[choices] = DataValidation(type="list", formula1=formula, error=words.refused)
+                lists[choices] = DataValidation(type="list", formula1=formula, error=texts.refused)
                 sheet.add_data_validation(lists[choices])
             lists[choices].add(f"{'ABCDEFGH'[column - 1]}{row}")
         scale = scales.get(one.scale)
@@ -201,7 +209,7 @@ def _write_rows(
                 row,
                 9,
                 f'=IF(OR(D{row}="",E{row}="",F{row}=""),"",IFERROR(IF(ABS(ABS(D{row}*E{row})'
-                f'-ABS({worth}))<={_AGREE}*ABS({worth}),"{words.agrees}","{words.differs}"),""))',
+                f'-ABS({worth}))<={_AGREE}*ABS({worth}),"{texts.agrees}","{texts.differs}"),""))',
             )
         if positions:
             sheet.cell(row, 10, one.position)
@@ -234,28 +242,28 @@ class FormRow(Struct, frozen=True):
     position: int
 
 
-def offered_units(entries: Sequence[KeyEntry], words: Words) -> list[str]:
+def offered_units(entries: Sequence[KeyEntry], texts: MessageTable) -> list[str]:
     """Return the units that a form offers."""
-    asked = (entry.asked for entry in entries)
-    return [unit for unit in dict.fromkeys((*words["units"], *asked)) if unit and read_unit(unit)]
+    asked = (entry.requested_unit for entry in entries)
+    return [unit for unit in dict.fromkeys((*texts["units"], *asked)) if unit and read_unit(unit)]
 
 
-def asked_rows(entries: Sequence[KeyEntry], words: Words) -> tuple[FormRow, ...]:
+def list_form_rows(entries: Sequence[KeyEntry], texts: MessageTable) -> tuple[FormRow, ...]:
     """Return the rows of a form, without the values of the entries."""
-    units = offered_units(entries, words)
-    return tuple(_asked_row(entry, units, words) for entry in entries)
+    units = offered_units(entries, texts)
+    return tuple(_form_row(entry, units, texts) for entry in entries)
 
 
-def _asked_row(entry: KeyEntry, units: Sequence[str], words: Words) -> FormRow:
+def _form_row(entry: KeyEntry, units: Sequence[str], texts: MessageTable) -> FormRow:
     fitting = tuple(unit for unit in units if ratio_of(unit, entry.unit) is not None)
     usual = next((unit for unit in fitting if ratio_of(unit, entry.unit) == 1.0), entry.unit)
-    senses = list(words["senses"].items())
+    senses = list(texts["senses"].items())
     senses = senses[:2] if entry.unit in _TURNING else senses[2:]
     return FormRow(
         entry.id,
         entry.label,
         entry.mm is not None,
-        entry.asked or usual,
+        entry.requested_unit or usual,
         fitting,
         dict(senses if entry.asks_sense else ()),
         # ω is not its millimetres times μ

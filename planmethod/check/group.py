@@ -11,21 +11,21 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.arguments import of_type
+from planmethod.check.batch import batch_tasks
 from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check, failure_of, unknown_variant, unmarked
 from planmethod.check.key import Key, key_of_task
-from planmethod.check.letters import plain
+from planmethod.check.letters import normalize
 from planmethod.check.marks import DEFAULT, Settings
-from planmethod.check.model import CheckedWork, CheckFailure, Work
+from planmethod.check.model import CheckFailure, GradedSubmission, Submission
 from planmethod.check.task import Task
-from planmethod.check.together import batch_tasks
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import PlanMethodError
 from planmethod.kind import ProblemKind
 from planmethod.kinds import kind_of, load
 from planmethod.problem import Problem, variant_names
-from planmethod.problem.head import KindProblem
-from planmethod.project.settle import settled
+from planmethod.problem.common import KindProblem
+from planmethod.project.settle import with_decisions
 from planmethod.solved.many.variants import in_batches
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
@@ -75,7 +75,7 @@ class Variants:
         self.path, self.settings, self.default = path, settings, default
         self.names: tuple[str, ...] = tuple(variant_names(path))
         self._tasks: dict[str | None, Task] = {}
-        self._forms = {plain(name): name for name in self.names}
+        self._forms = {normalize(name): name for name in self.names}
 
     def task(self, name: str | None) -> Task:
         """Return the task of a variant, or of the file itself.
@@ -91,11 +91,11 @@ class Variants:
                 problem = kind.load(self.path, name)
                 self._tasks[name] = Calculation(kind, problem, self.settings, self._all)
             else:
-                solution = _verified(Solution(settled(load(self.path, variant=name))))
+                solution = _verified(Solution(with_decisions(load(self.path, variant=name))))
                 self._tasks[name] = Task(solution, self.settings, self._all)
         return self._tasks[name]
 
-    def ahead(self, names: Iterable[str | None]) -> None:
+    def solve_in_batch(self, names: Iterable[str | None]) -> None:
         """Solve several variants in one batch, if their plans and requested items are the same."""
         if kind_of(self.path) is not None:
             return
@@ -113,7 +113,7 @@ class Variants:
         for name in self.names or (None,):
             yield self.task(name)
 
-    def name_of(self, work: Work) -> str | None:
+    def name_of(self, submission: Submission) -> str | None:
         """Return the variant of a submission; None for the file itself.
 
         Raises
@@ -121,23 +121,23 @@ class Variants:
         KeyError
             When the file has no such variant.
         """
-        if not work.variant:
+        if not submission.variant:
             return self.default
-        if work.variant in self.names:
-            return work.variant
+        if submission.variant in self.names:
+            return submission.variant
         if not self.names:
             return None
-        return self._forms[plain(work.variant)]
+        return self._forms[normalize(submission.variant)]
 
 
 class CheckedGroup(Struct, frozen=True):
     """Graded submissions with the keys used for them."""
 
-    checked: tuple[CheckedWork, ...]
+    checked: tuple[GradedSubmission, ...]
     keys: dict[str | None, Key]
 
 
-def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWork]:
+def check_works(variants: Variants, works: Sequence[Submission]) -> Iterator[GradedSubmission]:
     """Yield the submissions, each checked by its own variant, independently of the others.
 
     One that fails, or whose variant cannot be solved, is not marked; `failure` gives the reason.
@@ -145,7 +145,7 @@ def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWo
     Examples
     --------
     >>> from pathlib import Path
-    >>> from planmethod.check.works import read_works
+    >>> from planmethod.check.submissions import read_works
     >>> variants = Variants(Path("problems/linkages/ex3-variants.toml"))
     >>> works = read_works(Path("problems/groups/ex3.csv"))
     >>> for one in check_works(variants, works[:3]):
@@ -156,42 +156,42 @@ def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWo
     """
     of_type("variants", variants, Variants)
     for work in of_type("works", works, Sequence, "read_works()"):
-        of_type("works", work, Work, "read_works()")
+        of_type("works", work, Submission, "read_works()")
     named = [_named(variants, work) for work in works]
     if len(set(named)) > FEW:
-        variants.ahead(name for name in named if name is not _UNKNOWN)
+        variants.solve_in_batch(name for name in named if name is not _UNKNOWN)
     for work, name in zip(works, named, strict=True):
-        yield unknown_variant(work) if name is _UNKNOWN else _checked(variants, work, name)
+        yield unknown_variant(work) if name is _UNKNOWN else _grade(variants, work, name)
 
 
-def _checked(variants: Variants, work: Work, name: str | None) -> CheckedWork:
+def _grade(variants: Variants, submission: Submission, name: str | None) -> GradedSubmission:
     """Check a submission; a fault in it, or in its variant, does not affect others."""
-    if work.failure:
-        return unmarked(work, name, CheckFailure(work.failure.rstrip(".")))
+    if submission.failure:
+        return unmarked(submission, name, CheckFailure(submission.failure.rstrip(".")))
     try:
-        return check(variants.task(name), work)
+        return check(variants.task(name), submission)
     except PlanMethodError as error:
-        return unmarked(work, name, CheckFailure(str(error).rstrip(".")))
+        return unmarked(submission, name, CheckFailure(str(error).rstrip(".")))
     except MemoryError:
         raise
     except Exception as error:  # an internal error: the others are still graded
-        return unmarked(work, name, failure_of(error))
+        return unmarked(submission, name, failure_of(error))
 
 
-def _named(variants: Variants, work: Work) -> str | None:
+def _named(variants: Variants, submission: Submission) -> str | None:
     try:
-        return variants.name_of(work)
+        return variants.name_of(submission)
     except KeyError:
         return _UNKNOWN
 
 
-def keys_of(variants: Variants, checked: Sequence[CheckedWork]) -> dict[str | None, Key]:
+def keys_of(variants: Variants, checked: Sequence[GradedSubmission]) -> dict[str | None, Key]:
     """Return the keys of the submissions' variants, for all quantities that they answer."""
     found: dict[str | None, Key] = {}
     names = dict.fromkeys(work.variant for work in checked)
     for name in (name for name in names if name is None or name in variants.names):
         try:
-            task = variants.task(name).for_one_work()
+            task = variants.task(name).copy_for_submission()
         except PlanMethodError:
             continue  # said of its works
         items = {(item.id, item.position): item for item in task.usual()}

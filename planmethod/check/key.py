@@ -17,7 +17,7 @@ from planmethod.check.sheet import Sheet, scalar, sense_of
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.plans.model import FACTS, RATES, PlanKind
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
 
@@ -48,7 +48,7 @@ def key_of(solution: Solution, settings: Settings = DEFAULT) -> Key:
     return key_of_task(Task(solution, settings))
 
 
-Shown: TypeAlias = tuple[str, str, Mapping[str, float]]
+MistakeEffect: TypeAlias = tuple[str, str, Mapping[str, float]]
 """A mistake: its code, its place, and its prediction for every question."""
 
 
@@ -56,14 +56,14 @@ def key_of_task(
     task: Task,
     items: Iterable[TaskItem] | None = None,
     *,
-    named: Callable[[Sheet], Iterable[Shown]] | None = None,
+    named: Callable[[Sheet], Iterable[MistakeEffect]] | None = None,
 ) -> Key:
     """Return the key of some items of a variant. Default: all items.
 
     ``named`` returns the mistakes of a sheet, where they are known already.
     """
     named = partial(_named, task) if named is None else named
-    chosen = tuple(task.whole() if items is None else items)
+    chosen = tuple(task.list_items() if items is None else items)
     entries: dict[tuple[int, str], KeyEntry] = {}
     unseen: set[tuple[str, str]] | None = None  # mistakes and places that no answer shows
     every: dict[tuple[str, str], None] = {}
@@ -80,7 +80,7 @@ def key_of_task(
         shown: dict[str, set[str]] = {item.id: set() for item in here}
         codes: dict[str, None] = {}
         dark: set[tuple[str, str]] = set()
-        seen_by = [_Seer.of(item, limits[item.id]) for item in here]
+        seen_by = [_Detector.of(item, limits[item.id]) for item in here]
         for code, where, values in named(drawn):
             codes[code] = None
             visible = False
@@ -93,7 +93,7 @@ def key_of_task(
                 dark.add((code, where))
         unseen = dark if unseen is None else unseen & dark
         for item in here:
-            alike.update(dict.fromkeys(_alike(task, sheet, item, limits[item.id])))
+            alike.update(dict.fromkeys(_confusable_segments(task, sheet, item, limits[item.id])))
             hides = tuple(code for code in codes if code not in shown[item.id])
             limit = limits[item.id]
             entries[position, item.id] = entry_of(task, item, limit, sheet=sheet, hidden=hides)
@@ -109,15 +109,17 @@ def key_of_task(
     )
 
 
-def _named(task: Task, sheet: Sheet) -> Iterator[Shown]:
-    return ((one.code, one.where, one.values) for one in task.named(sheet))
+def _named(task: Task, sheet: Sheet) -> Iterator[MistakeEffect]:
+    return ((one.code, one.place, one.values) for one in task.named(sheet))
 
 
 SEGMENT_CODES = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}
 """Codes of a segment read for another one of its plan."""
 
 
-def _alike(task: Task, sheet: Sheet, item: TaskItem, limit: Tolerance) -> Iterator[tuple[str, str]]:
+def _confusable_segments(
+    task: Task, sheet: Sheet, item: TaskItem, limit: Tolerance
+) -> Iterator[tuple[str, str]]:
     """Yield the segments of the same plan that are as long, and may be read by mistake: V6, N5."""
     question, length = item.question, sheet.length(item.question)
     code = None if question.plan is None else SEGMENT_CODES.get(question.plan)
@@ -132,7 +134,7 @@ def _alike(task: Task, sheet: Sheet, item: TaskItem, limit: Tolerance) -> Iterat
                 yield code, f"{item.label or item.name}: {segment.name}"
 
 
-class _Seer(NamedTuple):
+class _Detector(NamedTuple):
     """An answer, and the deviation from which a mistake is visible in it."""
 
     item: str
@@ -140,17 +142,17 @@ class _Seer(NamedTuple):
     exact: float
     bound: float
     zero: bool
-    turned: bool
+    asks_sense: bool
 
     @classmethod
-    def of(cls, item: TaskItem, limit: Tolerance) -> _Seer:
+    def of(cls, item: TaskItem, limit: Tolerance) -> _Detector:
         bound = max(limit.spread, limit.tolerance())
         return cls(item.id, item.question.id, limit.exact, bound, limit.zero, item.asks_sense)
 
     def shows(self, value: float) -> bool:
         """Return whether the answer with a mistake is surely off."""
         beyond = abs(abs(value) - abs(self.exact)) > self.bound
-        return not self.zero and (beyond or (self.turned and value * self.exact < 0))
+        return not self.zero and (beyond or (self.asks_sense and value * self.exact < 0))
 
 
 def entry_of(
@@ -174,7 +176,7 @@ def entry_of(
         exact=abs(limit.exact) if question.sign is Sign.SIZE else limit.exact,
         sigma=limit.sigma,
         tolerance=limit.tolerance(),
-        seen=limit.seen,
+        is_visible=limit.is_visible,
         zero=limit.zero,
         signed=question.sign is not Sign.SIZE,
         mm=length,
@@ -185,9 +187,9 @@ def entry_of(
         points=item.points,
         position=item.position,
         hidden=hidden,
-        asked=item.unit,
+        requested_unit=item.unit,
         per=item.per(sheet.scales),
-        what=what_of(question),
+        what=describe_quantity(question),
     )
 
 
@@ -204,7 +206,7 @@ def drawn_symbol(task: Task, question: Question) -> str:
     return next((v.symbol for v in vectors if (v.tail, v.head) == question.ends), "")
 
 
-def what_of(question: Question) -> str:
+def describe_quantity(question: Question) -> str:
     """Return a quantity as a submission may name it: ``v B3``, ``angle v B3``, ``n 5``."""
     selector = question.selector
     if selector.kind in ("number", "read"):

@@ -18,7 +18,7 @@ SHORT = {"eps": "epsilon", "om": "omega", "w": "omega", "fi": "phi"}
 DROPPED = str.maketrans("", "", " _{}^()|,.·-–—/'′’*\\$\u00a0\u202f")
 
 
-def plain(text: str) -> str:
+def normalize(text: str) -> str:
     """Return the letters without all differences of spelling."""
     folded = unicodedata.normalize("NFKC", text).translate(DROPPED)
     folded = "".join(LOOKALIKES.get(c, c) for c in folded)
@@ -30,7 +30,7 @@ def plain(text: str) -> str:
     return folded.lower()
 
 
-def called(selector: Selector) -> tuple[str, str]:
+def name_and_symbol(selector: Selector) -> tuple[str, str]:
     """Return what a quantity is called, ``v_B3``, and its symbol in rich text, ``v_{B3}``."""
     kind, names = selector.kind, selector.names
     own = f"{kind.replace(' ', '_')}_{'_'.join(names)}" if names else kind
@@ -54,8 +54,8 @@ def called(selector: Selector) -> tuple[str, str]:
         "load": "",
     }
     if selector.over is not None:
-        over_own, over_symbol = called(selector.over)
-        one_own, one_symbol = called(Selector(kind, names))
+        over_own, over_symbol = name_and_symbol(selector.over)
+        one_own, one_symbol = name_and_symbol(Selector(kind, names))
         return f"{one_own}/{over_own}", f"{one_symbol}/{over_symbol}"
     if kind.startswith("segment"):
         return own, "".join(name.lower() for name in names)

@@ -11,7 +11,7 @@ from typing import Any
 from msgspec import Struct
 
 from planmethod.errors import ExitCode, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem import fields
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse, read_source
@@ -88,29 +88,29 @@ class Settings(Struct, frozen=True):
     values: str = "decided"
     marks: tuple[tuple[float, str], ...] = ((0.85, "5"), (0.7, "4"), (0.5, "3"), (0.0, "2"))
 
-    def mark(self, share: float) -> str:
+    def mark(self, fraction: float) -> str:
         """Return the mark for a share of the points, 0 to 1."""
         return next(
-            (mark for least, mark in self.marks if share >= least - _TINY), self.marks[-1][1]
+            (mark for least, mark in self.marks if fraction >= least - _TINY), self.marks[-1][1]
         )
 
 
 DEFAULT = Settings()
 
-_SHARE = "Shares are from 0 to 1: 0.05 for 5 %."
+_FRACTION_HINT = "Shares are from 0 to 1: 0.05 for 5 %."
 _NUMBERS: Mapping[str, tuple[str, float, float, str]] = MappingProxyType(
     {
         "k": ("a number of standard deviations", 0.5, 10.0, "2.5 rejects few correct answers."),
-        "cap": ("a share", 0.005, 1.0, _SHARE),
+        "cap": ("a share", 0.005, 1.0, _FRACTION_HINT),
         "floor_mm": ("a length in mm", 0.0, 5.0, "It is measured on the plan."),
-        "floor_share": ("a share", 0.0, 0.5, _SHARE),
+        "floor_share": ("a share", 0.0, 0.5, _FRACTION_HINT),
         "near": ("a number of tolerances", 1.0, 10.0, "1 for no answers that are near."),
-        "near_share": ("a share", 0.0, 1.0, _SHARE),
-        "inherited_share": ("a share", 0.0, 1.0, _SHARE),
-        "inconsistent_share": ("a share", 0.0, 1.0, _SHARE),
-        "unseen_share": ("a share", 0.0, 1.0, _SHARE),
-        "sense_share": ("a share", 0.0, 1.0, _SHARE),
-        "department": ("a share", 0.001, 1.0, _SHARE),
+        "near_share": ("a share", 0.0, 1.0, _FRACTION_HINT),
+        "inherited_share": ("a share", 0.0, 1.0, _FRACTION_HINT),
+        "inconsistent_share": ("a share", 0.0, 1.0, _FRACTION_HINT),
+        "unseen_share": ("a share", 0.0, 1.0, _FRACTION_HINT),
+        "sense_share": ("a share", 0.0, 1.0, _FRACTION_HINT),
+        "department": ("a share", 0.001, 1.0, _FRACTION_HINT),
         "ruler_mm": ("a step of reading in mm", 0.01, 5.0, "A ruler has 0.5 or 1."),
     }
 )
@@ -149,7 +149,7 @@ def load_settings(path: Path) -> Settings:
     if not faults and told.get("floor_share", DEFAULT.floor_share) > told.get("cap", DEFAULT.cap):
         faults.add("cap", "the cap is below floor_share", "No answer could be graded: raise it.")
     if faults:
-        raise SettingsError(name, faults.found)
+        raise SettingsError(name, faults.listed)
     return Settings(**told)
 
 
@@ -157,7 +157,7 @@ def _read_marks(faults: Faults, value: object) -> tuple[tuple[float, str], ...]:
     """Read marks: pairs of a share and a name, the best first, the last from 0."""
     example = 'For example: marks = [[0.85, "5"], [0.7, "4"], [0.5, "3"], [0, "2"]]'
     if not isinstance(value, list) or not 1 <= len(value) <= MARK_LIMIT:
-        faults.expected("marks", say("1 to {} marks", MARK_LIMIT), value, example)
+        faults.expected("marks", translate("1 to {} marks", MARK_LIMIT), value, example)
         return ()
     found: list[tuple[float, str]] = []
     for index, entry in enumerate(value):
@@ -166,7 +166,7 @@ def _read_marks(faults: Faults, value: object) -> tuple[tuple[float, str], ...]:
             faults.expected(path, "[share, mark]", entry, example)
             continue
         share = fields.read_number(
-            faults, f"{path}[0]", entry[0], "a share", low=0.0, high=1.0, hint=_SHARE
+            faults, f"{path}[0]", entry[0], "a share", low=0.0, high=1.0, hint=_FRACTION_HINT
         )
         mark = fields.read_text(faults, f"{path}[1]", _unquoted(entry[1]), limit=MARK_LIMIT)
         if mark is not None and not mark.strip():
@@ -178,11 +178,13 @@ def _read_marks(faults: Faults, value: object) -> tuple[tuple[float, str], ...]:
     for index, ((above, _), (below, mark)) in enumerate(pairwise(found)):
         if not below < above:
             hint = "The best mark comes first."
-            said = say("'{}' is from {:g}, the mark before it from {:g}", mark, below, above)
-            faults.add(f"marks[{index + 1}]", said, hint)
+            phrase = translate(
+                "'{}' is from {:g}, the mark before it from {:g}", mark, below, above
+            )
+            faults.add(f"marks[{index + 1}]", phrase, hint)
     if found[-1][0] != 0:
-        hint = say("Add the lowest mark: [0, \"2\"], or let '{}' start at 0.", found[-1][1])
-        faults.add("marks", say("the last mark is from {:g}, expected 0", found[-1][0]), hint)
+        hint = translate("Add the lowest mark: [0, \"2\"], or let '{}' start at 0.", found[-1][1])
+        faults.add("marks", translate("the last mark is from {:g}, expected 0", found[-1][0]), hint)
     return tuple(found)
 
 

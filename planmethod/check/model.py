@@ -93,13 +93,13 @@ class WrittenAnswer(Struct, frozen=True):
     sense : Sense or None
     position : int or None
         Position of the driver, from 0; None for the only one, or the one of ``[[answers]]``.
-    where : str
+    location : str
         Its cell or row: ``Ответы!D12``, ``group.csv:14``, ``answers[3]``.
     unreadable : str
         Why it cannot be read, with the text; empty when it can.
     raw : str
         Value as it was written: "1,2·10^3".
-    why : Unread or None
+    reason : Unread or None
         Kind of fault that ``unreadable`` describes, for pages in other languages: its message takes
         ``fault``.
     fault : str
@@ -116,10 +116,10 @@ class WrittenAnswer(Struct, frozen=True):
     segment: str = ""
     sense: Sense | None = None
     position: int | None = None
-    where: str = ""
+    location: str = ""
     unreadable: str = ""
     raw: str = ""
-    why: Unread | None = None
+    reason: Unread | None = None
     fault: str = ""
 
     @property
@@ -128,7 +128,7 @@ class WrittenAnswer(Struct, frozen=True):
         return self.value is None and self.mm is None and not self.unreadable
 
 
-class Work(Struct, frozen=True):
+class Submission(Struct, frozen=True):
     """Answers of one student (работа студента).
 
     Attributes
@@ -143,7 +143,7 @@ class Work(Struct, frozen=True):
         Step to which the student reads lengths.
     problem : str
         Problem file that the student names; empty if none.
-    where : str
+    location : str
         File that it was read from.
     remarks : tuple of WrittenAnswer
         Unreadable entries that are not answers: a scale, a row without a student.
@@ -162,7 +162,7 @@ class Work(Struct, frozen=True):
     scales: Mapping[str, float] = field(default_factory=dict)
     ruler_mm: float | None = None
     problem: str = ""
-    where: str = ""
+    location: str = ""
     remarks: tuple[WrittenAnswer, ...] = ()
     fingerprint: str = ""
     drawn: str = ""
@@ -182,17 +182,17 @@ class KeyEntry(Struct, frozen=True):
         The same as rich text: ``v_{B3}``.
     unit : str
         SI; ``deg`` of angles, ``mm`` of lengths on a plan.
-    asked : str
+    requested_unit : str
         Unit requested by the task, as in the file; empty for ``unit``.
     per : float
-        Size of one ``asked`` in ``unit``: pages show values in the requested unit.
+        Size of one ``requested_unit`` in ``unit``: pages show values in the requested unit.
     exact : float
         With its sign if it has one.
     sigma : float
         One standard deviation of drafting; 0 for a computed quantity.
     tolerance : float
         Permitted deviation of an answer, before the rounding of the written value.
-    seen : bool
+    is_visible : bool
         False where the drawing cannot show it: the tolerance is above the cap.
     zero : bool
         Too short to be measured: any answer within the tolerance of zero is right.
@@ -224,7 +224,7 @@ class KeyEntry(Struct, frozen=True):
     exact: float
     sigma: float
     tolerance: float
-    seen: bool = True
+    is_visible: bool = True
     zero: bool = False
     mm: float | None = None
     scale: str = ""
@@ -235,12 +235,12 @@ class KeyEntry(Struct, frozen=True):
     position: int = 0
     hidden: tuple[str, ...] = ()
     signed: bool = True
-    asked: str = ""
+    requested_unit: str = ""
     per: float = 1.0
     what: str = ""
 
 
-class Judged(Struct, frozen=True):
+class GradedAnswer(Struct, frozen=True):
     """Verdict of one answer (оценка ответа).
 
     Attributes
@@ -267,7 +267,7 @@ class Judged(Struct, frozen=True):
     points, of : float
     remark : str
         Of the instructor, by hand.
-    by_hand : bool
+    is_manual : bool
         Whether the instructor set the points.
     miscomputed : bool
         The student's own numbers give another value, with nothing drawn in between.
@@ -287,18 +287,18 @@ class Judged(Struct, frozen=True):
     points: float = 0.0
     of: float = 0.0
     remark: str = ""
-    by_hand: bool = False
+    is_manual: bool = False
     miscomputed: bool = False
 
     @property
-    def where(self) -> str:
+    def location(self) -> str:
         """Cell or row of the answer."""
-        return "" if self.written is None else self.written.where
+        return "" if self.written is None else self.written.location
 
     @property
     def is_open(self) -> bool:
         """True if it is unreadable and not yet reviewed: until then it does not count."""
-        return self.verdict is Verdict.UNREADABLE and not self.by_hand
+        return self.verdict is Verdict.UNREADABLE and not self.is_manual
 
 
 class Diagnosis(Struct, frozen=True):
@@ -311,7 +311,7 @@ class Diagnosis(Struct, frozen=True):
     sure : bool
     roots : tuple of str
         Answers where it begins.
-    where : str
+    place : str
         Link, point or pair that the mistake was made at, as plain text: "3", "B3/2".
     values : mapping of str to float
         What the mistake gives for each answer, SI.
@@ -323,7 +323,7 @@ class Diagnosis(Struct, frozen=True):
     codes: tuple[str, ...]
     sure: bool
     roots: tuple[str, ...]
-    where: str = ""
+    place: str = ""
     values: Mapping[str, float] = field(default_factory=dict)
     places: Mapping[str, complex] = field(default_factory=dict)
 
@@ -348,18 +348,18 @@ class CheckFailure(Struct, frozen=True):
 
     Attributes
     ----------
-    said : str
+    message : str
         A sentence for the instructor.
     trace : str
         Traceback of an internal error; empty if the problem, or the submission, is at
         fault.
     """
 
-    said: str
+    message: str
     trace: str = ""
 
 
-class CheckedWork(Struct, frozen=True):
+class GradedSubmission(Struct, frozen=True):
     """One graded submission (проверенная работа).
 
     Attributes
@@ -368,34 +368,34 @@ class CheckedWork(Struct, frozen=True):
         Why it is not marked; None for a graded submission.
     strokes : mapping of (str, int) to PencilTrace
         By answer and position: the fingerprint of a drawing.
-    alike : tuple of str
+    similar_students : tuple of str
         Students whose readings agree better than two drawings can: reported, without effect on
         marks.
     suspicious : bool
         More accurate than any drawing: the values were not read from one.
     remark : str
         Of the instructor, by hand.
-    by_hand : bool
+    is_manual : bool
         Whether the instructor set points.
     """
 
-    work: Work
+    work: Submission
     variant: str | None
-    answers: tuple[Judged, ...]
+    answers: tuple[GradedAnswer, ...]
     diagnosis: tuple[Diagnosis, ...] = ()
     points: float = 0.0
     of: float = 0.0
     suspicious: bool = False
     remark: str = ""
-    by_hand: bool = False
+    is_manual: bool = False
     strokes: Mapping[tuple[str, int], PencilTrace] = field(default_factory=dict)
-    alike: tuple[str, ...] = ()
+    similar_students: tuple[str, ...] = ()
     failure: CheckFailure | None = None
 
     @property
-    def open(self) -> tuple[Judged, ...]:
+    def open(self) -> tuple[GradedAnswer, ...]:
         """Answers that the instructor has to review; none if the total points were set by hand."""
-        return () if self.by_hand else tuple(one for one in self.answers if one.is_open)
+        return () if self.is_manual else tuple(one for one in self.answers if one.is_open)
 
     @property
     def is_provisional(self) -> bool:

@@ -9,7 +9,7 @@ from enum import Enum
 
 from msgspec import Struct
 
-from planmethod.check.letters import called, plain
+from planmethod.check.letters import name_and_symbol, normalize
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
@@ -51,7 +51,7 @@ class Question(Struct, frozen=True):
     unit : str
         SI; ``deg``, ``mm``.
     sign : Sign
-    take : callable
+    evaluate : callable
         The quantity from a trace, with its sign.
     needs : tuple of Name
     name : NumberName or None
@@ -61,7 +61,7 @@ class Question(Struct, frozen=True):
         Length of its segment, mm.
     ends : (PointName, PointName) or None
         Ends of that segment.
-    way : float
+    direction_sign : float
         -1 where the vector points from the second end to the first.
     """
 
@@ -70,13 +70,13 @@ class Question(Struct, frozen=True):
     symbol: str
     unit: str
     sign: Sign
-    take: Callable[[Trace], Number]
+    evaluate: Callable[[Trace], Number]
     needs: tuple[Name, ...]
     name: NumberName | None = None
     plan: PlanKind | None = None
     length: NumberName | None = None
     ends: Ends | None = None
-    way: float = 1.0
+    direction_sign: float = 1.0
 
     @property
     def is_mm(self) -> bool:
@@ -108,15 +108,15 @@ class Questions:
             self.statics = statics_of(solution)
             draft = self.statics.board.draft
         self._selecting = SelectorSteps(solution, draft.copy())
-        self._found: dict[Selector, Question] = {}
+        self._cache: dict[Selector, Question] = {}
 
-    def alike(self, solution: Solution) -> Questions:
+    def for_variant(self, solution: Solution) -> Questions:
         """Return the same questions of another solution, which is drawn by the same steps."""
         other = copy.copy(self)
         other.solution, other.construction = solution, solution.construction
         if self.statics is not None:
             other.statics = statics_of(solution)
-        other._found = dict(self._found)
+        other._cache = dict(self._cache)
         return other
 
     @property
@@ -132,11 +132,11 @@ class Questions:
         NoValueError
             When the problem has no such quantity.
         """
-        if selector not in self._found:
-            self._found[selector] = self._ask(selector)
-        return self._found[selector]
+        if selector not in self._cache:
+            self._cache[selector] = self._create(selector)
+        return self._cache[selector]
 
-    def again(self, question: Question) -> Question:
+    def match(self, question: Question) -> Question:
         """Return a question of another variant as one of this.
 
         Raises
@@ -149,7 +149,7 @@ class Questions:
 
     def usual(self) -> Iterator[Selector]:
         """Yield the default quantities: velocities, accelerations, ω, ε, forces."""
-        construction, kin = self.construction, self.construction.kinematics
+        construction, kinematics = self.construction, self.construction.kinematics
         # Nothing, and the given ones.
         told = {self._selecting.zero, *self.construction.draft.numbers}
         kinds = (
@@ -164,7 +164,7 @@ class Questions:
             for quantity in construction.legend:
                 if quantity.kind is not kind or quantity.size is None or quantity.size in told:
                     continue
-                if word in RATES and (kind.plan, quantity.of) not in kin.turnings:
+                if word in RATES and (kind.plan, quantity.of) not in kinematics.turnings:
                     continue  # given, or that of the link that it slides on
                 if word == "vs" and quantity.of.endswith(f"/{FRAME}"):
                     continue  # the velocity itself
@@ -232,7 +232,7 @@ class Questions:
 
     # Steps -----------------------------------------------------------------------------------
 
-    def _ask(self, selector: Selector) -> Question:
+    def _create(self, selector: Selector) -> Question:
         kind = selector.kind
         if selector.over is not None:
             return self._quotient(selector)
@@ -252,15 +252,15 @@ class Questions:
         if answer.plan is not None:
             tail, head = (self._selecting.point(answer.plan, name) for name in selector.names)
             between = None if answer.plan is PlanKind.POSITION else (tail, head)
-            return self._made(
+            return self._make_question(
                 selector, "mm", Sign.SIZE, answer.name, answer.plan, answer.name, between
             )
         if kind in TRANSFERS:
             sign = Sign.STRICT if answer.signed else Sign.SIZE
-            return self._made(selector, "" if answer.signed else "m", sign, answer.name)
+            return self._make_question(selector, "" if answer.signed else "m", sign, answer.name)
         if kind in COMPONENTS:
             plan = COMPONENTS[kind]
-            return self._made(selector, FACTS[plan].unit, Sign.STRICT, answer.name, plan)
+            return self._make_question(selector, FACTS[plan].unit, Sign.STRICT, answer.name, plan)
         if kind in RATES:
             return self._rate(selector, answer.name)
         plan = PLAN_OF[kind[0]]  # of a, an, at, ak, ar; of v
@@ -279,27 +279,27 @@ class Questions:
 
     def _rate(self, selector: Selector, name: NumberName) -> Question:
         plan = PLAN_OF[selector.kind]
-        kin = self.construction.kinematics
-        rates = kin.rates(plan)
+        kinematics = self.construction.kinematics
+        rates = kinematics.rates(plan)
         ends = next(
             (
                 (turning.start, turning.head)
-                for (of, link), turning in kin.turnings.items()
+                for (of, link), turning in kinematics.turnings.items()
                 if of is plan and rates.get(link) == name
             ),
             None,
         )
         unit = "1/s" if plan is PlanKind.VELOCITY else "1/s²"
         length = None if ends is None else self._segments(plan).drawn(ends)
-        return self._made(selector, unit, Sign.TURN, name, plan if ends else None, length)
+        return self._make_question(selector, unit, Sign.TURN, name, plan if ends else None, length)
 
     def _number(
         self, selector: Selector, name: NumberName, sign: Sign, plan: PlanKind, ends: Ends | None
     ) -> Question:
         length = None if ends is None else self._segments(plan).drawn(ends)
-        return self._made(selector, FACTS[plan].unit, sign, name, plan, length, ends)
+        return self._make_question(selector, FACTS[plan].unit, sign, name, plan, length, ends)
 
-    def _made(
+    def _make_question(
         self,
         selector: Selector,
         unit: str,
@@ -308,16 +308,27 @@ class Questions:
         plan: PlanKind | None = None,
         length: NumberName | None = None,
         ends: Ends | None = None,
-        way: float = 1.0,
+        direction_sign: float = 1.0,
         symbol: str = "",
     ) -> Question:
-        def take(trace: Trace) -> Number:
+        def read_number(trace: Trace) -> Number:
             return trace.value[name]
 
         needs = tuple(n for n in (name, length, *(ends or ())) if n is not None)
-        own, usual = called(selector)
+        own, usual = name_and_symbol(selector)
         return Question(
-            selector, own, symbol or usual, unit, sign, take, needs, name, plan, length, ends, way
+            selector,
+            own,
+            symbol or usual,
+            unit,
+            sign,
+            read_number,
+            needs,
+            name,
+            plan,
+            length,
+            ends,
+            direction_sign,
         )
 
     def _quotient(self, selector: Selector) -> Question:
@@ -325,13 +336,13 @@ class Questions:
         above = self.question(Selector(selector.kind, selector.names))
         below = self.question(selector.over)
         if above.name is None or below.name is None:
-            raise NoValueError(NoValue.NO_WHAT)
+            raise NoValueError(NoValue.NO_QUANTITY)
         name = self._selecting.compute((above.name, 1), (below.name, -1))
         sign = Sign.SIZE if Sign.SIZE in (above.sign, below.sign) else Sign.STRICT
-        return self._made(selector, "", sign, name)
+        return self._make_question(selector, "", sign, name)
 
     def _angle(self, selector: Selector) -> Question:
-        own, symbol = called(selector)
+        own, symbol = name_and_symbol(selector)
         if selector.kind == "phi":
             link = selector.names[0]
             axes = self._selecting.draft.axes
@@ -339,10 +350,10 @@ class Questions:
                 raise NoValueError(NoValue.NO_LINK)
             line: LineName = axes[link]
 
-            def take(trace: Trace) -> Number:
+            def read_angle(trace: Trace) -> Number:
                 return angle(trace.value[line][1], 0.0) * RADIAN
 
-            return Question(selector, own, symbol, "deg", Sign.ANGLE, take, (line,))
+            return Question(selector, own, symbol, "deg", Sign.ANGLE, read_angle, (line,))
         tail, head = self._forces().directed(selector)
 
         def directed(trace: Trace) -> Number:
@@ -359,14 +370,17 @@ class Questions:
             When no plan has the vector.
         """
         if question.ends is None:
-            raise NoValueError(NoValue.NO_WHAT)
+            raise NoValueError(NoValue.NO_QUANTITY)
         tail, head = question.ends
 
-        def take(trace: Trace) -> Number:
-            return angle((trace.value[head] - trace.value[tail]) * question.way, 0.0) * RADIAN
+        def read_angle(trace: Trace) -> Number:
+            return (
+                angle((trace.value[head] - trace.value[tail]) * question.direction_sign, 0.0)
+                * RADIAN
+            )
 
         own, symbol = f"angle_{question.id}", f"α({question.symbol})"
-        return Question(question.selector, own, symbol, "deg", Sign.ANGLE, take, (tail, head))
+        return Question(question.selector, own, symbol, "deg", Sign.ANGLE, read_angle, (tail, head))
 
     def _forces(self) -> ForceValues:
         return ForceValues(self.solution, self.position)
@@ -376,7 +390,7 @@ class Questions:
         name = forces.select(self._selecting, selector)
         first = kind.partition(" ")[0]
         if first in ("arm", "shift"):
-            return self._made(selector, "mm", Sign.SIZE, name, PlanKind.POSITION, name)
+            return self._make_question(selector, "mm", Sign.SIZE, name, PlanKind.POSITION, name)
         if kind in DRIVES:
             balancing = self.solution.problem.drive.balancing
             unit = "N" if selector.names else balancing.unit
@@ -385,7 +399,7 @@ class Questions:
             plan = None if ends is None else PlanKind.FORCE
             length = None if ends is None else self._segments(PlanKind.FORCE).drawn(ends)
             symbol = balancing.symbol if kind == "balance" else f"lever {balancing.quantity}"
-            return self._made(
+            return self._make_question(
                 selector,
                 unit,
                 sign,
@@ -396,16 +410,18 @@ class Questions:
                 symbol="" if selector.names else symbol,
             )
         if kind in ("M", "inertia couple"):
-            return self._made(selector, "N·m", Sign.SIZE, name)
+            return self._make_question(selector, "N·m", Sign.SIZE, name)
         ends, way = self._ends(PlanKind.FORCE, name), 1.0
         if ends is None:
             unit = "N·m" if kind == "load" and name != self._selecting.zero else "N"
             plan = PlanKind.FORCE if unit == "N" else None
-            return self._made(selector, unit, Sign.SIZE, name, plan)
+            return self._make_question(selector, unit, Sign.SIZE, name, plan)
         if kind == "F":
             way = forces.sense(selector)
         length = self._segments(PlanKind.FORCE).drawn(ends)
-        return self._made(selector, "N", Sign.SIZE, name, PlanKind.FORCE, length, ends, way)
+        return self._make_question(
+            selector, "N", Sign.SIZE, name, PlanKind.FORCE, length, ends, way
+        )
 
     def segment(self, plan: PlanKind, letters: str) -> tuple[Ends, NumberName]:
         """Return the segment that two letters of a plan name, ``p b3``, and its length.
@@ -427,13 +443,13 @@ class Questions:
         drawn = self.construction.plan(plan)
         for at, shown in drawn.letters.items():
             for letter in shown.split(", "):
-                found.setdefault(plain(letter), at)
+                found.setdefault(normalize(letter), at)
         motion = self._selecting.motion(plan)
         for name, of in motion.named.items():
-            found.setdefault(plain(name.lower()), motion.point[of])
+            found.setdefault(normalize(name.lower()), motion.point[of])
         assert drawn.pole is not None
         for letter in ("p", "π"):
-            found.setdefault(plain(letter), drawn.pole)
+            found.setdefault(normalize(letter), drawn.pole)
         return found
 
 
@@ -442,11 +458,11 @@ def letters_of(text: str, known: Mapping[str, PointName]) -> Ends | None:
     folded = unicodedata.normalize("NFKC", text).strip().lower()
     for mark in "'′’`|":
         folded = folded.replace(mark, "")
-    parts = [plain(part) for part in folded.replace("-", " ").replace("–", " ").split()]
+    parts = [normalize(part) for part in folded.replace("-", " ").replace("–", " ").split()]
     if len(parts) == 2:
         cuts = [(parts[0], parts[1])]
     else:
-        whole = plain(folded)
+        whole = normalize(folded)
         cuts = [(whole[:at], whole[at:]) for at in range(1, len(whole))]
     for one, two in cuts:
         if one in known and two in known and known[one] != known[two]:

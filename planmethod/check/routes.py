@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TypeVar
 
-from planmethod.check.judge import Examined, distance
+from planmethod.check.grading import ExaminedAnswer, distance
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.problem.selector import Selector
@@ -41,7 +41,7 @@ Role = tuple[str, str, tuple[str, ...]]
 """Kind, link, arm; empty arm for a quantity of a link."""
 
 
-def follow_routes(sheet: Sheet, found: list[Examined], floor: float) -> None:
+def follow_routes(sheet: Sheet, examined: list[ExaminedAnswer], floor: float) -> None:
     """Let a number that is not as the plans find it follow the ones that it was computed from.
 
     Parameters
@@ -49,23 +49,23 @@ def follow_routes(sheet: Sheet, found: list[Examined], floor: float) -> None:
     floor : float
         Least share of a computed number that it may be off.
     """
-    roles = {id(one): list(roles_of(sheet, one.item.question.selector)) for one in found}
-    told: dict[Role, Examined] = {}
-    for one in found:
+    roles = {id(one): list(roles_of(sheet, one.item.question.selector)) for one in examined}
+    told: dict[Role, ExaminedAnswer] = {}
+    for one in examined:
         for role in roles[id(one)]:
             if one.limit.exact and one.value and not one.limit.zero:
                 told.setdefault(role, one)
-    for one in found:
+    for one in examined:
         if not one.limit.exact or one.follows or (one.right and not one.contradicts):
             continue
         for role in roles[id(one)]:
-            for powers in ways(sheet, role, told):
-                if one.routed or _would_circle(one, powers, found):
+            for powers in find_routes(sheet, role, told):
+                if one.routed or _would_circle(one, powers, examined):
                     continue
                 try_powers(one, powers, floor)
 
 
-def try_powers(one: Examined, powers: list[tuple[Examined, int]], floor: float) -> None:
+def try_powers(one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]], floor: float) -> None:
     """Let an answer follow some others, if their product gives it to the digits written."""
     if all(parent.right for parent, _ in powers):
         return
@@ -85,9 +85,11 @@ def try_powers(one: Examined, powers: list[tuple[Examined, int]], floor: float) 
     one.contradicts = False
 
 
-def _would_circle(one: Examined, powers: list[tuple[Examined, int]], found: list[Examined]) -> bool:
+def _would_circle(
+    one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]], examined: list[ExaminedAnswer]
+) -> bool:
     """Return whether an answer would follow from its own consequence."""
-    by_id = {other.item.id: other for other in found}
+    by_id = {other.item.id: other for other in examined}
     todo, seen = [parent for parent, _ in powers], set[str]()
     while todo:
         parent = todo.pop()
@@ -99,8 +101,8 @@ def _would_circle(one: Examined, powers: list[tuple[Examined, int]], found: list
     return False
 
 
-def ways(
-    sheet: Sheet, role: Role, told: Mapping[Role, Answer]
+def find_routes(
+    sheet: Sheet, role: Role, answers: Mapping[Role, Answer]
 ) -> Iterator[list[tuple[Answer, int]]]:
     """Yield the answers with their powers by which a quantity can be computed."""
     kind, link, arm = role
@@ -112,7 +114,7 @@ def ways(
         for of, power in powers.items():
             at = [
                 other
-                for (what, at_link, points), other in told.items()
+                for (what, at_link, points), other in answers.items()
                 if what == of.rstrip("'")
                 and at_link == link
                 and (
@@ -127,8 +129,10 @@ def ways(
 
 def _all_normal(sheet: Sheet, link: str) -> bool:
     """Return whether the acceleration of a link's points is purely normal: ε is zero."""
-    kin = sheet.questions.construction.kinematics
-    return link not in kin.epsilon and not sheet.questions.solution.problem.drive.acceleration
+    kinematics = sheet.questions.construction.kinematics
+    return (
+        link not in kinematics.epsilon and not sheet.questions.solution.problem.drive.acceleration
+    )
 
 
 def roles_of(sheet: Sheet, selector: Selector) -> Iterator[Role]:

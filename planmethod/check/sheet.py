@@ -24,7 +24,7 @@ from planmethod.check.questions import Question, Questions, Sign
 from planmethod.construct.arithmetic import Float64, Number, Single
 from planmethod.construct.drafting import Profile, Propagated, causes_of
 from planmethod.construct.dual import angle, as_dual
-from planmethod.construct.evaluate import Put, Trace, evaluate
+from planmethod.construct.evaluate import Substitution, Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName, Step
 from planmethod.plans.model import Plan
@@ -36,7 +36,7 @@ from planmethod.solved.solution import at_positions
 DRAWS = 1000
 """Random sheets where first order does not hold."""
 
-NOTHING_MM = 1e-6
+ZERO_LENGTH_MM = 1e-6
 """A segment not longer than this has no direction."""
 
 KINDS = {Sign.SIZE: DrawnKind.LENGTH, Sign.ANGLE: DrawnKind.DIRECTION}
@@ -47,7 +47,7 @@ def scalar(value: Number) -> float:
     return value if type(value) is float else float(np.reshape(value, -1)[0].real)
 
 
-Own: TypeAlias = Mapping[NumberName, tuple[float, bool]]
+StudentValues: TypeAlias = Mapping[NumberName, tuple[float, bool]]
 """A student's own numbers, by the program's numbers that they replace; whether each is signed."""
 
 
@@ -83,7 +83,7 @@ class Sheet:
     ----------
     questions : Questions
         Of a solution and a position.
-    asked : sequence of Question
+    requested : sequence of Question
     scales : mapping of str to float
         Unit per mm of every plan.
     profile : Profile
@@ -95,23 +95,23 @@ class Sheet:
     def __init__(
         self,
         questions: Questions,
-        asked: Sequence[Question],
+        requested: Sequence[Question],
         scales: Mapping[str, float],
         profile: Profile,
     ) -> None:
-        self.questions, self.asked = questions, tuple(asked)
+        self.questions, self.requested = questions, tuple(requested)
         self.scales, self.profile = dict(scales), profile
-        needs = {name for question in asked for name in question.needs}
+        needs = {name for question in requested for name in question.needs}
         whole = questions.selecting.b.program()
         self.program = whole.needed_for(needs)
         self.order = {step.out: number for number, step in enumerate(self.program.steps)}
-        self.made: dict[Name, Step] = {step.out: step for step in self.program.steps}
+        self.steps_by_name: dict[Name, Step] = {step.out: step for step in self.program.steps}
         self._local: dict[frozenset[Name], Local] = {}
 
-    def alike(self, questions: Questions, scales: Mapping[str, float]) -> Sheet:
+    def for_variant(self, questions: Questions, scales: Mapping[str, float]) -> Sheet:
         """Return the sheet of another variant with the same requested quantities and steps."""
         other = copy.copy(self)
-        kept = {"asked", "profile", "program", "order", "made"}
+        kept = {"requested", "profile", "program", "order", "steps_by_name"}
         vars(other).clear()
         vars(other).update((key, value) for key, value in vars(self).items() if key in kept)
         other.questions, other.scales = questions, dict(scales)
@@ -167,11 +167,11 @@ class Sheet:
     @cached_property
     def exact(self) -> dict[str, float]:
         """Exact answers with their signs, by the id of the question."""
-        return self.taken(self.trace)
+        return self.evaluate_answers(self.trace)
 
-    def taken(self, trace: Trace) -> dict[str, float]:
+    def evaluate_answers(self, trace: Trace) -> dict[str, float]:
         """Return the answers that a reading gives."""
-        return {question.id: scalar(question.take(trace)) for question in self.asked}
+        return {question.id: scalar(question.evaluate(trace)) for question in self.requested}
 
     def length(self, question: Question) -> float | None:
         """Return the length of the segment of a question, mm."""
@@ -183,7 +183,7 @@ class Sheet:
             return None
         value = (trace or self.trace).value
         tail, head = (point(value[end]) for end in question.ends)
-        return (head - tail) * question.way
+        return (head - tail) * question.direction_sign
 
     # Errors ----------------------------------------------------------------------------------
 
@@ -209,7 +209,7 @@ class Sheet:
 
     def replayed(
         self,
-        own: Own,
+        values: StudentValues,
         program: Program | None = None,
         data: Mapping[str, float] = MappingProxyType({}),
     ) -> tuple[dict[Name, float], Trace]:
@@ -217,7 +217,7 @@ class Sheet:
 
         Parameters
         ----------
-        own : mapping
+        values : mapping
             Number and whether its sign is the student's; else it takes the sign of the derived
             value.
         program, data : Program, mapping
@@ -225,29 +225,29 @@ class Sheet:
         """
         local: dict[Name, float] = {}
 
-        def put(name: Name, value: Number) -> Number:
-            if name not in own:
+        def substitute(name: Name, value: Number) -> Number:
+            if name not in values:
                 return value
             local[name] = scalar(value)
-            number, signed = own[NumberName(name)]
+            number, signed = values[NumberName(name)]
             if not signed and local[name] < 0:
                 number = -abs(number)
             return number
 
-        return local, self.read(program or self.program, data, put)
+        return local, self.read(program or self.program, data, substitute)
 
     def read(
         self,
         program: Program,
         data: Mapping[str, float] = MappingProxyType({}),
-        put: Put | None = None,
+        substitute: Substitution | None = None,
     ) -> Trace:
         """Read a program with this sheet's data, or others in their place."""
         whole = {**self._single, **data} if data else self._single
         try:
-            return evaluate(program, whole, Single(), put)
+            return evaluate(program, whole, Single(), substitute)
         except (ZeroDivisionError, OverflowError):  # arrays make it infinite, or NaN
-            return evaluate(program, {**self.data, **data}, Float64(), put)
+            return evaluate(program, {**self.data, **data}, Float64(), substitute)
 
     @cached_property
     def _single(self) -> dict[str, Number]:
@@ -261,17 +261,17 @@ class Sheet:
         return self._local[given]
 
     def localised(
-        self, given: Iterable[Name], program: Program, data: Mapping[str, Number]
+        self, known: Iterable[Name], program: Program, data: Mapping[str, Number]
     ) -> Local:
         """Return the same of another program."""
-        names = sorted(given, key=self.order.__getitem__)
+        names = sorted(known, key=self.order.__getitem__)
         causes, count = causes_of(program, lambda: data, self.free), len(names)
         pencil = Propagated(self.profile, self.free, causes + count)
         row = {name: causes + number for number, name in enumerate(names)}
         sigma: dict[Name, float] = {}
         slopes: dict[tuple[Name, Name], float] = {}
 
-        def put(name: Name, value: Number) -> Number:
+        def substitute(name: Name, value: Number) -> Number:
             if name not in row:
                 return value
             made = as_dual(value)
@@ -282,7 +282,7 @@ class Sheet:
                     slopes[name, other] = float(slope[row[other]])
             return made.value + pencil.caused(row[name], 1.0)
 
-        evaluate(program, data, pencil, put)
+        evaluate(program, data, pencil, substitute)
         return Local(sigma, slopes)
 
 
@@ -294,10 +294,10 @@ def drafted_of(
 ) -> Drafted:
     """Return the measured quantities of a sheet, or of sheets with the same steps."""
     items: list[DrawnQuantity] = []
-    for q in sheet.asked:
+    for q in sheet.requested:
         kind = KINDS.get(q.sign, DrawnKind.NUMBER)
         needs = q.needs[: 1 if q.name is not None else None]
-        take = partial(_sized, q) if q.sign is Sign.SIZE else q.take
+        take = partial(_sized, q) if q.sign is Sign.SIZE else q.evaluate
         way = f"angle of {q.id}" if q.sign is Sign.SIZE and q.ends is not None else ""
         items.append(DrawnQuantity(q.id, needs, take, kind, direction=way))
         if q.length is not None and q.length != q.name:
@@ -321,21 +321,21 @@ def _numbers(values: Mapping[Name, Number]) -> dict[Name, Number]:
 
 
 def _sized(question: Question, trace: Trace) -> Number:
-    return abs(question.take(trace))
+    return abs(question.evaluate(trace))
 
 
 def _angle_of(ends: Ends, trace: Trace) -> Number:
     tail, head = ends
-    return angle(trace.value[head] - trace.value[tail], NOTHING_MM) * RADIAN
+    return angle(trace.value[head] - trace.value[tail], ZERO_LENGTH_MM) * RADIAN
 
 
 def _size_of(name: NumberName, trace: Trace) -> Number:
     return abs(trace.value[name])
 
 
-WAYS = {Sense.RIGHT: 1 + 0j, Sense.UP: 1j, Sense.LEFT: -1 + 0j, Sense.DOWN: -1j}
+DIRECTIONS = {Sense.RIGHT: 1 + 0j, Sense.UP: 1j, Sense.LEFT: -1 + 0j, Sense.DOWN: -1j}
 
-ASLANT = 0.26
+MIN_COMPONENT = 0.26
 """Fraction of a vector along a direction, sin 15°, below which it does not point that way."""
 
 
@@ -347,24 +347,24 @@ def sense_of(sheet: Sheet, question: Question) -> Sense | None:
     vector = sheet.vector(question)
     if vector is None or not abs(vector) > 0:
         return None
-    return max(WAYS, key=lambda sense: (vector * WAYS[sense].conjugate()).real)
+    return max(DIRECTIONS, key=lambda sense: (vector * DIRECTIONS[sense].conjugate()).real)
 
 
 def is_right(
-    sheet: Sheet, question: Question, told: Sense, trace: Trace | None = None
+    sheet: Sheet, question: Question, sense: Sense, trace: Trace | None = None
 ) -> bool | None:
     """Return whether a sense is right on a sheet; None if it cannot be decided.
 
     A vector at an angle points in both directions of its components.
     """
     if question.sign is Sign.TURN and _turns(question):
-        value = scalar(question.take(trace or sheet.trace))
-        return None if not told.turns or not value else (value > 0) is (told is Sense.CCW)
+        value = scalar(question.evaluate(trace or sheet.trace))
+        return None if not sense.turns or not value else (value > 0) is (sense is Sense.CCW)
     vector = sheet.vector(question, trace)
-    if told.turns or vector is None or not abs(vector) > 0:
+    if sense.turns or vector is None or not abs(vector) > 0:
         return None
-    along = (vector * WAYS[told].conjugate()).real / abs(vector)
-    return None if abs(along) < ASLANT else along > 0
+    along = (vector * DIRECTIONS[sense].conjugate()).real / abs(vector)
+    return None if abs(along) < MIN_COMPONENT else along > 0
 
 
 def _turns(question: Question) -> bool:

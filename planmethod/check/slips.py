@@ -11,7 +11,7 @@ from typing import NamedTuple
 from msgspec.structs import replace
 
 from planmethod.check.explain import Explanation
-from planmethod.check.judge import Examined
+from planmethod.check.grading import ExaminedAnswer
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.model import Change, times
 from planmethod.check.questions import Question, Sign
@@ -42,7 +42,7 @@ class Slip(NamedTuple):
 
     Attributes
     ----------
-    code, where : str
+    code, place : str
     value : float
         The number then, SI.
     prior : float
@@ -54,16 +54,16 @@ class Slip(NamedTuple):
     """
 
     code: str
-    where: str
+    place: str
     value: float
     prior: float
     of: float = 0.0
     segment: NumberName | None = None
 
-    def change(self, sheet: Sheet, one: Examined) -> Change | None:
+    def change(self, sheet: Sheet, one: ExaminedAnswer) -> Change | None:
         """Return it as a mistake of the program; None if no step there computes the number."""
         question = one.item.question
-        step = None if question.name is None else sheet.made.get(question.name)
+        step = None if question.name is None else sheet.steps_by_name.get(question.name)
         if not isinstance(step, Compute) or not self.of:
             return None
         steps: tuple[Step, ...] = times(step, float(f"{self.value / self.of:.9g}"))
@@ -71,46 +71,46 @@ class Slip(NamedTuple):
         earlier = read is not None and sheet.order.get(read, last) < last  # so it can be read
         if read is not None and earlier and (question.length, 1) in step.powers:
             steps = (read_in_place(sheet, step, question.length, read),)
-        return Change(self.code, self.where, {step.out: steps}, prior=self.prior)
+        return Change(self.code, self.place, {step.out: steps}, prior=self.prior)
 
 
 def read_in_place(
-    sheet: Sheet, step: Compute, right: NumberName | None, other: NumberName
+    sheet: Sheet, step: Compute, right: NumberName | None, misread: NumberName
 ) -> Compute:
     """Return what a number is computed by when another segment is read; its sign stays."""
-    powers = tuple((other if name == right else name, power) for name, power in step.powers)
+    powers = tuple((misread if name == right else name, power) for name, power in step.powers)
     turn = 1.0
-    for name in (right, other):
+    for name in (right, misread):
         if name is not None and scalar(sheet.trace.value[name]) < 0:
             turn = -turn
     return replace(step, factor=step.factor * turn, powers=powers)
 
 
-def slips(sheet: Sheet, one: Examined) -> Iterator[Slip]:
+def slips(sheet: Sheet, one: ExaminedAnswer) -> Iterator[Slip]:
     """Yield what may have been done with one number."""
     base = one.limit.exact if one.local is None else one.local
-    if one.told:  # their own millimetres are the best evidence
-        base = math.copysign(one.told, base)
+    if one.value_from_mm:  # their own millimetres are the best evidence
+        base = math.copysign(one.value_from_mm, base)
     if not base or not one.value:
         return
     ratio = abs(one.value / base)
     slack = max(CLOSE, 1.5 * one.limit.tolerance() / abs(one.limit.exact or base))
-    slack = 0.5 * CLOSE if one.told else slack
+    slack = 0.5 * CLOSE if one.value_from_mm else slack
 
-    def near(factor: float) -> bool:
+    def matches(factor: float) -> bool:
         return abs(ratio / factor - 1.0) <= min(slack, 0.3)
 
     for factor in UNITS.get(one.item.question.unit, METRES):
-        if near(factor):
+        if matches(factor):
             yield Slip("S2", "", base * factor, 6.0, base)
     for factor in PLACES:
-        if near(factor):
+        if matches(factor):
             yield Slip("S4", "", base * factor, 6.0, base)
     for swapped in _swaps(one):
         if abs(abs(swapped / base) - 1.0) <= min(slack, 0.05) and abs(ratio - 1.0) > slack:
             yield Slip("S4", "", base * one.value / swapped, 0.2, base)
     for where, factor in _operations(sheet, one):
-        if near(factor):
+        if matches(factor):
             yield Slip("slip", where, base * factor, 0.5, base)
     yield from _scales(sheet, one, base)
     if not one.slip:
@@ -118,7 +118,7 @@ def slips(sheet: Sheet, one: Examined) -> Iterator[Slip]:
     question = one.item.question
     if question.is_mm and question.plan is PlanKind.POSITION:
         true = sheet.scales[FACTS[PlanKind.POSITION].scale] * 1000.0
-        if near(true):
+        if matches(true):
             yield Slip("true_mm", "", base * true, 1.0, base)
 
 
@@ -126,11 +126,11 @@ OPERATIONS = {"omega": ("v", "/"), "epsilon": ("a^{τ}", "/"), "v": ("ω", "·")
 """Quantity multiplied or divided by an arm: its letter, and the right operation."""
 
 
-def _operations(sheet: Sheet, one: Examined) -> Iterator[tuple[str, float]]:
+def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]]:
     """Yield what one wrong operation with the arm makes of a number: ``v·l ≠ v/l``, factor."""
     kind = one.item.question.selector.kind
     name = one.item.question.name
-    step = None if name is None else sheet.made.get(name)
+    step = None if name is None else sheet.steps_by_name.get(name)
     if kind not in OPERATIONS or not isinstance(step, Compute) or len(step.powers) < 2:
         return
     letter, operation = OPERATIONS[kind]
@@ -141,13 +141,13 @@ def _operations(sheet: Sheet, one: Examined) -> Iterator[tuple[str, float]]:
     length = right if operation == "·" else 1.0 / right
     value = abs(one.local or one.limit.exact) / right
     other = {"·": "/", "/": "·"}[operation]
-    told = f"{letter}{operation}l"
-    yield f"{letter}{other}l ≠ {told}", right**-2
+    text = f"{letter}{operation}l"
+    yield f"{letter}{other}l ≠ {text}", right**-2
     if value:
-        yield f"l/{letter} ≠ {told}", length / value / (value * right)
+        yield f"l/{letter} ≠ {text}", length / value / (value * right)
 
 
-def _swaps(one: Examined) -> Iterator[float]:
+def _swaps(one: ExaminedAnswer) -> Iterator[float]:
     """Yield the student's number with two neighbouring digits swapped back, SI."""
     written, value = one.written.raw, one.written.value
     digits = [m.start() for m in re.finditer(r"\d", written)]
@@ -166,10 +166,10 @@ def _swaps(one: Examined) -> Iterator[float]:
             yield float("".join(letters).replace(",", ".")) * value / shown
 
 
-def _scales(sheet: Sheet, one: Examined, base: float) -> Iterator[Slip]:
+def _scales(sheet: Sheet, one: ExaminedAnswer, base: float) -> Iterator[Slip]:
     """Yield the value of the student's own millimetres at another scale."""
     question, mm = one.item.question, one.mm
-    if not mm or question.is_mm or question.plan not in MOTION or one.told is None:
+    if not mm or question.is_mm or question.plan not in MOTION or one.value_from_mm is None:
         return
     own = sheet.scales[question.scale]
     sign = math.copysign(1.0, base)
@@ -177,24 +177,27 @@ def _scales(sheet: Sheet, one: Examined, base: float) -> Iterator[Slip]:
         yield Slip("S1", question.scale, sign * mm / own, 20.0, base)
     for plan in MOTION:
         other = sheet.scales[FACTS[plan].scale]
-        share = abs(one.told) / own * other
+        share = abs(one.value_from_mm) / own * other
         if other != own and abs(abs(one.value) / share - 1.0) <= 0.01:
             yield Slip("S3", question.scale, sign * share, 20.0, base)
 
 
-def _segments(sheet: Sheet, one: Examined, base: float, slack: float) -> Iterator[Slip]:
+def _segments(sheet: Sheet, one: ExaminedAnswer, base: float, tolerance: float) -> Iterator[Slip]:
     """Yield the values of the other segments of the plan, read in place of the right one."""
     question = one.item.question
     length = sheet.length(question)
     if not length or question.plan not in SEGMENT_CODES or question.sign is Sign.STRICT:
         return
-    if one.foreign and one.told is not None and not one.slip:
+    if one.foreign and one.value_from_mm is not None and not one.slip:
         yield Slip(SEGMENT_CODES[question.plan], one.foreign, one.value, 200.0)
         return
     for name, other, read in [*_listed(sheet, question), *_wholes(sheet, question)]:
         share = other / length
         off = abs(abs(one.value / base) - share)
-        if abs(share - 1.0) > slack and off <= (slack if one.told else READ) * share > 0:
+        if (
+            abs(share - 1.0) > tolerance
+            and off <= (tolerance if one.value_from_mm else READ) * share > 0
+        ):
             prior = ONE_END if read is None else 0.5
             yield Slip(SEGMENT_CODES[question.plan], name, base * share, prior, base, read)
 
@@ -219,38 +222,45 @@ def _wholes(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, Numb
                 yield f"{vector.tail}-{head}", abs(point(next(ends)) - point(next(ends))), None
 
 
-def put_explanation(
-    sheet: Sheet, one: Examined, code: str, where: str, value: float, prior: float, *, free: bool
+def explain_by_value(
+    sheet: Sheet,
+    one: ExaminedAnswer,
+    code: str,
+    place: str,
+    value: float,
+    prior: float,
+    *,
+    free: bool,
 ) -> Explanation:
     """Return an explanation by one changed number; its consequences are found by `completed`."""
     question = one.item.question
     return Explanation(
         code,
-        where,
+        place,
         {**sheet.exact, question.id: value},
         sheet.trace,
         sheet,
-        begins=(one.item.id,),
+        first_answers=(one.item.id,),
         free=question.id if free else "",
         fixed="" if free else question.id,
-        sigma=_read_anew(one, value) if code in SEGMENT_CODES.values() else None,
+        sigma=_misread_sigma(one, value) if code in SEGMENT_CODES.values() else None,
         prior=prior,
     )
 
 
-def _read_anew(one: Examined, value: float) -> float:
+def _misread_sigma(one: ExaminedAnswer, value: float) -> float:
     """Return the sigma of a segment read in place of the right one."""
     exact = abs(one.limit.exact)
     return one.limit.sigma * (abs(value) / exact if exact else 1.0)
 
 
-def completed(explanation: Explanation, one: Examined) -> Explanation:
+def completed(explanation: Explanation, one: ExaminedAnswer) -> Explanation:
     """Return an explanation of one number with all that follows from it on the right plans."""
     if one.slot is None or explanation.change is not None:
         return explanation
     sheet, name = explanation.sheet, one.item.question.id
     _, trace = sheet.replayed({one.slot: (abs(explanation.values[name]) / one.per_slot, False)})
-    values = {**sheet.taken(trace), name: explanation.values[name]}
+    values = {**sheet.evaluate_answers(trace), name: explanation.values[name]}
     if not all(math.isfinite(number) for number in values.values()):
         return explanation
     return replace(explanation, values=values, trace=trace)

@@ -12,27 +12,27 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.check.explain import Explanation, Explanations
-from planmethod.check.letters import plain
+from planmethod.check.letters import normalize
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import Unread, WrittenAnswer
 from planmethod.check.questions import Question, Questions, Sign
 from planmethod.check.sheet import Sheet
-from planmethod.check.works.cells import refused
-from planmethod.check.works.units import ratio
+from planmethod.check.submissions.cells import mark_unreadable
+from planmethod.check.submissions.units import ratio
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.plans.forces.board import SCALE
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.model import PlanKind
-from planmethod.problem.head import AskedAnswer, AskedSense, KindProblem
+from planmethod.problem.common import DirectionMode, KindProblem, QuestionSpec
 from planmethod.problem.selector import Selector, SelectorError, is_force, parse_selector
 from planmethod.problem.units import ratio_of, read_unit
 from planmethod.solved.selectors.steps import NoValue, NoValueError
 from planmethod.solved.solution import Solution
 
 
-class Forms:
+class QuantityAliases:
     """Finds quantities by how they may be written: in words of ``[published]``, or in letters."""
 
     def __init__(self, questions: Questions) -> None:
@@ -51,29 +51,29 @@ class Forms:
         except SelectorError:
             pass
         if self._known is None:
-            self._known = known_forms(self.questions)
-        if plain(text) not in self._known:
-            raise NoValueError(NoValue.NO_WHAT)
-        return self._known[plain(text)]
+            self._known = find_aliases(self.questions)
+        if normalize(text) not in self._known:
+            raise NoValueError(NoValue.NO_QUANTITY)
+        return self._known[normalize(text)]
 
 
-def known_forms(questions: Questions) -> dict[str, Selector]:
+def find_aliases(questions: Questions) -> dict[str, Selector]:
     """Return the quantities of a problem by how they may be written, each form as `plain` has it.
 
     A form that two quantities share names neither.
     """
     found: dict[str, Selector] = {}
     twice: set[str] = set()
-    for form, selector in _forms(questions):
-        key = plain(form)
+    for form, selector in _list_aliases(questions):
+        key = normalize(form)
         if found.setdefault(key, selector) != selector:
             twice.add(key)
     return {key: selector for key, selector in found.items() if key not in twice}
 
 
-def _forms(questions: Questions) -> Iterator[tuple[str, Selector]]:
-    kin = questions.construction.kinematics
-    for name in kin.velocity.named:
+def _list_aliases(questions: Questions) -> Iterator[tuple[str, Selector]]:
+    kinematics = questions.construction.kinematics
+    for name in kinematics.velocity.named:
         for word in ("v", "a", "vx", "vy", "ax", "ay", "x", "y"):
             yield f"{word}_{name}", Selector(word, (name,))
     for link in questions.solution.problem.mechanism.links:
@@ -94,7 +94,7 @@ def _forms(questions: Questions) -> Iterator[tuple[str, Selector]]:
         for one, two in questions.arms():
             for letter in {"an": ("an", "aн"), "at": ("at", "aт")}[word]:
                 yield f"{letter}_{one}", Selector(word, (one, two))
-    for one, two in permutations(kin.velocity.named, 2):
+    for one, two in permutations(kinematics.velocity.named, 2):
         yield f"l_{one}{two}", Selector("length", (one, two))
     for selector, _, _ in questions.vectors():
         one, two = selector.names
@@ -176,7 +176,7 @@ class Task:
     ----------
     solution : Solution
     settings : Settings
-    others : callable, optional
+    other_variants : callable, optional
         Returns the other variants, whose numbers may have been copied.
 
     Attributes
@@ -189,82 +189,82 @@ class Task:
         self,
         solution: Solution,
         settings: Settings = DEFAULT,
-        others: Callable[[], Iterable[Task]] | None = None,
+        other_variants: Callable[[], Iterable[Task]] | None = None,
     ) -> None:
         self.solution, self.settings = solution, settings
         self.problem: KindProblem = solution.problem
         self.variant = solution.problem.variant
-        self._others = others
+        self._other_variants = other_variants
         self._questions: dict[int, Questions] = {}
-        self._asked: dict[int, dict[str, Question]] = {}
+        self._requested: dict[int, dict[str, Question]] = {}
         self._sheets: dict[tuple[object, ...], Sheet] = {}
         self._explained: dict[int, Explanations] = {}
         self._forms: dict[str, TaskItem] = {}
-        self._written: dict[int, Forms] = {}
+        self._written: dict[int, QuantityAliases] = {}
         self.declared = tuple(chain.from_iterable(map(self._declare, solution.problem.answers)))
 
-    def alike(self, solution: Solution) -> Task:
+    def for_variant(self, solution: Solution) -> Task:
         """Return the same task of another variant, which is drawn by the same steps."""
         other = copy.copy(self)
         other.solution, other.problem = solution, solution.problem
         other.variant = solution.problem.variant
         other._explained, other._written, other._sheets = {}, {}, {}
-        other._questions = {p: one.alike(solution) for p, one in self._questions.items()}
-        other._asked = {p: dict(asked) for p, asked in self._asked.items()}
-        for position, asked in other._asked.items():
+        other._questions = {p: one.for_variant(solution) for p, one in self._questions.items()}
+        other._requested = {p: dict(asked) for p, asked in self._requested.items()}
+        for position, asked in other._requested.items():
             scales = other.scales({}, position)
             of_first = self.sheet(position)
             key = other._key(position, scales, of_first.profile, asked)
-            other._sheets[key] = of_first.alike(other._questions[position], scales)
+            other._sheets[key] = of_first.for_variant(other._questions[position], scales)
         return other
 
-    def for_one_work(self) -> Task:
+    def copy_for_submission(self) -> Task:
         """Return a copy of the task for one submission: its extra answers do not affect others."""
         other = copy.copy(self)
-        other._asked = {position: dict(asked) for position, asked in self._asked.items()}
+        other._requested = {position: dict(asked) for position, asked in self._requested.items()}
         return other
 
-    def _declare(self, asked: AskedAnswer) -> Iterator[TaskItem]:
+    def _declare(self, spec: QuestionSpec) -> Iterator[TaskItem]:
         """Yield an answer, and the direction of its vector where that is an answer of its own."""
-        position = self.first if asked.position is None else asked.position
+        position = self.first if spec.position is None else spec.position
         questions = self.questions(position)
-        question = questions.question(parse_selector(asked.what))
+        question = questions.question(parse_selector(spec.what))
         item = TaskItem(
-            asked.id,
-            self.ask(question, position),
+            spec.id,
+            self.request(question, position),
             position,
-            asked.points,
-            asked.sense is not None,
-            asked.tolerance,
-            asked.letters[0] if asked.letters else "",
-            asked.id,
-            self.unit_of(asked, question),
+            spec.points,
+            spec.sense is not None,
+            spec.tolerance,
+            spec.letters[0] if spec.letters else "",
+            spec.id,
+            self.unit_of(spec, question),
         )
-        forms = (asked.id, *asked.letters, asked.what)
-        if asked.sense is AskedSense.ANGLE:
+        forms = (spec.id, *spec.letters, spec.what)
+        if spec.sense is DirectionMode.ANGLE:
             share = self.settings.sense_share
-            item = replace(item, points=asked.points * (1.0 - share), asks_sense=False)
+            item = replace(item, points=spec.points * (1.0 - share), asks_sense=False)
             turned = replace(
                 item,
-                id=f"angle_{asked.id}",
-                question=self.ask(questions.direction(question), position),
-                points=asked.points * share,
+                id=f"angle_{spec.id}",
+                question=self.request(questions.direction(question), position),
+                points=spec.points * share,
                 fixed=None,
                 unit="",
                 label=f"α({item.label})" if item.label else "",
-                name=f"angle_{asked.id}",
+                name=f"angle_{spec.id}",
             )
             for form in forms:
                 for word in ("angle", "α"):
-                    self._forms.setdefault(plain(word + form), turned)
+                    self._forms.setdefault(normalize(word + form), turned)
         for form in forms[:-1]:
-            self._forms.setdefault(plain(form), item)
-        self._forms.setdefault(asked.what, item)
+            self._forms.setdefault(normalize(form), item)
+        self._forms.setdefault(spec.what, item)
         yield item
-        if asked.sense is AskedSense.ANGLE:
+        if spec.sense is DirectionMode.ANGLE:
             yield turned
 
-    def unit_of(self, asked: AskedAnswer, question: Question) -> str:
+    def unit_of(self, spec: QuestionSpec, question: Question) -> str:
         """Return the unit in which an answer is requested.
 
         Raises
@@ -272,17 +272,17 @@ class Task:
         ProblemError
             It is not a unit, or belongs to another quantity.
         """
-        if asked.unit and ratio_of(asked.unit, question.unit) is None:
-            said = say(
-                "'{}' is not a unit of '{}', which is in {}", asked.unit, asked.id, question.unit
+        if spec.unit and ratio_of(spec.unit, question.unit) is None:
+            phrase = translate(
+                "'{}' is not a unit of '{}', which is in {}", spec.unit, spec.id, question.unit
             )
-            fault = Fault("answers.unit", said, "Write a unit of this quantity, or omit it.")
+            fault = Fault("answers.unit", phrase, "Write a unit of this quantity, or omit it.")
             raise ProblemError(self.problem.name, [fault])
-        return asked.unit
+        return spec.unit
 
-    def others(self) -> Iterator[Task]:
+    def other_variants(self) -> Iterator[Task]:
         """Yield the other variants."""
-        for task in self._others() if self._others else ():
+        for task in self._other_variants() if self._other_variants else ():
             if task is not self:
                 yield task
 
@@ -312,14 +312,14 @@ class Task:
             self._questions[position] = Questions(self.solution, position)
         return self._questions[position]
 
-    def _forms_of(self, position: int) -> Forms:
+    def _forms_of(self, position: int) -> QuantityAliases:
         if position not in self._written:
-            self._written[position] = Forms(self.questions(position))
+            self._written[position] = QuantityAliases(self.questions(position))
         return self._written[position]
 
-    def ask(self, question: Question, position: int) -> Question:
+    def request(self, question: Question, position: int) -> Question:
         """Have a question on the sheets of a position."""
-        return self._asked.setdefault(position, {}).setdefault(question.id, question)
+        return self._requested.setdefault(position, {}).setdefault(question.id, question)
 
     def usual(self, position: int | None = None) -> tuple[TaskItem, ...]:
         """Return the requested items: those of the file, or the usual quantities of a position."""
@@ -327,13 +327,13 @@ class Task:
             return self.declared
         position = self.first if position is None else position
         questions = self.questions(position)
-        found = [self.ask(questions.question(sel), position) for sel in questions.usual()]
+        found = [self.request(questions.question(sel), position) for sel in questions.usual()]
         return tuple(
             TaskItem(q.id, q, position, asks_sense=q.sign is Sign.TURN, label=q.id, name=q.id)
             for q in found
         )
 
-    def whole(self) -> tuple[TaskItem, ...]:
+    def list_items(self) -> tuple[TaskItem, ...]:
         """Return all requested items: those of the file, or the usual quantities everywhere."""
         asked = map(self.usual, range(self.count))
         return self.declared or tuple(chain.from_iterable(asked))
@@ -349,18 +349,18 @@ class Task:
         if (declared := self.stated(written)) is not None:
             return declared
         position = self.first if written.position is None else written.position
-        questions, why = self.questions(position), NoValue.NO_WHAT
+        questions, why = self.questions(position), NoValue.NO_QUANTITY
         for text in (written.what, written.id):
             if not text:
                 continue
             try:
                 question = self._named(questions, text, position)
             except NoValueError as error:
-                why = error.why
+                why = error.reason
                 continue
             return TaskItem(
                 written.id or question.id,
-                self.ask(question, position),
+                self.request(question, position),
                 position,
                 label=question.id,
                 name=question.id,
@@ -373,7 +373,7 @@ class Task:
         try:
             return questions.question(forms.find(text))
         except NoValueError:
-            whole = plain(text)
+            whole = normalize(text)
             vector = whole.removeprefix("angle").removeprefix("α")
             if vector == whole:
                 raise
@@ -382,7 +382,7 @@ class Task:
     def stated(self, written: WrittenAnswer) -> TaskItem | None:
         """Return the item of an answer among those of the file."""
         for text in filter(None, (written.id, written.what)):
-            item = self._forms.get(text) or self._forms.get(plain(text))
+            item = self._forms.get(text) or self._forms.get(normalize(text))
             if item is not None and written.position in (None, item.position):
                 return replace(item, id=written.id or item.id)
         return None
@@ -390,7 +390,7 @@ class Task:
     def written(self, item: TaskItem, written: WrittenAnswer) -> WrittenAnswer:
         """Return an answer as it is graded: a number without a unit is in the requested unit."""
         if written.value is not None and ratio(written, item.question.unit) is None:
-            return refused(Unread.OTHER, written.unit, written.where, base=written)
+            return mark_unreadable(Unread.OTHER, written.unit, written.location, base=written)
         unit = read_unit(item.unit) if item.unit and not written.unit else None
         if unit is None or written.value is None:
             return written
@@ -399,15 +399,20 @@ class Task:
 
     # Sheets ----------------------------------------------------------------------------------
 
-    def scales(self, own: Mapping[str, float], position: int) -> dict[str, float]:
+    def scales(self, student_scales: Mapping[str, float], position: int) -> dict[str, float]:
         """Return the scales of a sheet: a student's own, and those of the problem for the rest."""
-        asked = self._asked.get(position, {}).values()
+        asked = self._requested.get(position, {}).values()
         scales = {scale.symbol: scale.per_mm for scale in self.solution.scales.values()}
         statics = self.questions(position).statics
         if statics is not None:
-            needed = SCALE not in own and any(is_force(question.selector) for question in asked)
-            scales[SCALE] = statics.scale.per_mm if needed else own.get(SCALE, 1.0)
-        return {**scales, **{name: own[name] for name in scales if name in own}}
+            needed = SCALE not in student_scales and any(
+                is_force(question.selector) for question in asked
+            )
+            scales[SCALE] = statics.scale.per_mm if needed else student_scales.get(SCALE, 1.0)
+        return {
+            **scales,
+            **{name: student_scales[name] for name in scales if name in student_scales},
+        }
 
     def profile(self, ruler: float | None, *, drawn: str = "") -> Profile:
         """Return the drafting profile of a sheet, with the reading step of its author, mm.
@@ -425,14 +430,14 @@ class Task:
     def sheet(
         self,
         position: int,
-        own: Mapping[str, float] | None = None,
+        student_scales: Mapping[str, float] | None = None,
         ruler: float | None = None,
         *,
         drawn: str = "",
     ) -> Sheet:
         """Return the sheet of a position at given scales, with all quantities requested so far."""
-        scales = self.scales(own or {}, position)
-        asked = self._asked.get(position, {})
+        scales = self.scales(student_scales or {}, position)
+        asked = self._requested.get(position, {})
         profile = self.profile(ruler, drawn=drawn)
         key = self._key(position, scales, profile, asked)
         if key not in self._sheets:
@@ -442,26 +447,26 @@ class Task:
         return self._sheets[key]
 
     def _key(
-        self, position: int, scales: Mapping[str, float], profile: Profile, asked: Iterable[str]
+        self, position: int, scales: Mapping[str, float], profile: Profile, ids: Iterable[str]
     ) -> tuple[object, ...]:
-        return position, tuple(sorted(scales.items())), profile, tuple(asked)
+        return position, tuple(sorted(scales.items())), profile, tuple(ids)
 
     def theirs(self, sheet: Sheet) -> Iterator[tuple[str, Sheet]]:
         """Yield the other variants with all requested quantities of a sheet, at its scales."""
-        for other in self.others():
-            their = self.asked_of(other, sheet)
+        for other in self.other_variants():
+            their = self.find_matching_sheet(other, sheet)
             if their is not None:
                 yield other.variant or "", their
 
-    def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
+    def find_matching_sheet(self, task: Task, mine: Sheet) -> Sheet | None:
         """Return another variant's sheet with the same quantities; None if one is missing."""
-        position, their = mine.questions.position, other.for_one_work()
+        position, their = mine.questions.position, task.copy_for_submission()
         try:
-            questions = other.questions(position)
-            theirs = [questions.again(question) for question in mine.asked]
+            questions = task.questions(position)
+            theirs = [questions.match(question) for question in mine.requested]
         except NoValueError:
             return None
-        their._asked[position] = {question.id: question for question in theirs}
+        their._requested[position] = {question.id: question for question in theirs}
         return their.sheet(position, mine.scales)
 
     def named(self, sheet: Sheet) -> list[Explanation]:

@@ -30,11 +30,11 @@ class Tolerance(Struct, frozen=True):
     sigma : float
     spread : float
         k times sigma.
-    least : float
+    minimum : float
         The tolerance is not below it.
-    most : float
+    maximum : float
         The tolerance is not above it.
-    seen : bool
+    is_visible : bool
         Whether the drawing can show the answer.
     zero : bool
         Too short to be measured.
@@ -45,16 +45,16 @@ class Tolerance(Struct, frozen=True):
     exact: float
     sigma: float
     spread: float
-    least: float
-    most: float
-    seen: bool
+    minimum: float
+    maximum: float
+    is_visible: bool
     zero: bool
     per_mm: float
 
     def tolerance(self, step: float = 0.0) -> float:
         """Return the tolerance of an answer written to a step of its last digit."""
-        own = max(math.hypot(self.spread, step / 2), self.least)
-        return own if self.zero else min(own, self.most)
+        own = max(math.hypot(self.spread, step / 2), self.minimum)
+        return own if self.zero else min(own, self.maximum)
 
     def allows(self, off: float, size: float, step: float = 0.0, times: float = 1.0) -> bool:
         """Return whether an answer is close enough; for zero, also one of that size."""
@@ -103,6 +103,6 @@ def _rate_per_mm(sheet: Sheet, question: Question) -> float:
     return sheet.scales[plan] / (LONG_MM * sheet.scales["mu_l"])
 
 
-def _flat(own: Tolerance, tolerance: float) -> Tolerance:
+def _flat(limit: Tolerance, tolerance: float) -> Tolerance:
     """Return a limit with the department's own tolerance, whatever the drawing can show."""
-    return replace(own, spread=tolerance, least=tolerance, most=math.inf, seen=True)
+    return replace(limit, spread=tolerance, minimum=tolerance, maximum=math.inf, is_visible=True)

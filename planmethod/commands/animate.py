@@ -6,16 +6,16 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.problems import (
-    Todo,
-    each,
+    LoadedProblem,
+    basename,
     finish,
+    for_each_problem,
     guarded,
     language_of,
-    stem,
-    tell_doubts,
     warn,
+    warn_of_accuracy,
 )
 from planmethod.options import (
     BadParameter,
@@ -38,7 +38,7 @@ def _formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[st
     return names
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @click.option("--plans", is_flag=True, help="The velocity plan beside the scheme.")
 @click.option(
@@ -72,17 +72,17 @@ def animate(
 ) -> None:
     """Write the mechanism as it moves, for slides: a GIF, and an SVG that plays by itself."""
     from planmethod.render.backends.output import write
-    from planmethod.render.live.film import film_of
+    from planmethod.render.live.animation import make_animation
 
-    def draw(todo: Todo) -> None:
-        problem = todo.linkage
-        film = film_of(problem, language_of(problem, lang), frames=frames, plans=plans)
-        tell_doubts(problem)
+    def draw(item: LoadedProblem) -> None:
+        problem = item.linkage
+        film = make_animation(problem, language_of(problem, lang), frames=frames, plans=plans)
+        warn_of_accuracy(problem)
         if film.skipped:
             warn(problem, film.skipped)
         made = {}
         for fmt in formats:
-            path = out / f"{stem(problem)}-animated.{fmt}"
+            path = out / f"{basename(problem)}-animated.{fmt}"
             if fmt == "gif":
                 from planmethod.render.live.gif import gif
 
@@ -90,7 +90,7 @@ def animate(
             else:
                 made[path] = film.svg(seconds)
         for path, data in made.items():
-            write(path, data, within=out)
+            write(path, data, output_root=out)
             click.echo(str(path))
 
-    finish(each(problems, variant, all_variants, draw, kinds=False))
+    finish(for_each_problem(problems, variant, all_variants, draw, kinds=False))

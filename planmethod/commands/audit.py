@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import put
-from planmethod.commands.problems import Todo, each, finish, guarded
+from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import write_text
+from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, guarded
 from planmethod.options import UsageError, lang_option, problem_options, ruler_option
 
 if TYPE_CHECKING:
-    from planmethod.problem.head import KindProblem
+    from planmethod.problem.common import KindProblem
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @ruler_option
 @lang_option
@@ -44,13 +44,13 @@ def audit(
         raise UsageError("-o would write over the problem file {}; name another one", file)
     audits: list[tuple[KindProblem, Any]] = []
 
-    def compare(todo: Todo) -> None:
-        kind, problem = todo.kind, todo.problem
+    def compare(item: LoadedProblem) -> None:
+        kind, problem = item.kind, item.problem
         printed = (
-            examine(todo.linkage, ruler=ruler) if kind is None else kind.audited(problem, ruler)
+            examine(item.linkage, ruler=ruler) if kind is None else kind.audited(problem, ruler)
         )
         audits.append((problem, printed))
 
     # A faulty problem ends the command here: the document is written whole or not at all.
-    finish(each(problems, variant, all_variants, compare))
-    put(AuditDocument(lang, ruler).markdown(audits), file)
+    finish(for_each_problem(problems, variant, all_variants, compare))
+    write_text(AuditDocument(lang, ruler).markdown(audits), file)

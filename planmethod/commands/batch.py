@@ -15,21 +15,21 @@ import click
 from msgspec import Struct, convert
 from msgspec.structs import asdict, replace
 
-from planmethod.commands.asked import PaperRequest, sheet_options
-from planmethod.commands.helptext import Spoken, answering
+from planmethod.commands.helptext import LocalizedCommand, answering
 from planmethod.commands.problems import (
     AT_ONCE_DRAWN,
-    Todo,
+    LoadedProblem,
+    basename,
     finish,
     guarded,
     language_of,
-    refuse_killed,
-    stem,
-    through,
+    raise_killed,
+    run_steps,
 )
 from planmethod.commands.sheet import SheetOptions, draw
+from planmethod.commands.sheet_options import PaperRequest, sheet_options
 from planmethod.errors import PlanMethodError
-from planmethod.languages import say, spoken
+from planmethod.languages import current_language, translate
 from planmethod.options import (
     PathType,
     Positions,
@@ -57,7 +57,7 @@ MANIFEST = "batch.jsonl"
 PATIENCE = 30
 """For a scheduler and the first of its workers, s."""
 
-AHEAD = 2
+QUEUED_CHUNKS = 2
 """Chunks of variants that are sent ahead to each thread of the cluster."""
 
 
@@ -73,7 +73,7 @@ class VariantOrder(Struct, frozen=True):
 
     Attributes
     ----------
-    todo : Todo
+    item : LoadedProblem
         The problem.
     sheets : SheetOptions, optional
         Options of its sheets. Default: no sheets.
@@ -85,34 +85,34 @@ class VariantOrder(Struct, frozen=True):
         Language of messages.
     """
 
-    todo: Todo
+    item: LoadedProblem
     sheets: SheetOptions | None
     layout: bytes | None
     settings: Settings | None
     lang: str
 
 
-def made(order: VariantOrder) -> Outcome[dict[str, bytes]]:
+def make_on_worker(order: VariantOrder) -> Outcome[dict[str, bytes]]:
     """Make the files of an order: called on the machines of the cluster."""
     from planmethod.commands.processes import captured
 
     with _ONE, answering(order.lang):
-        return replace(captured(partial(made_here, order)), output="")  # names of files there
+        return replace(captured(partial(make_files, order)), output="")  # names of files there
 
 
-def made_together(orders: Sequence[VariantOrder]) -> list[Outcome[dict[str, bytes]]]:
+def make_chunk_on_worker(orders: Sequence[VariantOrder]) -> list[Outcome[dict[str, bytes]]]:
     """Make the files of a chunk of orders: called on the machines of the cluster."""
-    return [made(order) for order in orders]
+    return [make_on_worker(order) for order in orders]
 
 
-def made_share(orders: Sequence[VariantOrder]) -> list[Outcome[dict[str, bytes]]]:
+def make_chunk(orders: Sequence[VariantOrder]) -> list[Outcome[dict[str, bytes]]]:
     """Make the files of a chunk of orders: called in the processes of this machine."""
     from planmethod.commands.processes import captured
 
-    return [captured(partial(made_here, order)) for order in orders]
+    return [captured(partial(make_files, order)) for order in orders]
 
 
-def made_here(order: VariantOrder) -> dict[str, bytes]:
+def make_files(order: VariantOrder) -> dict[str, bytes]:
     """Make the files of an order: called in the processes of this machine."""
     from tempfile import TemporaryDirectory
 
@@ -121,7 +121,7 @@ def made_here(order: VariantOrder) -> dict[str, bytes]:
 
 
 def _files(order: VariantOrder, folder: Path) -> dict[str, bytes]:
-    todo, out = order.todo, folder / "out"
+    item, out = order.item, folder / "out"
     files: dict[str, bytes] = {}
     if order.sheets is not None:
         options = replace(order.sheets, out=out)
@@ -129,15 +129,15 @@ def _files(order: VariantOrder, folder: Path) -> dict[str, bytes]:
             layout = folder / "layout.toml"
             layout.write_bytes(order.layout)
             options = replace(options, layout=str(layout))
-        draw(todo, options)
+        draw(item, options)
         files = {path.name: path.read_bytes() for path in sorted(out.iterdir())}
     if order.settings is not None:
         from planmethod.commands.check import key_files, key_of
-        from planmethod.note.wording import language
+        from planmethod.note.wording import get_language
 
-        words = language(language_of(todo.problem, None))
-        for ending, data in key_files([key_of(todo, order.settings)], words):
-            files[f"{stem(todo.problem)}-key.{ending}"] = data
+        language = get_language(language_of(item.problem, None))
+        for ending, data in key_files([key_of(item, order.settings)], language):
+            files[f"{basename(item.problem)}-key.{ending}"] = data
     return files
 
 
@@ -148,7 +148,7 @@ def installed() -> str:
     return version("planmethod")
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @reading_options
 @out_option
@@ -178,7 +178,7 @@ def batch(
     all_variants: bool,
     phi: Positions | None,
     out: Path,
-    asked: PaperRequest,
+    request: PaperRequest,
     layout: str | None,
     ruler: float | None,
     profile: str | None,
@@ -218,9 +218,9 @@ def batch(
         raise UsageError("--jobs is of this machine; --scheduler has workers of its own")
     if layout is not None:
         composition(layout)  # its faults are reported once, before any problem is drawn
-    settled = asked.settle()
+    settled = request.resolve()
     options = SheetOptions(
-        settled=replace(settled, config=Config()),  # it is laid over the problems here
+        request=replace(settled, config=Config()),  # it is laid over the problems here
         phi=phi,
         ruler=ruler,
         profile=profile,
@@ -238,13 +238,13 @@ def batch(
         sheets=options if sheets else None,
         layout=None if layout is None or layout in SHIPPED else Path(layout).read_bytes(),
         settings=None if not keys else DEFAULT if settings is None else load_settings(settings),
-        lang=spoken(),
+        lang=current_language(),
     )
     manifest = Manifest(out)
 
-    def steps(todo: list[Todo]) -> Iterator[Callable[[], None]]:
+    def steps(todo: list[LoadedProblem]) -> Iterator[Callable[[], None]]:
         twice = [
-            name for name, count in Counter(stem(t.problem) for t in todo).items() if count > 1
+            name for name, count in Counter(basename(t.problem) for t in todo).items() if count > 1
         ]
         if twice:
             raise UsageError(
@@ -257,7 +257,7 @@ def batch(
             order = ordered(replace(one, problem=settled.over(one.problem)))
             orders.append((order, _hash(order)))
         if all(manifest.has(order, key) for order, key in orders):
-            yield from (partial(manifest.keep) for _ in orders)
+            yield from (partial(manifest.count_existing) for _ in orders)
             return
         if scheduler is None:
             yield from _shared(orders, manifest, jobs)
@@ -265,7 +265,7 @@ def batch(
         with _cluster(scheduler) as client:
             yield from _sent(client, orders, manifest)
 
-    code = through(problems, variant, all_variants or variant is None, steps, kinds=True)
+    code = run_steps(problems, variant, all_variants or variant is None, steps, kinds=True)
     manifest.close()
     finish(code)
 
@@ -274,7 +274,7 @@ def _hash(order: VariantOrder) -> str:
     """Return the hash of the inputs of files."""
     from planmethod.problem.source import read_source
 
-    one, problem, options, phi = order.todo, order.todo.problem, order.sheets, None
+    one, problem, options, phi = order.item, order.item.problem, order.sheets, None
     if options is not None:
         phi = None if options.phi is None else options.phi.tolist()
         options = replace(options, phi=None, out=Path())
@@ -296,7 +296,7 @@ class Manifest:
 
     def __init__(self, out: Path) -> None:
         self.out, self.path = out, out / MANIFEST
-        self.made, self.kept = 0, 0
+        self.made, self.existing = 0, 0
         self._lines: dict[str, _Line] = {}
         if self.path.is_file():
             for line in self.path.read_text("utf-8", errors="replace").splitlines():
@@ -306,28 +306,30 @@ class Manifest:
 
     def has(self, order: VariantOrder, key: str) -> bool:
         """Return whether the files of an order are there as they were made."""
-        told = self._lines.get(stem(order.todo.problem))
+        told = self._lines.get(basename(order.item.problem))
         if told is None or told.key != key:
             return False
         files = [(self.out / Path(name).name, digest) for name, digest in told.files.items()]
         return all(path.is_file() and _digest(path.read_bytes()) == d for path, d in files)
 
-    def keep(self) -> None:
+    def count_existing(self) -> None:
         """Count an order whose files exist."""
-        self.kept += 1
+        self.existing += 1
 
     def add(self, order: VariantOrder, key: str, files: Mapping[str, bytes]) -> None:
         """Write the files of an order, then its line."""
-        from planmethod.render.backends.output import whither, write
+        from planmethod.render.backends.output import resolve_output_path, write
 
         for name, data in files.items():
-            write(self.out / name, data, within=self.out)
+            write(self.out / name, data, output_root=self.out)
             click.echo(str(self.out / name))
         digests = {name: _digest(data) for name, data in files.items()}
-        name = stem(order.todo.problem)
+        name = basename(order.item.problem)
         told = _Line(name, key, digests)
         self._lines[name] = told
-        with whither(self.path, within=self.out).open("a", encoding="utf-8") as file:
+        with resolve_output_path(self.path, output_root=self.out).open(
+            "a", encoding="utf-8"
+        ) as file:
             file.write("\n" * (not self.made) + _line(told))  # ends a broken line
         self.made += 1
 
@@ -337,8 +339,8 @@ class Manifest:
             from planmethod.render.backends.output import write
 
             lines = (_line(told) for _, told in sorted(self._lines.items()))
-            write(self.path, "".join(lines).encode(), within=self.out)
-        click.echo(say("{} made, {} there already.", self.made, self.kept))
+            write(self.path, "".join(lines).encode(), output_root=self.out)
+        click.echo(translate("{} made, {} there already.", self.made, self.existing))
 
 
 class _Line(Struct, frozen=True):
@@ -349,8 +351,8 @@ class _Line(Struct, frozen=True):
     files: dict[str, str]
 
 
-def _line(told: _Line) -> str:
-    return json.dumps(asdict(told), ensure_ascii=False) + "\n"
+def _line(record: _Line) -> str:
+    return json.dumps(asdict(record), ensure_ascii=False) + "\n"
 
 
 def _digest(data: bytes) -> str:
@@ -362,36 +364,36 @@ def _digest(data: bytes) -> str:
 def _shared(orders: list[_Order], manifest: Manifest, jobs: int) -> Iterator[Callable[[], None]]:
     """Yield a callable for each order, made in processes of this machine, without a scheduler."""
     wanted = [order for order, key in orders if not manifest.has(order, key)]
-    outcomes = _in_shares(wanted, jobs)
+    outcomes = _in_chunks(wanted, jobs)
     for order, key in orders:
         if manifest.has(order, key):
-            yield manifest.keep
+            yield manifest.count_existing
         else:
             outcome = next(outcomes)
-            yield partial(_put, outcome, order, key, manifest)
+            yield partial(_record_files, outcome, order, key, manifest)
 
 
-def _in_shares(
+def _in_chunks(
     orders: Sequence[VariantOrder], jobs: int
 ) -> Iterator[Outcome[dict[str, bytes]] | None]:
     """Yield the outcome of every order; a chunk whose process was killed is retried one by one."""
-    from planmethod.commands.processes import in_processes, shares
+    from planmethod.commands.processes import in_processes, split_into_chunks
 
-    parts = shares(orders, jobs, AT_ONCE_DRAWN)
-    for part, outcome in zip(parts, in_processes(made_share, parts, jobs), strict=True):
+    parts = split_into_chunks(orders, jobs, AT_ONCE_DRAWN)
+    for part, outcome in zip(parts, in_processes(make_chunk, parts, jobs), strict=True):
         if outcome is not None:
             yield from outcome.result() or ()
         elif len(part) == 1:
             yield None
         else:
-            yield from in_processes(made_here, part, jobs)
+            yield from in_processes(make_files, part, jobs)
 
 
-def _put(
+def _record_files(
     outcome: Outcome[dict[str, bytes]] | None, order: VariantOrder, key: str, manifest: Manifest
 ) -> None:
     if outcome is None:
-        refuse_killed(order.todo)
+        raise_killed(order.item)
     manifest.add(order, key, replace(outcome, output="").result() or {})
 
 
@@ -442,32 +444,34 @@ def _cluster(scheduler: str) -> Iterator[Client]:
 
 def _sent(client: Client, orders: list[_Order], manifest: Manifest) -> Iterator[Callable[[], None]]:
     """Send orders ahead, and yield a callable that receives each of them, in order."""
-    from planmethod.commands.processes import shares
+    from planmethod.commands.processes import split_into_chunks
 
     threads = max(1, sum(client.nthreads().values()))
     wanted = [one for one in orders if not manifest.has(*one)]
     ahead: deque[tuple[Sequence[_Order], Future]] = deque()
 
-    def taken() -> Iterator[Callable[[], None]]:
-        for part in shares(wanted, threads, AT_ONCE_DRAWN):
+    def receivers() -> Iterator[Callable[[], None]]:
+        for part in split_into_chunks(wanted, threads, AT_ONCE_DRAWN):
             name = _digest("".join(key for _, key in part).encode())
             sent = [order for order, _ in part]
-            ahead.append((part, client.submit(made_together, sent, key=f"planmethod-{name}")))
-            if len(ahead) > AHEAD * threads:
+            ahead.append(
+                (part, client.submit(make_chunk_on_worker, sent, key=f"planmethod-{name}"))
+            )
+            if len(ahead) > QUEUED_CHUNKS * threads:
                 yield from each_of(*ahead.popleft())
         while ahead:
             yield from each_of(*ahead.popleft())
 
     def each_of(part: Sequence[_Order], future: Future) -> Iterator[Callable[[], None]]:
         for number, (order, key) in enumerate(part):
-            yield partial(_taken, client, future, number, order, key, manifest)
+            yield partial(_receive, client, future, number, order, key, manifest)
 
-    left, made_ones = {key for _, key in wanted}, taken()
+    left, made_ones = {key for _, key in wanted}, receivers()
     for _, key in orders:
-        yield next(made_ones) if key in left else manifest.keep
+        yield next(made_ones) if key in left else manifest.count_existing
 
 
-def _taken(
+def _receive(
     client: Client, future: Future, number: int, order: VariantOrder, key: str, manifest: Manifest
 ) -> None:
     """Wait for a chunk of orders and record the files of one.
@@ -478,12 +482,12 @@ def _taken(
 
     from distributed import KilledWorker
 
-    name = stem(order.todo.problem)
+    name = basename(order.item.problem)
     try:
         try:
             outcome: Outcome[dict[str, bytes]] = future.result()[number]
         except KilledWorker:
-            outcome = client.submit(made, order, key=f"planmethod-{key}").result()
+            outcome = client.submit(make_on_worker, order, key=f"planmethod-{key}").result()
     except KilledWorker:
         raise PlanMethodError(
             "{}: every worker that processed it was killed; perhaps it needs more memory "

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import Todo, each, finish, guarded
-from planmethod.languages import say
+from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, guarded
+from planmethod.languages import translate
 from planmethod.options import UsageError, problem_options
 
 SECTIONS = ("speed", "forces", "drafting", "cycle", "machine", "checking")
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @click.option(
     "--only", type=click.Choice(SECTIONS), multiple=True, help="Only these sections of the report."
@@ -50,15 +50,15 @@ def bench(
                 "bench needs mpmath: pip install mpmath; --only drafting, "
                 "cycle, machine and checking do not"
             ) from None
-    todo: list[Todo] = []
+    todo: list[LoadedProblem] = []
     kinds = wanted == ["checking"]  # trains and points are checked, too
-    finish(each(problems, variant, all_variants, todo.append, kinds=kinds))
+    finish(for_each_problem(problems, variant, all_variants, todo.append, kinds=kinds))
     loaded = [one.linkage for one in todo if one.kind is None]
     computed = [(one.kind, one.problem) for one in todo if one.kind is not None]
     from planmethod.bench import report
 
     for name in wanted:
-        click.echo(say("measuring: {}", name), err=True)
+        click.echo(translate("measuring: {}", name), err=True)
         if name == "checking":
             section = report.checking_section(loaded, works, computed)
         else:

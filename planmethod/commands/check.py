@@ -11,21 +11,21 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import bar, json_text
 from planmethod.commands.problems import (
-    Todo,
-    each,
+    LoadedProblem,
+    basename,
     fail,
     finish,
+    for_each_problem,
     guarded,
     language_of_file,
     of_linkages,
-    stem,
-    tell_doubts,
+    warn_of_accuracy,
 )
 from planmethod.errors import ExitCode, PlanMethodError
-from planmethod.languages import say, spoken
+from planmethod.languages import current_language, translate
 from planmethod.options import PathType, UsageError, jobs_option, out_option, problem_lang_option
 
 if TYPE_CHECKING:
@@ -33,18 +33,18 @@ if TYPE_CHECKING:
     from planmethod.check.group import Variants
     from planmethod.check.key import Key
     from planmethod.check.marks import Settings
-    from planmethod.check.model import CheckedWork, CheckFailure, Work
+    from planmethod.check.model import CheckFailure, GradedSubmission, Submission
     from planmethod.check.pages.files import Table
     from planmethod.note.wording import Language
 
 POLICIES = ("construction", "department", "wider", "stricter")
-MANY_WORKS = 10
+MANY_SUBMISSIONS = 10
 """Submissions whose pages take about a second."""
 
 FORMATS = ("html", "pdf")
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.argument("files", nargs=-1, required=True, metavar="PROBLEM [WORK]...", type=PathType())
 @click.option("--key", "key_only", is_flag=True, help="Print and write the key of every PROBLEM.")
 @click.option("--variant", metavar="NAME", help="Variant of the works that name none.")
@@ -155,8 +155,8 @@ def check(
     checked = _checked(variants, works, jobs)
     from planmethod.check.pages.compared import unread_lines
     from planmethod.check.pages.files import hidden_name
-    from planmethod.check.pages.overrides import overridden, read_overrides
-    from planmethod.note.wording import language
+    from planmethod.check.pages.overrides import apply_overrides, read_overrides
+    from planmethod.note.wording import get_language
 
     hidden = {hidden_name(work.student, salt): work.student for work in works} if anonymize else {}
     by_hand = overrides or (None if as_json else out / "overrides.csv")
@@ -165,12 +165,12 @@ def check(
         if anonymize:
             told = tuple(replace(one, student=hidden.get(one.student, one.student)) for one in told)
             if overrides is None:
-                _refuse_names(by_hand, hidden)
-        checked, unused = overridden(checked, told)
+                _reject_names(by_hand, hidden)
+        checked, unused = apply_overrides(checked, told)
         for where in unused:
-            click.echo(say("Warning: {}: no such work or answer.", where), err=True)
+            click.echo(translate("Warning: {}: no such work or answer.", where), err=True)
     _warn_of_others(problem, works)
-    words, lost = language(spoken()), bool(found.unread)
+    language, lost = get_language(current_language()), bool(found.unread)
     if as_json:
         _print_json(checked, salt if anonymize else None)
     else:
@@ -185,17 +185,17 @@ def check(
             addresses if gradebook or found.addresses is not None else None,
             found.unread,
         )
-    for line, is_lost in unread_lines(checked, words):
+    for line, is_lost in unread_lines(checked, language):
         click.echo(line, err=True)
         lost |= is_lost
     for line in _unread_tables(works):
         click.echo(line, err=True)
         lost = True
-    _tell_provisional(checked, by_hand, settings)
+    _report_provisional(checked, by_hand, settings)
     finish(ExitCode.FINDINGS if lost else ExitCode.DONE)
 
 
-def _refuse_names(path: Path, hidden: Mapping[str, str]) -> None:
+def _reject_names(path: Path, hidden: Mapping[str, str]) -> None:
     """Reject hidden names beside a file of the instructor that has them."""
     from planmethod.check.pages.folder import RunFolder
     from planmethod.check.pages.overrides import students_of
@@ -210,44 +210,46 @@ def _refuse_names(path: Path, hidden: Mapping[str, str]) -> None:
         )
 
 
-def _tell_provisional(checked: list[CheckedWork], by_hand: Path | None, settings: Settings) -> None:
+def _report_provisional(
+    checked: list[GradedSubmission], overrides: Path | None, settings: Settings
+) -> None:
     """Report the grades that may still change, and the reason."""
     from planmethod.check.pages.files import marks_of
 
     for one, mark in zip(checked, marks_of(checked, settings), strict=True):
         if one.is_provisional:
             click.echo(
-                say(
+                translate(
                     "Provisional: {}: mark {}, {:g} of {:g} points. Answers that cannot be read, "
                     "and count as none until {} has points for them: {}.",
                     one.work.student,
                     mark,
                     one.points,
                     one.of,
-                    by_hand or "overrides.csv",
+                    overrides or "overrides.csv",
                     len(one.open),
                 ),
                 err=True,
             )
 
 
-def _unread_tables(works: list[Work]) -> Iterator[str]:
+def _unread_tables(works: list[Submission]) -> Iterator[str]:
     """Yield a line on each file without readable answers, with the columns it has."""
     from planmethod.check.model import Unread
 
-    files: dict[str, list[Work]] = {}
+    files: dict[str, list[Submission]] = {}
     for work in works:
-        files.setdefault(work.where, []).append(work)
+        files.setdefault(work.location, []).append(work)
     for where, found in files.items():
         if any(work.answers for work in found):
             continue
-        columns = [r.fault for work in found for r in work.remarks if r.why is Unread.COLUMN]
-        told = ", ".join(dict.fromkeys(columns)) or "—"
-        yield say(
+        columns = [r.fault for work in found for r in work.remarks if r.reason is Unread.COLUMN]
+        text = ", ".join(dict.fromkeys(columns)) or "—"
+        yield translate(
             "{}: no answer was read. Unknown columns: {}. Name them: student, what, value, "
             "unit, mm, sense; or student and the quantities: v_B, omega_3.",
             where,
-            told,
+            text,
         )
 
 
@@ -263,14 +265,14 @@ class WorksRead(Struct, frozen=True):
 
     Attributes
     ----------
-    works : list of Work
+    works : list of Submission
     addresses : dict of str to str or None
         Addresses of the students in the system; None without an export.
     unread : dict of Path to CheckFailure
         Unreadable files, and the reasons.
     """
 
-    works: list[Work]
+    works: list[Submission]
     addresses: dict[str, str] | None
     unread: dict[Path, CheckFailure]
 
@@ -283,24 +285,24 @@ def _read(
     from planmethod.check.exchange.responses import read_columns
     from planmethod.check.measured.layers import read_layers
     from planmethod.check.model import CheckFailure
-    from planmethod.check.works import WorksError
+    from planmethod.check.submissions import SubmissionError
 
     told, drawn = read_columns(columns), read_layers(layers)
-    works: list[Work] = []
+    works: list[Submission] = []
     addresses: dict[str, str] | None = None
     unread: dict[Path, CheckFailure] = {}
     code = ExitCode.DONE
     for path in paths:
         try:
             found, known = _read_file(variants, path, told, drawn)
-        except WorksError as error:
+        except SubmissionError as error:
             unread[path], code = CheckFailure(str(error)), error.exit_code
             fail(error)
         except (PlanMethodError, click.ClickException, MemoryError):
             raise
         except Exception as error:  # an internal error: the other files are read
             unread[path], code = failure_of(error), ExitCode.USAGE
-            click.echo(say("Error: {}: {}", path, unread[path].said), err=True)
+            click.echo(translate("Error: {}: {}", path, unread[path].message), err=True)
         else:
             works += found
             if known is not None:
@@ -311,36 +313,36 @@ def _read(
 
 
 def _read_file(
-    variants: Variants, path: Path, told: dict[str, str], drawn: dict[str, str]
-) -> tuple[list[Work], dict[str, str] | None]:
+    variants: Variants, path: Path, columns: dict[str, str], drawn: dict[str, str]
+) -> tuple[list[Submission], dict[str, str] | None]:
     """Read the submissions of a file, and of an export the students' addresses, else None."""
     from planmethod.check.exchange.quiz import gaps_of
     from planmethod.check.exchange.responses import is_export, read_responses
     from planmethod.check.measured.drawing import is_drawing
-    from planmethod.check.works import read_works
+    from planmethod.check.submissions import read_works
 
     if is_drawing(path):
         from planmethod.check.measured.plan import read_drawing  # its readers of files cost
 
         return [read_drawing(path, drawn, variants.task(variants.default))], None
-    if not told and not is_export(path):
+    if not columns and not is_export(path):
         return read_works(path), None
     found = read_responses(
-        path, told, variants.names, lambda name: gaps_of(variants.task(name or variants.default))
+        path, columns, variants.names, lambda name: gaps_of(variants.task(name or variants.default))
     )
-    return found.works, found.addresses
+    return found.submissions, found.addresses
 
 
-def _checked(variants: Variants, works: list[Work], jobs: int) -> list[CheckedWork]:
-    from planmethod.check.copied import compared
+def _checked(variants: Variants, works: list[Submission], jobs: int) -> list[GradedSubmission]:
+    from planmethod.check.copied import mark_similar_submissions
     from planmethod.check.group import check_works
 
     if jobs > 1 and len(works) > jobs:
         parts = _in_processes(variants, works, jobs)
     else:
         parts = ([one] for one in check_works(variants, works))
-    checked: list[CheckedWork] = []
-    with bar(len(works), long=len(works) >= MANY_WORKS) as done:
+    checked: list[GradedSubmission] = []
+    with bar(len(works), long=len(works) >= MANY_SUBMISSIONS) as done:
         for part in parts:
             checked += part
             done(len(part))
@@ -348,10 +350,12 @@ def _checked(variants: Variants, works: list[Work], jobs: int) -> list[CheckedWo
         for one in checked:
             if not one.work.failure:
                 variants.task(one.variant)  # none has a grade: raises the reason, and ends the run
-    return compared(checked)
+    return mark_similar_submissions(checked)
 
 
-def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[list[CheckedWork]]:
+def _in_processes(
+    variants: Variants, works: list[Submission], jobs: int
+) -> Iterator[list[GradedSubmission]]:
     """Check works in several processes."""
     from planmethod.commands.processes import in_processes
 
@@ -372,37 +376,37 @@ def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[
             yield [_killed(work)] if own is None else own.result() or []
 
 
-def _killed(work: Work) -> CheckedWork:
+def _killed(work: Submission) -> GradedSubmission:
     """Return the failed result of a submission whose processes were all killed."""
     from planmethod.check.checking import unmarked
     from planmethod.check.model import CheckFailure
 
-    said = say("the process at work on it was killed, twice; perhaps it needs more memory")
-    return unmarked(work, work.variant, CheckFailure(str(said)))
+    phrase = translate("the process at work on it was killed, twice; perhaps it needs more memory")
+    return unmarked(work, work.variant, CheckFailure(str(phrase)))
 
 
 def check_part(
-    part: list[Work],
+    part: list[Submission],
     *,
     problem: Path,
     variant: str | None,
     settings: Settings,
-) -> list[CheckedWork]:
+) -> list[GradedSubmission]:
     """Check some of the submissions of a group."""
     from planmethod.check.group import Variants, check_works
 
     return list(check_works(Variants(problem, settings, variant), part))
 
 
-def _warn_of_others(problem: Path, works: list[Work]) -> None:
+def _warn_of_others(problem: Path, works: list[Submission]) -> None:
     """Warn of submissions that name another problem."""
     for work in works:
         named = Path(work.problem).stem if work.problem else problem.stem
         if named != problem.stem:
             click.echo(
-                say(
+                translate(
                     "Warning: {}: the work is of {}, it is checked as {}.",
-                    work.student or work.where,
+                    work.student or work.location,
                     named,
                     problem.stem,
                 ),
@@ -410,7 +414,7 @@ def _warn_of_others(problem: Path, works: list[Work]) -> None:
             )
 
 
-def _print_json(checked: list[CheckedWork], salt: str | None) -> None:
+def _print_json(checked: list[GradedSubmission], salt: str | None) -> None:
     from planmethod.check.pages.files import anonymous
     from planmethod.check.pages.listing import record
 
@@ -421,7 +425,7 @@ def _print_json(checked: list[CheckedWork], salt: str | None) -> None:
 def _write_results(
     variants: Variants,
     paths: list[Path],
-    checked: list[CheckedWork],
+    checked: list[GradedSubmission],
     out: Path,
     salt: str | None,
     lang: str,
@@ -435,19 +439,19 @@ def _write_results(
     from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
     from planmethod.check.group import keys_of
     from planmethod.check.pages.files import anonymous, write_all
-    from planmethod.note.wording import language
+    from planmethod.note.wording import get_language
 
     if salt is not None:
         checked = anonymous(checked, salt)
-    keys, inputs, words = keys_of(variants, checked), [variants.path, *paths], language(lang)
+    keys, inputs, language = keys_of(variants, checked), [variants.path, *paths], get_language(lang)
     tables: dict[str, Table] = {}
     if addresses is not None:
         known = addresses
         tables = {
-            "gradebook.csv": lambda marks, pages: gradebook_csv(checked, marks, known, words),
+            "gradebook.csv": lambda marks, pages: gradebook_csv(checked, marks, known, language),
             "feedback.zip": lambda marks, pages: feedback_zip(checked, pages),
         }
-    with bar(len(checked), long=len(checked) >= MANY_WORKS) as done:
+    with bar(len(checked), long=len(checked) >= MANY_SUBMISSIONS) as done:
         written = write_all(
             out,
             checked,
@@ -463,10 +467,10 @@ def _write_results(
     for path in written.paths:
         click.echo(str(path))
     for student, failure in written.failures:
-        click.echo(say("No page: {}: {}. See run.json.", student, failure.said), err=True)
+        click.echo(translate("No page: {}: {}. See run.json.", student, failure.message), err=True)
     for path in written.changed_files:
-        told = "Warning: {} was changed after an earlier run wrote it, and stays."
-        click.echo(say(told, path), err=True)
+        text = "Warning: {} was changed after an earlier run wrote it, and stays."
+        click.echo(translate(text, path), err=True)
     return bool(written.failures)
 
 
@@ -480,7 +484,7 @@ class KeyFiles(Struct, frozen=True):
     gift: Path | None
 
 
-class Asked(Struct, frozen=True):
+class KeyQuestion(Struct, frozen=True):
     """The key of a variant, and its question where one is written (ключ и вопрос)."""
 
     key: Key
@@ -492,65 +496,72 @@ def _write_keys(
     variant: str | None,
     all_variants: bool,
     settings: Settings,
-    asked: KeyFiles,
+    files_wanted: KeyFiles,
     jobs: int,
 ) -> None:
     from planmethod.problem import variant_names
 
-    as_questions = bool(asked.moodle or asked.gift)
-    act = partial(asked_of, settings=settings, lang=asked.lang if as_questions else None)
+    as_questions = bool(files_wanted.moodle or files_wanted.gift)
+    act = partial(key_question, settings=settings, lang=files_wanted.lang if as_questions else None)
     code = ExitCode.DONE
-    whole: list[Asked] = []
+    whole: list[KeyQuestion] = []
     for path in files:
-        found: list[Asked] = []
+        found: list[KeyQuestion] = []
         try:
             every = all_variants or (variant is None and bool(variant_names(path)))
         except OSError:
             every = False
         ahead = None if as_questions else partial(keys_ahead, settings=settings)
-        code = each((path,), variant, every, act, jobs=jobs, take=found.append, ahead=ahead) or code
+        code = (
+            for_each_problem(
+                (path,), variant, every, act, jobs=jobs, on_result=found.append, act_on_many=ahead
+            )
+            or code
+        )
         whole += found
-        if found and not as_questions and not asked.as_json:
-            _write_key(path, [one.key for one in found], asked)
-    if asked.as_json:
+        if found and not as_questions and not files_wanted.as_json:
+            _write_key(path, [one.key for one in found], files_wanted)
+    if files_wanted.as_json:
         from planmethod.check.exchange.keyrecord import key_record
 
         click.echo(json_text([key_record(one.key) for one in whole]))
     questions = [one.question for one in whole if one.question is not None]
     if questions:
-        _write_questions(questions, asked)
+        _write_questions(questions, files_wanted)
     finish(code)
 
 
-def _write_questions(questions: list[QuizQuestion], asked: KeyFiles) -> None:
+def _write_questions(questions: list[QuizQuestion], key_files: KeyFiles) -> None:
     """Write the questions for a learning management system."""
     from planmethod.check.exchange.cloze import moodle_xml
     from planmethod.check.exchange.gift import gift
-    from planmethod.note.wording import language
+    from planmethod.note.wording import get_language
     from planmethod.render.backends.output import write
 
-    for path, written in ((asked.moodle, moodle_xml), (asked.gift, gift)):
+    for path, written in ((key_files.moodle, moodle_xml), (key_files.gift, gift)):
         if path is not None:
-            write(path, written(questions, language(asked.lang)))
-            click.echo(str(path), err=asked.as_json)
+            write(path, written(questions, get_language(key_files.lang)))
+            click.echo(str(path), err=key_files.as_json)
 
 
-def _write_key(path: Path, keys: list[Key], asked: KeyFiles) -> None:
+def _write_key(path: Path, keys: list[Key], targets: KeyFiles) -> None:
     from planmethod.check.pages.keypage import key_document
-    from planmethod.note.wording import language
-    from planmethod.note.writers.plain import plain_document
+    from planmethod.note.wording import get_language
+    from planmethod.note.writers.terminal import plain_document
     from planmethod.render.backends.output import write
 
-    words = language(asked.lang)
-    click.echo(plain_document(key_document(keys, words), words))
-    name = stem(keys[0].problem) if len(keys) == 1 else path.stem
-    for ending, data in key_files(keys, words):
-        target = asked.out / f"{name}-key.{ending}"
-        write(target, data, within=asked.out)
+    language = get_language(targets.lang)
+    click.echo(plain_document(key_document(keys, language), language))
+    name = basename(keys[0].problem) if len(keys) == 1 else path.stem
+    for ending, data in key_files(keys, language):
+        target = targets.out / f"{name}-key.{ending}"
+        write(target, data, output_root=targets.out)
         click.echo(str(target))
 
 
-def asked_of(todo: Todo, settings: Settings, lang: str | None, *, mistakes: bool = True) -> Asked:
+def key_question(
+    item: LoadedProblem, settings: Settings, lang: str | None, *, mistakes: bool = True
+) -> KeyQuestion:
     """Return the key of a problem of any kind, and its question in a language.
 
     Without ``mistakes`` it has none, which saves half of the time.
@@ -558,34 +569,34 @@ def asked_of(todo: Todo, settings: Settings, lang: str | None, *, mistakes: bool
     from planmethod.check.group import task_of_problem
     from planmethod.check.key import key_of_task
 
-    task = task_of_problem(todo.kind, todo.problem, settings)
-    if todo.kind is None:
-        tell_doubts(todo.linkage)
+    task = task_of_problem(item.kind, item.problem, settings)
+    if item.kind is None:
+        warn_of_accuracy(item.linkage)
     key = key_of_task(task, named=None if mistakes else lambda _: ())
     if lang is None:
-        return Asked(key, None)
+        return KeyQuestion(key, None)
     from planmethod.check.exchange.variant import question_of
-    from planmethod.note.wording import language
+    from planmethod.note.wording import get_language
 
-    return Asked(key, question_of(task, todo.kind, language(lang)))
+    return KeyQuestion(key, question_of(task, item.kind, get_language(lang)))
 
 
-def keys_ahead(todo: Sequence[Todo], settings: Settings) -> dict[int, Asked]:
+def keys_ahead(todo: Sequence[LoadedProblem], settings: Settings) -> dict[int, KeyQuestion]:
     """Return the keys of linkages with the same questions, by their numbers."""
-    from planmethod.check.together import keys_together
+    from planmethod.check.batch import compute_keys
 
-    keys = of_linkages(todo, lambda problems: keys_together(problems, settings))
-    return {k: Asked(key, None) for k, key in keys.items()}
+    keys = of_linkages(todo, lambda problems: compute_keys(problems, settings))
+    return {k: KeyQuestion(key, None) for k, key in keys.items()}
 
 
-def key_of(todo: Todo, settings: Settings) -> Key:
+def key_of(item: LoadedProblem, settings: Settings) -> Key:
     """Return the key of a problem of any kind."""
-    return asked_of(todo, settings, None).key
+    return key_question(item, settings, None).key
 
 
-def key_files(keys: list[Key], words: Language) -> Iterator[tuple[str, bytes]]:
+def key_files(keys: list[Key], language: Language) -> Iterator[tuple[str, bytes]]:
     """Yield the files of keys, each with its ending."""
     from planmethod.check.pages.keypage import key_pdf, key_xlsx
 
-    yield "pdf", key_pdf(keys, words)
-    yield "xlsx", key_xlsx(keys, words)
+    yield "pdf", key_pdf(keys, language)
+    yield "xlsx", key_xlsx(keys, language)

@@ -8,11 +8,11 @@ import click
 
 from planmethod.check.group import Variants, check_works
 from planmethod.check.pages.compared import compared_document, unread_lines
-from planmethod.check.works import read_works
+from planmethod.check.submissions import read_works
 from planmethod.commands.problems import language_of_file
 from planmethod.errors import Fault, ProblemError
-from planmethod.note.wording import language
-from planmethod.note.writers.plain import plain_document
+from planmethod.note.wording import get_language
+from planmethod.note.writers.terminal import plain_document
 from planmethod.problem.source import parse, read_source
 
 
@@ -29,7 +29,7 @@ def compare(problem: Path, work: Path, variant: str | None, lang: str | None) ->
         fault = Fault("compare", "own numbers are not compared before they are handed in", hint)
         raise ProblemError(str(problem), [fault])
     checked = list(check_works(Variants(problem, default=variant), read_works(work)))
-    words = language(language_of_file(problem, lang))
-    click.echo(plain_document(compared_document(checked, words), words))
-    for line, _ in unread_lines(checked, words):
+    language = get_language(language_of_file(problem, lang))
+    click.echo(plain_document(compared_document(checked, language), language))
+    for line, _ in unread_lines(checked, language):
         click.echo(line, err=True)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import each, finish, guarded, language_of, stem
+from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.problems import basename, finish, for_each_problem, guarded, language_of
 from planmethod.options import (
     PathType,
     UsageError,
@@ -19,17 +19,17 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.commands.check import Asked
+    from planmethod.commands.check import KeyQuestion
 
-MOST_STUDENTS = 500
+MAX_STUDENTS = 500
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @out_option
 @click.option(
     "--students",
-    type=click.IntRange(1, MOST_STUDENTS),
+    type=click.IntRange(1, MAX_STUDENTS),
     help="Number of forms, which are numbered. Default: one without a number.",
 )
 @click.option(
@@ -56,7 +56,7 @@ def form(
     """
     from planmethod.check.form import fingerprint_of, form_of
     from planmethod.check.marks import DEFAULT
-    from planmethod.commands.check import asked_of, keys_ahead
+    from planmethod.commands.check import key_question, keys_ahead
     from planmethod.render.backends.output import write
 
     if students is not None and names is not None:
@@ -65,12 +65,12 @@ def form(
     if names is not None:
         who = _read_names(names)
 
-    def make(asked: Asked) -> None:
-        key, problem = asked.key, asked.key.problem
+    def write_form(question: KeyQuestion) -> None:
+        key, problem = question.key, question.key.problem
         fingerprint = fingerprint_of(problem)
         for number, student in enumerate(who or [""], 1):
             tail = f"-{number:0{len(str(len(who)))}}" if who else ""
-            path = out / f"{stem(problem)}-form{tail}.xlsx"
+            path = out / f"{basename(problem)}-form{tail}.xlsx"
             data = form_of(
                 key.entries,
                 problem=problem.name,
@@ -80,21 +80,25 @@ def form(
                 title=problem.title,
                 lang=language_of(problem, lang),
             )
-            write(path, data, within=out)
+            write(path, data, output_root=out)
             click.echo(str(path))
 
-    act = partial(asked_of, settings=DEFAULT, lang=None, mistakes=False)
+    act = partial(key_question, settings=DEFAULT, lang=None, mistakes=False)
     ahead = partial(keys_ahead, settings=DEFAULT)
-    finish(each(problems, variant, all_variants, act, take=make, ahead=ahead))
+    finish(
+        for_each_problem(
+            problems, variant, all_variants, act, on_result=write_form, act_on_many=ahead
+        )
+    )
 
 
 def _read_names(path: Path) -> list[str]:
     """Return the names of the students, one in each line of a text."""
-    from planmethod.check.works.csv_file import decoded
-    from planmethod.check.works.faults import read_bytes
+    from planmethod.check.submissions.csv_file import decoded
+    from planmethod.check.submissions.faults import read_bytes
 
     lines = decoded(read_bytes(path), path).splitlines()
     found = [" ".join(line.split()) for line in lines if line.strip()]
-    if not 0 < len(found) <= MOST_STUDENTS:
-        raise UsageError("{}: {} names; 1 to {} are expected", path, len(found), MOST_STUDENTS)
+    if not 0 < len(found) <= MAX_STUDENTS:
+        raise UsageError("{}: {} names; 1 to {} are expected", path, len(found), MAX_STUDENTS)
     return found

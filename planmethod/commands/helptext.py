@@ -16,7 +16,7 @@ from contextlib import contextmanager
 
 import click
 
-from planmethod.languages import WORDING, say, speaking, translated
+from planmethod.languages import WORDING, look_up_translation, speaking, translate
 
 DOMAIN = "click"
 """Domain of `gettext` of the sentences of click."""
@@ -40,7 +40,7 @@ def answering(lang: str) -> Iterator[None]:
             os.environ["LANGUAGE"] = asked
 
 
-class Spoken(click.Command):
+class LocalizedCommand(click.Command):
     """Command whose help is in the current language."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
@@ -54,10 +54,10 @@ class Spoken(click.Command):
         end = args.index("--") if "--" in args else len(args)
         words = [*(long.get(a, a) for a in args[:end]), *args[end:]]
         if not ctx.resilient_parsing:
-            self._refuse_repeated(ctx, words)
+            self._reject_repeated(ctx, words)
         return super().parse_args(ctx, words)
 
-    def _refuse_repeated(self, ctx: click.Context, words: list[str]) -> None:
+    def _reject_repeated(self, ctx: click.Context, words: list[str]) -> None:
         """Reject an option of one value that is given twice; click takes the last silently."""
         single = {
             param.name: param
@@ -72,33 +72,35 @@ class Spoken(click.Command):
             if option is None or len(values) < 2 or (option.is_flag and len({*values}) < 2):
                 continue  # a repeated flag has the same meaning
             if option.is_flag:
-                said = say("give {} or {}, not both", max(option.opts), max(option.secondary_opts))
+                phrase = translate(
+                    "give {} or {}, not both", max(option.opts), max(option.secondary_opts)
+                )
             else:
                 listed = ", ".join(
                     " ".join(one) if isinstance(one, tuple) else one for one in values
                 )
-                said = say(
+                phrase = translate(
                     "{0} is given {1} time{1:||s}: {2}. Give it once.",
                     max(option.opts, key=len),
                     len(values),
                     listed,
                 )
-            raise click.UsageError(said, ctx)
+            raise click.UsageError(phrase, ctx)
 
     def get_help(self, ctx: click.Context) -> str:
         """Return the help, of the options as well."""
         told = self._translated()
         told.params = [_translated(param, ctx) for param in self.get_params(ctx)]
         told.add_help_option = False  # it is among them
-        return super(Spoken, told).get_help(ctx)
+        return super(LocalizedCommand, told).get_help(ctx)
 
     def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
         """Return the text after the command in its usage line."""
-        return [translated(piece) for piece in super().collect_usage_pieces(ctx)]
+        return [look_up_translation(piece) for piece in super().collect_usage_pieces(ctx)]
 
-    def _translated(self) -> Spoken:
+    def _translated(self) -> LocalizedCommand:
         told = copy.copy(self)
-        told.help = translated(inspect.cleandoc(self.help or ""))
+        told.help = look_up_translation(inspect.cleandoc(self.help or ""))
         return told
 
 
@@ -113,7 +115,7 @@ def _repeatable(param: click.Parameter) -> click.Parameter:
 def _translated(param: click.Parameter, ctx: click.Context) -> click.Parameter:
     told = copy.copy(param)
     if isinstance(told, click.Option) and told.help:
-        told.help = translated(told.help)
+        told.help = look_up_translation(told.help)
     if not (isinstance(told, click.Option) and told.is_flag):
-        told.metavar = translated(param.make_metavar(ctx))
+        told.metavar = look_up_translation(param.make_metavar(ctx))
     return told

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import refuse_unknown, write_new
+from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import reject_unknown, write_new
 from planmethod.commands.problems import guarded
 from planmethod.options import PathType, lang_option
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.argument("name", required=False)
 @click.argument("file", required=False, type=PathType(dir_okay=False))
 @click.option("--force", is_flag=True, help="Write over an existing file.")
@@ -31,7 +31,7 @@ def layouts(name: str | None, file: Path | None, force: bool, lang: str) -> None
         for shipped in SHIPPED:
             click.echo(f"{shipped.ljust(width)}  {about(shipped, lang)}")
         return
-    refuse_unknown("no layout {!r}", name, SHIPPED)
+    reject_unknown("no layout {!r}", name, SHIPPED)
     if file is None:
         click.echo(shipped_text(name, lang), nl=False)
     else:

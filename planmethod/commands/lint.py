@@ -10,18 +10,18 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.asked import PaperRequest, Settled, sheet_options
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import json_text
 from planmethod.commands.problems import (
-    Todo,
-    each,
+    LoadedProblem,
+    basename,
     finish,
+    for_each_problem,
     guarded,
     language_of,
-    refuse_plans,
-    stem,
+    reject_plan_options,
 )
+from planmethod.commands.sheet_options import PaperRequest, ResolvedRequest, sheet_options
 from planmethod.errors import ExitCode
 from planmethod.options import (
     Positions,
@@ -35,13 +35,13 @@ from planmethod.options import (
 
 if TYPE_CHECKING:
     from planmethod.problem.model import Problem
-    from planmethod.render.sheets.controlled import Controlled
+    from planmethod.render.sheets.controlled import CheckedSheet
 
 
 class LintOptions(Struct, frozen=True, kw_only=True):
     """Sheets to inspect and form of the report; the options of the command."""
 
-    settled: Settled
+    request: ResolvedRequest
     phi: Positions | None
     ruler: float | None
     profile: str | None
@@ -53,7 +53,7 @@ class LintOptions(Struct, frozen=True, kw_only=True):
     as_json: bool
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @reading_options
 @sheet_options
@@ -76,7 +76,7 @@ def lint(
     phi: Positions | None,
     ruler: float | None,
     profile: str | None,
-    asked: PaperRequest,
+    request: PaperRequest,
     layout: str | None,
     errors: bool,
     sigma: bool | None,
@@ -102,7 +102,7 @@ def lint(
     if layout is not None:
         composition(layout)  # its faults are reported once, before any problem is drawn
     options = LintOptions(
-        settled=asked.settle(),
+        request=request.resolve(),
         phi=phi,
         ruler=ruler,
         profile=profile,
@@ -114,8 +114,10 @@ def lint(
         as_json=as_json,
     )
     looked: list[tuple[dict[str, Any] | None, int]] = []
-    act = partial(look, options=options)
-    code = each(problems, variant, all_variants, act, jobs=jobs, take=looked.append)
+    act = partial(inspect_problem, options=options)
+    code = for_each_problem(
+        problems, variant, all_variants, act, jobs=jobs, on_result=looked.append
+    )
     records = [record for record, _ in looked if record is not None]
     if records:
         whole: Any = records[0] if len(records) == 1 else records
@@ -124,47 +126,47 @@ def lint(
     finish(ExitCode.FINDINGS if any(marked for _, marked in looked) else ExitCode.DONE)
 
 
-def look(todo: Todo, options: LintOptions) -> tuple[dict[str, Any] | None, int]:
+def inspect_problem(item: LoadedProblem, options: LintOptions) -> tuple[dict[str, Any] | None, int]:
     """Inspect the sheets of a problem; return the record, if requested, and the error count."""
     from planmethod.render.control.remarks import Severity
     from planmethod.render.sheets.control_report import control_record, control_text, counted
 
-    problem = options.settled.over(todo.problem)
-    what, sheets = _looked_over(replace(todo, problem=problem), options)
+    problem = options.request.over(item.problem)
+    what, sheets = _inspected_sheets(replace(item, problem=problem), options)
     lang = language_of(problem, None)
     marked = counted(sheets, Severity.ERROR)
     if options.strict:
         marked += counted(sheets, Severity.WARNING)
     if options.as_json:
         return control_record(problem.name, problem.variant, what, sheets, lang), marked
-    click.echo(control_text(stem(problem), sheets, lang))
+    click.echo(control_text(basename(problem), sheets, lang))
     return None, marked
 
 
-def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled]]:
+def _inspected_sheets(item: LoadedProblem, options: LintOptions) -> tuple[str, list[CheckedSheet]]:
     """Return the kind of the sheets of a problem, and the sheets with their remarks."""
     from planmethod.render.sheets.controlled import (
+        check_drawings,
         controlled_kinematics,
         controlled_structure,
-        looked_over,
     )
 
     phi, errors, sigma, layout = options.phi, options.errors, options.sigma, options.layout
-    fields, kind = options.settled.fields, todo.kind
+    fields, kind = options.request.fields, item.kind
     if kind is not None:
-        refuse_plans(
+        reject_plan_options(
             kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma),
             structure=options.structural,
         )  # fmt: skip
         hand = drawn_by(options.profile, options.ruler)
-        drawings = kind.drawings(todo.problem, fields=fields, profile=hand)
-        return kind.table, looked_over(drawings, kind.scales)
+        drawings = kind.drawings(item.problem, fields=fields, profile=hand)
+        return kind.table, check_drawings(drawings, kind.scales)
     usual = phi is None and layout is None and not errors and sigma is None
-    if usual and _is_project(todo.linkage) and not options.structural:
-        return "project", _of_project(todo, options)
+    if usual and _is_project(item.linkage) and not options.structural:
+        return "project", _of_project(item, options)
     if options.structural:
-        return "structure", controlled_structure(todo.linkage, fields=fields)
-    linkage = todo.linkage
+        return "structure", controlled_structure(item.linkage, fields=fields)
+    linkage = item.linkage
     if phi is not None:  # a project's decisions apply to its own positions
         linkage = replace(linkage, calculated=None)
     return "kinematics", controlled_kinematics(
@@ -185,21 +187,21 @@ def _is_project(linkage: Problem) -> bool:
     """
     from planmethod.kinds import PROJECT_KINDS
 
-    driving = set() if linkage.drive.followed is None else {"cam"}
+    driving = set() if linkage.drive.cam_drive is None else {"cam"}
     parts = {kind.table for kind in PROJECT_KINDS} - driving
     return linkage.project is not None or bool(linkage.tables.keys() & parts)
 
 
-def _of_project(todo: Todo, options: LintOptions) -> list[Controlled]:
+def _of_project(item: LoadedProblem, options: LintOptions) -> list[CheckedSheet]:
     """Return the sheets of all parts of a project, as it draws them, inspected."""
     from planmethod.project.settle import settle
     from planmethod.project.sheets import numbered_set, part_drawings
-    from planmethod.render.sheets.controlled import looked_over
+    from planmethod.render.sheets.controlled import check_drawings
 
-    project = settle(todo.linkage, todo.path)
-    drawn = [part_drawings(project, part, options.settled.fields) for part in project.parts]
+    project = settle(item.linkage, item.path)
+    drawn = [part_drawings(project, part, options.request.fields) for part in project.parts]
     return [
         sheet
         for part, sheets in zip(project.parts, numbered_set(project, drawn), strict=True)
-        for sheet in looked_over(sheets, "[scales]" if part.kind is None else part.kind.scales)
+        for sheet in check_drawings(sheets, "[scales]" if part.kind is None else part.kind.scales)
     ]

@@ -6,21 +6,21 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import put, show
+from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import show, write_text
 from planmethod.commands.problems import (
-    Todo,
-    each,
+    LoadedProblem,
+    basename,
     finish,
+    for_each_problem,
     guarded,
     language_of,
-    stem,
-    tell_doubts,
+    warn_of_accuracy,
 )
 from planmethod.options import open_option, out_option, problem_lang_option, problem_options
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @out_option
 @problem_lang_option
@@ -39,17 +39,17 @@ def live(
 
     written: list[Path] = []
 
-    def write(todo: Todo) -> None:
-        page = out / f"{stem(todo.problem)}-live.html"
-        words = language_of(todo.problem, lang)
-        if todo.kind is None:
-            put(live_page(todo.linkage, words), str(page), within=out)
-            tell_doubts(todo.linkage)
+    def write(item: LoadedProblem) -> None:
+        page = out / f"{basename(item.problem)}-live.html"
+        words = language_of(item.problem, lang)
+        if item.kind is None:
+            write_text(live_page(item.linkage, words), str(page), folder=out)
+            warn_of_accuracy(item.linkage)
         else:
-            put(todo.kind.live_page(todo.problem, words), str(page), within=out)
+            write_text(item.kind.live_page(item.problem, words), str(page), folder=out)
         written.append(page)
 
-    code = each(problems, variant, all_variants, write)
+    code = for_each_problem(problems, variant, all_variants, write)
     if shown and written:
         show(written[0])
     finish(code)

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import refuse_unknown, write_new
+from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import reject_unknown, write_new
 from planmethod.commands.problems import guarded
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.options import PathType, UsageError, lang_option
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.argument("family", required=False, metavar="[FAMILY|TASK]")
 @click.argument("file", required=False, type=PathType(dir_okay=False))
 @click.option("--list", "show", is_flag=True, help="List the families.")
@@ -37,9 +37,9 @@ def new(
 
     known = (*FAMILIES, *OTHER_FAMILIES)
     if show or family is None:
-        from planmethod.note.wording import language
+        from planmethod.note.wording import get_language
 
-        width, meanings = max(map(len, known)), language(lang).families
+        width, meanings = max(map(len, known)), get_language(lang).families
         for name in known:
             click.echo(f"{name.ljust(width)}  {meanings[name]}")
         if not show:
@@ -59,11 +59,11 @@ def new(
     task = next((task for task in tasks() if task.name.casefold() == wanted), None)
     if task is None:
         names = (*known, *(task.name for task in tasks()))
-        said = "no task {!r}" if any(map(str.isdigit, family)) else "no family {!r}"
-        refuse_unknown(said, family, names, "planmethod new --list, planmethod tasks")
+        phrase = "no task {!r}" if any(map(str.isdigit, family)) else "no family {!r}"
+        reject_unknown(phrase, family, names, "planmethod new --list, planmethod tasks")
         return
     if variant is not None:
-        none = "" if task.variants else say("none")
-        refuse_unknown("no variant {!r}", variant, task.variants, none)
+        none = "" if task.variants else translate("none")
+        reject_unknown("no variant {!r}", variant, task.variants, none)
     stem = task.name if variant is None else f"{task.name}-{variant}"
     write_new(file or Path(f"{stem}.toml"), text_for(task, variant), force=force)

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.asked import PaperRequest, sheet_options
-from planmethod.commands.decided import decided, note_options
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import show
-from planmethod.commands.problems import guarded, stem
+from planmethod.commands.problems import basename, guarded
+from planmethod.commands.project_context import load_project, note_options
+from planmethod.commands.sheet_options import PaperRequest, sheet_options
 from planmethod.options import BadParameter, open_option, out_option, position_option
 
 FORMATS = ("docx", "pdf")
@@ -27,7 +27,7 @@ def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tupl
     return names
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.argument("problem", metavar="PROBLEM", type=click.Path(path_type=Path, readable=False))
 @click.option("--variant", metavar="NAME", help="Variant of the problem file.")
 @position_option
@@ -52,18 +52,18 @@ def note(
     template: Path | None,
     frame: bool,
     out: Path,
-    asked: PaperRequest,
+    request: PaperRequest,
     shown: bool,
 ) -> None:
     """Write the explanatory note of a project, or of one homework, for Word and as PDF."""
     from planmethod.project.notes import NoteOptions, note_files
     from planmethod.render.backends.output import write_all
 
-    settled = asked.settle()
-    project = decided(problem, variant, position, settled)
+    settled = request.resolve()
+    project = load_project(problem, variant, position, settled)
     options = NoteOptions(settled.fields, template, frame)
-    files = note_files(project, f"{stem(project.problem)}-note", options, formats)
-    write_all(out, files, within=out)
+    files = note_files(project, f"{basename(project.problem)}-note", options, formats)
+    write_all(out, files, output_root=out)
     for name in files:
         click.echo(str(out / name))
     if shown:

@@ -13,7 +13,7 @@ import click
 import msgspec
 from msgspec.structs import replace
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.options import UsageError
 
 if TYPE_CHECKING:
@@ -24,18 +24,18 @@ SPOOLED = 2**20
 """Letters of records that are kept in memory."""
 
 
-def put(text: str, file: str | None, *, within: Path | None = None) -> None:
-    """Print a text, or write it to a file and print the name; ``within`` is ``--out``."""
+def write_text(text: str, file: str | None, *, folder: Path | None = None) -> None:
+    """Print a text, or write it to a file and print the name; ``folder`` is ``--out``."""
     if file is None or file == "-":
         click.echo(text, nl=not text.endswith("\n"))
         return
     from planmethod.render.backends.output import write
 
-    write(Path(file), text.encode(), within=within)
+    write(Path(file), text.encode(), output_root=folder)
     click.echo(file)
 
 
-def put_parts(parts: Iterable[str], file: str) -> None:
+def write_parts(parts: Iterable[str], file: str) -> None:
     """Print a long text part by part, or write it to a file, whole or not at all."""
     if file == "-":
         for part in parts:
@@ -49,32 +49,32 @@ def put_parts(parts: Iterable[str], file: str) -> None:
     click.echo(file)
 
 
-def refuse_unknown(said: str, name: str, known: Sequence[str], told: str = "") -> None:
-    """Reject a name (``no layout {!r}``) with the nearest one; ``told`` replaces a long list."""
+def reject_unknown(message: str, name: str, known: Sequence[str], choices: str = "") -> None:
+    """Reject a name (``no layout {!r}``) with the nearest one; ``choices`` replaces a long list."""
     if name not in known:
         from difflib import get_close_matches
 
         near = get_close_matches(name, known, 1)
         near = near or [one for one in known if one.endswith(f"-{name}")]
-        hint = say("; did you mean {!r}?", near[0]) if near else "."
-        listed = told or ", ".join(known)
-        raise UsageError("{}{} Known: {}.", say(said, name), hint, listed)
+        hint = translate("; did you mean {!r}?", near[0]) if near else "."
+        listed = choices or ", ".join(known)
+        raise UsageError("{}{} Known: {}.", translate(message, name), hint, listed)
 
 
-def write_new(path: Path, text: str, *, force: bool, within: Path | None = None) -> None:
+def write_new(path: Path, text: str, *, force: bool, folder: Path | None = None) -> None:
     """Write a file to start from, over an existing one by ``force`` only."""
     if path.exists() and not force:
         raise UsageError("{} exists; name another file or give --force", path)
     from planmethod.render.backends.output import write
 
-    write(path, text.encode(), within=within)
+    write(path, text.encode(), output_root=folder)
     click.echo(str(path))
 
 
 def write_drawings(
     drawings: Sequence[Drawing],
     out: Path,
-    stem: str,
+    basename: str,
     formats: Iterable[str],
     *,
     dpi: int = 100,
@@ -84,9 +84,9 @@ def write_drawings(
     """Write the sheets of a problem and return the files; all or none appear (`drawing_files`)."""
     from planmethod.render.backends.output import write
 
-    files = drawing_files(drawings, stem, formats, dpi=dpi, author=author, dxf_text=dxf_text)
+    files = drawing_files(drawings, basename, formats, dpi=dpi, author=author, dxf_text=dxf_text)
     for name, data in files.items():
-        write(out / name, data, within=out)
+        write(out / name, data, output_root=out)
     paths = [out / name for name in files]
     for path in paths:
         click.echo(str(path))
@@ -95,7 +95,7 @@ def write_drawings(
 
 def drawing_files(
     drawings: Sequence[Drawing],
-    stem: str,
+    basename: str,
     formats: Iterable[str],
     *,
     dpi: int = 100,
@@ -116,10 +116,10 @@ def drawing_files(
     files: dict[str, bytes] = {}
     for fmt in formats:
         if fmt in PAGED:
-            files[f"{stem}.{fmt}"] = render_pages(drawings, fmt, options=options)
+            files[f"{basename}.{fmt}"] = render_pages(drawings, fmt, options=options)
             continue
         for number, drawing in enumerate(drawings, 1):
-            name = f"{stem}.{fmt}" if number == 1 else f"{stem}-{number}.{fmt}"
+            name = f"{basename}.{fmt}" if number == 1 else f"{basename}-{number}.{fmt}"
             files[name] = render(drawing, fmt, options=options)
     return files
 
@@ -131,8 +131,8 @@ def show(path: Path) -> None:
         return
     opened.add(path)
     if click.launch(str(path)):
-        told = "Note: no program of this system opens {}; open the file yourself."
-        click.echo(say(told, path), err=True)
+        text = "Note: no program of this system opens {}; open the file yourself."
+        click.echo(translate(text, path), err=True)
 
 
 def write_set(drawings: Sequence[Drawing], path: Path, *, author: str | None = None) -> None:
@@ -142,7 +142,7 @@ def write_set(drawings: Sequence[Drawing], path: Path, *, author: str | None = N
     from planmethod.render.backends.output import write
 
     options = Options() if author is None else Options(author=author)
-    write(path, render_pages(drawings, options=options), within=path.parent)
+    write(path, render_pages(drawings, options=options), output_root=path.parent)
     click.echo(str(path))
 
 
@@ -179,7 +179,7 @@ class JsonTexts:
         self._file.write(", " * bool(self._count) + text)
         self._count += 1
 
-    def tell(self) -> None:
+    def echo(self) -> None:
         """Print the only record, or the list of several, if any."""
         if not self._count:
             return

@@ -18,7 +18,7 @@ from msgspec import Struct
 
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError, ProblemError
-from planmethod.languages import say, spoken
+from planmethod.languages import current_language, translate
 from planmethod.options import UsageError
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.kind import ProblemKind
     from planmethod.options import Positions
-    from planmethod.problem.head import KindProblem
+    from planmethod.problem.common import KindProblem
     from planmethod.problem.model import Problem
     from planmethod.solved.machine.flywheel import Flywheel
     from planmethod.solved.solution import Solution
@@ -35,7 +35,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 T = TypeVar("T")
 
 
-class Todo(Struct, frozen=True):
+class LoadedProblem(Struct, frozen=True):
     """A problem that was read: its file, its kind (None for a linkage), what was read."""
 
     path: Path
@@ -62,15 +62,15 @@ MANY = 6
 
 def fail(error: PlanMethodError, names: Sequence[str] = ()) -> None:
     """Print an error, with the name of its problem: see `named`."""
-    click.echo(say("Error: {}", named(str(error), names)), err=True)
+    click.echo(translate("Error: {}", named(str(error), names)), err=True)
 
 
-def named(told: str, names: Sequence[str]) -> str:
+def named(message: str, names: Sequence[str]) -> str:
     """Return a message with the first of some names of its problem before it, if it has none."""
     whole = (rf"(?<![\w-]){re.escape(name)}(?![\w-])" for name in names)
-    if not names or any(re.search(name, told) for name in whole):
-        return told
-    return f"{names[0]}: {told}"
+    if not names or any(re.search(name, message) for name in whole):
+        return message
+    return f"{names[0]}: {message}"
 
 
 def names_of(path: Path, name: str, variant: str | None) -> Sequence[str]:
@@ -88,9 +88,9 @@ def of_file(path: Path, name: str) -> Iterator[None]:
             raise
         raise type(error)(str(path), error.faults) from error
     except PlanMethodError as error:
-        told = str(error)
-        if told.startswith(f"{name}: "):
-            error.args = (f"{path}{told.removeprefix(name)}",)
+        text = str(error)
+        if text.startswith(f"{name}: "):
+            error.args = (f"{path}{text.removeprefix(name)}",)
         raise
 
 
@@ -118,13 +118,13 @@ def load(
     found = []
     for problem in _read(path, variant, all_variants):
         if problem.project is not None:
-            from planmethod.project.settle import in_positions, settled
+            from planmethod.project.settle import in_positions, with_decisions
 
             with of_file(path, problem.name):
-                problem = settled(problem) if drawn else in_positions(problem)
+                problem = with_decisions(problem) if drawn else in_positions(problem)
         found.append(problem)
     if found and found[0].project is None:  # an author of [project] knows its use
-        tell_left_out(found[0])
+        warn_of_unused_tables(found[0])
     return found
 
 
@@ -136,28 +136,28 @@ def load_unsettled(path: Path, variant: str | None) -> Problem:
 
 def _read(path: Path, variant: str | None, all_variants: bool) -> Iterator[Problem]:
     from planmethod.kinds import load_each
-    from planmethod.problem.unlikely import unlikely
+    from planmethod.problem.plausibility import unlikely
 
     with of_file(path, path.stem):
         for problem in load_each(path, variants_of(path, variant, all_variants)):
-            for said in unlikely(problem):
-                warn(problem, said)
+            for phrase in unlikely(problem):
+                warn(problem, phrase)
             if problem.cycle is not None and problem.cycle.working is not None:
-                _tell_working(problem)
+                _warn_of_working_stroke(problem)
             yield problem
 
 
-def _tell_working(problem: Problem) -> None:
+def _warn_of_working_stroke(problem: Problem) -> None:
     """Warn of a working stroke on which the loads do not do their work."""
     from planmethod.note.plaintext import plain_text
     from planmethod.solved.solution import Solution
-    from planmethod.solved.turn.turn import turn_of
+    from planmethod.solved.turn.cycle import crank_cycle_of
 
     with contextlib.suppress(PlanMethodError):  # reported where the positions are solved
-        turn = turn_of(Solution(problem))
+        turn = crank_cycle_of(Solution(problem))
         loads, strokes = turn.contradicting, turn.strokes
         if loads is not None and strokes is not None and problem.cycle is not None:
-            told = say(
+            text = translate(
                 '[cycle] working = "{}" makes the stroke of {:.2f}° the working one, and the work '
                 "of {} is done on the other one, of {:.2f}°. Mend one of them.",
                 getattr(problem.cycle.working, "value", ""),
@@ -165,16 +165,16 @@ def _tell_working(problem: Problem) -> None:
                 plain_text(loads.partition(" ")[2]),
                 strokes.idle_deg,
             )
-            warn(problem, told)
+            warn(problem, text)
 
 
-def tell_left_out(problem: Problem) -> None:
+def warn_of_unused_tables(problem: Problem) -> None:
     """Warn of tables of other kinds of problem in a linkage's file, which are not used."""
     for table in problem.tables:
         if table == "point":
             warn(problem, "[point] is left out; give it a file of its own.")
-        elif {"gears": problem.drive.geared, "cam": problem.drive.followed}.get(table) is None:
-            warn(problem, say("[{}] is left out; planmethod project draws it.", table))
+        elif {"gears": problem.drive.gear_drive, "cam": problem.drive.cam_drive}.get(table) is None:
+            warn(problem, translate("[{}] is left out; planmethod project draws it.", table))
 
 
 def _load_other(
@@ -193,16 +193,16 @@ def variants_of(path: Path, variant: str | None, all_variants: bool) -> Sequence
     return (variant_names(path) or (None,)) if all_variants else (variant,)
 
 
-def each(
+def for_each_problem(
     paths: tuple[Path, ...],
     variant: str | None,
     all_variants: bool,
-    act: Callable[[Todo], T],
+    act: Callable[[LoadedProblem], T],
     *,
     kinds: bool = True,
     jobs: int = 1,
-    take: Callable[[T], object] | None = None,
-    ahead: Callable[[Sequence[Todo]], dict[int, T]] | None = None,
+    on_result: Callable[[T], object] | None = None,
+    act_on_many: Callable[[Sequence[LoadedProblem]], dict[int, T]] | None = None,
     drawn: bool = True,
 ) -> ExitCode:
     """Act on every problem; a faulty one is reported and the others go on.
@@ -217,9 +217,9 @@ def each(
     jobs : int
         Number of processes; their output is printed here, in order, so that the outcome is the
         same.
-    take : callable, optional
+    on_result : callable, optional
         Receives the result of every problem, in order.
-    ahead : callable, optional
+    act_on_many : callable, optional
         Batch worker: acts on several problems at once and returns ``{index: result}``.
         The others are acted on one by one.
     drawn : bool
@@ -231,37 +231,39 @@ def each(
         Of the first error.
     """
 
-    def steps(todo: list[Todo]) -> Iterator[Callable[[], T | None]]:
+    def steps(todo: list[LoadedProblem]) -> Iterator[Callable[[], T | None]]:
         # Problems of the same name write the same files: the last one wins, as in one process.
-        if jobs == 1 or len({stem(one.problem) for one in todo}) < max(2, len(todo)):
+        if jobs == 1 or len({basename(one.problem) for one in todo}) < max(2, len(todo)):
             if len(todo) > AT_ONCE:
                 gc.freeze()  # problems live to the end: do not scan them
             for start in range(0, len(todo), AT_ONCE):
                 block = todo[start : start + AT_ONCE]
-                with unsearched():  # results of a block live to its end
-                    found = ahead(block) if ahead is not None and len(block) > 1 else {}
+                with gc_paused():  # results of a block live to its end
+                    found = act_on_many(block) if act_on_many is not None and len(block) > 1 else {}
                 for k, one in enumerate(block):
                     yield partial(found.pop, k) if k in found else partial(act, one)
                 if len(todo) > AT_ONCE:
                     gc.collect()  # solutions have cycles: a block of them is 100 MB
         else:
-            yield from _shared(act, ahead, todo, jobs)
+            yield from _in_chunks(act, act_on_many, todo, jobs)
 
-    return through(paths, variant, all_variants, steps, kinds=kinds, take=take, drawn=drawn)
+    return run_steps(
+        paths, variant, all_variants, steps, kinds=kinds, on_result=on_result, drawn=drawn
+    )
 
 
 def of_linkages(
-    todo: Sequence[Todo], made: Callable[[list[Problem]], Mapping[int, T]]
+    todo: Sequence[LoadedProblem], build: Callable[[list[Problem]], Mapping[int, T]]
 ) -> dict[int, T]:
     """Return the results of the linkages among problems, made together, by index."""
     linkages = [k for k, one in enumerate(todo) if one.kind is None]
     if not linkages:
         return {}
-    return {linkages[k]: one for k, one in made([todo[k].linkage for k in linkages]).items()}
+    return {linkages[k]: one for k, one in build([todo[k].linkage for k in linkages]).items()}
 
 
 @contextmanager
-def unsearched() -> Iterator[None]:
+def gc_paused() -> Iterator[None]:
     """Pause the garbage collector."""
     was = gc.isenabled()
     gc.disable()
@@ -272,14 +274,14 @@ def unsearched() -> Iterator[None]:
             gc.enable()
 
 
-def through(
+def run_steps(
     paths: tuple[Path, ...],
     variant: str | None,
     all_variants: bool,
-    steps: Callable[[list[Todo]], Iterator[Callable[[], T | None]]],
+    steps: Callable[[list[LoadedProblem]], Iterator[Callable[[], T | None]]],
     *,
     kinds: bool,
-    take: Callable[[T], object] | None = None,
+    on_result: Callable[[T], object] | None = None,
     drawn: bool = True,
 ) -> ExitCode:
     """Read all problems and run the steps, one for each problem; failures are reported.
@@ -294,29 +296,29 @@ def through(
     from planmethod.kinds import kind_of
 
     codes: list[ExitCode] = []
-    todo: list[Todo] = []
+    todo: list[LoadedProblem] = []
     for path in paths:
         try:
             kind = kind_of(path) if kinds else None
             if kind is None:
                 found = load(path, variant, all_variants, drawn=drawn)
-                todo += [Todo(path, None, problem) for problem in found]
+                todo += [LoadedProblem(path, None, problem) for problem in found]
             else:
                 others = _load_other(kind, path, variant, all_variants)
-                todo += [Todo(path, kind, one) for one in others]
+                todo += [LoadedProblem(path, kind, one) for one in others]
         except PlanMethodError as error:
             codes.append(error.exit_code)
             fail(error)
     done = 0
     try:
-        for one, step in zip(todo, watched(steps(todo), len(todo)), strict=True):
+        for one, step in zip(todo, with_progress(steps(todo), len(todo)), strict=True):
             problem, is_one = one.problem, len(paths) + len(todo) == 2
             names = () if is_one else names_of(one.path, problem.name, problem.variant)
             try:
                 with of_file(one.path, problem.name):
                     value = step()
-                if take is not None and value is not None:
-                    take(value)
+                if on_result is not None and value is not None:
+                    on_result(value)
             except PlanMethodError as error:
                 codes.append(error.exit_code)
                 fail(error, names)
@@ -325,8 +327,10 @@ def through(
             done += 1
     except KeyboardInterrupt:
         if len(todo) > 1:
-            told = say("Stopped: {} of {} problems are done; every file is whole.", done, len(todo))
-            click.echo(f"\n{told}", err=True)
+            text = translate(
+                "Stopped: {} of {} problems are done; every file is whole.", done, len(todo)
+            )
+            click.echo(f"\n{text}", err=True)
             sys.exit(130)
         raise
     return codes[0] if codes else ExitCode.DONE
@@ -335,46 +339,51 @@ def through(
 # Processes ---------------------------------------------------------------------------------------
 
 
-Ahead: TypeAlias = Callable[[Sequence[Todo]], dict[int, Any]]
+BatchAction: TypeAlias = Callable[[Sequence[LoadedProblem]], dict[int, Any]]
 """Batch worker: acts on several problems at once; see `each`."""
 
 
-def _shared(
-    act: Callable[[Todo], T], ahead: Ahead | None, todo: list[Todo], jobs: int
+def _in_chunks(
+    act: Callable[[LoadedProblem], T],
+    act_on_many: BatchAction | None,
+    todo: list[LoadedProblem],
+    jobs: int,
 ) -> Iterator[Callable[[], T | None]]:
     """Yield a callable for the result of every problem; chunks of them go to several processes.
 
     The problems of a chunk whose process was killed are retried one by one.
     """
-    from planmethod.commands.processes import in_processes, shares
+    from planmethod.commands.processes import in_processes, split_into_chunks
 
-    parts = shares(todo, jobs, AT_ONCE if ahead is not None else AT_ONCE_DRAWN)
-    act_on = partial(_acted_on, act=act, ahead=ahead)
+    parts = split_into_chunks(todo, jobs, AT_ONCE if act_on_many is not None else AT_ONCE_DRAWN)
+    act_on = partial(_act_on_chunk, act=act, act_on_many=act_on_many)
     for part, outcome in zip(parts, in_processes(act_on, parts, jobs), strict=True):
         if outcome is not None:
             yield from (own.result for own in outcome.result() or ())
         elif len(part) == 1:
-            yield partial(refuse_killed, part[0])
+            yield partial(raise_killed, part[0])
         else:
             for one, own in zip(part, in_processes(act, part, jobs), strict=True):
-                yield partial(refuse_killed, one) if own is None else own.result
+                yield partial(raise_killed, one) if own is None else own.result
 
 
-def _acted_on(
-    part: Sequence[Todo], act: Callable[[Todo], T], ahead: Ahead | None
+def _act_on_chunk(
+    part: Sequence[LoadedProblem],
+    act: Callable[[LoadedProblem], T],
+    act_on_many: BatchAction | None,
 ) -> list[Outcome[T]]:
     """Act on a chunk of problems, together where possible."""
     from planmethod.commands.processes import Outcome, captured
 
-    with unsearched():
-        found = ahead(part) if ahead is not None and len(part) > 1 else {}
+    with gc_paused():
+        found = act_on_many(part) if act_on_many is not None and len(part) > 1 else {}
     return [
         Outcome(value=found[k]) if k in found else captured(partial(act, one))
         for k, one in enumerate(part)
     ]
 
 
-def refuse_killed(one: Todo) -> NoReturn:
+def raise_killed(one: LoadedProblem) -> NoReturn:
     """Raise the error that every process of a problem was killed.
 
     Raises
@@ -384,7 +393,7 @@ def refuse_killed(one: Todo) -> NoReturn:
     raise PlanMethodError(
         "{}: its process was killed twice; perhaps it needs more memory than is available. "
         "Request fewer positions at once.",
-        called(one.problem),
+        message_name(one.problem),
     )
 
 
@@ -394,7 +403,7 @@ def finish(code: ExitCode) -> None:
         sys.exit(code)
 
 
-def refuse_plans(kind: ProblemKind[Any], **options: object) -> None:
+def reject_plan_options(kind: ProblemKind[Any], **options: object) -> None:
     """Reject options that only the plans of linkages have.
 
     Raises
@@ -404,20 +413,22 @@ def refuse_plans(kind: ProblemKind[Any], **options: object) -> None:
     """
     given = [f"--{name.replace('_', '-')}" for name, value in options.items() if value]
     if given:
-        told = ", ".join(given)
+        text = ", ".join(given)
         raise UsageError(
             "{}: only plans of linkages have such options; leave them out for [{}]",
-            told,
+            text,
             kind.table,
         )
 
 
 def no_position(number: int, problem: KindProblem, count: int) -> UsageError:
     """Return the error of a position that a problem does not have."""
-    return UsageError("--position {}: the last of {} is {}", number, called(problem), count - 1)
+    return UsageError(
+        "--position {}: the last of {} is {}", number, message_name(problem), count - 1
+    )
 
 
-def watched(steps: Iterable[T], length: int) -> Iterator[T]:
+def with_progress(steps: Iterable[T], length: int) -> Iterator[T]:
     """Yield the steps, with a progress bar on a terminal if they take about a second."""
     if length < MANY or not is_terminal(sys.stderr):
         yield from steps
@@ -426,14 +437,14 @@ def watched(steps: Iterable[T], length: int) -> Iterator[T]:
         yield from bar
 
 
-def stem(problem: KindProblem) -> str:
+def basename(problem: KindProblem) -> str:
     """Return the base name of the files of a problem."""
     return problem.name if problem.variant is None else f"{problem.name}-{problem.variant}"
 
 
-def called(problem: KindProblem) -> str:
+def message_name(problem: KindProblem) -> str:
     """Return the name of a problem in messages: its file, or the file's name with the variant."""
-    return problem.source_file if problem.variant is None else stem(problem)
+    return problem.source_file if problem.variant is None else basename(problem)
 
 
 def language_of(problem: KindProblem, named: str | None) -> str:
@@ -441,7 +452,7 @@ def language_of(problem: KindProblem, named: str | None) -> str:
 
     The user's choice, else that of ``[sheet]``, else that of messages.
     """
-    return named or problem.sheet.lang or spoken()
+    return named or problem.sheet.lang or current_language()
 
 
 def language_of_file(path: Path, named: str | None) -> str:
@@ -454,16 +465,16 @@ def language_of_file(path: Path, named: str | None) -> str:
     with contextlib.suppress(PlanMethodError):  # reported where the file is read as a problem
         sheet = parse(read_source(path), name=str(path)).get("sheet")
         if isinstance(sheet, dict):
-            return known_language(str(sheet.get("lang", ""))) or spoken()
-    return spoken()
+            return known_language(str(sheet.get("lang", ""))) or current_language()
+    return current_language()
 
 
-def warn(problem: Problem, said: object) -> None:
+def warn(problem: Problem, message: object) -> None:
     """Print a warning about a problem's results: a sentence, or a record of one."""
-    click.echo(say("Warning: {}: {}", called(problem), said), err=True)
+    click.echo(translate("Warning: {}: {}", message_name(problem), message), err=True)
 
 
-def tell_wheel(wheel: Flywheel) -> None:
+def warn_of_wide_flywheel(wheel: Flywheel) -> None:
     """Warn of a flywheel that is wide for its diameter."""
     from planmethod.solved.machine.sizes import too_wide
 
@@ -472,7 +483,7 @@ def tell_wheel(wheel: Flywheel) -> None:
         warn(wheel.problem, said)
 
 
-def tell_changes(problem: Problem, phi: Positions | None) -> None:
+def warn_of_change_points(problem: Problem, phi: Positions | None) -> None:
     """Warn of change points between the positions of a problem that is solved elsewhere."""
     from planmethod.solved.selfcheck import changed_branches
     from planmethod.solved.solution import Solution
@@ -482,7 +493,7 @@ def tell_changes(problem: Problem, phi: Positions | None) -> None:
         warn(problem, said)
 
 
-def tell_doubts(
+def warn_of_accuracy(
     problem: Problem, positions: Sequence[float] | None = None, *, forces: bool = True
 ) -> None:
     """Warn of positions with few digits, for a problem that is solved elsewhere.
@@ -500,7 +511,7 @@ def tell_doubts(
 def solution_of(
     problem: Problem,
     phi: Positions | None,
-    hand: Profile,
+    profile: Profile,
     *,
     hint: str = "",
     forces: bool = False,
@@ -510,7 +521,7 @@ def solution_of(
 
     Parameters
     ----------
-    hand : Profile
+    profile : Profile
         Accuracy of drawing the plans.
     hint : str
         Alternative to suggest where one of several positions is rejected.
@@ -523,23 +534,23 @@ def solution_of(
     from planmethod.solved.selfcheck import changed_branches, verify, warnings
     from planmethod.solved.solution import Solution
 
-    solution = Solution(problem, positions=None if phi is None else phi.tolist(), profile=hand)
+    solution = Solution(problem, positions=None if phi is None else phi.tolist(), profile=profile)
     for said in changed_branches(solution):
         warn(problem, said)
     try:
         verify(solution, forces=forces)
     except AssemblyError as error:
         if hint and isinstance(error, PositionError) and error.failure.cause is Cause.RAYS:
-            hint = f"{say(_PLACES)}{say(hint) if len(solution.positions) > 1 else ''}"
+            hint = f"{translate(_PLACES)}{translate(hint) if len(solution.positions) > 1 else ''}"
         elif len(solution.positions) < 2:
             raise
         else:
-            hint = say(hint)
+            hint = translate(hint)
         raise AssemblyError(f"{error}{hint}") from error
     for doubt in warnings(solution, forces=forces):
         warn(problem, doubt)
     if machine and problem.machine is not None:
         from planmethod.solved.machine.flywheel import flywheel_of
 
-        tell_wheel(flywheel_of(solution))
+        warn_of_wide_flywheel(flywheel_of(solution))
     return solution

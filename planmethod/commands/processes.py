@@ -21,15 +21,15 @@ from msgspec import Struct
 
 from planmethod.commands.helptext import answering
 from planmethod.errors import PlanMethodError
-from planmethod.languages import say, spoken
+from planmethod.languages import current_language, translate
 
-SHARES = 4
+CHUNKS_PER_PROCESS = 4
 """Chunks of the work for each process."""
 
 T = TypeVar("T")
 R = TypeVar("R")
 
-MOST = 61
+MAX_PROCESSES = 61
 """Processes that every system can wait for."""
 
 
@@ -107,9 +107,9 @@ def _work(act: Callable[[T], R], item: T, lang: str) -> Outcome[R]:
         raise
 
 
-def shares(items: Sequence[T], jobs: int, most: int) -> list[Sequence[T]]:
-    """Return items in chunks of at most ``most``; several for each process, so that none waits."""
-    size = max(1, min(most, -(-len(items) // (SHARES * jobs))))
+def split_into_chunks(items: Sequence[T], jobs: int, max_size: int) -> list[Sequence[T]]:
+    """Return items in chunks of at most ``max_size``, several for each process: none waits."""
+    size = max(1, min(max_size, -(-len(items) // (CHUNKS_PER_PROCESS * jobs))))
     return [items[start : start + size] for start in range(0, len(items), size)]
 
 
@@ -139,7 +139,7 @@ def in_processes(
         with _pool(1 if alone else min(jobs, len(left))) as pool:
             try:
                 for one in left:
-                    futures[one] = pool.submit(_work, act, items[one], spoken())
+                    futures[one] = pool.submit(_work, act, items[one], current_language())
                 while number in done or number in futures:
                     yield done.pop(number) if number in done else futures[number].result()
                     number += 1
@@ -154,7 +154,9 @@ def in_processes(
                 alone = not alone
                 if alone:
                     click.echo(
-                        say("Warning: a process at work was killed; what it had is begun again."),
+                        translate(
+                            "Warning: a process at work was killed; what it had is begun again."
+                        ),
                         err=True,
                     )
 
@@ -163,7 +165,7 @@ def in_processes(
 def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
     """Provide worker processes; end them at once if the block ends early."""
     before = multiprocessing.active_children()
-    pool = ProcessPoolExecutor(min(jobs, MOST), initializer=_start)
+    pool = ProcessPoolExecutor(min(jobs, MAX_PROCESSES), initializer=_start)
     try:
         yield pool
     except BaseException:

@@ -11,11 +11,11 @@ import click
 import msgspec
 from msgspec import Struct
 
-from planmethod.commands.asked import PaperRequest, sheet_options
-from planmethod.commands.decided import decided, note_options
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import bar, json_text, show
-from planmethod.commands.problems import called, guarded, stem, tell_wheel
+from planmethod.commands.problems import basename, guarded, message_name, warn_of_wide_flywheel
+from planmethod.commands.project_context import load_project, note_options
+from planmethod.commands.sheet_options import PaperRequest, sheet_options
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.options import (
     BadParameter,
@@ -39,7 +39,7 @@ Files = dict[str, bytes]
 
 RECORD = "project.json"
 NUMBERS = "numbers.xlsx"
-WHOLE = "project.pdf"
+ALL_SHEETS = "project.pdf"
 
 
 class MadePart(Struct, frozen=True):
@@ -53,7 +53,7 @@ class WritingTask(Struct, frozen=True):
     """Output to write: the sheets of a part, all sheets, the note with their list, the numbers."""
 
     name: str
-    stem: str = ""
+    basename: str = ""
     drawings: tuple[Drawing, ...] = ()
     sheets: tuple[SheetEntry, ...] = ()
 
@@ -81,7 +81,7 @@ def read_parts(
     return names
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.argument("problem", metavar="PROBLEM", type=click.Path(path_type=Path, readable=False))
 @click.option("--variant", metavar="NAME", help="Variant of the problem file.")
 @click.option(
@@ -110,7 +110,7 @@ def project(
     as_json: bool,
     template: Path | None,
     frame: bool,
-    asked: PaperRequest,
+    request: PaperRequest,
     dxf_text: Literal["text", "strokes"],
     jobs: int,
     shown: bool,
@@ -125,35 +125,35 @@ def project(
     from planmethod.project.record import project_record
     from planmethod.render.backends.output import write_all
 
-    settled = asked.settle()
-    chosen = decided(problem, variant, position, settled)
-    wanted = _wanted(chosen, parts)
+    settled = request.resolve()
+    chosen = load_project(problem, variant, position, settled)
+    wanted = _requested_parts(chosen, parts)
     written = SheetFormats(formats, settled.author(chosen.problem), dxf_text)
     if "flywheel" in wanted:
         from planmethod.solved.machine.flywheel import Flywheel
 
-        tell_wheel(Flywheel(chosen.problem))
+        warn_of_wide_flywheel(Flywheel(chosen.problem))
     options = NoteOptions(settled.fields, template, frame)
-    made, files = _made(chosen, wanted, options, written, jobs)
-    name = stem(chosen.problem)
+    made, files = _make_parts(chosen, wanted, options, written, jobs)
+    name = basename(chosen.problem)
     record = project_record(chosen, made, name)
     files[RECORD] = msgspec.json.format(msgspec.json.encode(record), indent=2) + b"\n"
     folder = out / name
-    write_all(folder, files, gone=_stale(folder, name) - files.keys(), within=out)
+    write_all(folder, files, obsolete=_stale(folder, name) - files.keys(), output_root=out)
     if as_json:
         click.echo(json_text(record))
     else:
         for file in files:
             click.echo(str(folder / file))
     if shown:
-        pages = (WHOLE, *(file for file in files if file.endswith(".pdf")), *files)
+        pages = (ALL_SHEETS, *(file for file in files if file.endswith(".pdf")), *files)
         show(folder / next(file for file in pages if file in files))
 
 
 # Request --------------------------------------------------------------------------------------
 
 
-def _wanted(chosen: Project, parts: Sequence[str] | None) -> tuple[str, ...]:
+def _requested_parts(chosen: Project, parts: Sequence[str] | None) -> tuple[str, ...]:
     """Return the names of the parts to be made."""
     there = [part.name.value for part in chosen.parts]
     task = chosen.problem.project
@@ -163,7 +163,7 @@ def _wanted(chosen: Project, parts: Sequence[str] | None) -> tuple[str, ...]:
         if name not in there:
             raise UsageError(
                 "--parts: {} has no part {!r}. It has {}.",
-                called(chosen.problem),
+                message_name(chosen.problem),
                 name,
                 ", ".join(there),
             )
@@ -173,9 +173,9 @@ def _wanted(chosen: Project, parts: Sequence[str] | None) -> tuple[str, ...]:
 # Work --------------------------------------------------------------------------------------------
 
 
-def _made(
+def _make_parts(
     chosen: Project,
-    wanted: Sequence[str],
+    requested: Sequence[str],
     options: NoteOptions,
     written: SheetFormats,
     jobs: int,
@@ -190,16 +190,16 @@ def _made(
     from planmethod.project.sheets import numbered_set, sheet_list
 
     parts = chosen.parts
-    texts = ["note", NUMBERS] if "note" in wanted else [NUMBERS]
+    texts = ["note", NUMBERS] if "note" in requested else [NUMBERS]
     sheets = [part.name.value for part in parts]
     files: Files = {}
     named: list[PartFiles] = []
     names = {name: f"{number}-{name}" for number, name in enumerate(sheets, 1)}
-    whole = set(sheets) <= set(wanted) and "pdf" in written.formats
-    shown = [name for name in sheets if name in wanted]
+    whole = set(sheets) <= set(requested) and "pdf" in written.formats
+    shown = [name for name in sheets if name in requested]
     with bar(len(sheets) + len(texts) + len(shown) + whole, long=True) as done:
         drawn: dict[str, MadePart] = {}
-        drawing = partial(draw, project=chosen, options=options, wanted=tuple(wanted))
+        drawing = partial(draw, project=chosen, options=options, requested=tuple(requested))
         for name, one in _shared(drawing, sheets, jobs):
             drawn[name] = one
             done(1)
@@ -210,7 +210,9 @@ def _made(
         tasks: list[WritingTask] = [WritingTask(name, sheets=listed) for name in texts]
         tasks += [WritingTask(name, names[name], sets[name]) for name in shown]
         if whole:
-            tasks.append(WritingTask(WHOLE, "project", tuple(d for some in numbered for d in some)))
+            tasks.append(
+                WritingTask(ALL_SHEETS, "project", tuple(d for some in numbered for d in some))
+            )
         work = partial(write, project=chosen, options=options, formats=written)
         for name, one in _shared(work, tasks, jobs):
             files |= one.files
@@ -224,7 +226,7 @@ def _made(
 
 
 def draw(
-    task: str, *, project: Project, options: NoteOptions, wanted: tuple[str, ...]
+    task: str, *, project: Project, options: NoteOptions, requested: tuple[str, ...]
 ) -> tuple[str, MadePart]:
     """Draw the sheets of a part; none of an unrequested one that cannot be drawn."""
     from planmethod.project.sheets import part_drawings
@@ -233,7 +235,7 @@ def draw(
     try:
         return task, MadePart({}, tuple(part_drawings(project, part, options.fields)))
     except PlanMethodError:
-        if task in wanted:
+        if task in requested:
             raise
         return task, MadePart({})
 
@@ -252,10 +254,10 @@ def write(
         return task.name, MadePart(note_files(project, "note", options, sheets=task.sheets))
     from planmethod.commands.output import drawing_files
 
-    kinds = ("pdf",) if task.name == WHOLE else formats.formats
+    kinds = ("pdf",) if task.name == ALL_SHEETS else formats.formats
     return task.name, MadePart(
         drawing_files(
-            task.drawings, task.stem, kinds, author=formats.author, dxf_text=formats.dxf_text
+            task.drawings, task.basename, kinds, author=formats.author, dxf_text=formats.dxf_text
         )
     )
 
@@ -263,7 +265,7 @@ def write(
 def _ordered(named: Sequence[PartFiles], files: Files) -> Files:
     """Return files in the order of their parts, those of all of them behind."""
     first = [file for part in named if part.sheets for file in part.files]
-    rest = [file for file in (WHOLE, *files) if file in files and file not in first]
+    rest = [file for file in (ALL_SHEETS, *files) if file in files and file not in first]
     return {file: files[file] for file in dict.fromkeys([*first, *rest])}
 
 
@@ -312,7 +314,7 @@ def _stale(folder: Path, name: str) -> set[str]:
         before = msgspec.json.decode(record.read_bytes())
         if before["problem"] != name:
             return set()
-        files = {WHOLE, *(file for part in before["parts"] for file in part["files"])}
+        files = {ALL_SHEETS, *(file for part in before["parts"] for file in part["files"])}
     except (OSError, ValueError, KeyError, TypeError):
         return set()
     return {file for file in files if isinstance(file, str) and Path(file).name == file}

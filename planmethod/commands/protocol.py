@@ -6,18 +6,18 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import put
+from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import write_text
 from planmethod.commands.problems import (
-    Todo,
-    each,
+    LoadedProblem,
+    basename,
     finish,
+    for_each_problem,
     guarded,
     language_of,
     no_position,
-    refuse_plans,
+    reject_plan_options,
     solution_of,
-    stem,
 )
 from planmethod.options import (
     PathType,
@@ -29,7 +29,7 @@ from planmethod.options import (
 )
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @reading_options
 @click.option(
@@ -68,32 +68,34 @@ def protocol(
 ) -> None:
     """Describe the construction step by step, as the explanatory note does."""
     from planmethod.note.protocol import protocol_document
-    from planmethod.note.wording import language
+    from planmethod.note.wording import get_language
 
     if form == "md":
         from planmethod.note.writers.markdown import markdown_document as write
     else:
-        from planmethod.note.writers.plain import plain_document as write
+        from planmethod.note.writers.terminal import plain_document as write
 
     hand = drawn_by(profile, ruler)
 
-    def tell(todo: Todo) -> None:
-        kind, problem = todo.kind, todo.problem
-        words = language(language_of(problem, lang))
+    def write_protocol(item: LoadedProblem) -> None:
+        kind, problem = item.kind, item.problem
+        language = get_language(language_of(problem, lang))
         if kind is not None:
-            refuse_plans(kind, phi=phi is not None, position=position is not None)
-            told = kind.protocol_document(problem, words, hand)
+            reject_plan_options(kind, phi=phi is not None, position=position is not None)
+            told = kind.protocol_document(problem, language, hand)
         else:
-            solution = solution_of(todo.linkage, phi, hand, forces=True, machine=True)
+            solution = solution_of(item.linkage, phi, hand, forces=True, machine=True)
             count = len(solution.positions)
             chosen = position
             if chosen is None:
-                chosen = (None if phi is not None else todo.linkage.calculated) or 0
+                chosen = (None if phi is not None else item.linkage.calculated) or 0
             if chosen >= count:
                 raise no_position(chosen, problem, count)
-            told = protocol_document(solution, words, chosen)
+            told = protocol_document(solution, language, chosen)
         suffix = "txt" if form == "text" else form
-        text = write(told, words) + "\n"
-        put(text, None if out is None else str(out / f"{stem(problem)}-protocol.{suffix}"))
+        text = write(told, language) + "\n"
+        write_text(
+            text, None if out is None else str(out / f"{basename(problem)}-protocol.{suffix}")
+        )
 
-    finish(each(problems, variant, all_variants, tell))
+    finish(for_each_problem(problems, variant, all_variants, write_protocol))

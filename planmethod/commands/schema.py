@@ -6,13 +6,13 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import write_new
 from planmethod.commands.problems import guarded
 from planmethod.options import PathType, lang_option
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.argument("file", required=False, type=PathType(dir_okay=False))
 @click.option("--force", is_flag=True, help="Write over an existing file.")
 @lang_option

@@ -10,26 +10,26 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.asked import PaperRequest, Settled, sheet_options
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import show, write_drawings, write_set
 from planmethod.commands.problems import (
-    Todo,
-    called,
-    each,
+    LoadedProblem,
+    basename,
     finish,
+    for_each_problem,
     guarded,
-    refuse_plans,
-    stem,
-    tell_changes,
-    tell_doubts,
-    tell_left_out,
-    tell_wheel,
+    message_name,
+    reject_plan_options,
     warn,
+    warn_of_accuracy,
+    warn_of_change_points,
+    warn_of_unused_tables,
+    warn_of_wide_flywheel,
 )
+from planmethod.commands.sheet_options import PaperRequest, ResolvedRequest, sheet_options
 from planmethod.commands.watch import watch_option
 from planmethod.errors import LayoutError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.options import (
     BadParameter,
     Positions,
@@ -58,13 +58,13 @@ if TYPE_CHECKING:
 class SheetOptions(Struct, frozen=True, kw_only=True):
     """Settings of the sheets of every problem; the options of the command."""
 
-    settled: Settled
+    request: ResolvedRequest
     phi: Positions | None
     position: int | None = None
     ruler: float | None
     profile: str | None
     layout: str | None
-    ask: tuple[str, ...] = ()
+    quantities: tuple[str, ...] = ()
     compact: bool = False
     errors: bool
     sigma: bool | None
@@ -75,7 +75,7 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
     all_positions: bool = False
 
 
-MOST_SHEETS = 6
+MAX_SHEETS = 6
 """Maximum number of sheets of one problem without confirmation."""
 
 
@@ -95,7 +95,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
         There are more positions than fit on small paper.
     """
     from planmethod.problem.model import Scales
-    from planmethod.solved.room import FEW
+    from planmethod.solved.sheet_estimate import FEW
 
     asked = problem.drive.positions if positions is None else positions
     if len(asked) > FEW:
@@ -109,7 +109,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
     return replace(problem, scales=Scales(convention=problem.scales.convention))
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @reading_options
 @position_option
@@ -152,7 +152,7 @@ def sheet(
     profile: str | None,
     out: Path,
     formats: tuple[str, ...],
-    asked: PaperRequest,
+    request: PaperRequest,
     layout: str | None,
     ask: tuple[str, ...] | None,
     compact: bool,
@@ -181,13 +181,13 @@ def sheet(
                 layout,
             )
     options = SheetOptions(
-        settled=asked.settle(),
+        request=request.resolve(),
         phi=phi,
         position=position,
         ruler=ruler,
         profile=profile,
         layout=layout,
-        ask=ask or (),
+        quantities=ask or (),
         compact=compact,
         errors=errors,
         sigma=sigma,
@@ -200,62 +200,64 @@ def sheet(
     if one_file is None:
         act = partial(draw, options=options)
         files: list[Path] = []
-        code = each(problems, variant, all_variants, act, jobs=jobs, take=files.append)
+        code = for_each_problem(
+            problems, variant, all_variants, act, jobs=jobs, on_result=files.append
+        )
         if shown and files:
             show(files[0])
         finish(code)
         return
-    whole: list[tuple[Todo, int, list[Drawing]]] = []
+    whole: list[tuple[LoadedProblem, int, list[Drawing]]] = []
 
-    def keep(todo: Todo) -> None:
-        todo = settled_for(todo, options)
+    def draw_sheets(item: LoadedProblem) -> None:
+        item = resolve_problem(item, options)
         before = sum(len(drawings) for *_, drawings in whole)
-        whole.append((todo, before, drawn_for(todo, options, before=before)))
+        whole.append((item, before, drawn_for(item, options, before=before)))
 
-    code = each(problems, variant, all_variants, keep)
+    code = for_each_problem(problems, variant, all_variants, draw_sheets)
     if whole:
         # The first sheet has the number of sheets, which is known only now.
         total = sum(len(drawings) for *_, drawings in whole)
         first = whole[0][0]
         whole[0] = (first, 0, drawn_for(first, options, total=total))
         apart = [fmt for fmt in formats if fmt != "pdf"]
-        for todo, before, drawings in whole:
-            named = total if todo is first else None
-            _write(todo, options, apart, drawings, before=before, total=named)
+        for item, before, drawings in whole:
+            named = total if item is first else None
+            _write(item, options, apart, drawings, before=before, total=named)
         pages = [drawing for *_, drawings in whole for drawing in drawings]
-        write_set(pages, out / one_file, author=options.settled.author(first.problem))
+        write_set(pages, out / one_file, author=options.request.author(first.problem))
         if shown:
             show(out / one_file)
     finish(code)
 
 
-def draw(todo: Todo, options: SheetOptions) -> Path:
+def draw(item: LoadedProblem, options: SheetOptions) -> Path:
     """Draw and write the sheets of a problem; return the file to look at, a PDF if there is one."""
-    todo = settled_for(todo, options)
-    files = _write(todo, options, options.formats, None)
+    item = resolve_problem(item, options)
+    files = _write(item, options, options.formats, None)
     return next((file for file in files if file.suffix == ".pdf"), files[0])
 
 
-def settled_for(todo: Todo, options: SheetOptions) -> Todo:
+def resolve_problem(item: LoadedProblem, options: SheetOptions) -> LoadedProblem:
     """Return a problem with all settings of its sheets; print its warnings."""
-    todo = replace(todo, problem=options.settled.over(todo.problem))
-    if todo.kind is not None:
-        return todo
-    if todo.linkage.project is not None and options.layout is None:
-        tell_left_out(todo.linkage)
+    item = replace(item, problem=options.request.over(item.problem))
+    if item.kind is not None:
+        return item
+    if item.linkage.project is not None and options.layout is None:
+        warn_of_unused_tables(item.linkage)
     if options.phi is not None or options.position is not None:
         # The decisions of a project apply to its own positions.
-        todo = replace(todo, problem=replace(todo.linkage, calculated=options.position))
-    tell_changes(todo.linkage, options.phi)
-    drawn = _drawn_positions(todo.linkage, options)
-    tell_doubts(todo.linkage, drawn, forces=_has_forces(options.layout))
+        item = replace(item, problem=replace(item.linkage, calculated=options.position))
+    warn_of_change_points(item.linkage, options.phi)
+    drawn = _drawn_positions(item.linkage, options)
+    warn_of_accuracy(item.linkage, drawn, forces=_has_forces(options.layout))
     if options.layout is not None and options.phi is None:
-        _tell_positions(todo.linkage, options.layout)
-    if todo.linkage.machine is not None and _has_flywheel(options.layout):
+        _warn_of_unused_positions(item.linkage, options.layout)
+    if item.linkage.machine is not None and _has_flywheel(options.layout):
         from planmethod.solved.machine.flywheel import Flywheel
 
-        tell_wheel(Flywheel(todo.linkage))
-    return todo
+        warn_of_wide_flywheel(Flywheel(item.linkage))
+    return item
 
 
 def _drawn_positions(problem: Problem, options: SheetOptions) -> list[float] | None:
@@ -274,7 +276,7 @@ def _drawn_positions(problem: Problem, options: SheetOptions) -> list[float] | N
     return [float(place) for place in numbered_positions(Solution(problem))]
 
 
-def _tell_positions(problem: Problem, layout: str) -> None:
+def _warn_of_unused_positions(problem: Problem, layout: str) -> None:
     """Warn that the sheets of the cycle leave the positions of a file without [cycle] out."""
     from planmethod.render.sheets.composition.reader import composition
 
@@ -291,7 +293,7 @@ def _tell_positions(problem: Problem, layout: str) -> None:
     apart = [abs((a - b + 180.0) % 360.0 - 180.0)
              for a, b in zip(positions, drive.positions, strict=False)]  # fmt: skip
     if len(positions) != len(drive.positions) or max(apart) > SAME_DEG:
-        told = say(
+        text = translate(
             "layout {} has the positions of the cycle, {} from {:.5g}° on, not the {} of "
             "driver.phi from {:.5g}° on. With [cycle] zero = {:g}, count = {} in place of phi all "
             "outputs have the same; --phi asks others.",
@@ -303,7 +305,7 @@ def _tell_positions(problem: Problem, layout: str) -> None:
             drive.positions[0],
             len(drive.positions),
         )
-        warn(problem, told)
+        warn(problem, text)
 
 
 def _has_forces(layout: str | None) -> bool:
@@ -326,20 +328,20 @@ def _has_flywheel(layout: str | None) -> bool:
 
 
 def drawn_for(
-    todo: Todo,
+    item: LoadedProblem,
     options: SheetOptions,
     *,
     before: int = 0,
     total: int | None = None,
-    hand: Profile | None = None,
+    profile: Profile | None = None,
 ) -> list[Drawing]:
     """Draw the sheets of a problem; ``before`` of the set of ``total`` go before them."""
     phi, errors, sigma, layout = options.phi, options.errors, options.sigma, options.layout
-    fields = options.settled.fields
-    hand = hand or drawn_by(options.profile, options.ruler)
-    kind = todo.kind
+    fields = options.request.fields
+    profile = profile or drawn_by(options.profile, options.ruler)
+    kind = item.kind
     if kind is not None:
-        refuse_plans(
+        reject_plan_options(
             kind,
             phi=phi is not None,
             position=options.position is not None,
@@ -347,29 +349,31 @@ def drawn_for(
             errors=errors,
             sigma=bool(sigma),
         )
-        return kind.drawings(todo.problem, fields=fields, profile=hand, before=before, total=total)
+        return kind.drawings(
+            item.problem, fields=fields, profile=profile, before=before, total=total
+        )
     from planmethod.render.frame.furniture import Furniture
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
-    problem, positions = todo.linkage, None if phi is None else phi.tolist()
-    if options.ask and not problem.drive.goes_round:
-        raise UsageError("--ask: {}: the driver slides and has no turn", called(problem))
+    problem, positions = item.linkage, None if phi is None else phi.tolist()
+    if options.quantities and not problem.drive.goes_round:
+        raise UsageError("--ask: {}: the driver slides and has no turn", message_name(problem))
     return kinematics_sheets(
         compacted(problem, positions) if options.compact else problem,
         positions=positions,
-        profile=hand,
+        profile=profile,
         fields=fields,
         furniture=Furniture.of(problem.sheet, before=before, total=total),
         errors=errors,
         sigma=sigma,
         layout=layout,
-        most=None if options.all_positions or options.compact else MOST_SHEETS,
-        asked=options.ask,
+        most=None if options.all_positions or options.compact else MAX_SHEETS,
+        asked=options.quantities,
     )
 
 
 def _write(
-    todo: Todo,
+    item: LoadedProblem,
     options: SheetOptions,
     formats: Iterable[str],
     drawings: list[Drawing] | None,
@@ -387,17 +391,17 @@ def _write(
     write = partial(
         write_drawings,
         out=options.out,
-        stem=stem(todo.problem),
+        basename=basename(item.problem),
         dpi=options.dpi,
-        author=options.settled.author(todo.problem),
+        author=options.request.author(item.problem),
         dxf_text=options.dxf_text,
     )
     files: list[Path] = []
     if formats:
         files += write(
-            drawings or drawn_for(todo, options, before=before, total=total), formats=formats
+            drawings or drawn_for(item, options, before=before, total=total), formats=formats
         )
     if cad is not None:
-        drawings = drawn_for(todo, options, before=before, total=total, hand=cad)
+        drawings = drawn_for(item, options, before=before, total=total, profile=cad)
         files += write(drawings, formats=["dxf"])
     return files

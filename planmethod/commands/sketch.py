@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import show, write_drawings
 from planmethod.commands.problems import (
     fail,
@@ -18,7 +18,7 @@ from planmethod.commands.problems import (
 )
 from planmethod.commands.watch import watch_option
 from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.options import (
     format_option,
     open_option,
@@ -34,7 +34,7 @@ PAGE = (
 """Page that shows a picture which is redrawn again and again."""
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @out_option
 @format_option("svg")
@@ -63,14 +63,14 @@ def sketch(
                     is_one = len(problems) + len(variants) == 2
                     fail(error, () if is_one else names_of(path, path.stem, name))
                 if shown:
-                    _show(out / f"{_stem(path, name)}.{formats[0]}")
+                    _show(out / f"{_basename(path, name)}.{formats[0]}")
         except PlanMethodError as error:
             codes.append(error.exit_code)
             fail(error)
     finish(codes[0] if codes else ExitCode.DONE)
 
 
-def _stem(path: Path, variant: str | None) -> str:
+def _basename(path: Path, variant: str | None) -> str:
     return f"{path.stem}-sketch" if variant is None else f"{path.stem}-{variant}-sketch"
 
 
@@ -82,14 +82,14 @@ def _draw(
 
     kind = kind_of(path)
     if kind is not None:
-        hint = say("Its picture: planmethod sheet {}", path)
+        hint = translate("Its picture: planmethod sheet {}", path)
         raise ProblemError(str(path), [Fault(kind.table, "only linkages have a sketch", hint)])
-    from planmethod.note.wording import language
+    from planmethod.note.wording import get_language
     from planmethod.render.sketch import VIEWS
     from planmethod.render.sketch import sketch as drawn
 
     title, part = part_of(path, variant=variant, views=VIEWS)
-    words = language(language_of_file(path, lang))
+    language = get_language(language_of_file(path, lang))
     trouble = part.trouble
     if trouble is None and part.failure is not None:
         from planmethod.solved.failures import PositionError
@@ -97,11 +97,11 @@ def _draw(
         trouble = PositionError(part.failure)
     said = [str(fault) for fault in part.faults] or ([str(trouble)] if trouble else [])
     if part.solution is not None:
-        from planmethod.problem.unlikely import unlikely
+        from planmethod.problem.plausibility import unlikely
 
         said += unlikely(part.solution.problem)
-    drawing = drawn(part, title, words, said)
-    write_drawings([drawing], out, _stem(path, variant), formats)
+    drawing = drawn(part, title, language, said)
+    write_drawings([drawing], out, _basename(path, variant), formats)
     return trouble
 
 
@@ -110,5 +110,5 @@ def _show(picture: Path) -> None:
     from planmethod.render.backends.output import write
 
     page = picture.with_suffix(".html")
-    write(page, PAGE.format(picture=picture.name).encode(), within=page.parent)
+    write(page, PAGE.format(picture=picture.name).encode(), output_root=page.parent)
     show(page)

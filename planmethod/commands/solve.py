@@ -12,43 +12,43 @@ from typing import TYPE_CHECKING, Any
 import click
 from msgspec import Struct
 
-from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import JsonTexts, json_text, put_parts
-from planmethod.commands.problems import (
-    Todo,
-    called,
-    each,
-    finish,
-    guarded,
-    language_of,
-    no_position,
-    of_linkages,
-    solution_of,
-    tell_changes,
-)
-from planmethod.commands.swept import (
+from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import JsonTexts, json_text, write_parts
+from planmethod.commands.position_tables import (
     HINT,
-    MOST_SHOWN,
-    looked_at,
-    positions_asked,
-    refuse_huge,
-    refuse_long,
-    swept,
+    MAX_SHOWN_ROWS,
+    examine_positions,
+    reject_huge_array,
+    reject_long_table,
+    requested_positions,
+    sweep_of,
     table_of,
     write_arrays_file,
     write_text,
 )
+from planmethod.commands.problems import (
+    LoadedProblem,
+    finish,
+    for_each_problem,
+    guarded,
+    language_of,
+    message_name,
+    no_position,
+    of_linkages,
+    solution_of,
+    warn_of_change_points,
+)
 from planmethod.commands.watch import watch_option
 from planmethod.errors import ExitCode
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.options import (
-    MOST_POSITIONS,
-    MOST_SWEPT,
+    MAX_POSITIONS,
+    MAX_SWEPT_POSITIONS,
     PathType,
     Positions,
     UsageError,
+    drafting_options,
     drawn_by,
-    hand_options,
     jobs_option,
     positions_option,
     problem_lang_option,
@@ -61,7 +61,7 @@ if TYPE_CHECKING:
     from planmethod.kind import ProblemKind
     from planmethod.note.records.npz import SolvedArrays
     from planmethod.note.records.spreadsheet import SpreadsheetRows
-    from planmethod.problem.head import KindProblem
+    from planmethod.problem.common import KindProblem
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.many.variants import Batch
@@ -75,7 +75,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     ----------
     csv, npz, covariance : bool
         Whether a file or a table of that kind is made of all problems.
-    apart : bool
+    in_subprocess : bool
         Whether the work is done in another process.
     """
 
@@ -86,16 +86,16 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     as_json: bool
     csv: bool
     npz: bool
-    ask: tuple[str, ...] | None
+    quantities: tuple[str, ...] | None
     partial: bool
     sigma: bool
     covariance: bool
     referee: int | None
     lang: str | None
-    apart: bool
+    in_subprocess: bool
 
     @property
-    def hand(self) -> tuple[str | None, float | None]:
+    def profile_and_ruler(self) -> tuple[str | None, float | None]:
         """Drafting profile and ruler."""
         return self.profile, self.ruler
 
@@ -104,7 +104,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
         return {
             "--csv": self.csv,
             "--npz": self.npz,
-            "--ask": self.ask is not None,
+            "--ask": self.quantities is not None,
             "--phi": self.phi is not None,
             "--position": self.position is not None,
             "--sigma": self.sigma,
@@ -113,16 +113,16 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
         }
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
-@positions_option(MOST_SWEPT)
+@positions_option(MAX_SWEPT_POSITIONS)
 @click.option(
     "--position",
     type=click.IntRange(min=0),
     metavar="NUMBER",
     help="Only the position of this number, from 0.",
 )
-@hand_options
+@drafting_options
 @click.option("--json", "as_json", is_flag=True, help="One object, full precision, SI.")
 @click.option(
     "--csv",
@@ -210,7 +210,7 @@ def solve(
         compare(problems[0], work, variant, lang)
         return
     sweeping = npz_file is not None or ask is not None
-    _refuse_contradictions(as_json, csv_file, npz_file, ask)
+    _reject_contradictions(as_json, csv_file, npz_file, ask)
     told = sweeping or csv_file is not None
     if told and (sigma or referee is not None):
         raise UsageError("--sigma and --referee go with the tables of a terminal or --json")
@@ -226,12 +226,12 @@ def solve(
         raise UsageError("--referee judges positions that exist: leave out --partial")
     if partial and not (sweeping or as_json or csv_file is not None):
         raise UsageError("--partial goes with --json, --csv, --npz or --ask")
-    if phi is not None and len(phi) > MOST_POSITIONS and not sweeping:
+    if phi is not None and len(phi) > MAX_POSITIONS and not sweeping:
         raise UsageError(
             "--phi: more than {} positions; this is possible only with --npz or --ask",
-            MOST_POSITIONS,
+            MAX_POSITIONS,
         )
-    if npz_file is not None or (phi is not None and len(phi) > MOST_SHOWN):
+    if npz_file is not None or (phi is not None and len(phi) > MAX_SHOWN_ROWS):
         jobs = 1  # large tables are solved while they are written
     options = SolveOptions(
         phi=phi,
@@ -241,38 +241,38 @@ def solve(
         as_json=as_json,
         csv=csv_file is not None,
         npz=npz_file is not None,
-        ask=ask,
+        quantities=ask,
         partial=partial,
         sigma=sigma,
         covariance=covariance_file is not None,
         referee=referee,
         lang=lang,
-        apart=jobs > 1,
+        in_subprocess=jobs > 1,
     )
     run = functools.partial(
-        each,
+        for_each_problem,
         problems,
         variant,
         all_variants,
         functools.partial(compute, options=options),
         jobs=jobs,
-        ahead=_ahead(options),
+        act_on_many=_batch_solver(options),
         drawn=not sweeping,
     )
     if as_json:
-        from planmethod.note.written import plain_of
+        from planmethod.note.columnar import to_builtins
 
         with JsonTexts() as texts:
-            code = run(take=lambda one: texts.add(json_text(plain_of(one))))
-            texts.tell()
+            code = run(on_result=lambda one: texts.add(json_text(to_builtins(one))))
+            texts.echo()
         finish(code)
         return
     found: list[Any] = []
-    code = run(take=found.append)
+    code = run(on_result=found.append)
     if found and covariance_file is not None:
         from planmethod.note.records.covariance import covariance_text
 
-        put_parts([covariance_text(found)], covariance_file)
+        write_parts([covariance_text(found)], covariance_file)
     if found and csv_file is not None:
         write_text(found, csv_file)
     if npz_file is not None and code is ExitCode.DONE:  # one file: all or nothing
@@ -281,37 +281,43 @@ def solve(
 
 
 def compute(
-    todo: Todo, options: SolveOptions
+    item: LoadedProblem, options: SolveOptions
 ) -> dict[str, Any] | SpreadsheetRows | GappedSweep | SolvedArrays | Solution | None:
     """Compute a problem; print its numbers, or return what several problems print together."""
-    kind, problem = todo.kind, todo.problem
+    kind, problem = item.kind, item.problem
     if kind is None:
-        return _computed(todo.linkage, options)
+        return _computed(item.linkage, options)
     table = kind.spreadsheet(problem) if options.csv else None
     for option, given in options.of_linkages().items():
         if given and not (table is not None and option == "--csv"):
-            raise UsageError("{} is for linkages, {} is none", option, called(problem))
+            raise UsageError("{} is for linkages, {} is none", option, message_name(problem))
     if table is not None:
         return table
     if options.as_json:
         return kind.record(problem, language_of(problem, options.lang))
-    from planmethod.note.wording import language
-    from planmethod.note.writers.plain import plain_document
+    from planmethod.note.wording import get_language
+    from planmethod.note.writers.terminal import plain_document
 
-    words = language(language_of(problem, options.lang))
-    click.echo(plain_document(kind.solved_document(problem, words), words))
+    language = get_language(language_of(problem, options.lang))
+    click.echo(plain_document(kind.solved_document(problem, language), language))
     return None
 
 
-def _ahead(options: SolveOptions) -> Callable[[Sequence[Todo]], dict[int, Any]] | None:
+def _batch_solver(
+    options: SolveOptions,
+) -> Callable[[Sequence[LoadedProblem]], dict[int, Any]] | None:
     """Return the batch solver of many problems; None where each is to be solved alone."""
     moved = options.phi is not None or options.referee is not None or options.partial
-    if moved or options.ask is not None or not (options.as_json or options.npz or options.csv):
+    if (
+        moved
+        or options.quantities is not None
+        or not (options.as_json or options.npz or options.csv)
+    ):
         return None
-    return functools.partial(_together, options=options)
+    return functools.partial(_solve_together, options=options)
 
 
-def _made(options: SolveOptions, batch: Batch) -> Iterator[Any]:
+def _convert_batch(options: SolveOptions, batch: Batch) -> Iterator[Any]:
     """Return the numbers of a batch in the requested form."""
     if options.as_json:
         from planmethod.note.records.solution import batch_records
@@ -326,7 +332,7 @@ def _made(options: SolveOptions, batch: Batch) -> Iterator[Any]:
     return batch_tables(batch)
 
 
-def _together(todo: Sequence[Todo], options: SolveOptions) -> dict[int, Any]:
+def _solve_together(todo: Sequence[LoadedProblem], options: SolveOptions) -> dict[int, Any]:
     """Return the output of linkages that are solved together, by index."""
 
     def solved(problems: list[Problem]) -> dict[int, Any]:
@@ -334,13 +340,13 @@ def _together(todo: Sequence[Todo], options: SolveOptions) -> dict[int, Any]:
 
         found: dict[int, Any] = {}
         for batch, members in in_batches(problems, drawn_by(*hand)):
-            found.update(zip(members, _made(options, batch), strict=True))
+            found.update(zip(members, _convert_batch(options, batch), strict=True))
         if options.as_json:
             for number, one in found.items():
-                found[number] = one | _beside(problems[number], options)
+                found[number] = one | _other_parts_record(problems[number], options)
         return found
 
-    hand = ("board", options.ruler) if options.csv else options.hand
+    hand = ("board", options.ruler) if options.csv else options.profile_and_ruler
     return of_linkages(todo, solved)
 
 
@@ -349,69 +355,71 @@ def _computed(
 ) -> dict[str, Any] | SpreadsheetRows | GappedSweep | SolvedArrays | Solution | None:
     phi, referee = options.phi, options.referee
     hand = drawn_by(options.profile, options.ruler)  # a train needs no arrays
-    if options.npz and _ahead(options) is not None and _is_short(problem):
+    if options.npz and _batch_solver(options) is not None and _is_short(problem):
         from planmethod.note.records.npz import solved_arrays
 
         return solved_arrays(solution_of(problem, None, hand, hint=HINT, forces=True))
-    if options.npz or options.ask is not None:
-        tell_changes(problem, phi)
+    if options.npz or options.quantities is not None:
+        warn_of_change_points(problem, phi)
         if not (options.csv or options.npz):
-            refuse_long(len(positions_asked(problem, phi)))
-        made = swept(problem, phi, options.ask, options.partial)
+            reject_long_table(len(requested_positions(problem, phi)))
+        made = sweep_of(problem, phi, options.quantities, options.partial)
         if options.npz:
-            refuse_huge(made)
+            reject_huge_array(made)
             return made
         from planmethod.note.records.spreadsheet import swept_table
-        from planmethod.note.tables.asked import asked_document
-        from planmethod.note.wording import language
-        from planmethod.note.writers.plain import plain_document
+        from planmethod.note.tables.requested_table import requested_document
+        from planmethod.note.wording import get_language
+        from planmethod.note.writers.terminal import plain_document
 
         if options.csv:
             table = swept_table(made, partial=options.partial)
-            return table.held() if options.apart else table
-        words = language(language_of(problem, options.lang))
-        click.echo(plain_document(asked_document(made, words), words))
+            return table.materialized() if options.in_subprocess else table
+        language = get_language(language_of(problem, options.lang))
+        click.echo(plain_document(requested_document(made, language), language))
     elif options.csv:
         table = table_of(problem, phi, hand.ruler, options.partial)
-        return table.held() if options.apart else table
+        return table.materialized() if options.in_subprocess else table
     elif options.as_json and options.partial:
         return _partial(problem, options, hand)
     elif options.as_json:
         from planmethod.note.records.solution import record_in_columns
 
-        solution, more = _whole(problem, options, hand), {}
+        solution, more = _requested_solution(problem, options, hand), {}
         if referee is not None:
             from planmethod.note.tables.referee import referee_record
 
             more["referee"] = referee_record(solution, referee)
-        return record_in_columns(solution, **more) | _beside(problem, options)
+        return record_in_columns(solution, **more) | _other_parts_record(problem, options)
     elif options.covariance:
         return solution_of(problem, phi, hand, hint=HINT)
     else:
         from planmethod.note.tables.results import results_document
-        from planmethod.note.wording import language
-        from planmethod.note.writers.plain import plain_document
+        from planmethod.note.wording import get_language
+        from planmethod.note.writers.terminal import plain_document
 
-        words = language(language_of(problem, options.lang))
-        solution = _whole(problem, options, hand)
-        click.echo(plain_document(results_document(solution, words, sigma=options.sigma), words))
+        language = get_language(language_of(problem, options.lang))
+        solution = _requested_solution(problem, options, hand)
+        click.echo(
+            plain_document(results_document(solution, language, sigma=options.sigma), language)
+        )
         if referee is not None:
             from planmethod.note.tables.referee import referee_document
 
-            judged = referee_document(solution, referee, words)
-            click.echo("\n" + plain_document(judged, words))
-        for part, kind in _parts_beside(problem):
-            click.echo("\n" + plain_document(kind.solved_document(part, words), words))
+            judged = referee_document(solution, referee, language)
+            click.echo("\n" + plain_document(judged, language))
+        for part, kind in _other_parts(problem):
+            click.echo("\n" + plain_document(kind.solved_document(part, language), language))
     return None
 
 
-def _partial(problem: Problem, options: SolveOptions, hand: Profile) -> dict[str, Any]:
+def _partial(problem: Problem, options: SolveOptions, profile: Profile) -> dict[str, Any]:
     """Return the record of a problem some of whose positions may be impossible."""
     from planmethod.note.records.solution import partial_record
 
-    positions, number = positions_asked(problem, options.phi), options.position
-    gaps = looked_at(problem, options.phi, partial=True)
-    record = partial_record(problem, positions, gaps, hand)
+    positions, number = requested_positions(problem, options.phi), options.position
+    gaps = examine_positions(problem, options.phi, partial=True)
+    record = partial_record(problem, positions, gaps, profile)
     if number is None:
         return record
     if number >= len(positions):
@@ -419,7 +427,7 @@ def _partial(problem: Problem, options: SolveOptions, hand: Profile) -> dict[str
     return {**record, "positions": record["positions"][number : number + 1]}
 
 
-def _parts_beside(problem: Problem) -> list[tuple[KindProblem, ProblemKind[Any]]]:
+def _other_parts(problem: Problem) -> list[tuple[KindProblem, ProblemKind[Any]]]:
     """Return the wheels, the meshing and the cam of a project, which have numbers, too."""
     if problem.project is None:
         return []
@@ -429,10 +437,10 @@ def _parts_beside(problem: Problem) -> list[tuple[KindProblem, ProblemKind[Any]]
     return [(part.problem, part.kind) for part in parts if part.kind is not None]
 
 
-def _beside(problem: Problem, options: SolveOptions) -> dict[str, Any]:
+def _other_parts_record(problem: Problem, options: SolveOptions) -> dict[str, Any]:
     """Return the records of the other parts of a project than its linkage, by table."""
     lang = language_of(problem, options.lang)
-    found = {kind.table: kind.record(part, lang) for part, kind in _parts_beside(problem)}
+    found = {kind.table: kind.record(part, lang) for part, kind in _other_parts(problem)}
     return {"parts": found} if found else {}
 
 
@@ -443,15 +451,15 @@ def _is_short(problem: Problem) -> bool:
     return len(problem.drive.positions) <= FEW_ROWS
 
 
-def _whole(problem: Problem, options: SolveOptions, hand: Profile) -> Solution:
+def _requested_solution(problem: Problem, options: SolveOptions, profile: Profile) -> Solution:
     """Return the solution to print; for a single position it has the scales of all."""
-    solution = solution_of(problem, options.phi, hand, hint=HINT, forces=True, machine=True)
+    solution = solution_of(problem, options.phi, profile, hint=HINT, forces=True, machine=True)
     number, positions = options.position, solution.positions
     if number is None:
         return solution
     if number >= len(positions):
         raise no_position(number, problem, len(positions))
-    return solution.moved([float(positions[number])]).drawn_at(solution.scales)
+    return solution.with_positions([float(positions[number])]).drawn_at(solution.scales)
 
 
 def _need_mpmath() -> None:
@@ -461,15 +469,15 @@ def _need_mpmath() -> None:
         raise UsageError("--referee needs mpmath: pip install mpmath") from None
 
 
-def _refuse_contradictions(
-    as_json: bool, csv_file: str | None, npz_file: str | None, ask: tuple[str, ...] | None
+def _reject_contradictions(
+    as_json: bool, csv_file: str | None, npz_file: str | None, quantities: tuple[str, ...] | None
 ) -> None:
     """Reject contradictory options, and outputs that would overwrite a problem."""
     forms = {"--json": as_json, "--csv": csv_file is not None, "--npz": npz_file is not None}
     given = [name for name, is_given in forms.items() if is_given]
     if len(given) > 1:
-        raise UsageError("give {}, not both", say(" or ").join(given))
-    if as_json and ask is not None:
+        raise UsageError("give {}, not both", translate(" or ").join(given))
+    if as_json and quantities is not None:
         raise UsageError("--json is always whole; --ask goes with --csv, --npz or a table")
     for name, file in (("--csv", csv_file), ("--npz", npz_file)):
         if file is not None and file.lower().endswith(".toml"):

@@ -7,11 +7,11 @@ from typing import Literal
 
 import click
 
-from planmethod.commands.asked import lettering_option, stamp_option
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import write_drawings
 from planmethod.commands.problems import guarded
-from planmethod.languages import say
+from planmethod.commands.sheet_options import lettering_option, stamp_option
+from planmethod.languages import translate
 from planmethod.options import BadParameter, dxf_text_option, format_option, lang_option, out_option
 
 
@@ -27,14 +27,14 @@ def read_specimens(
             from difflib import get_close_matches
 
             near = get_close_matches(name, SPECIMENS, 1)
-            hint = say("; did you mean {!r}?", near[0]) if near else "."
+            hint = translate("; did you mean {!r}?", near[0]) if near else "."
             raise BadParameter(
                 "no specimen sheet {!r}{} Known: {}.", name, hint, ", ".join(SPECIMENS)
             )
     return names or tuple(SPECIMENS)
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.argument("sheets", nargs=-1, metavar="[SHEET]...", callback=read_specimens)
 @out_option
 @format_option("svg,pdf")
@@ -59,15 +59,15 @@ def specimen(
     SHEET is symbols, lines or lettering; all of them when none is given. The files are
     specimen-symbols.svg and so on. What is on them: docs/symbols.md, docs/lettering.md.
     """
-    from planmethod.note.wording import language
+    from planmethod.note.wording import get_language
     from planmethod.render.ink.lettering import lettering as lettered
     from planmethod.render.ink.lettering import using
     from planmethod.render.sheets.specimen import SPECIMENS
 
-    words = language(lang)
+    language = get_language(lang)
     for name in sheets:
         with using(lettered(lettering or "B")):
-            drawing = SPECIMENS[name](stamp, words)
+            drawing = SPECIMENS[name](stamp, language)
         write_drawings(
             [drawing],
             out,

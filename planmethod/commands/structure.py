@@ -7,10 +7,18 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from planmethod.commands.asked import PaperRequest, sheet_options
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import json_text, write_drawings
-from planmethod.commands.problems import Todo, called, each, finish, guarded, language_of, stem
+from planmethod.commands.problems import (
+    LoadedProblem,
+    basename,
+    finish,
+    for_each_problem,
+    guarded,
+    language_of,
+    message_name,
+)
+from planmethod.commands.sheet_options import PaperRequest, sheet_options
 from planmethod.options import (
     UsageError,
     dxf_text_option,
@@ -21,10 +29,10 @@ from planmethod.options import (
 
 if TYPE_CHECKING:
     from planmethod.kind import ProblemKind
-    from planmethod.problem.head import KindProblem
+    from planmethod.problem.common import KindProblem
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @problem_options
 @out_option
 @click.option("--json", "as_json", is_flag=True, help="Print the analysis as one JSON object.")
@@ -42,22 +50,22 @@ def structure(
     formats: tuple[str, ...],
     dxf_text: Literal["text", "strokes"],
     no_drawing: bool,
-    asked: PaperRequest,
+    request: PaperRequest,
 ) -> None:
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
-    from planmethod.note.wording import language
-    from planmethod.note.writers.plain import plain_document
+    from planmethod.note.wording import get_language
+    from planmethod.note.writers.terminal import plain_document
     from planmethod.solved.aligned.schemes import self_aligning
     from planmethod.solved.analysed import structure_of
 
     drawn = not as_json and not no_drawing
-    settled = asked.settle() if drawn else None
+    settled = request.resolve() if drawn else None
 
-    def show(todo: Todo) -> None:
-        if todo.kind is not None:
-            show_other(todo.kind, todo.problem)
+    def show(item: LoadedProblem) -> None:
+        if item.kind is not None:
+            show_other(item.kind, item.problem)
             return
-        problem = todo.linkage
+        problem = item.linkage
         found = structure_of(problem)
         aligned = self_aligning(problem, found)
         if as_json:
@@ -71,32 +79,32 @@ def structure(
 
         if settled is not None:
             problem = settled.over(problem)
-        words = language(language_of(problem, asked.lang))
+        language = get_language(language_of(problem, request.lang))
         notation = problem.sheet.notation
-        written = structure_document(problem.mechanism, found, words, notation, aligned)
-        click.echo(plain_document(written, words))
+        written = structure_document(problem.mechanism, found, language, notation, aligned)
+        click.echo(plain_document(written, language))
         if settled is not None:
             from planmethod.render.sheets.structure import structure_sheet
 
-            drawing = structure_sheet(problem, found, aligned, fields=asked.fields)
+            drawing = structure_sheet(problem, found, aligned, fields=request.fields)
             write_drawings(
                 [drawing],
                 out,
-                f"{stem(problem)}-structure",
+                f"{basename(problem)}-structure",
                 formats,
                 author=settled.author(problem),
                 dxf_text=dxf_text,
             )
 
     def show_other(kind: ProblemKind[Any], problem: KindProblem) -> None:
-        words = language(language_of(problem, asked.lang))
+        language = get_language(language_of(problem, request.lang))
         record = kind.structure_record(problem) if as_json else None
-        written = None if as_json else kind.structure_document(problem, words)
+        written = None if as_json else kind.structure_document(problem, language)
         if record is not None:
             click.echo(json_text(record))
         elif written is not None:
-            click.echo(plain_document(written, words))
+            click.echo(plain_document(written, language))
         else:
-            raise UsageError("{} is not a mechanism, it has no structure", called(problem))
+            raise UsageError("{} is not a mechanism, it has no structure", message_name(problem))
 
-    finish(each(problems, variant, all_variants, show, drawn=False))
+    finish(for_each_problem(problems, variant, all_variants, show, drawn=False))

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import click
 from msgspec.structs import replace
 
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.problems import guarded
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.options import NumberRange, PathType, UsageError, lang_option
 
 if TYPE_CHECKING:
@@ -23,11 +23,11 @@ PLACES = 128
 
 LEADING = '<meta http-equiv="refresh" content="0; url={}">'
 
-KEPT = 75
+KEEP_ALIVE = 75
 """Seconds that an idle connection is kept open while a user is typing."""
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.argument("file", required=False, type=PathType(), metavar="[FILE|FOLDER]")
 @click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen at.")
 @click.option(
@@ -111,9 +111,9 @@ def studio(
 def _write(folder: Path, runtime: str | None, lang: str) -> None:
     """Write the page that needs no server."""
     from planmethod.commands.output import bar
-    from planmethod.commands.studied import act
+    from planmethod.commands.studio_jobs import act
     from planmethod.render.sheets.compositions import SHIPPED
-    from planmethod.studio.written import VERSION, parts, runtime_of, write_studio
+    from planmethod.studio.static_export import VERSION, runtime_of, task_names, write_studio
 
     try:
         found = runtime_of(runtime)
@@ -128,9 +128,9 @@ def _write(folder: Path, runtime: str | None, lang: str) -> None:
     def pictured(file: str) -> str:
         return str(act({"do": "pictured", "file": file, "lang": lang}, lambda share: None)["svg"])
 
-    with bar(len(parts()), long=True) as done:
+    with bar(len(task_names()), long=True) as done:
         write_studio(folder, found, tuple(SHIPPED), pictured, lang=lang, done=done)
-    click.echo(say("{}: the studio. Put it on a host of files; it opens over http.", folder))
+    click.echo(translate("{}: the studio. Put it on a host of files; it opens over http.", folder))
 
 
 def settings_of(
@@ -141,11 +141,11 @@ def settings_of(
     import secrets
 
     from planmethod.render.sheets.compositions import SHIPPED
-    from planmethod.studio.limits import OWN, STRANGERS
+    from planmethod.studio.limits import LOCAL_LIMITS, PUBLIC_LIMITS
     from planmethod.studio.server import StudioSettings
     from planmethod.studio.sessions import Desk
 
-    limits = STRANGERS if served else OWN
+    limits = PUBLIC_LIMITS if served else LOCAL_LIMITS
     if seconds is not None:
         limits = replace(
             limits,
@@ -170,7 +170,7 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
 
     import uvicorn
 
-    from planmethod.commands.studied import act
+    from planmethod.commands.studio_jobs import act
     from planmethod.studio.connections import PatientProtocol
     from planmethod.studio.server import application
     from planmethod.studio.sessions import served_folder
@@ -194,10 +194,10 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
         address = f"http://{f'[{host}]' if ':' in host else host}:{listening.getsockname()[1]}/"
         own = f"{address}?token={settings.token}"
         click.echo(
-            say("The studio is at {}  Ctrl+C stops it.", address if settings.served else own)
+            translate("The studio is at {}  Ctrl+C stops it.", address if settings.served else own)
         )
         if settings.served:
-            click.echo(say("Instructor's pages: {}", f"{address}#token={settings.token}"))
+            click.echo(translate("Instructor's pages: {}", f"{address}#token={settings.token}"))
         if shown:
             click.launch(address if settings.served else str(_leading(root, own)))
         config = uvicorn.Config(
@@ -207,7 +207,7 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
             server_header=False,
             backlog=PLACES,
             http=PatientProtocol,
-            timeout_keep_alive=KEPT,
+            timeout_keep_alive=KEEP_ALIVE,
             timeout_graceful_shutdown=2,
         )
         uvicorn.Server(config).run(sockets=[listening])

@@ -12,20 +12,20 @@ from typing import Any, Literal
 import click
 from click.core import ParameterSource
 
-from planmethod.commands.asked import PaperRequest, sheet_options
-from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import json_text, refuse_unknown, write_drawings, write_new
+from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import json_text, reject_unknown, write_drawings, write_new
 from planmethod.commands.problems import finish, guarded
+from planmethod.commands.sheet_options import PaperRequest, sheet_options
 from planmethod.errors import ExitCode
-from planmethod.languages import say, spoken
+from planmethod.languages import current_language, translate
 from planmethod.options import (
     BadParameter,
     PathType,
     UsageError,
+    drafting_options,
     drawn_by,
     dxf_text_option,
     format_option,
-    hand_options,
 )
 
 LEAST, MOST = 1e-6, 1e4
@@ -106,7 +106,7 @@ _OPTIONS: tuple[tuple[str, str, Callable[..., Any], str], ...] = (
 """Options of the kinds: name, metavar, reader, help."""
 
 
-def asked_options(command: Callable[..., Any]) -> Callable[..., Any]:
+def synthesis_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options of all kinds; the command gets their values by name."""
     for name, metavar, reader, told in reversed(_OPTIONS):
         param = f"of_{name}"
@@ -115,9 +115,9 @@ def asked_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return command
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.argument("kind")
-@asked_options
+@synthesis_options
 @click.option("--json", "as_json", is_flag=True, help="Print lengths and checks as a JSON object.")
 @click.option(
     "-o",
@@ -128,7 +128,7 @@ def asked_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.option("--force", is_flag=True, help="Write over an existing problem file.")
 @click.option("--sheet", "drawn", is_flag=True, help="Draw the construction, into the folder.")
 @format_option("svg")
-@hand_options
+@drafting_options
 @dxf_text_option
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @sheet_options
@@ -144,7 +144,7 @@ def synthesize(
     profile: str | None,
     dxf_text: Literal["text", "strokes"],
     dpi: int,
-    asked: PaperRequest,
+    request: PaperRequest,
     **options: Any,
 ) -> None:
     """Find the sizes of a mechanism by construction, and measure it (синтез механизма).
@@ -153,16 +153,16 @@ def synthesize(
     from: docs/synthesis.md. Lengths are metres, angles degrees.
     """
     from planmethod.errors import AssemblyError, ProblemError
-    from planmethod.note.wording import language
+    from planmethod.note.wording import get_language
     from planmethod.problem import loads
-    from planmethod.synthesis import KINDS, takes
+    from planmethod.synthesis import KINDS, options_of
     from planmethod.synthesis import synthesize as find
-    from planmethod.synthesis.drawn import Drawn, synthesis_record
-    from planmethod.synthesis.measured import checks, problem_text
+    from planmethod.synthesis.drawing import Drawn, synthesis_record
+    from planmethod.synthesis.verification import checks, problem_text
 
-    refuse_unknown("no kind of synthesis {!r}", kind, tuple(KINDS))
+    reject_unknown("no kind of synthesis {!r}", kind, tuple(KINDS))
     given = {name: options[f"of_{name}"] for name, *_ in _OPTIONS}
-    known = takes(kind)
+    known = options_of(kind)
     strange = [
         f"--{name}" for name, value in given.items() if value is not None and name not in known
     ]
@@ -171,10 +171,10 @@ def synthesize(
         raise UsageError("{} takes {}, not {}.", kind, taken, ", ".join(strange))
     wanted = {name: given[name] for name in known}
     made = find(kind, wanted)
-    words = language(asked.lang or spoken())
-    text = problem_text(made, _command(kind, wanted), words)
+    language = get_language(request.lang or current_language())
+    text = problem_text(made, _command(kind, wanted), language)
     try:
-        settled = asked.settle()
+        settled = request.resolve()
         problem = settled.over(loads(text, name=out.stem if out else kind))
     except ProblemError as error:
         raise AssemblyError("Sizes were found that no problem file takes. {}", error) from error
@@ -190,13 +190,13 @@ def synthesize(
             if is_file:
                 write_new(out, text, force=force)
             else:
-                write_new(out / f"{kind}.toml", text, force=force, within=out)
+                write_new(out / f"{kind}.toml", text, force=force, folder=out)
         if drawn:
             from planmethod.synthesis.sheet import synthesis_sheet
 
             folder = Path("out") if out is None else out.parent if is_file else out
             write_drawings(
-                [synthesis_sheet(drawing, problem, wanted, found, fields=asked.fields)],
+                [synthesis_sheet(drawing, problem, wanted, found, fields=request.fields)],
                 folder,
                 f"{out.stem if out is not None and is_file else kind}-synthesis",
                 formats,
@@ -209,22 +209,24 @@ def synthesize(
         click.echo(json_text(record))
     elif out is None and not drawn:
         from planmethod.note.document import Document
-        from planmethod.note.writers.plain import plain_document
+        from planmethod.note.writers.terminal import plain_document
         from planmethod.synthesis.text import synthesis_document
 
-        whole = Document.of(synthesis_document(drawing, wanted, found, words))
-        click.echo(plain_document(whole, words))
+        whole = Document.of(synthesis_document(drawing, wanted, found, language))
+        click.echo(plain_document(whole, language))
     if found.get("missed", 0.0) is None or not all(
         made.facts.get(k, True) for k in ("branch", "order")
     ):
-        click.echo(say("Warning: {}", words.synthesis.interrupted.format(name=kind)), err=True)
+        click.echo(
+            translate("Warning: {}", language.synthesis.interrupted.format(name=kind)), err=True
+        )
         finish(ExitCode.FINDINGS)
 
 
-def _command(kind: str, asked: Mapping[str, Any]) -> str:
+def _command(kind: str, options: Mapping[str, Any]) -> str:
     """Return the equivalent command line, as the source of the problem file."""
     parts = ["planmethod", "synthesize", kind]
-    for name, value in asked.items():
+    for name, value in options.items():
         if isinstance(value, tuple):
             rows = value if isinstance(value[0], tuple) else (value,)
             parts += [f"--{name}", "; ".join(",".join(f"{n:.12g}" for n in row) for row in rows)]

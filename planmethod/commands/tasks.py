@@ -7,13 +7,13 @@ from itertools import groupby
 import click
 from msgspec.structs import asdict
 
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import json_text
 from planmethod.commands.problems import guarded
 from planmethod.options import UsageError, lang_option
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.option("--group", metavar="GROUPS", help="With these Assur groups in a row: RRR+RPR.")
 @click.option("--search", metavar="WORDS", help="With all these words in title, source or remarks.")
 @click.option("--json", "as_json", is_flag=True, help="Print the list as one JSON object.")
@@ -26,25 +26,25 @@ def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> No
     Their pictures: docs/tasks.md.
     """
     from planmethod.languages import LANGUAGES
-    from planmethod.note.wording import language
+    from planmethod.note.wording import get_language
     from planmethod.problem.tasks import groups_of, tasks
 
-    found, words = tasks(), language(lang)
+    found, language = tasks(), get_language(lang)
     if group is not None:
         letters = {  # in whichever language they are typed
             said: letter
             for one in LANGUAGES
-            for letter, said in language(one).note["letters"].items()
+            for letter, said in get_language(one).note["letters"].items()
         }
         asked = groups_of("".join(letters.get(one, one) for one in group.upper()))
         known = sorted({signature for task in found for signature in task.groups})
         for signature in asked:
             if signature not in known:
-                told = ", ".join(known)
-                raise UsageError("no task has a group {!r}. Known: {}.", signature, told)
+                text = ", ".join(known)
+                raise UsageError("no task has a group {!r}. Known: {}.", signature, text)
         found = tuple(task for task in found if task.has(asked))
     if search is not None:
-        found = tuple(task for task in found if task.says(search))
+        found = tuple(task for task in found if task.matches(search))
     if as_json:
         rows = [
             {**asdict(task), "structure": task.structure or None, "reading": task.reading or None}
@@ -53,13 +53,13 @@ def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> No
         click.echo(json_text({"schema": 1, "tasks": rows}))
         return
     if not found:
-        click.echo(words.tasks["none"], err=True)
+        click.echo(language.tasks["none"], err=True)
     width = max((len(task.name) for task in found), default=0)
     for (kind, structure), some in groupby(found, lambda task: (task.kind, task.structure)):
-        click.echo(structure or words.tasks[kind])
+        click.echo(structure or language.tasks[kind])
         for task in some:
             variants = f" ({' '.join(task.variants)})" if task.variants else ""
-            mark = words.tasks.reading_mark if task.reading else ""
+            mark = language.tasks.reading_mark if task.reading else ""
             click.echo(f"  {task.name.ljust(width)}  {task.title}{variants}{mark}")
     if any(task.reading for task in found):
-        click.echo(words.tasks.readings)
+        click.echo(language.tasks.readings)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import refuse_unknown, write_new
+from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import reject_unknown, write_new
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
 from planmethod.options import BadParameter, PathType, UsageError, lang_option
@@ -54,7 +54,7 @@ def read_modules(
     return found[0], found[-1]
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.option(
     "--scheme",
     default="ring",
@@ -138,14 +138,14 @@ def teeth(
     U means U_1_H for ring and external-internal, U_H_1 for two-external and two-internal,
     U_1_2 for pair, U_1_3 for two-stage. Exit code 1 if no set fits. More: docs/gears.md.
     """
-    from planmethod.gears.choice import choose
-    from planmethod.gears.chosen import chosen_document, chosen_record, problem_text
-    from planmethod.gears.teeth import SCHEMES, Wanted
+    from planmethod.gears.teeth import SCHEMES, TeethSpecification
+    from planmethod.gears.teeth_report import problem_text, selection_document, selection_record
+    from planmethod.gears.teeth_selection import choose
     from planmethod.note.document import Document
-    from planmethod.note.wording import language
-    from planmethod.note.writers.plain import plain_document
+    from planmethod.note.wording import get_language
+    from planmethod.note.writers.terminal import plain_document
 
-    refuse_unknown("no scheme {!r}", scheme, [one.name for one in SCHEMES])
+    reject_unknown("no scheme {!r}", scheme, [one.name for one in SCHEMES])
     if ratio == 0 or not 0 <= within < 1:
         raise UsageError("--U is not 0, and --within is at least 0 and below 1")
     if z_min > z_max:
@@ -153,16 +153,16 @@ def teeth(
     (plan,) = (one for one in SCHEMES if one.name == scheme)
     if plan.single and modules is not None and modules[0] != modules[1]:
         raise UsageError("the scheme {} has one row of teeth: give one module", scheme)
-    wanted = Wanted(plan, ratio, within, satellites, z_min, z_max, ring_max, modules)
+    wanted = TeethSpecification(plan, ratio, within, satellites, z_min, z_max, ring_max, modules)
     number = 0 if write is None else write[1]
     chosen = choose(wanted, first=max(count, number) if count else None)
-    if write is not None and number > chosen.found:
-        raise UsageError("set {} does not exist: {} were found", number, chosen.found)
+    if write is not None and number > chosen.match_count:
+        raise UsageError("set {} does not exist: {} were found", number, chosen.match_count)
     if as_json:
-        click.echo(json.dumps(chosen_record(chosen), ensure_ascii=False, indent=1))
+        click.echo(json.dumps(selection_record(chosen), ensure_ascii=False, indent=1))
     else:
-        words = language(lang)
-        click.echo(plain_document(Document.of(chosen_document(chosen, words)), words))
+        language = get_language(lang)
+        click.echo(plain_document(Document.of(selection_document(chosen, language)), language))
     if write is not None:
         write_new(write[0], problem_text(chosen, number, lang), force=force)
-    finish(ExitCode.DONE if chosen.found else ExitCode.FINDINGS)
+    finish(ExitCode.DONE if chosen.match_count else ExitCode.FINDINGS)

@@ -6,23 +6,23 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import LocalizedCommand
 from planmethod.commands.output import bar
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.options import NumberRange, PathType, UsageError, lang_option
 
-MOST = 200
+MAX_VARIANTS = 200
 LONG = 3
 """Number of variants from which a bar is shown."""
 
 
-@click.command(cls=Spoken)
+@click.command(cls=LocalizedCommand)
 @click.argument("problem", type=PathType(dir_okay=False), metavar="FILE")
 @click.option(
     "--count",
-    type=click.IntRange(1, MOST),
+    type=click.IntRange(1, MAX_VARIANTS),
     default=30,
     show_default=True,
     help="How many variants.",
@@ -88,12 +88,12 @@ def variants(
     """
     from planmethod.check.marks import DEFAULT, load_settings
     from planmethod.note.document import Document
-    from planmethod.note.wording import language
-    from planmethod.note.writers.plain import plain_document
+    from planmethod.note.wording import get_language
+    from planmethod.note.writers.terminal import plain_document
     from planmethod.render.backends.output import write
     from planmethod.varying.candidates import csv_of
     from planmethod.varying.choice import choose
-    from planmethod.varying.told import told_document
+    from planmethod.varying.report import report_choice
 
     if out is not None and out.suffix.lower() not in (".csv", ".toml"):
         raise UsageError("{}: a table *.csv or a problem file *.toml is written", out)
@@ -105,8 +105,8 @@ def variants(
             problem, count=count, seed=seed, vary=vary, spread=spread, tries=tries,
             settings=judged, done=done,
         )  # fmt: skip
-    found = {one.name: one.own for one in choice.variants}
-    words = language(lang)
+    found = {one.name: one.overrides for one in choice.variants}
+    language = get_language(lang)
     if out is None or out.suffix.lower() == ".csv":
         text = csv_of(found, lang)
     else:
@@ -116,7 +116,9 @@ def variants(
     else:
         write(out, text.encode())
         click.echo(str(out))
-    click.echo(plain_document(Document.of(told_document(choice, words)), words), err=out is None)
+    click.echo(
+        plain_document(Document.of(report_choice(choice, language)), language), err=out is None
+    )
     if out is not None and out.suffix.lower() == ".csv":
-        click.echo(say('The file names it at its head: variants = "{}"', out.name))
+        click.echo(translate('The file names it at its head: variants = "{}"', out.name))
     finish(ExitCode.DONE if len(found) == count else ExitCode.FINDINGS)

@@ -45,7 +45,7 @@ def watch_option(*, draws: bool = False) -> Callable[[F], F]:
                         command(*args, problems=problems, **kwargs)
                 except SystemExit:  # the next saving may fix the error
                     if draws:
-                        _put_notice(said.getvalue(), problems, **kwargs)
+                        _write_notice(said.getvalue(), problems, **kwargs)
                 click.echo(said.getvalue(), nl=False, err=True)
                 sys.stdout.flush()
                 while stamps(problems) == seen:
@@ -57,8 +57,8 @@ def watch_option(*, draws: bool = False) -> Callable[[F], F]:
     return add
 
 
-def _put_notice(
-    said: str,
+def _write_notice(
+    message: str,
     problems: tuple[Path, ...],
     *,
     out: Path,
@@ -73,7 +73,7 @@ def _put_notice(
     from planmethod.render.sketch import notice
 
     name = problems[0].stem if variant is None else f"{problems[0].stem}-{variant}"
-    write_drawings([notice(said)], out, name, formats)
+    write_drawings([notice(message)], out, name, formats)
 
 
 def stamps(paths: Iterable[Path]) -> list[tuple[int, int] | None]:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.compiled.straight import EQUAL, used_by
+from planmethod.compiled.pysource import EQUAL, used_by
 from planmethod.compiled.symbolic import Guard
 from planmethod.compiled.tape import Ref, Tape
 from planmethod.construct.arithmetic import unit_vectors
@@ -23,10 +23,10 @@ Array = npt.NDArray[Any]
 BLOCK = 16384
 """Maximum number of positions in a block: enough that NumPy's call overhead is small."""
 
-LEAST_BLOCK = 2048
+MIN_BLOCK = 2048
 """Minimum number of positions in a block: below it, call overhead outweighs the caches' gain."""
 
-AT_HAND = 16 * 2**20
+CACHE_BYTES = 16 * 2**20
 """Bytes of the buffers and rows in use at a time: about what the caches hold."""
 
 UFUNC: dict[str, np.ufunc] = {
@@ -245,7 +245,7 @@ class _Step:
 
 def _block(in_use: int) -> int:
     """Return the positions of a block, given the bytes in use at a time for each position."""
-    return max(LEAST_BLOCK, min(BLOCK, AT_HAND // max(in_use, 1) // 1024 * 1024))
+    return max(MIN_BLOCK, min(BLOCK, CACHE_BYTES // max(in_use, 1) // 1024 * 1024))
 
 
 def _schedule(
@@ -283,7 +283,7 @@ def _schedule(
     count = live = most = 0
     steps: list[_Step] = []
 
-    def settle(node: int) -> Place:
+    def allocate(node: int) -> Place:
         nonlocal count, live, most
         live += 1
         most = max(most, live)
@@ -313,7 +313,7 @@ def _schedule(
             if number not in place:  # else made together with its partner
                 other = partner[number]
                 pair = (number, other) if kind == "cosd" else (other, number)
-                steps.append(_Step("turn", sources, [settle(n) for n in pair]))
+                steps.append(_Step("turn", sources, [allocate(n) for n in pair]))
                 for made in pair:
                     if last.get(made, -1) < 0 and made not in watch:
                         release(made)
@@ -324,7 +324,7 @@ def _schedule(
             if kind != "at_zero":
                 for ref in dying:
                     release(ref)
-            steps.append(_Step(kind, sources, [settle(number)]))
+            steps.append(_Step(kind, sources, [allocate(number)]))
             if kind == "at_zero":
                 for ref in dying:
                     release(ref)
@@ -358,7 +358,7 @@ def _line(steps: list[_Step], rows: int) -> Callable[..., None]:
     """Compile the calls to one function; its source holds numbered places only."""
     constants: dict[float, str] = {}
 
-    def said(source: Any) -> str:
+    def operand_text(source: Any) -> str:
         if isinstance(source, float):
             return constants.setdefault(source, f"k{len(constants)}")
         return str(source)
@@ -370,22 +370,24 @@ def _line(steps: list[_Step], rows: int) -> Callable[..., None]:
                 margin, guard, limit = step.sources
                 lines.append(f"if not least({margin}) > {limit!r}: fail({guard}, {margin})")
             case "turn":
-                lines.append(f"turn({said(step.sources[0])}, {step.into[0]}, {step.into[1]})")
+                lines.append(
+                    f"turn({operand_text(step.sources[0])}, {step.into[0]}, {step.into[1]})"
+                )
             case "copy":
-                lines.append(f"copyto({step.into[0]}, {said(step.sources[0])})")
+                lines.append(f"copyto({step.into[0]}, {operand_text(step.sources[0])})")
             case "at_zero":
-                size, other, value = map(said, step.sources)
+                size, other, value = map(operand_text, step.sources)
                 lines.append(f"copyto({step.into[0]}, {value})")
                 lines.append(f"copyto({step.into[0]}, {other}, where={size} == 0.0)")
             case "degrees":
-                (angle,), (into,) = map(said, step.sources), step.into
+                (angle,), (into,) = map(operand_text, step.sources), step.into
                 lines.append(f"multiply({angle}, {180.0 / math.pi!r}, {into})")
                 # One place for both ends of the half turn; NaN hides none.
                 lines.append(f"if not least({into}) > -180.0: ")
                 lines[-1] += f"copyto({into}, 180.0, where={into} <= -180.0)"
             case kind:
                 into = f"out={step.into[0]}" if kind in ("min", "max") else step.into[0]
-                lines.append(f"{kind}({', '.join(map(said, step.sources))}, {into})")
+                lines.append(f"{kind}({', '.join(map(operand_text, step.sources))}, {into})")
     text = "\n".join(f"    {line}" for line in lines or ["pass"])
     used = sorted(set(_names(text)))
     head = []

@@ -12,14 +12,14 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from planmethod.compiled.straight import BINARY, EQUAL, used_by
+from planmethod.compiled.pysource import BINARY, EQUAL, used_by
 from planmethod.compiled.symbolic import Guard
 from planmethod.compiled.tape import Ref, Tape
 
 BLOCK = 512
 """Positions between two checks of the margins."""
 
-APART = 24
+BUFFER_PADDING = 24
 """Doubles between buffers: places a page apart push each other out of the cache."""
 
 STAGE = 200
@@ -164,7 +164,7 @@ def c_source(
         [_bits(sum(1 << g % WORD for g in one if g // WORD == word)) for word in range(words)]
         for one in depends
     ]
-    return Source(_whole(lines, needs, words), tuple(lines.constants), tuple(lines.inputs))
+    return Source(_wrap_function(lines, needs, words), tuple(lines.constants), tuple(lines.inputs))
 
 
 class _Lines:
@@ -189,7 +189,7 @@ class _Lines:
         ending: list[list[str]] = [[] for _ in stages]  # buffers by the stage that reads them last
         free: list[str] = []
         for k, stage in enumerate(stages):
-            self._begin(stage)
+            self._begin_loop(stage)
             for number in stage:
                 self._write(number)
                 for row in rows.get(number, ()):
@@ -204,13 +204,13 @@ class _Lines:
                     self._home[number] = free.pop()
                     ending[last[number]].append(self._home[number])
                     self._text.append(f"{self._home[number]}[i] = {self._name(number)};")
-            self._end()
+            self._end_loop()
             free += ending[k]
         for row, ref in enumerate(results):
             if type(ref) is float:
                 self._text.append(f"o{row}[i] = {self._name(ref)};")
 
-    def _begin(self, stage: Sequence[int]) -> None:
+    def _begin_loop(self, stage: Sequence[int]) -> None:
         """Begin a loop with no values computed yet."""
         nodes = [self.tape.nodes[number] for number in stage]
         self._divisors = Counter(node.operands[1] for node in nodes if node.kind == "div")
@@ -221,7 +221,7 @@ class _Lines:
         self._here: list[int] = []  # words of the margins that this loop checks
         self.loops.append(self._text)
 
-    def _end(self) -> None:
+    def _end_loop(self) -> None:
         """End a loop: keep the margins that do not hold."""
         for word in self._here:
             self._text.append(f"bad{word}[i] = g{word}; any{word} |= g{word};")
@@ -257,14 +257,14 @@ class _Lines:
                 self._text.append(f"double u{at}, v{at}; turn({names[0]}, &u{at}, &v{at});")
             self._said[number] = f"{'uv'[kind == 'sind']}{self._turned[names[0]]}"
             return
-        said = _expression(kind, names)
+        phrase = _expression(kind, names)
         # One division for all by the same divisor; constants are divided by before the loop.
         if kind == "div" and (type(refs[1]) is float or self._divisors[refs[1]] > 1):
             if names[1] not in self._inverse:
                 self._inverse[names[1]] = f"r{len(self._inverse)}"
                 self._text.append(f"const double {self._inverse[names[1]]} = 1.0 / {names[1]};")
-            said = f"{names[0]} * {self._inverse[names[1]]}"
-        self._text.append(f"const double t{number} = {said};")
+            phrase = f"{names[0]} * {self._inverse[names[1]]}"
+        self._text.append(f"const double t{number} = {phrase};")
 
     def _watch(self, number: int, place: int, limit: float) -> None:
         """Note where the margin of a guard does not hold."""
@@ -316,12 +316,12 @@ def _bits(number: int) -> str:
     return f"UINT64_C({number:#x})"
 
 
-def _whole(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
+def _wrap_function(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
     """Wrap the loop in a function, followed by the handling of margins that do not hold."""
     rows = range(len(needs))
     own = [f"const double k{k} = k[{k}];" for k in range(len(lines.constants))]
     own += [f"double e{k}[{BLOCK}];" for k in range(len(lines.inputs))]
-    own += [f"double b{k}[{BLOCK + APART}];" for k in range(lines.buffers)]
+    own += [f"double b{k}[{BLOCK + BUFFER_PADDING}];" for k in range(lines.buffers)]
     own += [f"uint64_t bad{w}[{BLOCK}];" for w in range(words)]
     turned = sorted(lines.turned)
     own += [f"double c{k}[BLOCK], s{k}[BLOCK], table{k}[2 * BLOCK + 1] = {{NAN}};" for k in turned]

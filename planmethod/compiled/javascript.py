@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from planmethod.compiled.straight import BINARY, used_by
+from planmethod.compiled.pysource import BINARY, used_by
 from planmethod.compiled.symbolic import Guard
 from planmethod.compiled.tape import Ref, Tape
 

@@ -43,12 +43,12 @@ FLAGS = (
 """A root is an instruction, several positions are done at a time, a product with a sum is rounded
 once: results are those of NumPy to rounding. The last saves a third of the compiling."""
 
-OWN = "-march=native"
+MACHINE_FLAG = "-march=native"
 
 PATIENCE = 120
 """Seconds that a compiler is given."""
 
-KEPT = 32 * 2**20
+MAX_CACHE_BYTES = 32 * 2**20
 """Maximum size of the cached libraries, bytes; the least recently used ones are removed."""
 
 
@@ -62,7 +62,7 @@ class Native:
     Parameters
     ----------
     source : Source
-    make : bool
+    may_compile : bool
         Compile it if it is not in the cache yet.
 
     Raises
@@ -70,14 +70,16 @@ class Native:
     NotCompiledError
     """
 
-    def __init__(self, source: Source, *, make: bool) -> None:
+    def __init__(self, source: Source, *, may_compile: bool) -> None:
         self.source = source
         self._constants = np.array(source.constants)
-        self._run: Callable[[ctypes.c_void_p], Any] = _library(source.text, make=make).run
+        self._run: Callable[[ctypes.c_void_p], Any] = _library(
+            source.text, may_compile=may_compile
+        ).run
         self._run.restype = None
 
     @staticmethod
-    def takes(out: Array, failed: Array | None) -> bool:
+    def accepts(out: Array, failed: Array | None) -> bool:
         """Return whether buffers can be filled in place."""
         return _in_line(out, np.float64) and (failed is None or _in_line(failed, np.int16))
 
@@ -112,7 +114,7 @@ class Native:
         numbers = np.array(frame, np.int64)
         run, address = self._run, ctypes.c_void_p(numbers.ctypes.data)
 
-        def call(_kept: object = (kept, numbers, out, failed)) -> None:
+        def call(_references: object = (kept, numbers, out, failed)) -> None:
             run(address)
 
         return call
@@ -165,17 +167,17 @@ def _folder() -> Path:
     return folder
 
 
-def _mine(found: os.stat_result, kind: Callable[[int], bool]) -> bool:
-    return kind(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o022
+def _mine(status: os.stat_result, kind: Callable[[int], bool]) -> bool:
+    return kind(status.st_mode) and status.st_uid == os.getuid() and not status.st_mode & 0o022
 
 
-def _library(text: str, *, make: bool) -> ctypes.CDLL:
+def _library(text: str, *, may_compile: bool) -> ctypes.CDLL:
     """Return a library from the cache, or a newly compiled one."""
     if os.environ.get(SWITCH) == "0":
         raise NotCompiledError(f"{SWITCH}=0 leaves the compiler alone")
     folder = _folder()
-    said = "\0".join((text, *FLAGS, OWN, _machine()))
-    name = hashlib.sha256(said.encode()).hexdigest()[:40]
+    phrase = "\0".join((text, *FLAGS, MACHINE_FLAG, _machine()))
+    name = hashlib.sha256(phrase.encode()).hexdigest()[:40]
     try:
         for path in sorted(folder.glob(f"{name}-*.so")):
             library = _loaded(path)
@@ -184,7 +186,7 @@ def _library(text: str, *, make: bool) -> ctypes.CDLL:
             path.unlink(missing_ok=True)
     except OSError as error:
         raise NotCompiledError(f"{path}: {error.strerror}") from error
-    if not make:
+    if not may_compile:
         raise NotCompiledError("it has not been compiled yet")
     path = _compile(text, folder, name)
     library = _loaded(path)
@@ -230,8 +232,8 @@ def _compile(text: str, folder: Path, name: str) -> Path:
         raise NotCompiledError(f"there is no C compiler ({', '.join(COMPILERS)})")
     try:
         with tempfile.TemporaryDirectory(dir=folder, ignore_cleanup_errors=True) as place:
-            made, said = Path(place) / "tape.so", ""
-            for flags in ((*FLAGS, OWN), FLAGS):  # not every compiler knows the machine
+            made, phrase = Path(place) / "tape.so", ""
+            for flags in ((*FLAGS, MACHINE_FLAG), FLAGS):  # not every compiler knows the machine
                 done = subprocess.run(
                     [compiler, *flags, "-o", str(made), "-x", "c", "-", "-lm"],
                     input=text, capture_output=True, encoding="utf-8", errors="replace",
@@ -244,16 +246,16 @@ def _compile(text: str, folder: Path, name: str) -> Path:
                         own = hashlib.file_digest(file, "sha256").hexdigest()[:40]
                     path = made.replace(folder / f"{name}-{own}.so")
                     break
-                said = (done.stderr.strip() or "no message").splitlines()[0]
+                phrase = (done.stderr.strip() or "no message").splitlines()[0]
             else:
-                raise NotCompiledError(f"{compiler} did not compile: {said}")
-        _make_room(path)
+                raise NotCompiledError(f"{compiler} did not compile: {phrase}")
+        _trim_cache(path)
         return path
     except (OSError, subprocess.SubprocessError) as error:
         raise NotCompiledError(f"{compiler} did not compile: {error}") from error
 
 
-def _make_room(newest: Path) -> None:
+def _trim_cache(newest: Path) -> None:
     """Remove the least recently used libraries, down to `KEPT` bytes."""
     found = []
     for path in newest.parent.glob("*.so"):
@@ -265,5 +267,5 @@ def _make_room(newest: Path) -> None:
     size = 0
     for _, _, own, path in sorted(found, reverse=True):
         size += own
-        if size > KEPT and path != newest:
+        if size > MAX_CACHE_BYTES and path != newest:
             path.unlink(missing_ok=True)

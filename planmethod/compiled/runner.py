@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from planmethod.compiled.blocks import Blocks
 from planmethod.compiled.javascript import javascript
-from planmethod.compiled.straight import ImpossibleError, Straight, straight
+from planmethod.compiled.pysource import ImpossibleError, Straight, straight
 from planmethod.compiled.symbolic import TapeProgram
 from planmethod.compiled.tape import Ref
 from planmethod.construct.steps import Name
@@ -124,7 +124,7 @@ class Runner:
         """Look for machine code if that many more positions justify it."""
         self._done += count
         if self._native is None and self._may_look and count >= MANY:
-            self._look(make=self._done >= PAYS)
+            self._load_native(may_compile=self._done >= PAYS)
 
     def run(
         self,
@@ -141,21 +141,23 @@ class Runner:
         failed : ndarray of shape (n,) or (v, n), optional
             Filled with the number of the first guard that does not hold, or -1.
         """
-        if self._native is not None and self._native.takes(out, failed):
+        if self._native is not None and self._native.accepts(out, failed):
             self._native.run(columns, out, failed)
             return
         if out.ndim == 2:
-            self._blocks.run([_alone(column, out.shape[1]) for column in columns], out, failed)
+            self._blocks.run(
+                [_broadcast_row(column, out.shape[1]) for column in columns], out, failed
+            )
             return
         count, size = out.shape[1:]
         wide = [np.broadcast_to(c, (count, (c.shape or (1,))[-1])) for c in columns]
         for i in range(count):
-            mine = [_alone(c[i, 0] if c.shape[1] == 1 else c[i], size) for c in wide]
+            mine = [_broadcast_row(c[i, 0] if c.shape[1] == 1 else c[i], size) for c in wide]
             self._blocks.run(mine, out[:, i], None if failed is None else failed[i])
 
-    def takes(self, out: Array, failed: Array | None) -> bool:
+    def accepts(self, out: Array, failed: Array | None) -> bool:
         """Return whether there is machine code that can fill these arrays."""
-        return self._native is not None and self._native.takes(out, failed)
+        return self._native is not None and self._native.accepts(out, failed)
 
     def bound(
         self, columns: Sequence[Array], out: Array, failed: npt.NDArray[np.int16] | None = None
@@ -166,9 +168,9 @@ class Runner:
 
     def compile(self) -> None:
         """Make machine code of the tape if it may be made and can be."""
-        self._look(make=True)
+        self._load_native(may_compile=True)
 
-    def _look(self, *, make: bool) -> None:
+    def _load_native(self, *, may_compile: bool) -> None:
         """Take the machine code of the tape if there is any."""
         from planmethod.compiled.csource import c_source
         from planmethod.compiled.native import Native, NotCompiledError
@@ -181,11 +183,11 @@ class Runner:
         w = self.written
         try:
             source = c_source(w.tape, self._results, w.guards, self._depends)
-            self._native = Native(source, make=make)
+            self._native = Native(source, may_compile=may_compile)
             self.uncompiled = ""
         except NotCompiledError as reason:
             self.uncompiled = str(reason)
-            self._may_look = not make
+            self._may_look = not may_compile
 
     def javascript(self) -> str:
         """Return the tape as a function of JavaScript of its inputs, ``run(x0, x1, ...)``.
@@ -197,6 +199,6 @@ class Runner:
         return javascript(w.tape, self._results, w.guards, self._depends, len(w.inputs))
 
 
-def _alone(column: Any, count: int) -> Any:
+def _broadcast_row(column: Any, count: int) -> Any:
     """Return an input for each position of one variant, or one number for all."""
     return np.broadcast_to(column, (count,)) if column.ndim else column

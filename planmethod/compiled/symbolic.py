@@ -16,7 +16,7 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, Step, operands
 
 
-def lifted(tape: Tape, value: Number) -> Symbol:
+def as_symbol(tape: Tape, value: Number) -> Symbol:
     """Return a number of a tape unchanged, or given data as one."""
     if isinstance(value, Symbol):
         return value
@@ -48,7 +48,7 @@ class Symbol:
         return Symbol(self.tape, re, None if real else im, size)
 
     def __add__(self, value: Number) -> Symbol:
-        other, tape = lifted(self.tape, value), self.tape
+        other, tape = as_symbol(self.tape, value), self.tape
         (a, b), (c, d) = self._parts(), other._parts()
         real = self.im is None and other.im is None
         return self._new(tape.add(a, c), 0.0 if real else tape.add(b, d), real)
@@ -56,20 +56,20 @@ class Symbol:
     __radd__ = __add__
 
     def __sub__(self, value: Number) -> Symbol:
-        other, tape = lifted(self.tape, value), self.tape
+        other, tape = as_symbol(self.tape, value), self.tape
         (a, b), (c, d) = self._parts(), other._parts()
         real = self.im is None and other.im is None
         return self._new(tape.sub(a, c), 0.0 if real else tape.sub(b, d), real)
 
     def __rsub__(self, value: Number) -> Symbol:
-        return lifted(self.tape, value) - self
+        return as_symbol(self.tape, value) - self
 
     def __neg__(self) -> Symbol:
         a, b = self._parts()
         return self._new(self.tape.neg(a), self.tape.neg(b), self.im is None, self.size)
 
     def __mul__(self, value: Number) -> Symbol:
-        other, tape = lifted(self.tape, value), self.tape
+        other, tape = as_symbol(self.tape, value), self.tape
         (a, b), (c, d) = self._parts(), other._parts()
         size = None
         if self.size is not None and other.size is not None:
@@ -84,7 +84,7 @@ class Symbol:
     __rmul__ = __mul__
 
     def __truediv__(self, value: Number) -> Symbol:
-        other, tape = lifted(self.tape, value), self.tape
+        other, tape = as_symbol(self.tape, value), self.tape
         if other.im is None:
             a, b = self._parts()
             re = tape.div(a, other.re)
@@ -93,7 +93,7 @@ class Symbol:
         return self * other.conjugate() / (square * square)
 
     def __rtruediv__(self, value: Number) -> Symbol:
-        return lifted(self.tape, value) / self
+        return as_symbol(self.tape, value) / self
 
     def conjugate(self) -> Symbol:
         """Return the complex conjugate."""
@@ -123,9 +123,10 @@ class Symbol:
         if type(a) is float and type(b) is float:
             return Symbol(tape, math.hypot(a, b))
         squares = tape.add(
-            tape.mul(tape.bare(a), tape.bare(a)), tape.mul(tape.bare(b), tape.bare(b))
+            tape.mul(tape.unsigned(a), tape.unsigned(a)),
+            tape.mul(tape.unsigned(b), tape.unsigned(b)),
         )
-        return Symbol(tape, tape.make("sqrt", squares))
+        return Symbol(tape, tape.add_node("sqrt", squares))
 
 
 class Guard(Struct, frozen=True):
@@ -151,7 +152,7 @@ class Symbolic(Exact, Struct):
     sizes: dict[frozenset[tuple[type, Ref]], Ref] = field(default_factory=dict)
 
     def _key(self, value: Symbol) -> frozenset[tuple[type, Ref]]:
-        return frozenset((type(ref), ref) for ref in map(self.tape.bare, value._parts()))
+        return frozenset((type(ref), ref) for ref in map(self.tape.unsigned, value._parts()))
 
     def note(self, vector: Symbol, size: Symbol) -> None:
         """Note how long a vector is."""
@@ -165,13 +166,13 @@ class Symbolic(Exact, Struct):
 
     def lift(self, value: Number) -> Number:
         """Turn given data into a symbol."""
-        return lifted(self.tape, value)
+        return as_symbol(self.tape, value)
 
     def root(self, value: Number) -> Number:
         """Return the square root, 0 of a negative number."""
         symbol = self.lift(value)
-        largest = self.tape.make("max", symbol.re, 0.0)
-        return Symbol(self.tape, self.tape.make("sqrt", largest))
+        largest = self.tape.add_node("max", symbol.re, 0.0)
+        return Symbol(self.tape, self.tape.add_node("sqrt", largest))
 
     def guard(self, margin: Number, limit: float, value: Number) -> Number:
         """Return the value; the caller that runs the tape checks the margins."""
@@ -185,30 +186,30 @@ class Symbolic(Exact, Struct):
         """Return the length, which is positive if it is not zero."""
         return length
 
-    def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
-        """Return ``other`` where ``size`` is zero, else ``value``."""
-        size, value, other = (self.lift(number) for number in (size, value, other))
+    def unless_zero(self, size: Number, value: Number, fallback: Number) -> Number:
+        """Return ``fallback`` where ``size`` is zero, else ``value``."""
+        size, value, fallback = (self.lift(number) for number in (size, value, fallback))
         if type(size.re) is float:
-            return other if size.re == 0.0 else value
-        (a, b), (c, d) = value._parts(), other._parts()
+            return fallback if size.re == 0.0 else value
+        (a, b), (c, d) = value._parts(), fallback._parts()
         if same(a, c) and same(b, d):
             return value
-        re = self.tape.make("at_zero", size.re, c, a)
-        if value.im is None and other.im is None:
+        re = self.tape.add_node("at_zero", size.re, c, a)
+        if value.im is None and fallback.im is None:
             return Symbol(self.tape, re)
-        return Symbol(self.tape, re, self.tape.make("at_zero", size.re, d, b))
+        return Symbol(self.tape, re, self.tape.add_node("at_zero", size.re, d, b))
 
-    def share(self, length: Number, vector: Number) -> Number:
+    def length_ratio(self, length: Number, vector: Number) -> Number:
         """Return 1 if the length is known to be that of the vector, else the computed ratio."""
         drawn, told = abs(vector), abs(length)
         noted = self.sizes.get(self._key(vector))
         if same(drawn.re, told.re) or (noted is not None and same(noted, told.re)):
             return 1.0
-        return super().share(length, vector)
+        return super().length_ratio(length, vector)
 
     def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
         """Return the smaller and the larger of two real numbers."""
-        make, (a, b) = self.tape.make, (one.re, two.re)
+        make, (a, b) = self.tape.add_node, (one.re, two.re)
         return Symbol(self.tape, make("min", a, b)), Symbol(self.tape, make("max", a, b))
 
     def direction(self, degrees: Number) -> Number:
@@ -217,12 +218,12 @@ class Symbolic(Exact, Struct):
         if type(angle) is float:
             unit = complex(unit_vectors(angle))
             return Symbol(self.tape, unit.real, unit.imag, 1.0)
-        make = self.tape.make
+        make = self.tape.add_node
         return Symbol(self.tape, make("cosd", angle), make("sind", angle), 1.0)
 
-    def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
+    def joined(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
         """Return the line, its length if it is known."""
-        return tail, self.known(along)
+        return tail, self.known(vector)
 
 
 class TapeProgram(Struct, frozen=True):
@@ -326,11 +327,11 @@ def _watched(guard: Guard, tape: Tape) -> Guard | None:
 def _note_lengths(step: Step, env: Mapping[Name, Any], ar: Symbolic) -> None:
     """Note how far a new point is from the points that it was found from."""
     match step:
-        case steps.MeetCircles(out, c1, r1, c2, r2, _):
+        case steps.IntersectCircles(out, c1, r1, c2, r2, _):
             pairs: tuple[tuple[Name, Name], ...] = ((c1, r1), (c2, r2))
-        case steps.MeetLineCircle(out, _, c, r, _):
+        case steps.IntersectLineCircle(out, _, c, r, _):
             pairs = ((c, r),)
-        case steps.LayOff(out, o, _, length):
+        case steps.LayOffLength(out, o, _, length):
             pairs = ((o, length),)
         case steps.MeasureAlong(
             out, tail, head, _

@@ -77,16 +77,16 @@ class Tape(Struct):
     nodes: list[Node] = field(default_factory=list)
     part: int = 0
     parts: list[int] = field(default_factory=list)
-    _made: dict[tuple[Any, ...], int] = field(default_factory=dict)
+    _numbers: dict[tuple[Any, ...], int] = field(default_factory=dict)
 
-    def make(self, kind: str, *operands: Ref) -> Ref:
+    def add_node(self, kind: str, *operands: Ref) -> Ref:
         """Return a node for an operation, an earlier one of the same kind if there is one."""
         if kind in FOLD and all(type(operand) is float for operand in operands):
             return FOLD[kind](*operands)
         key = _key(kind, operands)
-        number = self._made.get(key)
+        number = self._numbers.get(key)
         if number is None:
-            number = self._made[key] = len(self.nodes)
+            number = self._numbers[key] = len(self.nodes)
             self.nodes.append(Node(kind, operands))
             latest, read = (0, ()) if kind == "input" else (self.part, operands)
             for ref in read:
@@ -97,7 +97,7 @@ class Tape(Struct):
 
     def input(self, number: int) -> Ref:
         """Return the node of an input."""
-        return self.make("input", number)
+        return self.add_node("input", number)
 
     def _is(self, ref: Ref, kind: str) -> bool:
         return type(ref) is int and self.nodes[ref].kind == kind
@@ -112,7 +112,7 @@ class Tape(Struct):
             return self.sub(a, self.nodes[int(b)].operands[0])
         if self._is(a, "neg"):
             return self.sub(b, self.nodes[int(a)].operands[0])
-        return self.make("add", *self._sorted(a, b))
+        return self.add_node("add", *self._sorted(a, b))
 
     def sub(self, a: Ref, b: Ref) -> Ref:
         """Return a - b; of a sum less one of its terms, the other term."""
@@ -136,16 +136,16 @@ class Tape(Struct):
             return self.neg(self.nodes[int(a)].operands[1])
         if self._is(a, "neg"):
             return self.neg(self.add(self.nodes[int(a)].operands[0], b))
-        turned = self._made.get(_key("sub", (b, a)))
+        turned = self._numbers.get(_key("sub", (b, a)))
         if turned is not None:
-            return self.make("neg", turned)
-        return self.make("sub", a, b)
+            return self.add_node("neg", turned)
+        return self.add_node("sub", a, b)
 
     def neg(self, a: Ref) -> Ref:
         """Return -a."""
         if self._is(a, "neg"):
             return self.nodes[int(a)].operands[0]
-        return self.make("neg", a)
+        return self.add_node("neg", a)
 
     def mul(self, a: Ref, b: Ref) -> Ref:
         """Return a·b with the sign outside, so that rotated vectors are recognised."""
@@ -170,7 +170,7 @@ class Tape(Struct):
             b, negative = self.nodes[int(b)].operands[0], not negative
         undone = self._undone(a, b)
         undone = self._undone(b, a) if undone is None else undone
-        product = self.make("mul", *self._sorted(a, b)) if undone is None else undone
+        product = self.add_node("mul", *self._sorted(a, b)) if undone is None else undone
         return self.neg(product) if negative else product
 
     def _undone(self, a: Ref, b: Ref) -> Ref | None:
@@ -204,7 +204,7 @@ class Tape(Struct):
             return self.neg(self.div(self.nodes[int(a)].operands[0], b))
         if self._is(b, "neg"):
             return self.neg(self.div(a, self.nodes[int(b)].operands[0]))
-        return self.make("div", a, b)
+        return self.add_node("div", a, b)
 
     def _factor(self, a: Ref) -> tuple[float, Ref] | None:
         """Return the constant factor of a product and the other factor."""
@@ -217,7 +217,7 @@ class Tape(Struct):
         """Return |a|."""
         if self._is(a, "neg"):
             a = self.nodes[int(a)].operands[0]
-        return a if self._is(a, "abs") or self._is(a, "sqrt") else self.make("abs", a)
+        return a if self._is(a, "abs") or self._is(a, "sqrt") else self.add_node("abs", a)
 
     @staticmethod
     def _sorted(a: Ref, b: Ref) -> tuple[Ref, Ref]:
@@ -226,7 +226,7 @@ class Tape(Struct):
             return (a, b) if a <= b else (b, a)
         return (a, b) if type(a) is float else (b, a)
 
-    def bare(self, ref: Ref) -> Ref:
+    def unsigned(self, ref: Ref) -> Ref:
         """Return a node without its sign, to recognise vectors of equal length."""
         if self._is(ref, "neg"):
             return self.nodes[int(ref)].operands[0]

@@ -40,8 +40,8 @@ class Arithmetic(Protocol):
         """Return 1 if a length is not zero, else 0: the margin of a step that needs a direction."""
         ...
 
-    def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
-        """Return ``other`` where ``size`` is zero, else ``value``."""
+    def unless_zero(self, size: Number, value: Number, fallback: Number) -> Number:
+        """Return ``fallback`` where ``size`` is zero, else ``value``."""
         ...
 
     def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
@@ -52,15 +52,15 @@ class Arithmetic(Protocol):
         """Return the unit complex number at an angle; exact at multiples of 90 degrees."""
         ...
 
-    def given(self, out: str, point: Number) -> Number:
+    def given_point(self, out: str, point: Number) -> Number:
         """Return a given point as plotted."""
         ...
 
-    def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
-        """Return a line (a point of it, its direction) drawn through two points ``along`` apart."""
+    def joined(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
+        """Return the line (a point, its direction) drawn through two points ``vector`` apart."""
         ...
 
-    def drawn(self, out: str, through: Number, along: Number) -> tuple[Number, Number]:
+    def drawn(self, out: str, through: Number, direction: Number) -> tuple[Number, Number]:
         """Return a line drawn through a point in a direction."""
         ...
 
@@ -72,7 +72,7 @@ class Arithmetic(Protocol):
         """Return an intersection of two lines as marked."""
         ...
 
-    def laid(self, out: str, length: Number) -> Number:
+    def laid_off_length(self, out: str, length: Number) -> Number:
         """Return a length as laid off; its imaginary part is the deviation beside the line."""
         ...
 
@@ -80,7 +80,7 @@ class Arithmetic(Protocol):
         """Return a length as read on the drawing, mm."""
         ...
 
-    def share(self, length: Number, vector: Number) -> Number:
+    def length_ratio(self, length: Number, vector: Number) -> Number:
         """Return |length| over the length of a drawn vector; 1 for a vector of no length."""
         ...
 
@@ -90,17 +90,17 @@ class Exact:
 
     __slots__ = ()
 
-    def given(self, out: str, point: Number) -> Number:
+    def given_point(self, out: str, point: Number) -> Number:
         """Return the point."""
         return point
 
-    def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
+    def joined(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
         """Return the line."""
-        return tail, along
+        return tail, vector
 
-    def drawn(self, out: str, through: Number, along: Number) -> tuple[Number, Number]:
+    def drawn(self, out: str, through: Number, direction: Number) -> tuple[Number, Number]:
         """Return the line."""
-        return through, along
+        return through, direction
 
     def arc(self, out: str, centre: Number, radius: Number) -> tuple[Number, Number]:
         """Return centre and radius."""
@@ -110,7 +110,7 @@ class Exact:
         """Return the point."""
         return point
 
-    def laid(self, out: str, length: Number) -> Number:
+    def laid_off_length(self, out: str, length: Number) -> Number:
         """Return the length."""
         return length
 
@@ -118,7 +118,7 @@ class Exact:
         """Return the length."""
         return length
 
-    def share(self: Arithmetic, length: Number, vector: Number) -> Number:
+    def length_ratio(self: Arithmetic, length: Number, vector: Number) -> Number:
         """Return |length| over the length of a drawn vector; 1 for a vector of no length."""
         drawn = abs(vector)
         return self.unless_zero(drawn, abs(length) / self.nonzero(drawn), 1.0)
@@ -168,9 +168,9 @@ class Float64(Exact):
         """Return 1.0 where a length is not zero, else 0.0."""
         return np.where(abs(length) > 0, 1.0, 0.0)
 
-    def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
-        """Return ``other`` where ``size`` is zero, else ``value``."""
-        return np.where(size == 0, other, value)
+    def unless_zero(self, size: Number, value: Number, fallback: Number) -> Number:
+        """Return ``fallback`` where ``size`` is zero, else ``value``."""
+        return np.where(size == 0, fallback, value)
 
     def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
         """Return the smaller and the larger of two real numbers."""
@@ -212,9 +212,9 @@ class Single(Exact):
         """Return 1.0 where a length is not zero, else 0.0."""
         return 1.0 if abs(length) > 0 else 0.0
 
-    def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
-        """Return ``other`` where ``size`` is zero, else ``value``."""
-        return other if size == 0 else value
+    def unless_zero(self, size: Number, value: Number, fallback: Number) -> Number:
+        """Return ``fallback`` where ``size`` is zero, else ``value``."""
+        return fallback if size == 0 else value
 
     def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
         """Return the smaller and the larger of two real numbers."""

@@ -17,8 +17,8 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import Dual, Duals, as_dual
 from planmethod.construct.evaluate import evaluate
+from planmethod.construct.multiprecision import Precise
 from planmethod.construct.program import Program
-from planmethod.construct.referee import Precise
 from planmethod.construct.steps import Name
 
 UNIT_ROUNDOFF = 2.0**-53
@@ -27,7 +27,7 @@ UNIT_ROUNDOFF = 2.0**-53
 Reals = npt.NDArray[np.float64]
 
 
-def plain(value: Number) -> Number:
+def as_scalar(value: Number) -> Number:
     """Return a point or a number unchanged, and for a line its direction as a unit vector."""
     if not isinstance(value, tuple):
         return value
@@ -52,9 +52,9 @@ def _causes(data: Mapping[str, Number], exact: Collection[str]) -> list[tuple[st
     return causes
 
 
-def _part(value: Number, way: complex) -> Number:
+def _part(value: Number, direction: complex) -> Number:
     """Return the coordinate of a datum along a direction, as a vector along it."""
-    return np.real(value) if way == 1.0 else 1j * np.imag(value)
+    return np.real(value) if direction == 1.0 else 1j * np.imag(value)
 
 
 def reach(
@@ -91,7 +91,7 @@ def reach(
         lifted[name] = Dual(row, slope)
     trace = evaluate(program, lifted, Duals())
     with np.errstate(all="ignore"):  # a line of zero length, which no result depends on
-        return {name: _reach(as_dual(plain(value))) for name, value in trace.value.items()}
+        return {name: _reach(as_dual(as_scalar(value))) for name, value in trace.value.items()}
 
 
 def _reach(value: Dual) -> Reals:
@@ -102,7 +102,7 @@ def _reach(value: Dual) -> Reals:
 
 
 def measured_reach(
-    program: Program, data: Mapping[str, Any], referee: Precise, exact: Collection[str] = ()
+    program: Program, data: Mapping[str, Any], precise: Precise, exact: Collection[str] = ()
 ) -> dict[Name, tuple[Number, Number]]:
     """Return value and reach of every result of one position, both in multiprecision.
 
@@ -114,13 +114,13 @@ def measured_reach(
     data : mapping
         Scalars.
     """
-    step = referee.context.mpf(10) ** -(referee.digits // 3)
-    lifted = {name: referee.lift(value) for name, value in data.items()}
-    names = {name: plain(v) for name, v in evaluate(program, lifted, referee).value.items()}
+    step = precise.context.mpf(10) ** -(precise.digits // 3)
+    lifted = {name: precise.lift(value) for name, value in data.items()}
+    names = {name: as_scalar(v) for name, v in evaluate(program, lifted, precise).value.items()}
     total = {name: abs(value) for name, value in names.items()}
     for name, way in _causes(data, exact):
         part = lifted[name].real if way == 1.0 else 1j * lifted[name].imag
-        moved = evaluate(program, {**lifted, name: lifted[name] + part * step}, referee)
+        moved = evaluate(program, {**lifted, name: lifted[name] + part * step}, precise)
         for result, value in names.items():
-            total[result] += abs(plain(moved.value[result]) - value) / step
+            total[result] += abs(as_scalar(moved.value[result]) - value) / step
     return {name: (value, total[name]) for name, value in names.items()}

@@ -31,8 +31,8 @@ from msgspec import Struct
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.dual import CauseRows, Dual, Duals, as_dual
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.program import Program
+from planmethod.construct.ruler import RulerArithmetic
 
 
 class Profile(Struct, frozen=True):
@@ -113,26 +113,28 @@ class Pencil:
         sigma = self.profile.point
         return self._off(out, sigma) + self._off(out, sigma) * 1j
 
-    def _across(self, along: Number) -> Number:
+    def _unit_normal(self, direction: Number) -> Number:
         """Return the unit normal of a line; 0 if it has no direction, and needs none."""
-        size = abs(along)
-        return self.unless_zero(size, along * 1j / self.nonzero(size), along * 0.0)
+        size = abs(direction)
+        return self.unless_zero(size, direction * 1j / self.nonzero(size), direction * 0.0)
 
-    def given(self, out: str, point: Number) -> Number:
+    def given_point(self, out: str, point: Number) -> Number:
         """Return a given point as pricked."""
         return point if out in self.free else point + self._spot(out)
 
-    def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
+    def joined(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
         """Return a line as drawn with the ruler through its two points."""
-        across = self._across(along)
+        across = self._unit_normal(vector)
         one, two = self._off(out, self.profile.point), self._off(out, self.profile.point)
-        return tail + across * one, along + across * (two - one)
+        return tail + across * one, vector + across * (two - one)
 
-    def drawn(self, out: str, through: Number, along: Number) -> tuple[Number, Number]:
+    def drawn(self, out: str, through: Number, direction: Number) -> tuple[Number, Number]:
         """Return a line as the set square draws it."""
-        across = self._across(along)
+        across = self._unit_normal(direction)
         turn = self.error(out, math.radians(self.profile.parallel))
-        return through + across * self._off(out, self.profile.point), along + along * (turn * 1j)
+        return through + across * self._off(out, self.profile.point), direction + direction * (
+            turn * 1j
+        )
 
     def arc(self, out: str, centre: Number, radius: Number) -> tuple[Number, Number]:
         """Return an arc as the compass draws it."""
@@ -142,18 +144,18 @@ class Pencil:
         """Return a point as pricked."""
         return point + self._spot(out)
 
-    def laid(self, out: str, length: Number) -> Number:
+    def laid_off_length(self, out: str, length: Number) -> Number:
         """Return a laid-off length and its deviation beside the line; a zero length has neither."""
         beside = self._off(out, self.profile.point) * 1j
         off = length + self._off(out, self.profile.lay_off) + beside
-        return self.unless_zero(self.drawn_at_all(length), off, length)
+        return self.unless_zero(self.is_drawn(length), off, length)
 
     def read(self, out: str, length: Number) -> Number:
         """Return a length as it is read; a length that does not exist is not read."""
         seen = self.rounded(out, length + self._off(out, self.profile.measure))
-        return self.unless_zero(self.drawn_at_all(length), seen, length)
+        return self.unless_zero(self.is_drawn(length), seen, length)
 
-    def drawn_at_all(self, length: Number) -> Number:
+    def is_drawn(self, length: Number) -> Number:
         """Return 0 if a length is certainly zero, whatever the errors before it, else 1."""
         raise NotImplementedError
 
@@ -161,8 +163,8 @@ class Pencil:
         """Return the value with NaN in place of zero."""
         raise NotImplementedError
 
-    def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
-        """Return ``other`` where ``size`` is zero, else ``value``."""
+    def unless_zero(self, size: Number, value: Number, fallback: Number) -> Number:
+        """Return ``fallback`` where ``size`` is zero, else ``value``."""
         raise NotImplementedError
 
 
@@ -200,7 +202,7 @@ class Propagated(Pencil, Duals):
         rows = self._known.get(1 << cause) or CauseRows(1 << cause, self.causes, self._known)
         return Dual(np.zeros(1), np.full((1, 1), sigma), rows)
 
-    def drawn_at_all(self, length: Number) -> Number:
+    def is_drawn(self, length: Number) -> Number:
         """Return 0 where a length is zero and no error changes it."""
         value = as_dual(length)
         fixed = np.asarray(value.value) == 0
@@ -228,7 +230,7 @@ class Counted(Pencil, Float64):
         self.causes += 1
         return 0.0
 
-    def drawn_at_all(self, length: Number) -> Number:
+    def is_drawn(self, length: Number) -> Number:
         """Return 1: whatever it is, its errors are counted."""
         return 1.0
 
@@ -259,7 +261,7 @@ class Sampled(Pencil, Float64):
     ) -> None:
         super().__init__(profile, free, enlarged)
         self.draws, self._seed = draws, seed
-        self._hand = Hand(ruler=profile.ruler, enlarged=enlarged)
+        self._hand = RulerArithmetic(ruler=profile.ruler, enlarged=enlarged)
 
     nonzero = Float64.nonzero
     unless_zero = Float64.unless_zero
@@ -272,7 +274,7 @@ class Sampled(Pencil, Float64):
         """Return normal errors."""
         return np.asarray(self._random.normal(0.0, sigma, self.draws))
 
-    def drawn_at_all(self, length: Number) -> Number:
+    def is_drawn(self, length: Number) -> Number:
         """Return 0 if a length is zero on every sheet."""
         return 1.0 if np.any(length) else 0.0
 
@@ -281,11 +283,11 @@ class Sampled(Pencil, Float64):
         return self._hand.read(out, length)
 
 
-EVEN, _TURN = 509, 77
+LATTICE_SIZE, _TURN = 509, 77
 """Sheets that are spread evenly, a prime; and by which power they go round (решётка Коробова)."""
 
 
-class Even(Sampled):
+class LatticeSampled(Sampled):
     """Strokes spread evenly over their distribution, rounding included, as to first order.
 
     A lattice of Korobov (Коробов, 1959): for a few errors it gives as much information as 4000
@@ -298,13 +300,13 @@ class Even(Sampled):
         free: frozenset[str] = frozenset(),
         enlarged: Mapping[str, Number] = AS_SCALED,
     ) -> None:
-        super().__init__(profile, free, EVEN, 0, enlarged)
+        super().__init__(profile, free, LATTICE_SIZE, 0, enlarged)
         self._asked = 0
 
     def _next(self) -> npt.NDArray[np.intp]:
         """Return a permutation of the sheets: the next coordinate of the lattice."""
         self._asked += 1
-        return np.arange(EVEN) * pow(_TURN, self._asked - 1, EVEN) % EVEN
+        return np.arange(LATTICE_SIZE) * pow(_TURN, self._asked - 1, LATTICE_SIZE) % LATTICE_SIZE
 
     def error(self, out: str, sigma: float) -> npt.NDArray[np.float64]:
         """Return normal errors."""
@@ -316,7 +318,7 @@ class Even(Sampled):
 
     def rounded(self, out: str, length: Number) -> Number:
         """Return the length off by up to half a step."""
-        off = self.profile.ruler * ((self._next() + 0.5) / EVEN - 0.5)
+        off = self.profile.ruler * ((self._next() + 0.5) / LATTICE_SIZE - 0.5)
         return length + off / self.enlarged.get(out, 1.0)
 
 
@@ -325,11 +327,11 @@ def _normal() -> npt.NDArray[np.float64]:
     """Return the standard normal numbers at the middles of equal shares."""
     sizes = np.linspace(-4.0, 4.0, 4001)
     shares = [(1.0 + math.erf(size / math.sqrt(2.0))) / 2.0 for size in sizes]
-    return np.interp((np.arange(EVEN) + 0.5) / EVEN, shares, sizes)
+    return np.interp((np.arange(LATTICE_SIZE) + 0.5) / LATTICE_SIZE, shares, sizes)
 
 
 _COUNTED: dict[tuple[Program, frozenset[str]], int] = {}
-_MOST_COUNTED = 256
+_MAX_COUNTED = 256
 
 
 def causes_of(program: Program, data: Callable[[], Mapping[str, Any]], free: frozenset[str]) -> int:
@@ -343,7 +345,7 @@ def causes_of(program: Program, data: Callable[[], Mapping[str, Any]], free: fro
         return known
     counted = Counted(PROFILES["board"], free)
     evaluate(program, data(), counted)
-    if len(_COUNTED) >= _MOST_COUNTED:
+    if len(_COUNTED) >= _MAX_COUNTED:
         _COUNTED.clear()
     _COUNTED[key] = counted.causes
     return counted.causes

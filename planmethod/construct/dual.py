@@ -149,13 +149,13 @@ def as_dual(value: Number) -> Dual:
     return value if isinstance(value, Dual) else Dual(value)
 
 
-def angle(value: Number, least: float) -> Number:
+def angle(value: Number, minimum: float) -> Number:
     """Return the angle of a complex number, radians, with its slope if it is a dual one.
 
-    A number not longer than ``least`` has no direction: its angle is NaN.
+    A number not longer than ``minimum`` has no direction: its angle is NaN.
     """
     dual = as_dual(value)
-    solid = np.where(np.abs(dual.value) > least, dual.value, np.nan)
+    solid = np.where(np.abs(dual.value) > minimum, dual.value, np.nan)
     turn = np.angle(solid)
     if dual is not value:
         return turn
@@ -187,15 +187,15 @@ def _sum(one: Dual, by: Number, two: Dual, times: Number) -> tuple[Slope, CauseR
     return first, rows
 
 
-def _among(rows: CauseRows, at: Any, slope: Any, other: Any) -> Any:
+def _among(rows: CauseRows, at: Any, slope: Any, like: Any) -> Any:
     """Return slopes expanded to more rows, with the shape and type needed beside another's."""
-    shape = (len(rows.index), max(slope.shape[1], other.shape[1]))
-    whole = np.zeros(shape, dtype=np.result_type(slope, other))
+    shape = (len(rows.index), max(slope.shape[1], like.shape[1]))
+    whole = np.zeros(shape, dtype=np.result_type(slope, like))
     whole[at] = slope
     return whole
 
 
-def alike(*numbers: Dual) -> tuple[list[Any], CauseRows | None]:
+def common_slopes(*numbers: Dual) -> tuple[list[Any], CauseRows | None]:
     """Return the slopes of numbers by common causes, 0 if a number has none, and these causes."""
     own = [number.rows for number in numbers if number.part is not None and number.rows is not None]
     rows = reduce(lambda one, two: one.joined(two)[0], own) if own else None
@@ -221,12 +221,12 @@ class Duals(Exact):
         root = np.sqrt(np.maximum(value.value, 0.0))
         return value.scaled(root, 0.5 / np.where(root == 0, np.nan, root))
 
-    def _each(self, ok: Number, value: Number, other: Number) -> Dual:
-        value, other = as_dual(value), as_dual(other)
-        chosen = np.where(ok, value.value, other.value)
-        if value.part is None and other.part is None:
+    def _each(self, ok: Number, value: Number, fallback: Number) -> Dual:
+        value, fallback = as_dual(value), as_dual(fallback)
+        chosen = np.where(ok, value.value, fallback.value)
+        if value.part is None and fallback.part is None:
             return Dual(chosen)
-        (one, two), rows = alike(value, other)
+        (one, two), rows = common_slopes(value, fallback)
         return Dual(chosen, np.where(ok, one, two), rows)
 
     def guard(self, margin: Number, limit: float, value: Number) -> Number:
@@ -243,9 +243,9 @@ class Duals(Exact):
         """Return 1.0 where a length is not zero, else 0.0."""
         return Dual(np.where(np.abs(as_dual(length).value) > 0, 1.0, 0.0))
 
-    def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
-        """Return ``other`` where ``size`` is zero, else ``value``."""
-        return self._each(as_dual(size).value == 0, other, value)
+    def unless_zero(self, size: Number, value: Number, fallback: Number) -> Number:
+        """Return ``fallback`` where ``size`` is zero, else ``value``."""
+        return self._each(as_dual(size).value == 0, fallback, value)
 
     def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
         """Return the smaller and the larger of two real numbers."""

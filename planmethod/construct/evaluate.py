@@ -9,23 +9,21 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Arithmetic, Number
-from planmethod.construct.holding import held, place
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
     AtAngle,
     Carry,
     Compute,
-    Given,
     GivenNumber,
-    Hold,
+    GivenPoint,
+    IntersectCircles,
+    IntersectLineCircle,
+    IntersectLines,
     Join,
-    LayOff,
+    LayOffLength,
     Measure,
     MeasureAlong,
     MeasureArm,
-    MeetCircles,
-    MeetLineCircle,
-    MeetLines,
     Name,
     Parallel,
     Perpendicular,
@@ -34,7 +32,9 @@ from planmethod.construct.steps import (
     Step,
     Total,
     Touch,
+    TriadPose,
 )
+from planmethod.construct.triad_pose import place, solve_pose
 
 PARALLEL = 1e-12
 """Sine of the angle between two lines below which their intersection is not defined."""
@@ -75,8 +75,8 @@ def apply(
 ) -> tuple[Number, Number]:
     """Return the value of one step and its margin (None when the step always exists)."""
     match step:
-        case Given(out):
-            return ar.given(out, data[out]), None
+        case GivenPoint(out):
+            return ar.given_point(out, data[out]), None
         case GivenNumber(out):
             return data[out], None
         case Join(out, a, b):
@@ -88,18 +88,18 @@ def apply(
         case AtAngle(out, t, line, angle):
             turn = ar.direction(env[angle])
             return ar.drawn(out, env[t], turn if line is None else env[line][1] * turn), None
-        case LayOff(out, o, line, length):
+        case LayOffLength(out, o, line, length):
             u, size = env[line][1], env[length]
             span = abs(u)
-            point = env[o] + u * (ar.laid(out, size) / ar.nonzero(span))
+            point = env[o] + u * (ar.laid_off_length(out, size) / ar.nonzero(span))
             # A zero length needs no direction: it is laid off even along a line that has none.
             return ar.unless_zero(span, point, env[o]), ar.unless_zero(size, ar.solid(span), 1.0)
-        case MeetLines(out, f, g):
+        case IntersectLines(out, f, g):
             (p, u), (q, v) = env[f], env[g]
             across = _cross(u, v)
             sine = abs(across) / ar.nonzero(abs(u) * abs(v))
             return ar.pricked(out, p + u * (_cross(q - p, v) / ar.nonzero(across))), sine
-        case MeetLineCircle(out, line, c, r, way, branch):
+        case IntersectLineCircle(out, line, c, r, way, branch):
             p, u = env[line]
             centre, radius = ar.arc(out, env[c], env[r])
             u = u / ar.nonzero(abs(u))
@@ -109,7 +109,7 @@ def apply(
             half = ar.root(room) if branch is None else ar.root(room) * env[branch]
             reach = (u.conjugate() * to_centre).real + way.value * half
             return ar.pricked(out, p + u * reach), room / (radius * radius)
-        case MeetCircles(out, c1, r1, c2, r2, side, branch):
+        case IntersectCircles(out, c1, r1, c2, r2, side, branch):
             (p, one), (q, two) = ar.arc(out, env[c1], env[r1]), ar.arc(out, env[c2], env[r2])
             d = q - p
             span = abs(d)
@@ -136,19 +136,19 @@ def apply(
             # A tangent of no length: the foot is the source itself, and no line joins them.
             point = ar.unless_zero(half, centre + d / divisor * (radius * turn), source)
             return ar.pricked(out, point), room / (divisor * divisor)
-        case Hold():
-            pose, room, _ = held(step, env, ar)
+        case TriadPose():
+            pose, room, _ = solve_pose(step, env, ar)
             return pose, room
         case Spot(out, axis, at):
             b, w = env[axis]
             return ar.pricked(out, b + w * place(at, env)), None
         case Similar(out, b, c, s, B, C, side_read, span_read, arm_read):
             side, span, arm = env[c] - env[b], env[C] - env[B], env[s] - env[B]
-            scale = ar.share(env[side_read], side)
+            scale = ar.length_ratio(env[side_read], side)
             if span_read is not None:
-                scale = scale / ar.nonzero(ar.share(env[span_read], span))
+                scale = scale / ar.nonzero(ar.length_ratio(env[span_read], span))
             if arm_read is not None:
-                scale = scale * ar.share(env[arm_read], arm)
+                scale = scale * ar.length_ratio(env[arm_read], arm)
             point = env[b] + side * (arm / ar.nonzero(span)) * scale
             return ar.pricked(out, point), ar.solid(abs(span))
         case Measure(out, a, b):
@@ -173,7 +173,7 @@ def apply(
         case Carry(out, o, a, b, length, times, turned):
             vector = env[b] - env[a]
             if length is not None:
-                vector = vector * ar.share(env[length], vector)
+                vector = vector * ar.length_ratio(env[length], vector)
             if times is not None:
                 vector = vector * env[times]
             point = env[o] + (vector * 1j if turned else vector)
@@ -191,19 +191,22 @@ def apply(
 def limit_of(step: Step) -> float:
     """Return the margin that a step must exceed to exist."""
     match step:
-        case MeetLines():
+        case IntersectLines():
             return PARALLEL
-        case MeetCircles() | MeetLineCircle() | Touch():
+        case IntersectCircles() | IntersectLineCircle() | Touch():
             return TANGENT
         case _:
             return 0.0
 
 
-Put: TypeAlias = Callable[[Name, Number], Number]
+Substitution: TypeAlias = Callable[[Name, Number], Number]
 
 
 def evaluate(
-    program: Program, data: Mapping[str, Number], ar: Arithmetic, put: Put | None = None
+    program: Program,
+    data: Mapping[str, Number],
+    ar: Arithmetic,
+    substitute: Substitution | None = None,
 ) -> Trace:
     """Evaluate every step once, in order.
 
@@ -213,19 +216,19 @@ def evaluate(
     data : mapping
         Values of the Given points (complex, mm) and Known numbers, scalars or shape (n,).
     ar : Arithmetic
-    put : callable, optional
+    substitute : callable, optional
         Receives the result of a step and returns the value that further steps use instead: for
         example a student's own value (подстановка).
     """
-    return go_on(Trace({}, {}), program.steps, data, ar, put)
+    return extend_trace(Trace({}, {}), program.steps, data, ar, substitute)
 
 
-def go_on(
+def extend_trace(
     trace: Trace,
     steps: Iterable[Step],
     data: Mapping[str, Number],
     ar: Arithmetic,
-    put: Put | None = None,
+    substitute: Substitution | None = None,
 ) -> Trace:
     """Return a trace extended by further steps, which may use all its values.
 
@@ -233,7 +236,7 @@ def go_on(
     ----------
     data : mapping
         Values of the given points and known numbers of the further steps.
-    put : callable, optional
+    substitute : callable, optional
         As of `evaluate`.
     """
     lifted = {name: ar.lift(value) for name, value in data.items()}
@@ -247,5 +250,5 @@ def go_on(
                     value = ar.guard(room, limit_of(step), value[0]), value[1]
                 else:
                     value = ar.guard(room, limit_of(step), value)
-            env[step.out] = value if put is None else put(step.out, value)
+            env[step.out] = value if substitute is None else substitute(step.out, value)
     return Trace(env, margin)

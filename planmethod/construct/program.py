@@ -14,19 +14,19 @@ from planmethod.construct.steps import (
     AtAngle,
     Carry,
     Compute,
-    Given,
     GivenNumber,
-    Hold,
+    GivenPoint,
+    IntersectCircles,
+    IntersectLineCircle,
+    IntersectLines,
     Join,
-    LayOff,
+    LayOffLength,
     Leg,
     LineName,
+    LineSense,
     Measure,
     MeasureAlong,
     MeasureArm,
-    MeetCircles,
-    MeetLineCircle,
-    MeetLines,
     Name,
     NumberName,
     Parallel,
@@ -39,9 +39,9 @@ from planmethod.construct.steps import (
     Step,
     Total,
     Touch,
-    Way,
-    makes,
+    TriadPose,
     operands,
+    result_kind,
 )
 from planmethod.errors import ProgramError
 
@@ -71,9 +71,9 @@ class Program(Struct, frozen=True):
                     raise ProgramError(f"step {number} ({step.out}): {name!r} is not a {kind}")
             if step.out in made:
                 raise ProgramError(f"step {number}: {step.out!r} is already made")
-            made[step.out] = makes(step)
+            made[step.out] = result_kind(step)
 
-    def needed_for(self, asked: Iterable[Name]) -> Program:
+    def needed_for(self, names: Iterable[Name]) -> Program:
         """Return the program of the steps on which the requested names depend (только нужное).
 
         Raises
@@ -81,7 +81,7 @@ class Program(Struct, frozen=True):
         ProgramError
             No step makes a requested name.
         """
-        need: set[Name] = set(asked)
+        need: set[Name] = set(names)
         unknown = need - {step.out for step in self.steps}
         if unknown:
             raise ProgramError(f"no step makes {', '.join(sorted(unknown))}")
@@ -108,29 +108,29 @@ class Builder(Struct):
     steps: list[Step] = field(default_factory=list)
     _drawn: dict[tuple[object, ...], LineName] = field(default_factory=dict)
     _count: int = 0
-    _made: set[Name] = field(default_factory=set)
-    _seen: int = 0  # steps whose names are in _made
+    _names: set[Name] = field(default_factory=set)
+    _named_count: int = 0  # steps whose names are in _made
 
     def copy(self) -> Builder:
         """Return a copy of the collector that continues from here."""
         return Builder(
-            list(self.steps), dict(self._drawn), self._count, set(self._made), self._seen
+            list(self.steps), dict(self._drawn), self._count, set(self._names), self._named_count
         )
 
     def has(self, name: str) -> bool:
         """Return whether a step makes a name."""
-        self._made.update(step.out for step in islice(self.steps, self._seen, None))
-        self._seen = len(self.steps)
-        return name in self._made
+        self._names.update(step.out for step in islice(self.steps, self._named_count, None))
+        self._named_count = len(self.steps)
+        return name in self._names
 
     def program(self) -> Program:
         """Return the collected steps as a program; the same steps give the same object."""
         return _checked(tuple(self.steps))
 
-    def given(self, out: str) -> PointName:
+    def take_point(self, out: str) -> PointName:
         """Take a point as given."""
         name = PointName(out)
-        self.steps.append(Given(name))
+        self.steps.append(GivenPoint(name))
         return name
 
     def known(self, out: str) -> NumberName:
@@ -175,35 +175,35 @@ class Builder(Struct):
             self.steps.append(AtAngle(name, through, to, angle))
         return name
 
-    def lay_off(
-        self, out: str, origin: PointName, along: LineName, length: NumberName
+    def lay_off_length(
+        self, out: str, origin: PointName, line: LineName, length: NumberName
     ) -> PointName:
         """Lay a length off."""
         name = PointName(out)
-        self.steps.append(LayOff(name, origin, along, length))
+        self.steps.append(LayOffLength(name, origin, line, length))
         return name
 
-    def meet_lines(self, out: str, first: LineName, second: LineName) -> PointName:
+    def intersect_lines(self, out: str, first: LineName, second: LineName) -> PointName:
         """Intersect two lines."""
         name = PointName(out)
-        self.steps.append(MeetLines(name, first, second))
+        self.steps.append(IntersectLines(name, first, second))
         return name
 
-    def meet_line_circle(
+    def intersect_line_circle(
         self,
         out: str,
         line: LineName,
         centre: PointName,
         radius: NumberName,
-        way: Way,
+        sense: LineSense,
         branch: NumberName | None = None,
     ) -> PointName:
         """Intersect a line and an arc."""
         name = PointName(out)
-        self.steps.append(MeetLineCircle(name, line, centre, radius, way, branch))
+        self.steps.append(IntersectLineCircle(name, line, centre, radius, sense, branch))
         return name
 
-    def meet_circles(
+    def intersect_circles(
         self,
         out: str,
         centre1: PointName,
@@ -215,7 +215,7 @@ class Builder(Struct):
     ) -> PointName:
         """Intersect two arcs."""
         name = PointName(out)
-        step = MeetCircles(name, centre1, radius1, centre2, radius2, side, branch)
+        step = IntersectCircles(name, centre1, radius1, centre2, radius2, side, branch)
         self.steps.append(step)
         return name
 
@@ -227,7 +227,7 @@ class Builder(Struct):
         self.steps.append(Touch(name, centre, radius, source, side))
         return name
 
-    def hold(
+    def pose_triad(
         self,
         out: str,
         legs: tuple[Leg, Leg, Leg],
@@ -235,7 +235,7 @@ class Builder(Struct):
     ) -> LineName:
         """Find the axis of a link that three legs hold."""
         name = LineName(out)
-        self.steps.append(Hold(name, legs, start))
+        self.steps.append(TriadPose(name, legs, start))
         return name
 
     def spot(self, out: str, axis: LineName, at: Place) -> PointName:
@@ -266,11 +266,11 @@ class Builder(Struct):
         return name
 
     def measure_along(
-        self, out: str, tail: PointName, head: PointName, along: LineName
+        self, out: str, tail: PointName, head: PointName, line: LineName
     ) -> NumberName:
         """Read a signed length."""
         name = NumberName(out)
-        self.steps.append(MeasureAlong(name, tail, head, along))
+        self.steps.append(MeasureAlong(name, tail, head, line))
         return name
 
     def carry(
@@ -282,11 +282,11 @@ class Builder(Struct):
         length: NumberName | None = None,
         *,
         times: NumberName | None = None,
-        turned: bool = False,
+        rotated: bool = False,
     ) -> PointName:
         """Carry a segment to another point."""
         name = PointName(out)
-        self.steps.append(Carry(name, origin, tail, head, length, times, turned))
+        self.steps.append(Carry(name, origin, tail, head, length, times, rotated))
         return name
 
     def measure_arm(

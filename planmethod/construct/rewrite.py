@@ -12,13 +12,13 @@ from collections.abc import Callable, Iterable
 
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
-    Given,
     GivenNumber,
+    GivenPoint,
     Name,
     NumberName,
     PointName,
     Step,
-    makes,
+    result_kind,
 )
 from planmethod.errors import ProgramError
 
@@ -41,9 +41,9 @@ def substituted(program: Program, names: Iterable[Name]) -> Program:
     def change(step: Step) -> Step:
         if step.out not in given:
             return step
-        if makes(step) is PointName:
-            return Given(PointName(step.out))
-        if makes(step) is NumberName:
+        if result_kind(step) is PointName:
+            return GivenPoint(PointName(step.out))
+        if result_kind(step) is NumberName:
             return GivenNumber(NumberName(step.out))
         raise ProgramError(f"{step.out} is a line: give a point of it, or a number")
 
@@ -70,7 +70,7 @@ def rewritten(program: Program, change: Callable[[Step], Step | tuple[Step, ...]
         changed = change(before)
         several = changed if isinstance(changed, tuple) else (changed,)
         after = several[-1]
-        if (after.out, makes(after)) != (before.out, makes(before)):
+        if (after.out, result_kind(after)) != (before.out, result_kind(before)):
             raise ProgramError(f"{after.out} cannot replace {before.out}")
         steps.extend(several)
     return Program(tuple(steps))

@@ -105,11 +105,11 @@ def rounded(value: float) -> float:
     return float(f"{value:.12g}")
 
 
-LEAST_AXIS = 160.0
+MIN_AXIS = 160.0
 """Least length of the axis of angles of a diagram, mm."""
 
 
-def angle_scale(way: float, *, mm_per_unit: bool = False) -> float:
+def angle_scale(angle_range: float, *, mm_per_unit: bool = False) -> float:
     """Return the scale of an axis of angles, degrees per millimetre (масштаб углов).
 
     It is the scale of the series at which the axis has at least the minimum length and less than
@@ -121,5 +121,5 @@ def angle_scale(way: float, *, mm_per_unit: bool = False) -> float:
     (2.0, 4.0, 0.5)
     """
     if mm_per_unit:
-        return 1.0 / series_near(LEAST_AXIS / way, up=True)
-    return series_near(way / LEAST_AXIS, up=False)
+        return 1.0 / series_near(MIN_AXIS / angle_range, up=True)
+    return series_near(angle_range / MIN_AXIS, up=False)

@@ -27,14 +27,14 @@ class Side(Enum):
     RIGHT = -1
 
 
-class Way(Enum):
+class LineSense(Enum):
     """Sense along a directed line, selecting one of two intersections of a line and an arc."""
 
     FORWARD = 1
     BACKWARD = -1
 
 
-class Given(Struct, frozen=True):
+class GivenPoint(Struct, frozen=True):
     """Point given before the construction starts (данная точка), mm."""
 
     out: PointName
@@ -79,16 +79,16 @@ class AtAngle(Struct, frozen=True):
     angle: NumberName
 
 
-class LayOff(Struct, frozen=True):
+class LayOffLength(Struct, frozen=True):
     """Point at a signed length along a line from a point (отложить отрезок), mm."""
 
     out: PointName
     origin: PointName
-    along: LineName
+    line: LineName
     length: NumberName
 
 
-class MeetLines(Struct, frozen=True):
+class IntersectLines(Struct, frozen=True):
     """Intersection of two lines (точка пересечения прямых)."""
 
     out: PointName
@@ -96,7 +96,7 @@ class MeetLines(Struct, frozen=True):
     second: LineName
 
 
-class MeetLineCircle(Struct, frozen=True):
+class IntersectLineCircle(Struct, frozen=True):
     """Intersection of a line and an arc, the forward or the backward one (засечка на прямой).
 
     ``branch``, where there is one, is +1, or -1 where the other one is meant.
@@ -106,11 +106,11 @@ class MeetLineCircle(Struct, frozen=True):
     line: LineName
     centre: PointName
     radius: NumberName
-    way: Way
+    sense: LineSense
     branch: NumberName | None = None
 
 
-class MeetCircles(Struct, frozen=True):
+class IntersectCircles(Struct, frozen=True):
     """Intersection of two arcs on a side of the line of centres (засечки).
 
     ``branch``, where there is one, is +1, or -1 where the other side is meant.
@@ -159,7 +159,7 @@ class Leg(Struct, frozen=True):
     angle: NumberName | None = None
 
 
-class Hold(Struct, frozen=True):
+class TriadPose(Struct, frozen=True):
     """Axis through the origin of a base link held by three legs (группа III класса).
 
     Arcs alone cannot find it. Without one leg the link is a coupler, and the place of that leg
@@ -215,13 +215,13 @@ class MeasureAlong(Struct, frozen=True):
     out: NumberName
     tail: PointName
     head: PointName
-    along: LineName
+    line: LineName
 
 
 class Carry(Struct, frozen=True):
     """Segment of a plan carried to another point, parallel to itself (перенести отрезок).
 
-    ``out`` is ``origin`` plus ``times`` the segment from ``tail`` to ``head``; ``turned``: the
+    ``out`` is ``origin`` plus ``times`` the segment from ``tail`` to ``head``; ``rotated``: the
     segment is turned by +90 degrees, as the plan under a Zhukovsky lever is. ``length`` is the
     length read from the segment, mm, and is laid off again (its sign does not matter), as when a
     force is transferred from one plan to another; if it is None, the segment is pricked through. A
@@ -234,7 +234,7 @@ class Carry(Struct, frozen=True):
     head: PointName
     length: NumberName | None = None
     times: NumberName | None = None
-    turned: bool = False
+    rotated: bool = False
 
 
 class MeasureArm(Struct, frozen=True):
@@ -273,18 +273,18 @@ class Total(Struct, frozen=True):
 
 
 Step: TypeAlias = (
-    Given
+    GivenPoint
     | GivenNumber
     | Join
     | Parallel
     | Perpendicular
     | AtAngle
-    | LayOff
-    | MeetLines
-    | MeetLineCircle
-    | MeetCircles
+    | LayOffLength
+    | IntersectLines
+    | IntersectLineCircle
+    | IntersectCircles
     | Touch
-    | Hold
+    | TriadPose
     | Spot
     | Similar
     | Measure
@@ -313,7 +313,7 @@ _NAMED = {
     kind: [(name, _kind(told)) for name, told in kind.__annotations__.items()]
     for kind in STEP_TYPES
 }
-_MADE = {kind: named[0][1] for kind, named in _NAMED.items()}
+_RESULT_KINDS = {kind: named[0][1] for kind, named in _NAMED.items()}
 _OPERANDS = {
     kind: tuple((name, of) for name, of in named[1:] if of is not None)
     for kind, named in _NAMED.items()
@@ -330,8 +330,8 @@ def operands(step: Step) -> Iterator[tuple[Name, object]]:
         for name in step.terms:
             yield name, NumberName
         return
-    if isinstance(step, Hold | Spot):
-        yield from _held(step)
+    if isinstance(step, TriadPose | Spot):
+        yield from _pose_operands(step)
         return
     for field, kind in _OPERANDS[type(step)]:
         name = getattr(step, field)
@@ -339,7 +339,7 @@ def operands(step: Step) -> Iterator[tuple[Name, object]]:
             yield name, kind
 
 
-def _held(step: Hold | Spot) -> Iterator[tuple[Name, object]]:
+def _pose_operands(step: TriadPose | Spot) -> Iterator[tuple[Name, object]]:
     numbers: list[NumberName | None]
     if isinstance(step, Spot):
         yield step.axis, LineName
@@ -356,6 +356,6 @@ def _held(step: Hold | Spot) -> Iterator[tuple[Name, object]]:
             yield number, NumberName
 
 
-def makes(step: Step) -> object:
+def result_kind(step: Step) -> object:
     """Return the kind of object (point, line, number) a step makes."""
-    return _MADE[type(step)]
+    return _RESULT_KINDS[type(step)]

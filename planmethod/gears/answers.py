@@ -6,12 +6,12 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from planmethod.gears.asked import SoughtQuantity, parse
 from planmethod.gears.axes import cannot_mesh
-from planmethod.gears.conditions import satellites_held
+from planmethod.gears.conditions import max_planets
 from planmethod.gears.linear import solve
 from planmethod.gears.model import PARALLEL, Mesh
 from planmethod.gears.motion import TrainMotion, mesh_row
+from planmethod.gears.requested_quantities import RequestedQuantity, parse
 
 
 class Answer(Struct, frozen=True):
@@ -50,11 +50,11 @@ def answer(motion: TrainMotion, name: str) -> Answer:
         return _speed(motion, name, asked)
     if asked.kind == "eta":
         share = efficiency(motion)
-        return _exact(name, share) if share is not None else _none(name, "efficiency")
+        return _exact(name, share) if share is not None else no_answer(name, "efficiency")
     if asked.kind == "k":
         body = motion.train.body_of[asked.labels[0]]
-        most = satellites_held(motion, body) if body in motion.train.carriers else None
-        return _exact(name, Fraction(most)) if most is not None else _none(name, "satellites")
+        most = max_planets(motion, body) if body in motion.train.carriers else None
+        return _exact(name, Fraction(most)) if most is not None else no_answer(name, "satellites")
     return _size(motion, name, asked)
 
 
@@ -71,32 +71,33 @@ def _exact(name: str, value: Fraction, unit: str = "") -> Answer:
     return Answer(name, float(value), value, unit)
 
 
-def _none(name: str, reason: str, label: str = "") -> Answer:
+def no_answer(name: str, reason: str, label: str = "") -> Answer:
+    """Return the record of a quantity without a value, and the reason."""
     return Answer(name, None, reason=reason, label=label)
 
 
-def _ratio(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:
-    one, other = asked.labels
-    for label in asked.labels:
+def _ratio(motion: TrainMotion, name: str, quantity: RequestedQuantity) -> Answer:
+    one, other = quantity.labels
+    for label in quantity.labels:
         if motion.train.body_of[label] in motion.train.racks:
-            return _none(name, "rack", label)
-    below = motion.speed(other, asked.carrier)
+            return no_answer(name, "rack", label)
+    below = motion.speed(other, quantity.carrier)
     if not below:
-        return _none(name, "zero", other)
-    ratio = motion.speed(one, asked.carrier) / below
+        return no_answer(name, "zero", other)
+    ratio = motion.speed(one, quantity.carrier) / below
     return _exact(name, ratio if motion.has_sign(one, other) else abs(ratio))
 
 
-def _speed(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:
-    (label,) = asked.labels
-    speed = motion.speed(label, asked.carrier)
+def _speed(motion: TrainMotion, name: str, quantity: RequestedQuantity) -> Answer:
+    (label,) = quantity.labels
+    speed = motion.speed(label, quantity.carrier)
     rack = motion.train.body_of[label] in motion.train.racks
-    if rack != (asked.kind == "v"):
-        return _none(name, "rack", label)
+    if rack != (quantity.kind == "v"):
+        return no_answer(name, "rack", label)
     if rack:
         metres = rack_speed(motion, label)
-        return _none(name, "module") if metres is None else Answer(name, metres, None, "m/s")
-    if asked.kind == motion.train.unit:
+        return no_answer(name, "module") if metres is None else Answer(name, metres, None, "m/s")
+    if quantity.kind == motion.train.unit:
         return _exact(name, speed, motion.train.units[0])
     return Answer(name, float(speed) * motion.train.factor, None, motion.train.units[1])
 
@@ -109,43 +110,43 @@ def rack_speed(motion: TrainMotion, label: str) -> float | None:
     return float(motion.speed(label) * train.unit_m) * train.rate
 
 
-def _size(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:
+def _size(motion: TrainMotion, name: str, quantity: RequestedQuantity) -> Answer:
     """Return teeth, a radius or a centre distance, mm."""
     train, sizes, heights = motion.train, motion.axes.sizes, motion.axes.heights
-    label = asked.labels[0]
-    if asked.kind == "r" and label in train.arms:
+    label = quantity.labels[0]
+    if quantity.kind == "r" and label in train.arms:
         return _exact(name, train.arms[label] * 1000, "mm")
-    if asked.kind != "a_w" and label not in sizes:
-        return _none(name, "wheel", label)
-    if asked.kind == "z":
-        return _exact(name, sizes[label]) if train.counted(label) else _none(name, "teeth")
-    if train.toothed and train.module is None and (asked.kind == "a_w" or train.counted(label)):
-        return _none(name, "module")
-    if asked.kind == "r":
+    if quantity.kind != "a_w" and label not in sizes:
+        return no_answer(name, "wheel", label)
+    if quantity.kind == "z":
+        return _exact(name, sizes[label]) if train.counted(label) else no_answer(name, "teeth")
+    if train.toothed and train.module is None and (quantity.kind == "a_w" or train.counted(label)):
+        return no_answer(name, "module")
+    if quantity.kind == "r":
         return _exact(name, motion.axes.radii[label] * train.unit_m * 1000, "mm")
-    one, other = (train.body_of[x] for x in asked.labels)
+    one, other = (train.body_of[x] for x in quantity.labels)
     if one not in heights or other not in heights:
-        return _none(name, "wheel", label)
+        return no_answer(name, "wheel", label)
     mesh = _between(motion, one, other)
-    apart = abs(heights[one] - heights[other]) if mesh is None else motion.axes.apart[mesh.name]
+    apart = abs(heights[one] - heights[other]) if mesh is None else motion.axes.distances[mesh.name]
     if mesh is not None and cannot_mesh(motion.axes, mesh):
-        return _none(name, "wheel", label)
+        return no_answer(name, "wheel", label)
     apart *= train.unit_m * 1000
     if not motion.axes.shifted:
         return _exact(name, apart, "mm")
     return Answer(name, float(apart), None, "mm")
 
 
-def _between(motion: TrainMotion, one: str, other: str) -> Mesh | None:
+def _between(motion: TrainMotion, first: str, second: str) -> Mesh | None:
     """Return the mesh whose axes are those of two bodies, with shifts if there is one so."""
     axis = motion.axes.axis_of
     found = [
         mesh
         for mesh in motion.train.meshes
         if mesh.kind in PARALLEL
-        and {axis[body] for body in motion.train.ends(mesh)} == {axis[one], axis[other]}
+        and {axis[body] for body in motion.train.ends(mesh)} == {axis[first], axis[second]}
     ]
-    own = [mesh for mesh in found if {one, other} == set(motion.train.ends(mesh))]
+    own = [mesh for mesh in found if {first, second} == set(motion.train.ends(mesh))]
     return next(iter([*own, *found]), None)
 
 
@@ -181,7 +182,7 @@ def efficiency(motion: TrainMotion, output: str | None = None) -> Fraction | Non
             torque = {one: row[one], other: row[other] * kept}
             carrier = train.carrier(mesh)
             if carrier is not None:
-                turned = [b for b in (one, other) if b not in motion.roles.across]
+                turned = [b for b in (one, other) if b not in motion.roles.transverse]
                 torque[carrier] = -sum((torque[b] for b in turned), Fraction(0))
             for body, value in torque.items():
                 if body in rows:
@@ -192,7 +193,7 @@ def efficiency(motion: TrainMotion, output: str | None = None) -> Fraction | Non
         if found.free or not found.consistent:
             return None
         seen = [
-            _goes_forward(motion, mesh, found.values[name])
+            _is_forward(motion, mesh, found.values[name])
             for mesh, name in zip(train.meshes, forces, strict=True)
         ]
         if seen == forward:
@@ -203,7 +204,7 @@ def efficiency(motion: TrainMotion, output: str | None = None) -> Fraction | Non
     return None
 
 
-def _goes_forward(motion: TrainMotion, mesh: Mesh, force: Fraction) -> bool:
+def _is_forward(motion: TrainMotion, mesh: Mesh, force: Fraction) -> bool:
     """Return whether power flows from the first wheel of a mesh to the second, on the carrier."""
     row = mesh_row(motion.train, motion.roles, motion.axes, mesh)
     one = motion.train.ends(mesh)[0]

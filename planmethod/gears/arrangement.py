@@ -15,7 +15,7 @@ from itertools import combinations, permutations
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from planmethod.gears.scheme import EPS, Across, Rim, SchemeData
+from planmethod.gears.scheme import EPS, Rim, SchemeData, TransverseBody
 
 # Costs of an arrangement
 _IMPOSSIBLE = 100.0  # two bodies of one axis in each other's way
@@ -46,7 +46,7 @@ class Station(Struct, frozen=True):
     rims: tuple[Rim, ...] = ()
     body: str = ""
     offset: float = 0.0
-    across: Across | None = None
+    transverse: TransverseBody | None = None
 
 
 class Stub(Struct, frozen=True):
@@ -136,7 +136,7 @@ class Arrangement(Struct, frozen=True, dict=True):
             near = [gap for gap in free if low - 1 <= gap <= high]
             near = near or [max(g for g in free if g < low), min(g for g in free if g > high)]
             ends = last if body == train.output and body not in train.inputs else -1
-            far = {gap: self._far(body, gap) + 0.2 * (gap != ends) for gap in near}
+            far = {gap: self._stub_cost(body, gap) + 0.2 * (gap != ends) for gap in near}
             gap = min(near, key=far.__getitem__)
             passed = 0.02 * max(low - 1 - gap, gap - high, 0)
             inside = low <= gap < high
@@ -144,13 +144,13 @@ class Arrangement(Struct, frozen=True, dict=True):
             found[body] = Stub(body, gap, rank)
         return found
 
-    def _far(self, body: str, gap: int) -> float:
+    def _stub_cost(self, body: str, gap: int) -> float:
         """Return the cost of a stub of a body in a gap: other bodies block its way."""
         low, high = self.at[body][0], self.at[body][-1]
         start, end = min(low, gap + 0.5), max(high, gap + 0.5)
         passed = sum(
             any(start < k < end for k in self.at[other])
-            for other in self.scheme.beside[body]
+            for other in self.scheme.coaxial_bodies[body]
             if other in self.at
         )
         return max(low - 1 - gap, gap - high, 0) + 3 * passed + 0.1 * (low <= gap < high)
@@ -168,14 +168,14 @@ class Arrangement(Struct, frozen=True, dict=True):
 
     def inner(self, body: str) -> list[str]:
         """Return the bodies whose shafts pass through a body of the same axis."""
-        same = (other for other in self.scheme.beside[body] if other in self.reach)
+        same = (other for other in self.scheme.coaxial_bodies[body] if other in self.reach)
         return [other for other in same if self._is_about(body, other)]
 
-    def _is_about(self, body: str, other: str) -> bool:
+    def _is_about(self, body: str, inner: str) -> bool:
         """Return whether a body can turn about the shaft of another one."""
         low, high = self.reach[body]
-        a, b = self.reach[other]
-        return a < low and high < b and not any(low <= k <= high for k in self.at[other])
+        a, b = self.reach[inner]
+        return a < low and high < b and not any(low <= k <= high for k in self.at[inner])
 
     def verticals(self) -> Iterator[tuple[int, float, float, str]]:
         """Yield the parts perpendicular to the axes: station, lower and upper height, body."""
@@ -186,14 +186,14 @@ class Arrangement(Struct, frozen=True, dict=True):
                     yield number, min(heights), max(heights), station.body
                 case AxisPart.WEB:
                     (ring,) = station.rims
-                    for way in ring.ways:
+                    for way in ring.mesh_sides:
                         ends = sorted((ring.centre, ring.centre + way * ring.reach(way)))
                         yield number, ends[0], ends[1], ring.body
                 case AxisPart.APEX:
-                    assert station.across is not None
-                    tops = [cone.rim.centre + cone.rim.radius for cone in station.across.cones]
-                    feet = [cone.rim.centre for cone in station.across.cones]
-                    yield number, min(feet), max(tops), station.body or station.across.body
+                    assert station.transverse is not None
+                    tops = [cone.rim.centre + cone.rim.radius for cone in station.transverse.cones]
+                    feet = [cone.rim.centre for cone in station.transverse.cones]
+                    yield number, min(feet), max(tops), station.body or station.transverse.body
                 case AxisPart.RIMS:
                     for rim in station.rims:
                         yield from ((number, a, b, rim.body) for a, b in rim.spans() if b > a)
@@ -216,7 +216,7 @@ class Arrangement(Struct, frozen=True, dict=True):
         cost = 0.0
         for one, other in combinations(self.reach, 2):
             (a, b), (c, d) = self.reach[one], self.reach[other]
-            if other not in self.scheme.beside[one] or b < c or d < a:
+            if other not in self.scheme.coaxial_bodies[one] or b < c or d < a:
                 continue
             about = self._is_about(one, other) or self._is_about(other, one)
             cost += _HOLLOW if about else _IMPOSSIBLE
@@ -232,7 +232,7 @@ class Arrangement(Struct, frozen=True, dict=True):
         return cost + _BACK * sum(one > two for one, two in combinations(order, 2))
 
 
-MOST_ORDERS = 24
+MAX_ORDERS = 24
 """Orders of the columns that the search begins from."""
 
 
@@ -249,7 +249,7 @@ class ColumnOrder(Struct, frozen=True):
         stations: list[Station] = []
         for column in self.order:
             if column >= len(scheme.columns):
-                across = scheme.across[column - len(scheme.columns)]
+                across = scheme.transverse_bodies[column - len(scheme.columns)]
                 stations += _apex(column, across, self.turns[column - len(scheme.columns)])
                 continue
             left: list[Station] = []
@@ -266,7 +266,7 @@ class ColumnOrder(Struct, frozen=True):
             stations += [*left[::-1], rims, *right]
         return tuple(stations)
 
-    def others(self, scheme: SchemeData) -> Iterator[ColumnOrder]:
+    def neighbours(self, scheme: SchemeData) -> Iterator[ColumnOrder]:
         """Yield the orders that differ in one thing."""
         for i, j in combinations(range(len(self.order)), 2):
             for start, end in ((i, j), (j, i)):
@@ -276,26 +276,30 @@ class ColumnOrder(Struct, frozen=True):
         for k, turn in enumerate(self.turns):
             yield replace(self, turns=(*self.turns[:k], -turn, *self.turns[k + 1 :]))
         for k, (at, label, side) in enumerate(self.webs):
-            yield replace(self, webs=_put(self.webs, k, (at, label, -side)))
+            yield replace(self, webs=_with_item(self.webs, k, (at, label, -side)))
         for k, (carrier, at, side) in enumerate(self.arms):
             for column in _columns_of(scheme, carrier):
                 for turned in (side, -side):
                     if (column, turned) != (at, side):
-                        yield replace(self, arms=_put(self.arms, k, (carrier, column, turned)))
+                        yield replace(
+                            self, arms=_with_item(self.arms, k, (carrier, column, turned))
+                        )
 
 
-def _apex(column: int, across: Across, turn: int) -> list[Station]:
+def _apex(column: int, transverse: TransverseBody, turn: int) -> list[Station]:
     """Return the stations of a body across: level wheels on both sides of the apex."""
     stations = [
         Station(AxisPart.RIMS, column, (cone.rim,), offset=cone.side * turn * cone.radius)
-        for cone in across.cones
+        for cone in transverse.cones
     ]
-    stations.append(Station(AxisPart.APEX, column, (), across.carrier or "", across=across))
+    stations.append(
+        Station(AxisPart.APEX, column, (), transverse.carrier or "", transverse=transverse)
+    )
     return sorted(stations, key=lambda station: station.offset)
 
 
-def _put(whole: tuple, k: int, one: tuple) -> tuple:  # type: ignore[type-arg]
-    return (*whole[:k], one, *whole[k + 1 :])
+def _with_item(items: tuple, k: int, one: tuple) -> tuple:  # type: ignore[type-arg]
+    return (*items[:k], one, *items[k + 1 :])
 
 
 def _columns_of(scheme: SchemeData, carrier: str) -> list[int]:
@@ -328,13 +332,13 @@ def best_order(scheme: SchemeData) -> ColumnOrder:
             costs[order] = Arrangement(scheme, order.stations(scheme)).cost
         return costs[order]
 
-    blocks = range(len(columns) + len(scheme.across))
-    turns = (1,) * len(scheme.across)
-    count = MOST_ORDERS // max(1, len(blocks) - 3) ** 2
+    blocks = range(len(columns) + len(scheme.transverse_bodies))
+    turns = (1,) * len(scheme.transverse_bodies)
+    count = MAX_ORDERS // max(1, len(blocks) - 3) ** 2
     for first, _ in zip(permutations(blocks), range(max(count, 1)), strict=False):
         order = ColumnOrder(first, webs, arms, turns)
         while True:
-            better = min(order.others(scheme), key=cost, default=order)
+            better = min(order.neighbours(scheme), key=cost, default=order)
             if cost(better) >= cost(order) - EPS:
                 break
             order = better

@@ -9,7 +9,7 @@ from planmethod.gears.answers import answer
 from planmethod.gears.construction import construct, read
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import solve_motion
-from planmethod.gears.picture import draw
+from planmethod.gears.velocity_diagrams import draw
 from planmethod.note.audit.audit import Audited
 from planmethod.solved.selectors.steps import NoValue
 
@@ -33,12 +33,12 @@ def audited(problem: GearProblem, ruler: float) -> list[Audited]:
     if picture is not None:
         drawn = construct(motion, picture)
         seen = read(drawn, replace(PROFILES["board"], ruler=ruler))
-        found = {one.name: float(seen.read.value[one.read]) for one in drawn.found}
+        found = {one.name: float(seen.read.value[one.read]) for one in drawn.quantities}
     told = []
     for one in problem.published:
         exact = answer(motion, one.what)
         why = NoValue.ZERO_DIVISOR if exact.reason == "zero" else None
         if exact.value is None and why is None:
             why = NoValue.NO_LINK
-        told.append(Audited(one, exact.value, found.get(one.what), why=why))
+        told.append(Audited(one, exact.value, found.get(one.what), reason=why))
     return told

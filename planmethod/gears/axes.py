@@ -14,18 +14,18 @@ from planmethod.errors import Fault
 from planmethod.gears.linear import LinearSolution, Row, solve
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem.names import segment
 
-MOST_CHOSEN = 10
+MAX_CHOSEN = 10
 """Most meshes in loops between wheels off the main axis: each may be on either side."""
 
 HINT = "Check the teeth, and which wheels share an axis."
 
-CLOSE = Fraction(2, 100)
+COAXIAL_TOLERANCE = Fraction(2, 100)
 """Modules by which paths over shifted wheels may differ and be coaxial: shifts are rounded."""
 
-NEAR = Fraction(1, 4)
+REPAIRABLE = Fraction(1, 4)
 """Modules by which they may differ and a small additional shift still makes them coaxial."""
 
 ALPHA = math.radians(20)
@@ -41,7 +41,7 @@ class TrainDimensions(Struct, frozen=True):
         By label: teeth or half modules, metres where no wheel has teeth.
     radii : mapping
         Of the pitch circles by label, in half modules of the train (or metres).
-    apart : mapping
+    distances : mapping
         Distances of parallel axes by the name of the mesh, in the same unit: those of the pitch
         circles, or of wheels with shifts without backlash.
     shifted : frozenset of str
@@ -54,7 +54,7 @@ class TrainDimensions(Struct, frozen=True):
 
     sizes: Mapping[str, Fraction]
     radii: Mapping[str, Fraction]
-    apart: Mapping[str, Fraction]
+    distances: Mapping[str, Fraction]
     shifted: frozenset[str]
     heights: Mapping[str, Fraction]
     axis_of: Mapping[str, str]
@@ -88,8 +88,10 @@ def find_axes(train: Train, roles: Roles) -> tuple[TrainDimensions | None, list[
     for mesh in meshes:
         one, other = train.ends(mesh)
         if lines.line[one] == lines.line[other]:
-            told = say("{} and {} mesh, and would turn about one axis", mesh.first, mesh.second)
-            return None, [Fault("gears.meshes", told, HINT)]
+            text = translate(
+                "{} and {} mesh, and would turn about one axis", mesh.first, mesh.second
+            )
+            return None, [Fault("gears.meshes", text, HINT)]
     axes, faults = _solve(train, lines, meshes)
     apart = [] if axes is None else _arms(train, roles, axes)
     return (None, apart) if apart else (axes, faults)
@@ -102,22 +104,22 @@ def _arms(train: Train, roles: Roles, axes: TrainDimensions) -> list[Fault]:
         carrier = train.body_of[label]
         reached = {
             body: abs(axes.heights[body] - axes.heights[carrier]) * train.unit_m
-            for body in roles.satellites.get(carrier, ())
+            for body in roles.planets.get(carrier, ())
             if body in axes.heights and carrier in axes.heights
         }
         path = f"gears.wheels.{segment(label)}.r"
         if train.toothed and train.module is None:
             hint = "Give module = ... (mm), or every wheel by its radius."
-            found.append(Fault(path, say("a radius beside teeth needs the module"), hint))
+            found.append(Fault(path, translate("a radius beside teeth needs the module"), hint))
             continue
-        slack = 2 * CLOSE * train.unit_m if is_shifted(train) else radius / 1_000_000
+        slack = 2 * COAXIAL_TOLERANCE * train.unit_m if is_shifted(train) else radius / 1_000_000
         if reached and min(abs(one - radius) for one in reached.values()) > slack:
             body, far = min(reached.items(), key=lambda one: abs(one[1] - radius))
-            told = say(
+            text = translate(
                 "the train is not coaxial: r_{} = {:g} m, and the axis of {} is {:g} m from it by "
                 "the wheels", label, float(radius), body, float(far),
             )  # fmt: skip
-            found.append(Fault(path, told, HINT))
+            found.append(Fault(path, text, HINT))
     return found
 
 
@@ -131,7 +133,7 @@ def _find_lines(train: Train, roles: Roles) -> _Lines:
     lines.main = lines.line[
         next(iter(train.carriers), next((b for b in train.bodies if b in train.inputs), first))
     ]
-    around = {body for bodies in roles.satellites.values() for body in bodies}
+    around = {body for bodies in roles.planets.values() for body in bodies}
     heights: dict[str, Fraction | None] = {lines.main: Fraction(0)}
     left = [mesh for mesh in train.meshes if mesh.kind in PARALLEL]
     while left:
@@ -141,7 +143,7 @@ def _find_lines(train: Train, roles: Roles) -> _Lines:
         left.remove(mesh)
         _place(train, lines, heights, mesh, around)
     for body in train.inputs:
-        lines.below |= _beside(train, lines, body)
+        lines.below |= _axes_below(train, lines, body)
     return lines
 
 
@@ -171,7 +173,7 @@ def _place(
     start, new = ends if lines.line[ends[0]] in heights else ends[::-1]
     size, height = _distance(train, mesh), heights[lines.line[start]]
     at_main = lines.line[start] == lines.main
-    slack = 2 * CLOSE if is_shifted(train) else 0
+    slack = 2 * COAXIAL_TOLERANCE if is_shifted(train) else 0
     returns = size is None or height is None or abs(abs(height) - size) <= slack
     between = any(
         new in both and other is not mesh and lines.line[start] in {lines.line[b] for b in both}
@@ -196,12 +198,12 @@ def cannot_mesh(axes: TrainDimensions, mesh: Mesh) -> bool:
     """Return whether wheels with shifts cannot come as close as the centre distance requires."""
     one, other = axes.radii[mesh.first], axes.radii[mesh.second]
     plain = one + other if mesh.kind is MeshKind.EXTERNAL else abs(one - other)
-    return mesh.name in axes.shifted and axes.apart[mesh.name] == plain
+    return mesh.name in axes.shifted and axes.distances[mesh.name] == plain
 
 
 def _radius(train: Train, label: str) -> Fraction | None:
     size = train.wheels[label].size
-    return None if size is None else size * train.share(label)
+    return None if size is None else size * train.module_ratio(label)
 
 
 def _distance(train: Train, mesh: Mesh) -> Fraction | None:
@@ -243,7 +245,7 @@ def shift_for(train: Train, mesh: Mesh, distance: Fraction) -> tuple[str, float]
 
     _, teeth, shifts = _pair(train, mesh)
     large = max((mesh.first, mesh.second), key=lambda label: train.wheels[label].size or 0)
-    plain = teeth * train.share(large)
+    plain = teeth * train.module_ratio(large)
     cosine = float(plain / distance) * math.cos(ALPHA) if distance else 2.0
     if cosine >= 1:
         return large, math.nan
@@ -252,7 +254,7 @@ def shift_for(train: Train, mesh: Mesh, distance: Fraction) -> tuple[str, float]
     return large, grown / (2 * math.tan(ALPHA)) - less
 
 
-def _beside(train: Train, lines: _Lines, body: str) -> set[str]:
+def _axes_below(train: Train, lines: _Lines, body: str) -> set[str]:
     """Return the axes of the stages before the main axis: they are drawn below it."""
     if lines.line[body] == lines.main:
         return set()
@@ -282,11 +284,11 @@ def _solve(
     away = _away(train, lines, meshes) if beside else ({}, set())
     likely = {mesh: _likely_side(train, lines, mesh, *away) for mesh in beside}
     chosen = [mesh for mesh in _in_loops(train, lines, meshes) if mesh in likely]
-    if len(chosen) > MOST_CHOSEN:
-        told = say(
-            "{} meshes in loops off the main axis, the limit is {}", len(chosen), MOST_CHOSEN
+    if len(chosen) > MAX_CHOSEN:
+        text = translate(
+            "{} meshes in loops off the main axis, the limit is {}", len(chosen), MAX_CHOSEN
         )
-        return None, [Fault("gears.meshes", told)]
+        return None, [Fault("gears.meshes", text)]
     unknown = [("z", label) for label in train.unknown]
     reached = dict.fromkeys(lines.line[b] for mesh in meshes for b in train.ends(mesh))
     names = [*unknown, *(("h", name) for name in reached if name != lines.main)]
@@ -297,7 +299,7 @@ def _solve(
         if is_shifted(train) and not unknown:
             rows = _brought_together(names, list(zip(meshes, rows, strict=True)), train)
         found = solve(names, rows)
-        fault = _judge(train, found, unknown)
+        fault = _check_solution(train, found, unknown)
         if fault is None:
             axes = _axes(train, lines, found, meshes)
             if unknown and is_shifted(train):  # pitch circles determine teeth, shifts axes
@@ -308,7 +310,7 @@ def _solve(
                 return axes, []
         best = fault if best is None or best.path in _OF_COAXIALITY else best
     if best is not None and best.path in _OF_COAXIALITY:
-        best = _say_why(train, lines, meshes) or best
+        best = _explain_conflict(train, lines, meshes) or best
     return None, [] if best is None else [best]
 
 
@@ -385,7 +387,7 @@ def _equation(train: Train, lines: _Lines, mesh: Mesh, side: int | None) -> Row[
         size = _radius(train, label)
         if size is None:
             factor = coefficients.get(("z", label), Fraction(0))
-            coefficients["z", label] = factor - sign * train.share(label)
+            coefficients["z", label] = factor - sign * train.module_ratio(label)
         else:
             right += sign * size
     return coefficients, right
@@ -412,7 +414,7 @@ def _brought_together(
             continue
         row, right = left.pop(at)
         reached = sum((factor * values[name] for name, factor in row.items()), Fraction(0))
-        done.append((row, reached if abs(reached - right) <= 2 * NEAR else right))
+        done.append((row, reached if abs(reached - right) <= 2 * REPAIRABLE else right))
     return done
 
 
@@ -424,51 +426,51 @@ def _ring_label(train: Train, mesh: Mesh, out: str) -> str:
     return mesh.first if train.ends(mesh)[1] == out else mesh.second
 
 
-def _judge(
-    train: Train, found: LinearSolution[tuple[str, str]], unknown: Sequence[tuple[str, str]]
+def _check_solution(
+    train: Train, solution: LinearSolution[tuple[str, str]], unknown: Sequence[tuple[str, str]]
 ) -> Fault | None:
-    if not found.consistent:
+    if not solution.consistent:
         return Fault("gears.wheels", "the train is not coaxial", HINT)
     for kind, label in unknown:
-        value = found.values.get((kind, label))
+        value = solution.values.get((kind, label))
         if value is None:
-            told = say("coaxiality does not determine the teeth of {}", label)
+            text = translate("coaxiality does not determine the teeth of {}", label)
             return Fault(
                 "gears.unknown",
-                told,
+                text,
                 'Name the wheel that it is coaxial with: coaxial = [["1","3"]].',
             )
         if value <= 0:
-            told = say("coaxiality gives wheel {} the size {}", label, value)
-            return Fault("gears.unknown", told, HINT)
+            text = translate("coaxiality gives wheel {} the size {}", label, value)
+            return Fault("gears.unknown", text, HINT)
         if train.toothed and value.denominator != 1:
-            told = say(
+            text = translate(
                 "coaxiality gives wheel {} {} = {:g} teeth, not whole", label, value, float(value)
             )
-            return Fault("gears.unknown", told, HINT)
+            return Fault("gears.unknown", text, HINT)
     return None
 
 
 def _axes(
     train: Train,
     lines: _Lines,
-    found: LinearSolution[tuple[str, str]],
+    solution: LinearSolution[tuple[str, str]],
     meshes: Sequence[Mesh],
 ) -> TrainDimensions:
     sizes: dict[str, Fraction] = {}
     for label, wheel in train.wheels.items():
-        sizes[label] = found.values["z", label] if wheel.size is None else wheel.size
+        sizes[label] = solution.values["z", label] if wheel.size is None else wheel.size
     wheels = {label: replace(wheel, size=sizes[label]) for label, wheel in train.wheels.items()}
     whole = replace(train, wheels=wheels, unknown=())
-    radii = {label: size * train.share(label) for label, size in sizes.items()}
+    radii = {label: size * train.module_ratio(label) for label, size in sizes.items()}
     apart = {mesh.name: _distance(whole, mesh) or Fraction(0) for mesh in meshes}
     shifted = frozenset(m.name for m in meshes if train.toothed and _pair(whole, m)[2])
     heights: dict[str, Fraction] = {}
     for body, line in lines.line.items():
         if line == lines.main:
             heights[body] = Fraction(0)
-        elif ("h", line) in found.values:
-            heights[body] = found.values["h", line]
+        elif ("h", line) in solution.values:
+            heights[body] = solution.values["h", line]
     return TrainDimensions(sizes, radii, apart, shifted, heights, lines.line)
 
 
@@ -479,23 +481,25 @@ def _positive(train: Train, axes: TrainDimensions, meshes: Sequence[Mesh]) -> Fa
         first, second = train.ends(mesh)
         apart = axes.heights.get(first, Fraction(0)) - axes.heights.get(second, Fraction(0))
         if mesh.kind is MeshKind.INTERNAL and one == other:
-            told = say("{} and {} mesh internally and are of one size", mesh.first, mesh.second)
-            return Fault("gears.meshes", told, HINT)
-        wanted = axes.apart[mesh.name]
+            text = translate(
+                "{} and {} mesh internally and are of one size", mesh.first, mesh.second
+            )
+            return Fault("gears.meshes", text, HINT)
+        wanted = axes.distances[mesh.name]
         known = first in axes.heights and second in axes.heights
-        slack = 2 * NEAR if is_shifted(train) else 0
+        slack = 2 * REPAIRABLE if is_shifted(train) else 0
         if known and abs(abs(apart) - wanted) > slack:
-            told = say(
+            text = translate(
                 "the train is not coaxial at {}: its axes are {} apart, its wheels need {}",
                 mesh.name,
-                _shown(abs(apart)),
-                _shown(wanted),
+                _distance_text(abs(apart)),
+                _distance_text(wanted),
             )
-            return Fault("gears.wheels", told, HINT)
+            return Fault("gears.wheels", text, HINT)
     return None
 
 
-def _say_why(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> Fault | None:
+def _explain_conflict(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> Fault | None:
     """Name two meshes that put one axis at two heights."""
     seen: dict[str, tuple[Mesh, Fraction]] = {}
     for mesh in meshes:
@@ -505,25 +509,27 @@ def _say_why(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> Fault | Non
             continue
         (name,) = names
         before, height = seen.setdefault(name, (mesh, size))
-        if abs(height - size) > (2 * NEAR if is_shifted(train) else 0):
-            told = say(
+        if abs(height - size) > (2 * REPAIRABLE if is_shifted(train) else 0):
+            text = translate(
                 "the train is not coaxial: the axis of {} is {} from the main axis by the "
                 "mesh {}, and {} by {}",
                 name,
-                _shown(height),
+                _distance_text(height),
                 before.name,
-                _shown(size),
+                _distance_text(size),
                 mesh.name,
             )
             hint = HINT
             if is_shifted(train):
                 label, shift = shift_for(train, mesh, height)
                 if abs(shift) < 1:
-                    hint = say("With x = {:.3f} of wheel {} the axes would coincide.", shift, label)
-            return Fault("gears.wheels", told, hint)
+                    hint = translate(
+                        "With x = {:.3f} of wheel {} the axes would coincide.", shift, label
+                    )
+            return Fault("gears.wheels", text, hint)
     return None
 
 
-def _shown(size: Fraction) -> str:
+def _distance_text(size: Fraction) -> str:
     """Return a distance in half modules."""
     return str(size) if size.denominator < 1000 else f"{float(size):g}"

@@ -8,12 +8,12 @@ from fractions import Fraction
 from msgspec import Struct
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.gears.conditions import satellites_held
+from planmethod.gears.conditions import max_planets
 from planmethod.gears.meshes import fraction
 from planmethod.gears.model import GearProblem, Train
 from planmethod.gears.motion import TrainMotion
-from planmethod.gears.teeth import SCHEMES, TeethSet, TrainScheme, Wanted
-from planmethod.languages import say
+from planmethod.gears.teeth import SCHEMES, TeethSet, TeethSpecification, TrainScheme
+from planmethod.languages import translate
 from planmethod.problem.tables import PlanetaryTask
 
 
@@ -22,18 +22,18 @@ class PlanetaryVariant(Struct, frozen=True):
 
     Attributes
     ----------
-    satellites : int
+    planets : int
     place : int
         Its rank among all sets for that number of planets, from 1, the smallest first.
     chosen : TeethSet
-    is_own : bool
+    is_file_train : bool
         Whether it is the train of the file.
     """
 
-    satellites: int
+    planets: int
     place: int
     chosen: TeethSet
-    is_own: bool
+    is_file_train: bool
 
 
 class PlanetaryComparison(Struct, frozen=True):
@@ -41,11 +41,11 @@ class PlanetaryComparison(Struct, frozen=True):
 
     Attributes
     ----------
-    found : mapping of int to int
+    set_counts : mapping of int to int
         Number of sets for each number of planets.
-    own : TeethSet
+    file_set : TeethSet
         The train of the file.
-    satellites : int
+    planets : int
         Number of its planets: from the file, else the largest that can be assembled.
     """
 
@@ -53,15 +53,15 @@ class PlanetaryComparison(Struct, frozen=True):
     task: PlanetaryTask
     ratio: Fraction
     module_m: Fraction | None
-    found: Mapping[int, int]
+    set_counts: Mapping[int, int]
     variants: tuple[PlanetaryVariant, ...]
-    own: TeethSet
-    satellites: int
+    file_set: TeethSet
+    planets: int
 
     @property
     def place(self) -> PlanetaryVariant | None:
         """The train of the file among the variants; None if it does not meet the requirements."""
-        return next((one for one in self.variants if one.is_own), None)
+        return next((one for one in self.variants if one.is_file_train), None)
 
     def diameter(self, one: TeethSet) -> float | None:
         """Return the diameter over the pitch circles, mm; None without a module."""
@@ -98,7 +98,11 @@ def _scheme_of(train: Train, carrier: str) -> tuple[TrainScheme, tuple[str, ...]
     wheels = (near[1 - own], near[own], labels[1 - at], labels[at])
     single = wheels[1] == wheels[2]
     for scheme in SCHEMES:
-        if scheme.carried and scheme.kinds == (first.kind, last.kind) and scheme.single is single:
+        if (
+            scheme.is_planetary
+            and scheme.kinds == (first.kind, last.kind)
+            and scheme.single is single
+        ):
             return scheme, (wheels[:2] + wheels[3:]) if single else wheels
     return None
 
@@ -114,15 +118,15 @@ def compare(problem: GearProblem, motion: TrainMotion) -> PlanetaryComparison | 
     train, task = motion.train, motion.train.design
     if task is None:
         return None
-    from planmethod.gears.choice import choose, set_of
+    from planmethod.gears.teeth_selection import choose, set_of
 
     known = planetary_labels(train)
     sizes = motion.axes.sizes
     if known is None or any(sizes[label].denominator != 1 for label in known[2]):
-        names = ", ".join(one.name for one in SCHEMES if one.carried)
-        told = "the train is not one of the planetary schemes that are compared"
-        hint = say("They are: {}; the last wheel held, sizes in teeth.", names)
-        raise ProblemError(problem.source_file, [Fault("gears.design", told, hint)])
+        names = ", ".join(one.name for one in SCHEMES if one.is_planetary)
+        text = "the train is not one of the planetary schemes that are compared"
+        hint = translate("They are: {}; the last wheel held, sizes in teeth.", names)
+        raise ProblemError(problem.source_file, [Fault("gears.design", text, hint)])
     carrier, scheme, labels = known
     teeth = tuple(int(sizes[label]) for label in labels)
     ratio = fraction(task.U) if task.U is not None else None
@@ -130,28 +134,30 @@ def compare(problem: GearProblem, motion: TrainMotion) -> PlanetaryComparison | 
     rows = None if modules[0] is None or modules[1] is None else (modules[0], modules[1])
     if rows is not None and rows[0] == rows[1]:
         rows = None
-    own = set_of(_wanted(scheme, task, ratio or Fraction(1), 1, rows), teeth)
+    own = set_of(_specification(scheme, task, ratio or Fraction(1), 1, rows), teeth)
     ratio = ratio or own.ratio
-    count = train.satellites.get(carrier) or satellites_held(motion, carrier) or 1
+    count = train.planets.get(carrier) or max_planets(motion, carrier) or 1
     found, variants = {}, list[PlanetaryVariant]()
     for k in sorted({*range(task.k_min, task.k_max + 1), count}):
-        chosen = choose(_wanted(scheme, task, ratio, k, rows))
-        found[k] = chosen.found
+        chosen = choose(_specification(scheme, task, ratio, k, rows))
+        found[k] = chosen.match_count
         variants += [
             PlanetaryVariant(k, place, one, k == count and one.teeth == teeth)
             for place, one in enumerate(chosen.sets, 1)
             if place <= task.count or (k == count and one.teeth == teeth)
         ]
-    own = set_of(_wanted(scheme, task, ratio, count, rows), teeth)
+    own = set_of(_specification(scheme, task, ratio, count, rows), teeth)
     return PlanetaryComparison(scheme, task, ratio, modules[0], found, tuple(variants), own, count)
 
 
-def _wanted(
+def _specification(
     scheme: TrainScheme,
     task: PlanetaryTask,
     ratio: Fraction,
     count: int,
     rows: tuple[Fraction, Fraction] | None,
-) -> Wanted:
+) -> TeethSpecification:
     within = fraction(task.within)
-    return Wanted(scheme, ratio, within, count, task.z_min, task.z_max, task.ring_max, rows)
+    return TeethSpecification(
+        scheme, ratio, within, count, task.z_min, task.z_max, task.ring_max, rows
+    )

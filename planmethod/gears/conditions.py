@@ -9,13 +9,13 @@ from typing import Any
 
 from msgspec import Struct, field
 
-from planmethod.gears.axes import CLOSE, shift_for
+from planmethod.gears.axes import COAXIAL_TOLERANCE, shift_for
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion
 from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language
 
-LEAST_TEETH = 17
+MIN_TEETH = 17
 """Least teeth of a wheel without shift that the rack does not undercut."""
 
 RING_LESS = 8
@@ -26,7 +26,7 @@ ALPHA = 20.0
 
 SIN2 = math.sin(math.radians(ALPHA)) ** 2
 
-MOST_SATELLITES = 24
+MAX_PLANETS = 24
 
 
 class Condition(Struct, frozen=True):
@@ -39,14 +39,14 @@ class Condition(Struct, frozen=True):
         ``satellites``: key of its sentence.
     facts : mapping
         Values that its sentence names.
-    said : str
+    phrase_key : str
         Key of its sentence where it differs from the name.
     """
 
     name: str
-    holds: bool
+    is_met: bool
     facts: Mapping[str, str] = field(default_factory=dict)
-    said: str = ""
+    phrase_key: str = ""
 
 
 def conditions(motion: TrainMotion) -> tuple[Condition, ...]:
@@ -54,22 +54,22 @@ def conditions(motion: TrainMotion) -> tuple[Condition, ...]:
     return (*_coaxial(motion), *_arms(motion), *_sets(motion), *_teeth(motion))
 
 
-def sentence(condition: Condition, words: Language) -> str:
+def sentence(condition: Condition, language: Language) -> str:
     """Return a condition in words."""
-    decimal = words.note.decimal
+    decimal = language.note.decimal
     facts = {name: value.replace(".", decimal) for name, value in condition.facts.items()}
     if "unit" in facts:
-        facts["unit"] = words.gears["units"][facts["unit"]]
-    said: str = words.gears["conditions"][condition.said or condition.name]
-    return said.format(**facts)
+        facts["unit"] = language.gears["units"][facts["unit"]]
+    phrase: str = language.gears["conditions"][condition.phrase_key or condition.name]
+    return phrase.format(**facts)
 
 
-def judgement(condition: Condition, words: Language) -> str:
+def judgement(condition: Condition, language: Language) -> str:
     """Return a condition in words, with the verdict unless the words imply it."""
-    told = sentence(condition, words)
-    if condition.holds and condition.name == "satellites":
-        return told
-    return str(words.gears["holds"]["yes" if condition.holds else "no"]).format(sentence=told)
+    text = sentence(condition, language)
+    if condition.is_met and condition.name == "satellites":
+        return text
+    return str(language.gears["holds"]["yes" if condition.is_met else "no"]).format(sentence=text)
 
 
 # Coaxiality --------------------------------------------------------------------------------------
@@ -79,7 +79,7 @@ Terms = tuple[tuple[int, str], ...]
 
 
 def _coaxial(motion: TrainMotion) -> Iterator[Condition]:
-    for name, height, ways in coaxial_ways(motion):
+    for name, height, ways in coaxial_paths(motion):
         meshes = [_meshes_of(motion, way) for way in ways]
         if motion.axes.shifted & {mesh.name for mesh in (*meshes[0], *meshes[1])}:
             yield _coaxial_shifted(motion, name, ways)
@@ -91,7 +91,7 @@ def _coaxial(motion: TrainMotion) -> Iterator[Condition]:
                             "coaxiality_mm")  # fmt: skip
             continue
         sums = " = ".join(_sum(motion, way, height) for way in ways)
-        facts = {"sums": sums, "axis": name, "value": _shown(abs(height))}
+        facts = {"sums": sums, "axis": name, "value": _number_text(abs(height))}
         yield Condition("coaxiality", True, facts)
 
 
@@ -102,37 +102,37 @@ def _arms(motion: TrainMotion) -> Iterator[Condition]:
         carrier = train.body_of[label]
         for mesh in train.meshes:
             ends = train.ends(mesh)
-            around = [body for body in ends if body in motion.roles.satellites.get(carrier, ())]
+            around = [body for body in ends if body in motion.roles.planets.get(carrier, ())]
             if train.carrier(mesh) != carrier or len(around) != 1 or mesh.kind not in PARALLEL:
                 continue
             inner = mesh.kind is MeshKind.INTERNAL
             one, other = sorted((mesh.first, mesh.second), key=lambda x: -axes.sizes[x] * inner)
-            told = f"r_{one} {'−' if inner else '+'} r_{other}"
-            told = f"a_w{mesh.name}" if mesh.name in axes.shifted else told
+            text = f"r_{one} {'−' if inner else '+'} r_{other}"
+            text = f"a_w{mesh.name}" if mesh.name in axes.shifted else text
             per = 1000 if train.toothed else 1
-            said = {"sums": f"{told} = r_{label}", "axis": around[0]}
+            said = {"sums": f"{text} = r_{label}", "axis": around[0]}
             said["value"] = f"{float(radius * per):g}"
             form = "coaxiality_mm" if train.toothed else ""
             yield Condition("coaxiality", True, said, form)
             break
 
 
-def _meshes_of(motion: TrainMotion, way: Terms) -> list[Mesh]:
+def _meshes_of(motion: TrainMotion, terms: Terms) -> list[Mesh]:
     """Return the meshes along a path of terms, two terms each."""
     by = {frozenset((mesh.first, mesh.second)): mesh for mesh in motion.train.meshes}
-    return [by[frozenset((one, other))] for (_, one), (_, other) in zip(way[::2], way[1::2],
+    return [by[frozenset((one, other))] for (_, one), (_, other) in zip(terms[::2], terms[1::2],
                                                                       strict=True)]  # fmt: skip
 
 
-def _coaxial_shifted(motion: TrainMotion, axis: str, ways: tuple[Terms, Terms]) -> Condition:
+def _coaxial_shifted(motion: TrainMotion, axis: str, paths: tuple[Terms, Terms]) -> Condition:
     """Check two paths, one over shifted wheels, by comparing their centre distances."""
     train, axes = motion.train, motion.axes
     per = Fraction(1, 2) if train.module is None else train.unit_m * 1000
     heights, sums = [], []
-    for way in ways:
+    for way in paths:
         parts, height = [], Fraction(0)
         for mesh, (sign, _) in zip(_meshes_of(motion, way), way[::2], strict=True):
-            height += sign * axes.apart[mesh.name]
+            height += sign * axes.distances[mesh.name]
             parts.append((sign, mesh.name))
         turn = -1 if height < 0 else 1
         text = " ".join(f"{'+' if sign * turn > 0 else '−'} a_w{name}" for sign, name in parts)
@@ -141,10 +141,10 @@ def _coaxial_shifted(motion: TrainMotion, axis: str, ways: tuple[Terms, Terms]) 
     off = heights[1] - heights[0]
     said = {"axis": axis, "sums": ", ".join(sums), "off": _places(abs(off) * per)}
     said["unit"] = "modules" if train.module is None else "mm"
-    if abs(off) <= 2 * CLOSE:
+    if abs(off) <= 2 * COAXIAL_TOLERANCE:
         return Condition("coaxiality", True, said, "coaxiality_shifted")
-    last = _meshes_of(motion, ways[1])
-    if len(last) == 1 and len(ways[0]) == 2:
+    last = _meshes_of(motion, paths[1])
+    if len(last) == 1 and len(paths[0]) == 2:
         wheel, shift = shift_for(train, last[0], heights[0])
         said |= {"wheel": wheel, "shift": f"{shift:.3f}".replace("-", MINUS)}
         return Condition("coaxiality", False, said, "coaxiality_cured")
@@ -155,7 +155,7 @@ def _places(value: Fraction) -> str:
     return f"{float(value):.3f}"
 
 
-def coaxial_ways(motion: TrainMotion) -> Iterator[tuple[str, Fraction, tuple[Terms, Terms]]]:
+def coaxial_paths(motion: TrainMotion) -> Iterator[tuple[str, Fraction, tuple[Terms, Terms]]]:
     """Yield each mesh that returns to an axis already reached: the axis, its height, both paths.
 
     The sums of sizes along both paths are the same.
@@ -193,13 +193,13 @@ def _axis(motion: TrainMotion, mesh: Mesh, end: int) -> str:
     return motion.axes.axis_of[motion.train.ends(mesh)[end]]
 
 
-def _step(motion: TrainMotion, mesh: Mesh, far: int) -> Terms:
+def _step(motion: TrainMotion, mesh: Mesh, end: int) -> Terms:
     """Return the height of the far axis of a mesh above the near one."""
     ends, heights = motion.train.ends(mesh), motion.axes.heights
-    side = 1 if heights[ends[far]] > heights[ends[1 - far]] else -1
+    side = 1 if heights[ends[end]] > heights[ends[1 - end]] else -1
     one, other = mesh.first, mesh.second
     if mesh.kind is MeshKind.EXTERNAL:
-        return ((side, one), (side, other)) if far else ((side, other), (side, one))
+        return ((side, one), (side, other)) if end else ((side, other), (side, one))
     sizes = motion.axes.sizes
     ring, small = (one, other) if sizes[one] > sizes[other] else (other, one)
     return (side, ring), (-side, small)
@@ -213,14 +213,14 @@ def _sum(motion: TrainMotion, terms: Terms, height: Fraction, letter: str = "") 
     return " ".join(parts).removeprefix("+ ")
 
 
-def _shown(value: Fraction) -> str:
+def _number_text(value: Fraction) -> str:
     return str(value.numerator) if value.denominator == 1 else f"{float(value):g}"
 
 
 # Sets of planets ---------------------------------------------------------------------------------
 
 
-def satellites_held(motion: TrainMotion, carrier: str) -> int | None:
+def max_planets(motion: TrainMotion, carrier: str) -> int | None:
     """Return the largest number of planets that can be assembled and do not touch.
 
     None where the carrier has more than one kind of planet, or its wheels have no teeth.
@@ -229,8 +229,8 @@ def satellites_held(motion: TrainMotion, carrier: str) -> int | None:
     if found is None:
         return None
     whole, size, distance = found
-    counts = range(1, MOST_SATELLITES + 1)
-    fits = [k for k in counts if _assembles(whole, k) and _apart(size, distance, k)]
+    counts = range(1, MAX_PLANETS + 1)
+    fits = [k for k in counts if _assembles(whole, k) and _clear_each_other(size, distance, k)]
     return max(fits, default=None)
 
 
@@ -240,21 +240,21 @@ def _sets(motion: TrainMotion) -> Iterator[Condition]:
         if found is None:
             continue
         whole, size, distance = found
-        most = satellites_held(motion, carrier)
+        most = max_planets(motion, carrier)
         yield Condition(
             "satellites", most is not None, {"carrier": carrier, "most": str(most or 0)}
         )
-        count = motion.train.satellites.get(carrier)
+        count = motion.train.planets.get(carrier)
         if count is None:
             continue
         said = {"carrier": carrier, "k": str(count)}
-        value = {"value": _shown(whole / count), "whole": _shown(whole)}
+        value = {"value": _number_text(whole / count), "whole": _number_text(whole)}
         yield Condition("assembly", _assembles(whole, count), said | value)
         room = {
             "left": f"{math.sin(math.pi / count):.4f}",
             "right": f"{float(size / distance):.4f}",
         }
-        yield Condition("neighbourhood", _apart(size, distance, count), said | room)
+        yield Condition("neighbourhood", _clear_each_other(size, distance, count), said | room)
 
 
 def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Fraction] | None:
@@ -263,8 +263,8 @@ def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Frac
     Both in modules of the train.
     """
     train, sizes = motion.train, motion.axes.sizes
-    satellites = motion.roles.satellites[carrier]
-    if len(satellites) != 1 or not train.toothed or satellites[0] in motion.roles.across:
+    satellites = motion.roles.planets[carrier]
+    if len(satellites) != 1 or not train.toothed or satellites[0] in motion.roles.transverse:
         return None
     (satellite,) = satellites
     rims: list[Fraction] = []
@@ -278,7 +278,7 @@ def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Frac
             return None
         own, other = (mesh.first, mesh.second)[:: 1 if ends[0] == satellite else -1]
         rims.append(sizes[own])
-        tip = (sizes[own] + 2 * (1 + _raised(motion, mesh, own))) * train.share(own)
+        tip = (sizes[own] + 2 * (1 + _raised(motion, mesh, own))) * train.module_ratio(own)
         tips[own] = min(tip, tips.get(own, tip))
         sign = 1 if mesh.kind is MeshKind.EXTERNAL else -1
         rows.append((sizes[own], sign * sizes[other]))
@@ -300,15 +300,15 @@ def _raised(motion: TrainMotion, mesh: Mesh, label: str) -> Fraction:
     small, large = sorted((mesh.first, mesh.second), key=lambda x: axes.sizes[x])
     shifts = train.wheels[large].shift + way * train.wheels[small].shift
     plain = axes.sizes[large] + way * axes.sizes[small]
-    grown = (axes.apart[mesh.name] / train.share(label) - plain) / 2
+    grown = (axes.distances[mesh.name] / train.module_ratio(label) - plain) / 2
     return train.wheels[label].shift - way * (shifts - grown)
 
 
-def _assembles(whole: Fraction, count: int) -> bool:
-    return (whole / count).denominator == 1
+def _assembles(turns: Fraction, count: int) -> bool:
+    return (turns / count).denominator == 1
 
 
-def _apart(size: Fraction, distance: Fraction, count: int) -> bool:
+def _clear_each_other(size: Fraction, distance: Fraction, count: int) -> bool:
     """Return whether the tips of neighbouring planets do not touch."""
     return count == 1 or math.sin(math.pi / count) > float(size / distance)
 
@@ -316,7 +316,7 @@ def _apart(size: Fraction, distance: Fraction, count: int) -> bool:
 # Inner meshes ------------------------------------------------------------------------------------
 
 
-def ring_room(small: Any) -> tuple[Any, Any]:
+def ring_bound(small: Any) -> tuple[Any, Any]:
     """Return denominator and numerator of the least teeth of a ring around a standard wheel.
 
     z₃ ≥ (z₂² sin²α − 4)/(2 z₂ sin²α − 4): the tip of the ring stays short of where the line of
@@ -332,7 +332,7 @@ def ring_fits(small: Any, ring: Any) -> Any:
     The ring has `RING_LESS` teeth more, and its tips stay short of the base circle's tangent
     point: the one rule for conditions, choice and design. Arrays of teeth give an array.
     """
-    room, reach = ring_room(small)
+    room, reach = ring_bound(small)
     return (ring - small >= RING_LESS) & (ring * room >= reach)
 
 
@@ -342,12 +342,12 @@ def _inner(motion: TrainMotion, mesh: Mesh) -> Condition:
     small, ring = sorted((mesh.first, mesh.second), key=lambda label: sizes[label])
     teeth, shifts = ([float(sizes[x]) for x in (small, ring)],
                      [float(train.wheels[x].shift) for x in (small, ring)])  # fmt: skip
-    said = {"ring": ring, "wheel": small, "teeth": _shown(sizes[small])}
-    room, reach = ring_room(teeth[0])
+    said = {"ring": ring, "wheel": small, "teeth": _number_text(sizes[small])}
+    room, reach = ring_bound(teeth[0])
     if room > 0 and not any(shifts):
         less = sizes[ring] - sizes[small]
         least = max(Fraction(RING_LESS), math.ceil(reach / room - 1e-9) - sizes[small])
-        said |= {"less": _shown(less), "least": _shown(least)}
+        said |= {"less": _number_text(less), "least": _number_text(least)}
         return Condition("interference", bool(ring_fits(*teeth)), said)
     from planmethod.gears.angles import ring_margins
 
@@ -380,7 +380,7 @@ def _teeth(motion: TrainMotion) -> Iterator[Condition]:
     for label, wheel in train.wheels.items():
         if label in rings or label not in spur:
             continue
-        least = LEAST_TEETH * (1 - wheel.shift)
+        least = MIN_TEETH * (1 - wheel.shift)
         if sizes[label] < least:
-            said = {"wheel": label, "z": _shown(sizes[label]), "least": _shown(least)}
+            said = {"wheel": label, "z": _number_text(sizes[label]), "least": _number_text(least)}
             yield Condition("undercutting", False, said)

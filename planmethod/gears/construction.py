@@ -18,30 +18,35 @@ from msgspec.structs import replace
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.drafting import Profile, sigmas
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.errors import PlanMethodError
-from planmethod.gears.asked import parse
 from planmethod.gears.motion import TrainMotion
-from planmethod.gears.picture import ContactKind, ContactPoint, VelocityPictures, carrier_of
-from planmethod.languages import say
-from planmethod.solved.enlarging import SHORT, WIDEST, Knot, least_shown, ratio_for
+from planmethod.gears.requested_quantities import parse
+from planmethod.gears.velocity_diagrams import (
+    ContactKind,
+    ContactPoint,
+    VelocityDiagrams,
+    carrier_of,
+)
+from planmethod.languages import translate
+from planmethod.solved.detail_views import SHORT, WIDEST, DetailView, min_enlarged, ratio_for
 
 LETTERS = "abcdefghklmnqrstuvwxz"
 """Letters of contact points, in the order of the meshes; ``p`` is the pole."""
 
-NEAR = 1e-6
+SELF_CHECK_TOLERANCE = 1e-6
 """Difference of the construction from the mesh equations that is a fault, not rounding."""
 
-FEET, POLE = PointName("o'"), PointName("p")
+AXIS_FOOT, POLE = PointName("o'"), PointName("p")
 """Foot of the main axis on ``yy``, and the pole of the rays: both may be placed anywhere."""
 
-FOOT = PointName("o")
+RAY_ORIGIN = PointName("o")
 """Point below the pole on the level line, from which the segments of the rays are read."""
 
 
-class PictureError(PlanMethodError):
+class VelocityDiagramError(PlanMethodError):
     """The diagrams contradict the mesh equations: an internal error (самопроверка)."""
 
 
@@ -53,27 +58,27 @@ class DrawnPoint(Struct, frozen=True):
     contact : ContactPoint
     letter : str
         Rich text.
-    foot, end : PointName
+    base, end : PointName
         Its place on ``yy``, and the end of its velocity.
     bodies : tuple of str
         Bodies that have this velocity there.
     height, speed : Fraction, mm
-    laid, read : NumberName or None
+    plotted, read : NumberName or None
         Its segment as laid off, or as read; both None where it is zero.
     """
 
     contact: ContactPoint
     letter: str
-    foot: PointName
+    base: PointName
     end: PointName
     bodies: tuple[str, ...]
     height: Fraction
     speed: Fraction
-    laid: NumberName | None = None
+    plotted: NumberName | None = None
     read: NumberName | None = None
 
 
-class Found(Struct, frozen=True):
+class MeasuredQuantity(Struct, frozen=True):
     """A quantity measured on the diagrams (снятая величина).
 
     Attributes
@@ -112,7 +117,7 @@ class GearDrawing(Struct, frozen=True):
     """
 
     motion: TrainMotion
-    picture: VelocityPictures
+    diagrams: VelocityDiagrams
     program: Program
     data: Mapping[str, Fraction]
     starts: tuple[str, ...]
@@ -122,21 +127,21 @@ class GearDrawing(Struct, frozen=True):
     rays: Mapping[str, PointName]
     segments: Mapping[str, NumberName]
     mu: NumberName
-    found: tuple[Found, ...]
+    quantities: tuple[MeasuredQuantity, ...]
 
     def label(self, body: str) -> str:
         """Return the name of a body's line: all the numbers of the body."""
         train = self.motion.train
         return ", ".join(label for label in train.numbers if train.body_of[label] == body)
 
-    def read_on(self, knots: Iterable[Knot]) -> dict[str, Knot]:
+    def read_on(self, detail_views: Iterable[DetailView]) -> dict[str, DetailView]:
         """Return the bodies whose segments are read on enlarged views, and on which."""
-        ends = {end: knot for knot in knots for _, end in knot.ends}
+        ends = {end: detail_view for detail_view in detail_views for _, end in detail_view.ends}
         return {body: ends[end] for body, end in self.rays.items() if end in ends}
 
     def numbers(self) -> dict[str, Number]:
         """Return the data as floats."""
-        return {name: float(value) for name, value in self.data.items()} | {FEET: 0j, POLE: 0j}
+        return {name: float(value) for name, value in self.data.items()} | {AXIS_FOOT: 0j, POLE: 0j}
 
 
 class GearReading(Struct, frozen=True):
@@ -150,14 +155,14 @@ class GearReading(Struct, frozen=True):
         With the ruler.
     sigma : mapping
         Drafting errors of the numbers, one standard deviation.
-    knots : tuple of Knot
+    detail_views : tuple of DetailView
         Short segments of the rays, which are drawn once more, larger, and read there.
     """
 
     exact: Trace
     read: Trace
     sigma: Mapping[str, float]
-    knots: tuple[Knot, ...] = ()
+    detail_views: tuple[DetailView, ...] = ()
 
     def point(self, name: PointName) -> complex:
         """Return a point, mm."""
@@ -174,73 +179,80 @@ def read(drawn: GearDrawing, profile: Profile) -> GearReading:
     """
     program, data = drawn.program, drawn.numbers()
     exact = evaluate(program, data, Float64())
-    knots = _knots(drawn, exact, least_shown(profile.ruler))
+    knots = _find_detail_views(drawn, exact, min_enlarged(profile.ruler))
     enlarged: dict[str, Number] = {
-        str(drawn.segments[body]): knot.times for body, knot in drawn.read_on(knots).items()
+        str(drawn.segments[body]): detail_view.times
+        for body, detail_view in drawn.read_on(knots).items()
     }
-    found = sigmas(program, data, profile, frozenset((str(FEET), str(POLE))), enlarged)
+    found = sigmas(program, data, profile, frozenset((str(AXIS_FOOT), str(POLE))), enlarged)
     sigma = {name: float(one[0]) for name, one in found.items()}
-    for one in drawn.found:
+    for one in drawn.quantities:
         got, due = float(exact.value[one.read]), float(one.exact)
-        if not abs(got - due) <= NEAR * max(1.0, abs(due)):
-            told = say(
+        if not abs(got - due) <= SELF_CHECK_TOLERANCE * max(1.0, abs(due)):
+            text = translate(
                 "the velocity diagrams give {} = {:.12g}, the mesh equations {:.12g}",
                 one.name,
                 got,
                 due,
             )
-            raise PictureError("{}. Please report the problem file.", told)
-    hand = Hand(profile.ruler, enlarged)
+            raise VelocityDiagramError("{}. Please report the problem file.", text)
+    hand = RulerArithmetic(profile.ruler, enlarged)
     return GearReading(exact, evaluate(program, data, hand), sigma, knots)
 
 
-def _knots(drawn: GearDrawing, exact: Trace, least: float) -> tuple[Knot, ...]:
-    """Return the segments of rays from ``least`` to `SHORT`, mm, by the views that show them."""
-    foot = complex(exact.value[FOOT])
+def _find_detail_views(
+    drawn: GearDrawing, exact: Trace, min_length: float
+) -> tuple[DetailView, ...]:
+    """Return the segments of rays from ``min_length`` to `SHORT`, mm, by their views."""
+    foot = complex(exact.value[RAY_ORIGIN])
     ends = {end: complex(exact.value[end]) - foot for end in drawn.rays.values()}
-    short = [end for end, way in ends.items() if least <= abs(way) < SHORT]
-    found: list[Knot] = []
+    short = [end for end, way in ends.items() if min_length <= abs(way) < SHORT]
+    found: list[DetailView] = []
     for end in sorted(short, key=lambda one: abs(ends[one])):
         times = ratio_for(abs(ends[end]))
-        for k, knot in enumerate(found):
-            own = (*(pair[1] for pair in knot.ends), end)
+        for k, detail_view in enumerate(found):
+            own = (*(pair[1] for pair in detail_view.ends), end)
             across = [0.0, *(ends[one].real for one in own)]
-            if (max(across) - min(across)) * knot.times <= WIDEST:
+            if (max(across) - min(across)) * detail_view.times <= WIDEST:
                 middle = foot + (max(across) + min(across)) / 2
-                found[k] = replace(knot, centre=middle, ends=(*knot.ends, (FOOT, end)))
+                found[k] = replace(
+                    detail_view, centre=middle, ends=(*detail_view.ends, (RAY_ORIGIN, end))
+                )
                 break
         else:
             letters = (spot.letter[0].upper() for spot in drawn.spots)
             initials = frozenset({"O", "P", *letters, *(label[0] for label in drawn.lines)})
             middle = foot + ends[end] / 2
-            found.append(Knot(len(found), middle, times, ((FOOT, end),), initials))
+            found.append(DetailView(len(found), middle, times, ((RAY_ORIGIN, end),), initials))
     return tuple(found)
 
 
-def construct(motion: TrainMotion, picture: VelocityPictures) -> GearDrawing:
+def construct(motion: TrainMotion, diagrams: VelocityDiagrams) -> GearDrawing:
     """Return the construction of the velocity diagrams of a train."""
-    return _Drawing(motion, picture).construction()
+    return _Drawing(motion, diagrams).construction()
 
 
 class _Drawing:
     """A construction while it is made."""
 
-    def __init__(self, motion: TrainMotion, picture: VelocityPictures) -> None:
-        self.motion, self.picture = motion, picture
+    def __init__(self, motion: TrainMotion, diagrams: VelocityDiagrams) -> None:
+        self.motion, self.diagrams = motion, diagrams
         self.builder = Builder()
         self.data: dict[str, Fraction] = {}
         self.feet: dict[Fraction, PointName] = {}
         self.lines: dict[str, LineName] = {}
-        train, scale = motion.train, motion.train.unit_m / picture.mu_l
+        train, scale = motion.train, motion.train.unit_m / diagrams.mu_l
         used = {body for mesh in train.meshes for body in train.ends(mesh)} | set(train.carriers)
         self.heights = {b: self.motion.axes.heights[b] * scale for b in train.bodies if b in used}
         self.over = {body: carrier_of(self.motion, body) for body in self.heights}
-        self.points = {one.at: (one.height_mm, self._bodies(one.at)) for one in picture.contacts}
-        self.speeds = {one.at: one.speed_mm for one in picture.contacts}
-        self.laid: dict[ContactPoint, NumberName] = {}
+        self.points = {
+            one.at: (one.height_mm, self._bodies_of_point(one.at)) for one in diagrams.contacts
+        }
+        self.speeds = {one.at: one.speed_mm for one in diagrams.contacts}
+        self.plotted: dict[ContactPoint, NumberName] = {}
         self.ends: dict[ContactPoint, PointName] = {}
 
-    def _bodies(self, point: ContactPoint) -> tuple[str, ...]:
+    def _bodies_of_point(self, point: ContactPoint) -> tuple[str, ...]:
         """Return the bodies that have one velocity at a point."""
         if point.kind is ContactKind.PITCH:
             train = self.motion.train
@@ -250,7 +262,7 @@ class _Drawing:
 
     def construction(self) -> GearDrawing:
         builder, train = self.builder, self.motion.train
-        origin = builder.given(FEET)
+        origin = builder.take_point(AXIS_FOOT)
         self.base = builder.at_angle(origin, None, self._known("level", Fraction(0)))
         self.axis = builder.perpendicular(origin, self.base)
         self.feet[Fraction(0)] = origin
@@ -258,22 +270,22 @@ class _Drawing:
             if height not in self.feet:
                 letter = f"{self._letter(name)}'"
                 length = self._known(f"height {letter}", height)
-                self.feet[height] = builder.lay_off(letter, origin, self.axis, length)
+                self.feet[height] = builder.lay_off_length(letter, origin, self.axis, length)
         starts = self._starts()
-        self._hold(train.fixed)
+        self._place_fixed_bodies(train.fixed)
         for start in starts:
             self._spread()
             if start not in self.lines:
-                self._lay_off(start)
+                self._plot_speed(start)
         self._spread()
         spots = tuple(self._spot(name) for name in self.points)
         rays, segments = self._rays()
         inputs = [body for body in train.inputs if body in self.lines]
         calculated = () if len(starts) == self._mobility() == 1 else set(starts) - set(inputs)
         mu = self._scale(starts, inputs, segments)
-        found = tuple(self._found(mu, segments))
+        found = tuple(self._measured_quantities(mu, segments))
         return GearDrawing(
-            self.motion, self.picture, builder.program(), self.data, starts,
+            self.motion, self.diagrams, builder.program(), self.data, starts,
             tuple(body for body in starts if body in calculated), spots, self.lines, rays,
             segments, mu, found,
         )  # fmt: skip
@@ -356,7 +368,7 @@ class _Drawing:
         ]
         return max(own, key=lambda one: one[0])[1] if own else None
 
-    def _hold(self, fixed: frozenset[str]) -> None:
+    def _place_fixed_bodies(self, fixed: frozenset[str]) -> None:
         for body in self.heights:
             if body in fixed:
                 self.lines[body] = self.axis
@@ -364,14 +376,14 @@ class _Drawing:
             if self._is_at_rest(name, self.lines):
                 self.ends[name] = self.feet[height]
 
-    def _lay_off(self, body: str) -> None:
+    def _plot_speed(self, body: str) -> None:
         name = self._arm(body)
         assert name is not None
         height, letter = self.points[name][0], self._letter(name)
         if name not in self.ends:
-            length = self.laid[name] = self._known(f"laid {letter}", self.speeds[name])
+            length = self.plotted[name] = self._known(f"laid {letter}", self.speeds[name])
             level = self.builder.parallel(self.feet[height], self.base)
-            self.ends[name] = self.builder.lay_off(letter, self.feet[height], level, length)
+            self.ends[name] = self.builder.lay_off_length(letter, self.feet[height], level, length)
 
     def _spread(self) -> None:
         """Draw the line of every body that has two points, and take its other points off it."""
@@ -389,7 +401,9 @@ class _Drawing:
                     if body in bodies and name not in self.ends:
                         level = self.builder.parallel(self.feet[height], self.base)
                         letter = self._letter(name)
-                        self.ends[name] = self.builder.meet_lines(letter, level, self.lines[body])
+                        self.ends[name] = self.builder.intersect_lines(
+                            letter, level, self.lines[body]
+                        )
 
     def _end(self, name: ContactPoint | None, height: Fraction) -> PointName:
         if name is not None:
@@ -397,14 +411,14 @@ class _Drawing:
         if height not in self.feet:  # a fixed axis without a contact of its own
             letter = f"o_{{{len(self.feet)}}}'"
             length = self._known(f"height {letter}", height)
-            self.feet[height] = self.builder.lay_off(letter, FEET, self.axis, length)
+            self.feet[height] = self.builder.lay_off_length(letter, AXIS_FOOT, self.axis, length)
         return self.feet[height]
 
     def _spot(self, name: ContactPoint) -> DrawnPoint:
         """Read a segment of the linear velocity diagram."""
         (height, bodies), end = self.points[name], self.ends[name]
         foot, letter, read = self.feet[height], self._letter(name), None
-        laid = self.laid.get(name)
+        laid = self.plotted.get(name)
         if end != foot and laid is None:
             read = self.builder.measure_along(f"read {letter}", foot, end, self.base)
         return DrawnPoint(name, letter, foot, end, bodies, height, self.speeds[name], laid, read)
@@ -413,10 +427,10 @@ class _Drawing:
 
     def _rays(self) -> tuple[dict[str, PointName], dict[str, NumberName]]:
         builder = self.builder
-        pole = builder.given(POLE)
+        pole = builder.take_point(POLE)
         down = builder.parallel(pole, self.axis)
-        far = self._known("pole distance", -self.picture.pole_mm)
-        foot = builder.lay_off(str(FOOT), pole, down, far)
+        far = self._known("pole distance", -self.diagrams.pole_mm)
+        foot = builder.lay_off_length(str(RAY_ORIGIN), pole, down, far)
         level = builder.parallel(foot, self.base)
         rays: dict[str, PointName] = {}
         segments: dict[str, NumberName] = {}
@@ -424,7 +438,7 @@ class _Drawing:
             if body in self.motion.train.fixed:
                 continue
             ray = builder.parallel(pole, line)
-            rays[body] = builder.meet_lines(f"ray {body}", ray, level)
+            rays[body] = builder.intersect_lines(f"ray {body}", ray, level)
             segments[body] = builder.measure_along(f"segment {body}", foot, rays[body], self.base)
         return rays, segments
 
@@ -436,22 +450,28 @@ class _Drawing:
         if len(starts) == self._mobility() == 1 and quick and starts[0] not in inputs:
             speed = self._known("input", self.motion.speeds[quick[0]])
             return self.builder.compute("mu", (speed, 1), (segments[quick[0]], -1))
-        return self._known("mu", self.picture.turn_per_mm)
+        return self._known("mu", self.diagrams.turn_per_mm)
 
-    def _found(self, mu: NumberName, segments: Mapping[str, NumberName]) -> list[Found]:
+    def _measured_quantities(
+        self, mu: NumberName, segments: Mapping[str, NumberName]
+    ) -> list[MeasuredQuantity]:
         train, speeds = self.motion.train, self.motion.speeds
         unit, found = train.unit, {}
         for label in train.numbers:
             body = train.body_of[label]
             if body in segments:
                 number = self.builder.compute(f"{unit}_{label}", (mu, 1), (segments[body], 1))
-                found[str(number)] = Found(f"{unit}_{label}", speeds[body], number, (body,))
+                found[str(number)] = MeasuredQuantity(
+                    f"{unit}_{label}", speeds[body], number, (body,)
+                )
         for name in dict.fromkeys(train.ask):
             asked = parse(name, tuple(train.body_of))
             if asked.kind not in ("U", "n", "omega") or name in found:
                 continue
             carrier = None if asked.carrier is None else train.body_of[asked.carrier]
-            parts = [self._seen(train.body_of[x], carrier, segments) for x in asked.labels]
+            parts = [
+                self._relative_segment(train.body_of[x], carrier, segments) for x in asked.labels
+            ]
             exact = [self.motion.speed(label, asked.carrier) for label in asked.labels]
             if None in parts or (asked.kind == "U" and not exact[1]):
                 continue
@@ -468,10 +488,10 @@ class _Drawing:
                 factor = train.factor if other else 1.0
                 value = float(exact[0]) * factor if other else exact[0]
             number = self.builder.compute(name, *powers, factor=factor)
-            found[name] = Found(name, value, number, rays)
+            found[name] = MeasuredQuantity(name, value, number, rays)
         return list(found.values())
 
-    def _seen(
+    def _relative_segment(
         self, body: str, carrier: str | None, segments: Mapping[str, NumberName]
     ) -> NumberName | None:
         """Return the segment of a body minus that of a carrier; None if both are fixed."""

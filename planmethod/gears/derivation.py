@@ -15,12 +15,12 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import PlanMethodError
-from planmethod.gears.asked import SoughtQuantity, parse
 from planmethod.gears.model import Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion, mesh_row
+from planmethod.gears.requested_quantities import RequestedQuantity, parse
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.numbers import MINUS, raised
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, MessageTable
 
 _ONE = Fraction(1)
 
@@ -37,7 +37,7 @@ class Stage(Struct, frozen=True):
 
     Attributes
     ----------
-    one, other : str
+    first, second : str
         Bodies: the ratio is that of the first to the second.
     labels : (str, str)
         Labels that name the ratio.
@@ -46,26 +46,26 @@ class Stage(Struct, frozen=True):
         Wheels whose teeth are multiplied and divided; empty for a set.
     carrier : str or None
         The carrier relative to which the ratio is taken.
-    told : tuple of DerivedLine
+    lines : tuple of DerivedLine
         Derivation, line by line; empty for a mesh.
     """
 
-    one: str
-    other: str
+    first: str
+    second: str
     labels: tuple[str, str]
     ratio: Fraction
     tops: tuple[str, ...] = ()
     bottoms: tuple[str, ...] = ()
     carrier: str | None = None
-    told: tuple[DerivedLine, ...] = ()
+    lines: tuple[DerivedLine, ...] = ()
 
     @property
     def symbol(self) -> Rich:
         """``U_{12}``, ``U^{(H)}_{13}``."""
-        return SoughtQuantity("U", self.labels, self.carrier).symbol
+        return RequestedQuantity("U", self.labels, self.carrier).symbol
 
 
-def derivation(motion: TrainMotion, words: Language) -> list[DerivedLine]:
+def derivation(motion: TrainMotion, language: Language) -> list[DerivedLine]:
     """Return the derivation of the requested ratios and speeds, line by line.
 
     Raises
@@ -75,28 +75,28 @@ def derivation(motion: TrainMotion, words: Language) -> list[DerivedLine]:
     """
     known = tuple(motion.train.body_of)
     asked = [parse(name, known) for name in dict.fromkeys(motion.train.ask)]
-    teller = _Derivation(motion, words)
+    teller = _Derivation(motion, language)
     lines = [line for one in asked if one.kind == "U" for line in teller.ratio(one)]
     speeds = [one for one in asked if one.kind == motion.train.unit and not one.carrier]
     return lines + [line for one in speeds for line in teller.speed(one.labels[0])]
 
 
-def by_speeds(motion: TrainMotion, asked: SoughtQuantity, words: Language) -> Rich:
+def by_speeds(motion: TrainMotion, quantity: RequestedQuantity, language: Language) -> Rich:
     """Return a ratio in letters of speeds and its value: ``U_{15} = n_1/n_5 = -33``."""
-    hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
-    letters = (f"{motion.train.letter}{hat}_{{{label}}}" for label in asked.labels)
-    one, other = (motion.speed(label, asked.carrier) for label in asked.labels)
-    ratio = one / other if motion.has_sign(*asked.labels) else abs(one / other)
-    return f"{asked.symbol} = {fraction(*letters)} = {_value(ratio, words)}"
+    hat = f"^{{({quantity.carrier})}}" if quantity.carrier else ""
+    letters = (f"{motion.train.letter}{hat}_{{{label}}}" for label in quantity.labels)
+    one, other = (motion.speed(label, quantity.carrier) for label in quantity.labels)
+    ratio = one / other if motion.has_sign(*quantity.labels) else abs(one / other)
+    return f"{quantity.symbol} = {fraction(*letters)} = {_value(ratio, language)}"
 
 
 class _Derivation:
     """Derives one quantity after another; a line written once is not repeated."""
 
-    def __init__(self, motion: TrainMotion, words: Language) -> None:
-        self.motion, self.train, self.words = motion, motion.train, words
-        self.say: Words = words.gears["derived"]
-        self._told: set[Rich] = set()
+    def __init__(self, motion: TrainMotion, language: Language) -> None:
+        self.motion, self.train, self.language = motion, motion.train, language
+        self.texts: MessageTable = language.gears["derived"]
+        self._written: set[Rich] = set()
         fixed = self.train.fixed
         self.moving = [c for c in self.train.carriers if c not in fixed]
         self.stages = [
@@ -106,7 +106,7 @@ class _Derivation:
             for stage in self._both(mesh, None)
         ]
         for carrier in self.moving:
-            self.stages += self._held(carrier)
+            self.stages += self._fixed_wheel_stages(carrier)
         self._close()
         self.speeds = dict(self.train.inputs) | dict.fromkeys(fixed, Fraction(0))
 
@@ -123,7 +123,7 @@ class _Derivation:
         back = ends[::-1]
         yield Stage(*back, labels[::-1], 1 / ratio, (labels[0],), (labels[1],), carrier)
 
-    def _carried(self, carrier: str) -> list[Stage]:
+    def _carrier_stages(self, carrier: str) -> list[Stage]:
         return [
             stage
             for mesh in self.train.meshes
@@ -131,17 +131,17 @@ class _Derivation:
             for stage in self._both(mesh, mesh.carrier)
         ]
 
-    def _held(self, carrier: str) -> Iterator[Stage]:
+    def _fixed_wheel_stages(self, carrier: str) -> Iterator[Stage]:
         """Yield the ratios of wheels to a carrier on whose set a wheel is fixed."""
-        stages = self._carried(carrier)
-        fixed = next((s.one for s in stages if s.one in self.train.fixed), None)
+        stages = self._carrier_stages(carrier)
+        fixed = next((s.first for s in stages if s.first in self.train.fixed), None)
         if fixed is None:
             return
-        for body in dict.fromkeys(stage.one for stage in stages):
-            if body == fixed or body in self.motion.roles.across:
+        for body in dict.fromkeys(stage.first for stage in stages):
+            if body == fixed or body in self.motion.roles.transverse:
                 continue
             path = find_path(stages, body, fixed)
-            whole = self._whole(path)
+            whole = self._combined(path)
             if not path or whole.ratio == 1:
                 continue
             label, held = _number(whole.labels[0]), path[0].carrier or carrier
@@ -150,18 +150,18 @@ class _Derivation:
             teeth, numbers = (f"1 {_plus(*parts)}" for parts in self._signed(whole))
             told, ratio = tuple(self._product(path)), 1 - whole.ratio
             line = DerivedLine(
-                f"{symbol} = {less} = {teeth} = {numbers} = {_value(ratio, self.words)}"
+                f"{symbol} = {less} = {teeth} = {numbers} = {_value(ratio, self.language)}"
             )
-            yield Stage(body, carrier, (label, held), ratio, told=(*told, line))
+            yield Stage(body, carrier, (label, held), ratio, lines=(*told, line))
             under = [fraction("1", text) for text in (symbol, less, teeth, numbers)]
             line = DerivedLine(
-                " = ".join([_symbol(held, label), *under, _value(1 / ratio, self.words)])
+                " = ".join([_symbol(held, label), *under, _value(1 / ratio, self.language)])
             )
-            yield Stage(carrier, body, (held, label), 1 / ratio, told=(*told, line))
+            yield Stage(carrier, body, (held, label), 1 / ratio, lines=(*told, line))
 
     def _close(self) -> None:
         """Find the ratios of differentials that a chain closes, until there are no more."""
-        open_ = [c for c in self.moving if not any(s.other == c and s.told for s in self.stages)]
+        open_ = [c for c in self.moving if not any(s.second == c and s.lines for s in self.stages)]
         while True:
             found = next(
                 ((c, made) for c in open_ if (made := self._eliminated(c))),
@@ -174,12 +174,12 @@ class _Derivation:
 
     def _eliminated(self, carrier: str) -> list[Stage]:
         """Return the ratio of a wheel of a differential to its carrier, and its inverse."""
-        stages, across = self._carried(carrier), self.motion.roles.across
-        around = self.motion.roles.satellites[carrier]
-        central = [b for b in dict.fromkeys(s.one for s in stages) if b not in (*across, *around)]
+        stages, across = self._carrier_stages(carrier), self.motion.roles.transverse
+        around = self.motion.roles.planets[carrier]
+        central = [b for b in dict.fromkeys(s.first for s in stages) if b not in (*across, *around)]
         for p, q in permutations(central, 2):
             path = find_path(stages, p, q)
-            whole, held = self._whole(path), path[0].carrier if path else None
+            whole, held = self._combined(path), path[0].carrier if path else None
             if held is None:
                 continue
             u, symbol = whole.ratio, whole.symbol
@@ -206,93 +206,99 @@ class _Derivation:
                 continue
             if not ratio:
                 continue
-            say, wheels = self.say, ", ".join(map(_number, whole.labels))
+            texts, wheels = self.texts, ", ".join(map(_number, whole.labels))
             shares = [fraction(f"{n_p} − {n_c}", below[0]), fraction(f"{p_c} − 1", below[1])]
             divided = f"{symbol} = {' = '.join(shares)}"
             told = (
-                DerivedLine(say.willis.format(wheels=wheels, carrier=held, formula=willis), False),
-                DerivedLine(say.closing.format(formula=closing), False),
-                DerivedLine(say.divided.format(speed=n_c, formula=divided), False),
-                DerivedLine(say.hence.format(formula=f"{p_c} = {hence}"), False),
+                DerivedLine(
+                    texts.willis.format(wheels=wheels, carrier=held, formula=willis), False
+                ),
+                DerivedLine(texts.closing.format(formula=closing), False),
+                DerivedLine(texts.divided.format(speed=n_c, formula=divided), False),
+                DerivedLine(texts.hence.format(formula=f"{p_c} = {hence}"), False),
                 *self._product(path),
                 *self._explained(chain, link),
-                DerivedLine(f"{p_c} = {numbers} = {_value(ratio, self.words)}"),
+                DerivedLine(f"{p_c} = {numbers} = {_value(ratio, self.language)}"),
             )
-            label, inverse = _number(whole.labels[0]), _value(1 / ratio, self.words)
+            label, inverse = _number(whole.labels[0]), _value(1 / ratio, self.language)
             back = DerivedLine(f"{_symbol(held, label)} = {fraction('1', p_c)} = {inverse}")
             return [
-                Stage(p, carrier, (label, held), ratio, told=told),
-                Stage(carrier, p, (held, label), 1 / ratio, told=(*told, back)),
+                Stage(p, carrier, (label, held), ratio, lines=told),
+                Stage(carrier, p, (held, label), 1 / ratio, lines=(*told, back)),
             ]
         return []
 
     # Writing --------------------------------------------------------------------------------------
 
-    def ratio(self, asked: SoughtQuantity) -> Iterator[DerivedLine]:
+    def ratio(self, quantity: RequestedQuantity) -> Iterator[DerivedLine]:
         """Yield the derivation of a ratio; letters and value alone where no stages lead to it."""
         train = self.train
-        one, other = (train.body_of[label] for label in asked.labels)
-        if {one, other} & train.racks or not self.motion.speed(asked.labels[1], asked.carrier):
+        one, other = (train.body_of[label] for label in quantity.labels)
+        if {one, other} & train.racks or not self.motion.speed(
+            quantity.labels[1], quantity.carrier
+        ):
             return
-        exact = self.motion.speed(asked.labels[0], asked.carrier) / self.motion.speed(
-            asked.labels[1], asked.carrier
+        exact = self.motion.speed(quantity.labels[0], quantity.carrier) / self.motion.speed(
+            quantity.labels[1], quantity.carrier
         )
-        if asked.carrier is None:
+        if quantity.carrier is None:
             path = find_path(self.stages, one, other)
         else:
-            path = find_path(self._carried(train.body_of[asked.carrier]), one, other)
-        has_sign = self.motion.has_sign(*asked.labels)
+            path = find_path(self._carrier_stages(train.body_of[quantity.carrier]), one, other)
+        has_sign = self.motion.has_sign(*quantity.labels)
         if not path:
-            yield DerivedLine(by_speeds(self.motion, asked, self.words))
+            yield DerivedLine(by_speeds(self.motion, quantity, self.language))
         else:
-            self._check(asked.symbol, self._whole(path).ratio, exact)
+            self._check(quantity.symbol, self._combined(path).ratio, exact)
             path = path if has_sign else _sizes(path)
-            yield from self._once(self._explained(path, asked.symbol))
+            yield from self._once(self._explained(path, quantity.symbol))
         if not has_sign:
-            yield from self._once([self._signless(asked.symbol, asked.labels)])
+            yield from self._once([self._signless(quantity.symbol, quantity.labels)])
         elif (
             path
-            and asked.carrier is None
+            and quantity.carrier is None
             and len(path) > 1
-            and not {one, other} & self.motion.roles.across
+            and not {one, other} & self.motion.roles.transverse
         ):
-            first, last = asked.labels
-            sense = str(self.say["senses"]["same" if exact > 0 else "other"])
-            yield DerivedLine(sense.format(symbol=asked.symbol, one=first, other=last), False)
+            first, last = quantity.labels
+            sense = str(self.texts["senses"]["same" if exact > 0 else "other"])
+            yield DerivedLine(sense.format(symbol=quantity.symbol, one=first, other=last), False)
 
     def _signless(self, symbol: Rich, labels: Sequence[str]) -> DerivedLine:
         """Return the sentence on a ratio whose bodies turn about axes that are not parallel."""
         one, other = map(_number, labels)
-        return DerivedLine(self.say.signless.format(symbol=symbol, one=one, other=other), False)
+        return DerivedLine(self.texts.signless.format(symbol=symbol, one=one, other=other), False)
 
     def _once(self, lines: Iterable[DerivedLine]) -> Iterator[DerivedLine]:
         for line in lines:
-            if line.text not in self._told:
-                self._told.add(line.text)
+            if line.text not in self._written:
+                self._written.add(line.text)
                 yield line
 
     def _explained(self, path: Sequence[Stage], symbol: Rich) -> Iterator[DerivedLine]:
         """Yield how the ratio of a path is found."""
-        if not any(stage.told for stage in path):
+        if not any(stage.lines for stage in path):
             yield from self._product(path, symbol)
             return
         if len(path) == 1:
-            yield from path[0].told
+            yield from path[0].lines
             if symbol != path[0].symbol:
                 yield DerivedLine(
-                    f"{symbol} = {path[0].symbol} = {_value(path[0].ratio, self.words)}"
+                    f"{symbol} = {path[0].symbol} = {_value(path[0].ratio, self.language)}"
                 )
             return
         product = "·".join(stage.symbol for stage in path)
         yield DerivedLine(f"{symbol} = {product}")
         for stage in path:
-            yield from stage.told or self._product([stage])
+            yield from stage.lines or self._product([stage])
         numbers = "·".join(_factor(s.ratio, first=not k) for k, s in enumerate(path))
-        yield DerivedLine(f"{symbol} = {numbers} = {_value(self._whole(path).ratio, self.words)}")
+        yield DerivedLine(
+            f"{symbol} = {numbers} = {_value(self._combined(path).ratio, self.language)}"
+        )
 
     def _product(self, path: Sequence[Stage], symbol: Rich = "") -> Iterator[DerivedLine]:
         """Yield the ratio of meshes one after another in teeth: what cancels, and the number."""
-        whole = self._whole(path)
+        whole = self._combined(path)
         symbol = symbol or whole.symbol
         chain = [symbol]
         if len(path) > 1:
@@ -302,17 +308,17 @@ class _Derivation:
         elif symbol != path[0].symbol:
             chain.append(path[0].symbol)
         chain += [sign + text for sign, text in self._signed(whole)]
-        shown = _value(whole.ratio, self.words)
+        shown = _value(whole.ratio, self.language)
         if chain[-1] == shown.partition(" = ")[0]:
             chain.pop()
         yield DerivedLine(" = ".join([*chain, shown]))
         idle = [label for one, two in pairwise(path) for label in {one.labels[1]} & {two.labels[0]}]
         if idle:
             form = "one" if len(idle) == 1 else "many"
-            said = str(self.say["idlers"][form])
-            yield DerivedLine(said.format(labels=", ".join(idle), symbol=symbol), False)
+            phrase = str(self.texts["idlers"][form])
+            yield DerivedLine(phrase.format(labels=", ".join(idle), symbol=symbol), False)
 
-    def _whole(self, path: Sequence[Stage]) -> Stage:
+    def _combined(self, path: Sequence[Stage]) -> Stage:
         """Return a path as one stage: wheels that are both above and below cancel."""
         if not path:
             return Stage("", "", ("", ""), _ONE)
@@ -326,7 +332,7 @@ class _Derivation:
         for stage in path:
             ratio *= stage.ratio
         labels = (path[0].labels[0], path[-1].labels[1])
-        ends = (path[0].one, path[-1].other)
+        ends = (path[0].first, path[-1].second)
         return Stage(*ends, labels, ratio, tuple(tops), tuple(bottoms), path[0].carrier)
 
     def _signed(self, stage: Stage) -> list[tuple[str, Rich]]:
@@ -344,10 +350,10 @@ class _Derivation:
     def _size(self, label: str) -> Rich:
         size = self.motion.axes.sizes[label]
         metres = _ONE if self.train.counted(label) else self.train.unit_m
-        return self.words.say.given(float(size * metres))
+        return self.language.notation.as_input(float(size * metres))
 
     def _linked(self, chain: Sequence[Stage]) -> tuple[Fraction, Rich]:
-        whole = self._whole(chain)
+        whole = self._combined(chain)
         return whole.ratio, whole.symbol
 
     def _check(self, symbol: Rich, derived: Fraction, exact: Fraction) -> None:
@@ -365,14 +371,14 @@ class _Derivation:
     def speed(self, label: str) -> Iterator[DerivedLine]:
         """Yield the derivation of a speed: by a ratio to a known one, else by Willis."""
         body = self.train.body_of[label]
-        if body in self.speeds or body in self.train.racks or body in self.motion.roles.across:
+        if body in self.speeds or body in self.train.racks or body in self.motion.roles.transverse:
             return
-        yield from self._once(self._found(label, body, 2 * len(self.train.bodies)))
+        yield from self._once(self._speed_lines(label, body, 2 * len(self.train.bodies)))
 
-    def _found(self, label: str, body: str, depth: int) -> Iterator[DerivedLine]:
+    def _speed_lines(self, label: str, body: str, depth: int) -> Iterator[DerivedLine]:
         """Yield the derivation of a speed; for planets as in the textbook, by Willis first."""
         ways = [self._by_ratio, self._by_willis]
-        if any(body in around for around in self.motion.roles.satellites.values()):
+        if any(body in around for around in self.motion.roles.planets.values()):
             ways.reverse()
         for way in ways:
             if body not in self.speeds:
@@ -384,7 +390,7 @@ class _Derivation:
             path = find_path(self.stages, source, body)
             if not path:
                 continue
-            whole, n = self._whole(path), self.speeds[source]
+            whole, n = self._combined(path), self.speeds[source]
             top = f"{letter}_{{{_number(source)}}}"
             if not self.motion.has_sign(source, body):
                 yield from self._explained(_sizes(path), whole.symbol)
@@ -404,18 +410,20 @@ class _Derivation:
 
     def _by_willis(self, label: str, body: str, depth: int) -> Iterator[DerivedLine]:
         for carrier in self.moving:
-            stages = self._carried(carrier)
-            bodies = dict.fromkeys(s.one for s in stages if s.one not in self.motion.roles.across)
+            stages = self._carrier_stages(carrier)
+            bodies = dict.fromkeys(
+                s.first for s in stages if s.first not in self.motion.roles.transverse
+            )
             if body == carrier:
                 known = [b for b in bodies if b in self.speeds]
                 for one, two in permutations(known, 2):
                     path = find_path(stages, one, two)
-                    if path and self._whole(path).ratio != 1:
+                    if path and self._combined(path).ratio != 1:
                         yield from self._carrier(label, body, path)
                         return
             elif body in bodies:
                 if carrier not in self.speeds and depth:
-                    yield from self._found(_number(carrier), carrier, depth - 1)
+                    yield from self._speed_lines(_number(carrier), carrier, depth - 1)
                 known = sorted(bodies, key=lambda b: b not in self.train.fixed)
                 for one in known if carrier in self.speeds else ():
                     if one in self.speeds and find_path(stages, body, one):
@@ -424,9 +432,9 @@ class _Derivation:
 
     def _carrier(self, label: str, body: str, path: Sequence[Stage]) -> Iterator[DerivedLine]:
         """Yield the speed of a carrier by those of two of its wheels."""
-        whole, n = self._whole(path), self._letter_of(label)
-        u, p, q = whole.ratio, self.speeds[path[0].one], self.speeds[path[-1].other]
-        n_p, n_q = (self._letter_of(b) for b in (path[0].one, path[-1].other))
+        whole, n = self._combined(path), self._letter_of(label)
+        u, p, q = whole.ratio, self.speeds[path[0].first], self.speeds[path[-1].second]
+        n_p, n_q = (self._letter_of(b) for b in (path[0].first, path[-1].second))
         yield from self._product(path)
         yield DerivedLine(f"{whole.symbol} = {fraction(f'{n_p} − {n}', f'{n_q} − {n}')}")
         formula = fraction(f"{n_p} − {whole.symbol}·{n_q}", f"1 − {whole.symbol}")
@@ -434,20 +442,20 @@ class _Derivation:
         numbers = fraction(above, f"1 {_plus(*_split(u))}")
         yield self._speed(label, body, (formula, numbers), (p - u * q) / (1 - u))
 
-    def _wheel(self, label: str, body: str, carrier: str, other: str) -> Iterator[DerivedLine]:
+    def _wheel(self, label: str, body: str, carrier: str, reference: str) -> Iterator[DerivedLine]:
         """Yield the speed of a wheel on a carrier by those of the carrier and another wheel.
 
         The ratio is the requested one, if any; else that to the other wheel.
         """
-        stages, known = self._carried(carrier), tuple(self.train.body_of)
+        stages, known = self._carrier_stages(carrier), tuple(self.train.body_of)
         asked = [parse(name, known).symbol for name in self.train.ask]
-        path = find_path(stages, other, body)
-        is_asked = self._whole(path).symbol in asked
+        path = find_path(stages, reference, body)
+        is_asked = self._combined(path).symbol in asked
         if not is_asked:
-            path = find_path(stages, body, other)
-        whole, n = self._whole(path), self._letter_of(label)
-        n_c, n_q = (self._letter_of(b) for b in (carrier, other))
-        c, q, u = self.speeds[carrier], self.speeds[other], whole.ratio
+            path = find_path(stages, body, reference)
+        whole, n = self._combined(path), self._letter_of(label)
+        n_c, n_q = (self._letter_of(b) for b in (carrier, reference))
+        c, q, u = self.speeds[carrier], self.speeds[reference], whole.ratio
         yield from self._product(path)
         ways = [f"{n} − {n_c}", f"{n_q} − {n_c}"]
         yield DerivedLine(f"{whole.symbol} = {fraction(*(ways[::-1] if is_asked else ways))}")
@@ -472,13 +480,13 @@ class _Derivation:
         is_size: bool = False,
     ) -> DerivedLine:
         """Return a speed with its formula, and keep it for the next; its size if it has no sign."""
-        unit = raised(self.words.gears["units"][self.train.units[0]])
+        unit = raised(self.language.gears["units"][self.train.units[0]])
         symbol = f"{self.train.letter}_{{{label}}}"
         self._check(symbol, derived, self.motion.speeds[body])
         self.speeds[body] = derived
         if is_size:
             symbol, derived = f"|{symbol}|", abs(derived)
-        value = _value(derived, self.words)
+        value = _value(derived, self.language)
         whole = [side for side in sides if side != value.partition(" = ")[0]]
         return DerivedLine(" = ".join([symbol, *whole, f"{value} {unit}"]))
 
@@ -488,37 +496,37 @@ def _sizes(path: Sequence[Stage]) -> list[Stage]:
     return [replace(stage, ratio=abs(stage.ratio)) for stage in path]
 
 
-def find_path(stages: Iterable[Stage], one: str, other: str) -> list[Stage]:
+def find_path(stages: Iterable[Stage], start: str, end: str) -> list[Stage]:
     """Return the fewest stages that lead from a body to another; none where none do."""
     by: dict[str, list[Stage]] = {}
     for stage in stages:
-        by.setdefault(stage.one, []).append(stage)
-    reached: dict[str, list[Stage]] = {one: []}
-    rows = [one]
-    while rows and other not in reached:
+        by.setdefault(stage.first, []).append(stage)
+    reached: dict[str, list[Stage]] = {start: []}
+    rows = [start]
+    while rows and end not in reached:
         rows = [
-            stage.other
+            stage.second
             for body in rows
             for stage in by.get(body, ())
-            if stage.other not in reached
-            and reached.setdefault(stage.other, [*reached[body], stage])
+            if stage.second not in reached
+            and reached.setdefault(stage.second, [*reached[body], stage])
         ]
-    return reached.get(other, [])
+    return reached.get(end, [])
 
 
-def _value(value: Fraction, words: Language) -> Rich:
+def _value(value: Fraction, language: Language) -> Rich:
     """Return a ratio as a fraction, and as a decimal where it is not whole."""
     if value.denominator == 1:
         return _text(value)
-    return f"{_built(value)} = {words.say.found(float(value))}"
+    return f"{_built(value)} = {language.notation.computed(float(value))}"
 
 
 def _number(label: str) -> str:
     return label.rstrip("'")
 
 
-def _symbol(one: str, other: str) -> Rich:
-    return SoughtQuantity("U", (one, other)).symbol
+def _symbol(first: str, second: str) -> Rich:
+    return RequestedQuantity("U", (first, second)).symbol
 
 
 def _text(value: Fraction) -> str:

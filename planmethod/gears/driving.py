@@ -13,16 +13,16 @@ from planmethod.gears.meshes import read_label
 from planmethod.gears.model import GearProblem, Train
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.reader import read_train
-from planmethod.gears.told import given
-from planmethod.languages import say
+from planmethod.gears.sheet_texts import train_facts
+from planmethod.languages import translate
 from planmethod.note.document import GivenFact
 from planmethod.note.wording import Language
 from planmethod.problem.fields import Faults
-from planmethod.problem.model import Geared
+from planmethod.problem.model import GearDrive
 from planmethod.problem.names import segment
 
 
-class TrainOutput(Geared, frozen=True, kw_only=True):
+class TrainOutput(GearDrive, frozen=True, kw_only=True):
     """Body of a train that turns the crank of a linkage, with its train.
 
     Attributes
@@ -32,19 +32,19 @@ class TrainOutput(Geared, frozen=True, kw_only=True):
 
     train: Train
 
-    def given(self, words: Language) -> list[GivenFact]:
+    def given_facts(self, language: Language) -> list[GivenFact]:
         """Return the given facts of the train, and which of its bodies drives the crank.
 
         Wheels are numbered like links, so speeds and fixed bodies are said to be the train's.
         """
-        sheet, letter = words.gears["sheet"], "n" if self.train.unit == "n" else "ω"
+        sheet, letter = language.gears["sheet"], "n" if self.train.unit == "n" else "ω"
         wheels = {
             f"gears.{self.train.unit}.{segment(label)}": label
             for label, _ in self.inputs
             if label.isdigit()
         }
         facts = []
-        for fact in given(solve_motion(GearProblem(name="", train=self.train)), words):
+        for fact in train_facts(solve_motion(GearProblem(name="", train=self.train)), language):
             key, text = next(iter(fact.data), ""), fact.text
             if key in wheels:
                 speed = text.split(" = ")[1]
@@ -55,7 +55,7 @@ class TrainOutput(Geared, frozen=True, kw_only=True):
         return facts
 
 
-def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:
+def driven(faults: Faults, table: Mapping[str, Any], label: object) -> GearDrive | None:
     """Solve the train of a linkage's file for the body that turns with the crank.
 
     Parameters
@@ -77,7 +77,7 @@ def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | 
     if body is None:
         return None
     if train.body_of[body] in train.racks:
-        faults.add("driver.train", say("{} is a rack, it does not turn", body))
+        faults.add("driver.train", translate("{} is a rack, it does not turn", body))
         return None
     try:
         motion = solve_motion(GearProblem(name="", train=train))

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from planmethod.gears.answers import answer
-from planmethod.gears.asked import SoughtQuantityError, parse
 from planmethod.gears.construction import construct, read
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import TrainMotion, rows_of, solve_motion, speeds_by
-from planmethod.gears.picture import draw
+from planmethod.gears.requested_quantities import RequestedQuantityError, parse
+from planmethod.gears.velocity_diagrams import draw
 from planmethod.problem.figures import AnswerValue, Mistaken
 
 if TYPE_CHECKING:
@@ -53,12 +53,14 @@ class TrainFigures:
         try:
             kind = parse(name, tuple(self.motion.train.body_of)).kind
             found = answer(self.motion, name)
-        except SoughtQuantityError:
+        except RequestedQuantityError:
             return None
         if found.value is None:
             return None
         own = parse(name, tuple(self.motion.train.body_of)).symbol
-        return AnswerValue(own, found.unit, found.value, turns=kind in SPEEDS, whole=kind in COUNTS)
+        return AnswerValue(
+            own, found.unit, found.value, turns=kind in SPEEDS, is_integer=kind in COUNTS
+        )
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
         """Return the segment of a speed on the diagram, mm, and one sigma of its reading."""
@@ -67,7 +69,7 @@ class TrainFigures:
             return None
         train = replace(self.motion.train, ask=(name,))
         drawn = construct(replace(self.motion, train=train), picture)
-        found = next((one for one in drawn.found if one.name == name), None)
+        found = next((one for one in drawn.quantities if one.name == name), None)
         if found is None:
             return None
         segment = drawn.segments.get(found.rays[0]) if len(found.rays) == 1 else None
@@ -84,7 +86,7 @@ class TrainFigures:
     def mistaken(self) -> Iterator[Mistaken]:
         """Yield the usual mistakes: signs, ratios, carriers, teeth, units."""
         for code, where, rows in self._miswritten():
-            motion = self._moved(rows)
+            motion = self._motion_by(rows)
             if motion is not None:
                 yield Mistaken(code, where, partial(_value, motion))
         yield Mistaken("G2", "U", self._inverted)
@@ -109,7 +111,7 @@ class TrainFigures:
             ) -> Rows:
                 row = {of[0]: x, of[1]: y}
                 if of[2] is not None:
-                    own = [v for body, v in row.items() if body not in roles.across]
+                    own = [v for body, v in row.items() if body not in roles.transverse]
                     row[of[2]] = row.get(of[2], Fraction(0)) - sum(own, Fraction(0))
                 return [*rows[:at], row, *rows[at + 1 :]]
 
@@ -118,7 +120,7 @@ class TrainFigures:
                 turn = 1 if first * second > 0 else -1
                 yield "G2", mesh.name, written(abs(second), turn * abs(first))
         for carrier in train.carriers:
-            yield "G3", carrier, self._held(carrier)
+            yield "G3", carrier, self._swapped_carrier_rows(carrier)
         sizes = self.motion.axes.sizes
         for label in sizes:
             twin = f"{label}'"
@@ -127,7 +129,7 @@ class TrainFigures:
                 axes = replace(self.motion.axes, sizes=swapped)
                 yield "G4", f"{label}, {twin}", rows_of(train, roles, axes)
 
-    def _held(self, carrier: str) -> Rows:
+    def _swapped_carrier_rows(self, carrier: str) -> Rows:
         """Return the equations with the carrier in the ring's place, as if U^H were U."""
         train, roles = self.motion.train, self.motion.roles
         still = next((body for body in roles.central[carrier] if body in train.fixed), None)
@@ -139,7 +141,7 @@ class TrainFigures:
             found.append(row)
         return found
 
-    def _moved(self, rows: Rows) -> TrainMotion | None:
+    def _motion_by(self, rows: Rows) -> TrainMotion | None:
         """Return the motion from other equations; None where they determine none."""
         found = speeds_by(self.motion.train, rows)
         if found.free or not found.consistent:
@@ -172,13 +174,13 @@ class TrainFigures:
         own = _value(self.motion, name, position)
         return own if own is None else own * factors.get(name.partition("_")[0], 1.0)
 
-    def followed(self, name: str, own: Mapping[str, float]) -> Iterator[tuple[float, str]]:
+    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[tuple[float, str]]:
         """Yield n_b by U_a_b or U_b_a of an input a, and by n the speed in the other unit."""
         asked, train = parse(name, self._known), self.motion.train
         if asked.kind not in SPEEDS or asked.carrier is not None:
             return
         turn = {"n": 30 / math.pi, "omega": math.pi / 30}[asked.kind]
-        for other, value in own.items():
+        for other, value in answers.items():
             by = parse(other, self._known)
             if by.carrier is not None:
                 continue
@@ -202,5 +204,5 @@ def _value(motion: TrainMotion, name: str, position: int) -> float | None:
     return answer(motion, name).value
 
 
-asked_of = TrainFigures
+FIGURES = TrainFigures
 """The class that computes answers to this kind of problem."""

@@ -36,11 +36,11 @@ class GearTrains(ProblemKind["GearProblem"]):
 
         return record(problem, lang)
 
-    def solved_document(self, problem: GearProblem, words: Language) -> Document:
+    def solved_document(self, problem: GearProblem, language: Language) -> Document:
         """Return what ``solve`` prints."""
         from planmethod.gears.text import solved_document
 
-        return Document.of(solved_document(problem, words))
+        return Document.of(solved_document(problem, language))
 
     def structure_record(self, problem: GearProblem) -> dict[str, Any]:
         """Return what ``structure --json`` prints."""
@@ -48,19 +48,19 @@ class GearTrains(ProblemKind["GearProblem"]):
 
         return structure_record(problem)
 
-    def structure_document(self, problem: GearProblem, words: Language) -> Document:
+    def structure_document(self, problem: GearProblem, language: Language) -> Document:
         """Return what ``structure`` prints."""
         from planmethod.gears.text import structure_document
 
-        return Document.of(structure_document(problem, words))
+        return Document.of(structure_document(problem, language))
 
     def protocol_document(
-        self, problem: GearProblem, words: Language, profile: Profile
+        self, problem: GearProblem, language: Language, profile: Profile
     ) -> Document:
         """Return what ``protocol`` prints."""
         from planmethod.gears.protocol import protocol_document
 
-        return Document.of(protocol_document(problem, words, profile))
+        return Document.of(protocol_document(problem, language, profile))
 
     def drawings(
         self,
@@ -88,21 +88,21 @@ class GearTrains(ProblemKind["GearProblem"]):
 
         return audited(problem, ruler)
 
-    def given(self, problem: GearProblem, words: Language) -> list[GivenFact]:
+    def given_facts(self, problem: GearProblem, language: Language) -> list[GivenFact]:
         """Return the given facts; the file can be rebuilt from their data."""
         from planmethod.gears.motion import solve_motion
-        from planmethod.gears.told import given
+        from planmethod.gears.sheet_texts import train_facts
 
-        return given(solve_motion(problem), words, found=False)
+        return train_facts(solve_motion(problem), language, with_solved=False)
 
     def scheme(self, problem: GearProblem) -> Drawing | None:
         """Return the side view; None where it cannot be drawn."""
-        from planmethod.gears.drawn.alone import scheme_alone
+        from planmethod.gears.drawn.side_view_only import draw_scheme
 
-        return scheme_alone(problem)
+        return draw_scheme(problem)
 
     def figures(self, problem: GearProblem) -> Figures:
         """Return the quantities that students can be asked for."""
-        from planmethod.gears.figures import asked_of
+        from planmethod.gears.figures import FIGURES
 
-        return asked_of(problem)
+        return FIGURES(problem)

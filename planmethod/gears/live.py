@@ -23,13 +23,13 @@ from msgspec.structs import replace
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import Fault, ProblemError
 from planmethod.gears.construction import construct, read
-from planmethod.gears.drawn.pictures import angular, linear
-from planmethod.gears.model import GearProblem, Mesh, MeshKind, PictureSettings
+from planmethod.gears.drawn.views import angular, linear
+from planmethod.gears.model import DiagramSettings, GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import solve_motion
-from planmethod.gears.picture import draw
 from planmethod.gears.scheme import Rim, SchemeData
-from planmethod.languages import say
-from planmethod.note.wording import language
+from planmethod.gears.velocity_diagrams import draw
+from planmethod.languages import translate
+from planmethod.note.wording import get_language
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing
@@ -50,10 +50,10 @@ FLANKS = ((-1.25, 0.31), (0.0, 0.25), (1.0, 0.13))
 RIM = 3.0
 """Width of the rim of a wheel with inner teeth, modules."""
 
-MOST_TEETH = 400
+MAX_TEETH = 400
 """Teeth of a wheel that are drawn; of one with more the circles alone."""
 
-MOST_TURNS = 20
+MAX_TURNS = 20
 """Turns of the input on the slider, each way."""
 
 PACE = 60.0
@@ -73,17 +73,17 @@ def live_page(problem: GearProblem, lang: str) -> str:
 
 class _TrainPage:
     def __init__(self, problem: GearProblem, lang: str) -> None:
-        self.problem, self.words = problem, language(lang)
+        self.problem, self.language = problem, get_language(lang)
         self.motion = solve_motion(problem)
         self.train = self.motion.train
-        self._refuse()
+        self._require_parallel_axes()
         size = SchemeData(self.motion, 1.0)
         reach = max(map(self._reach(size), self._rims(size)))
         self.scheme = SchemeData(self.motion, EXTENT / 2.0 / reach)
         self.canvas = SvgCanvas(Options())
         self.canvas.open(Drawing(0.0, 0.0))
 
-    def _refuse(self) -> None:
+    def _require_parallel_axes(self) -> None:
         """Reject trains without parallel meshing axes, and planets carried by planets."""
         kinds = {mesh.kind for mesh in self.train.meshes}
         odd = kinds - {MeshKind.EXTERNAL, MeshKind.INTERNAL}
@@ -91,7 +91,7 @@ class _TrainPage:
         nested = [body for body, carrier in scheme.over.items() if carrier in scheme.over]
         if odd or nested or scheme.undrawn:
             message = "the live page shows only wheels in mesh on parallel axes"
-            hint = say(
+            hint = translate(
                 "To draw the train on a sheet: planmethod sheet {}", self.problem.source_file
             )
             raise ProblemError(self.problem.name, [Fault("gears.meshes", message, hint)])
@@ -121,7 +121,7 @@ class _TrainPage:
         """Return the rotation of a body per degree of the input."""
         return float(self.motion.speeds[body] / self.motion.speeds[self.input])
 
-    def _carried(self, body: str, start: float = 0.0) -> dict[str, float]:
+    def _axis_motion(self, body: str, start: float = 0.0) -> dict[str, float]:
         """Return the place of a body's axis: its distance, from which height, and its rotation."""
         heights, carrier = self.scheme.heights, self.scheme.over.get(body)
         if carrier is None:
@@ -139,7 +139,7 @@ class _TrainPage:
         """Return the number of drawn teeth of a wheel; 0 where it is not known."""
         size = self.motion.axes.sizes[rim.label]
         whole = self.train.counted(rim.label) and size.denominator == 1
-        return int(size) if whole and size <= MOST_TEETH else 0
+        return int(size) if whole and size <= MAX_TEETH else 0
 
     @cached_property
     def phases(self) -> Mapping[str, float]:
@@ -157,24 +157,24 @@ class _TrainPage:
             found.setdefault(other, self._meshed(mesh, rims[one], rims[other], found[one]))
         return found
 
-    def _meshed(self, mesh: Mesh, one: Rim, other: Rim, phase: float) -> float:
+    def _meshed(self, mesh: Mesh, one: Rim, mate: Rim, phase: float) -> float:
         """Return the phase of a wheel whose gap takes a tooth of another."""
-        up = other.centre > one.centre
-        if mesh.kind is MeshKind.INTERNAL and one.radius < other.radius:
+        up = mate.centre > one.centre
+        if mesh.kind is MeshKind.INTERNAL and one.radius < mate.radius:
             up = not up
         at = 90.0 if up else -90.0
-        pitch, own = 360.0 / self.teeth(one), 360.0 / self.teeth(other)
+        pitch, own = 360.0 / self.teeth(one), 360.0 / self.teeth(mate)
         share = (at - phase) / pitch
         if mesh.kind is MeshKind.INTERNAL:
             return at - (share + 0.5) * own
         return at + 180.0 - (0.5 - share) * own
 
-    def assembled(self, carrier: str, turned: float) -> Mapping[str, float]:
+    def assembled(self, carrier: str, carrier_angle: float) -> Mapping[str, float]:
         """Return the rotation of wheels of a planetary set with its first central wheel fixed.
 
         Parameters
         ----------
-        turned : float, degrees
+        carrier_angle : float, degrees
             Of the carrier.
         """
         train, roles = self.train, self.motion.roles
@@ -190,42 +190,42 @@ class _TrainPage:
                     sizes = self.motion.axes.sizes
                     way = 1 if mesh.kind is MeshKind.INTERNAL else -1
                     share = way * float(sizes[first] / sizes[second])
-                    found[other] = turned + share * (found[one] - turned)
+                    found[other] = carrier_angle + share * (found[one] - carrier_angle)
         return found
 
     # Page ------------------------------------------------------------------------------------
 
     def html(self) -> str:
         """Return the document."""
-        said = self.words.live
+        texts = self.language.live
         views, moved = self._views()
         slow = min((self._speed(b) for b in self.motion.speeds if self._speed(b)), default=1.0)
-        turns = min(MOST_TURNS, max(1, ceil(self._speed(self.input) / slow)))
+        turns = min(MAX_TURNS, max(1, ceil(self._speed(self.input) / slow)))
         most, quick = 360.0 * turns, max(map(self._speed, self.motion.speeds))
         scene = moved | {
             "most": most,
             "sense": -1 if self.motion.speeds[self.input] < 0 else 1,
             "pace": PACE * self._speed(self.input) / quick,
-            "decimal": self.words.say.decimal,
-            "words": {"play": said.play, "pause": said.pause},
+            "decimal": self.language.notation.decimal,
+            "words": {"play": texts.play, "pause": texts.pause},
         }
         return html_document(
             self.problem,
-            lang=self.words.lang,
+            lang=self.language.lang,
             body="\n".join((self._bar(most), views, self._table())),
-            made=said.made_train,
+            credit=texts.made_train,
             letters=self.canvas.letters(),
             scene=scene,
             script=files("planmethod.gears").joinpath("live.js").read_text("utf-8"),
         )
 
-    def _bar(self, most: float) -> str:
-        said, label = self.words.live, rich(f"φ_{{{self.input}}}")
+    def _bar(self, max_angle: float) -> str:
+        texts, label = self.language.live, rich(f"φ_{{{self.input}}}")
         return (
-            f'<div id="bar"><section><button id="play" aria-label="{escape(said.play)}">▶</button>'
-            f'<input id="slider" type="range" min="{-most!r}" max="{most!r}" step="any" '
-            f'aria-label="{escape(said.turned)}"><label>{label} = <input id="exact" type="number" '
-            f'step="any"> °</label>{speed_choice(said.speed)}</section></div>'
+            f'<div id="bar"><section><button id="play" aria-label="{escape(texts.play)}">▶</button>'
+            f'<input id="slider" type="range" min="{-max_angle!r}" max="{max_angle!r}" step="any" '
+            f'aria-label="{escape(texts.turned)}"><label>{label} = <input id="exact" type="number" '
+            f'step="any"> °</label>{speed_choice(texts.speed)}</section></div>'
         )
 
     def _views(self) -> tuple[str, dict[str, list[dict[str, Any]]]]:
@@ -234,13 +234,13 @@ class _TrainPage:
         scene: dict[str, list[dict[str, Any]]] = {"wheels": [], "arms": [], "labels": []}
         for rim in self._rims(self.scheme):
             carrier = self.scheme.over.get(rim.body)
-            count = 1 if carrier is None else self.train.satellites.get(carrier, 1)
+            count = 1 if carrier is None else self.train.planets.get(carrier, 1)
             for k in range(count):
                 start = 360.0 * k / count
                 turned = 0.0 if carrier is None else self.assembled(carrier, start)[rim.body]
                 number = len(scene["wheels"])
                 drawn.append(f'<g id="wheel-{number}">{self._outline(rim)}</g>')
-                place = self._carried(rim.body, start)
+                place = self._axis_motion(rim.body, start)
                 wheel = {"of": rim.label, "angle": self.phases.get(rim.label, 0.0) + turned}
                 scene["wheels"].append(
                     {"id": f"wheel-{number}", "ratio": self.ratio(rim.body)} | wheel | place
@@ -249,7 +249,7 @@ class _TrainPage:
                     arm = len(scene["arms"])
                     drawn.append(f'<path id="arm-{arm}" class="seg"/>')
                     scene["arms"].append({"id": f"arm-{arm}"} | place)
-            place = self._carried(rim.body)
+            place = self._axis_motion(rim.body)
             number = len(scene["labels"])
             drawn.append(f'<g id="label-{number}">{self._letter(rim)}</g>')
             scene["labels"].append({"id": f"label-{number}"} | place)
@@ -260,11 +260,11 @@ class _TrainPage:
         wide = max(map(self._reach(self.scheme), self._rims(self.scheme))) + 4.0
         box = f"{-wide:.2f} {-wide:.2f} {2 * wide:.2f} {2 * wide:.2f}"
         figures = [
-            self._figure(self.words.gears["sheet"]["front"], f"<g>{''.join(drawn)}</g>", box)
+            self._figure(self.language.gears["sheet"]["front"], f"<g>{''.join(drawn)}</g>", box)
         ]
         figures += (
             self._figure(title, self.canvas.parts(picture.items), _box(picture))
-            for title, picture in self._pictures()
+            for title, picture in self._diagrams()
         )
         return f'<main id="views">{"".join(figures)}</main>', scene
 
@@ -302,21 +302,21 @@ class _TrainPage:
         at = cmath.rect(far + (0.4 * LETTER if rim.ring else 0.0), radians(35.0 * side))
         return self.canvas.parts(text.at(at - complex(text.width / 2, 0.35 * LETTER)))
 
-    def _pictures(self) -> Iterator[tuple[str, Picture]]:
+    def _diagrams(self) -> Iterator[tuple[str, Picture]]:
         """Yield the linear and the angular velocity diagram, drawn exactly."""
         mu_l = Fraction(repr(float(self.train.unit_m) / self.scheme.mm))  # as high as the wheels
-        picture = draw(self.motion, PictureSettings(mu_l=mu_l))
+        picture = draw(self.motion, DiagramSettings(mu_l=mu_l))
         if picture is None:
             return
-        drawn, said = construct(self.motion, picture), self.words.gears["sheet"]
+        drawn, said = construct(self.motion, picture), self.language.gears["sheet"]
         # The page does not enlarge segments too short for a ruler: the reader can.
-        seen = replace(read(drawn, PROFILES["cad"]), knots=())
+        seen = replace(read(drawn, PROFILES["cad"]), detail_views=())
         yield said["linear"], lettered(*linear(drawn, seen, LETTER))
         yield said["angular"], angular(drawn, seen, LETTER)
 
     def _table(self) -> str:
         """Return speeds, ratios to the input and turned angles."""
-        said, say_, train = self.words.live, self.words.say, self.train
+        texts, say_, train = self.language.live, self.language.notation, self.train
         unit, other = (rich(say_.units[key]) for key in train.units)
         letters = (train.letter, "ω" if train.letter == "n" else "n")
         heads = (
@@ -327,16 +327,16 @@ class _TrainPage:
         for k, label in enumerate(train.numbers):
             speed = float(self.motion.speed(label))
             cells = (
-                rich(say_.found(speed)),
-                rich(say_.found(speed * train.factor)),
-                rich(say_.found(self.ratio(train.body_of[label]))),
+                rich(say_.computed(speed)),
+                rich(say_.computed(speed * train.factor)),
+                rich(say_.computed(self.ratio(train.body_of[label]))),
                 f'<span id="angle-{k}"></span>',
             )
-            told = "".join(f"<td>{cell}</td>" for cell in cells)
-            rows.append(f"<tr><th>{rich(label)}</th>{told}</tr>")
+            text = "".join(f"<td>{cell}</td>" for cell in cells)
+            rows.append(f"<tr><th>{rich(label)}</th>{text}</tr>")
         head = "".join(f"<th>{cell}</th>" for cell in heads)
         return (
-            f'<section><h2>{escape(said.speeds)}</h2><div id="numbers"><table><thead><tr>{head}'
+            f'<section><h2>{escape(texts.speeds)}</h2><div id="numbers"><table><thead><tr>{head}'
             f"</tr></thead><tbody>{''.join(rows)}</tbody></table></div></section>"
         )
 

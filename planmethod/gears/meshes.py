@@ -10,10 +10,10 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.gears.model import FLEXIBLE, HALF_MODULES, GearRim, Mesh, MeshKind
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
-from planmethod.problem.flat import read_flat
+from planmethod.problem.flat_tables import read_flat
 from planmethod.problem.names import fold, is_label, joined, looks_latin, segment
 from planmethod.problem.tables import GearWheelTable
 
@@ -49,7 +49,7 @@ class TrainDraft(Struct):
             )
         )
 
-    def bodies(self, groups: Sequence[Sequence[str]]) -> dict[str, str]:
+    def merge_labels(self, groups: Sequence[Sequence[str]]) -> dict[str, str]:
         """Return the body of every label; a body is called by its carrier, or its first label."""
         body = {label: label.rstrip("'") for label in self.labels()}
         for group in groups:
@@ -77,7 +77,7 @@ def read_label(
         faults.expected(path, "the label of a wheel", value, _NAME)
         return None
     if known is not None and text not in known:
-        fields.report_unknown(faults, path, text, known, said="unknown wheel '{}'")
+        fields.report_unknown(faults, path, text, known, message="unknown wheel '{}'")
         return None
     return text
 
@@ -91,7 +91,7 @@ def read_labels(faults: Faults, path: str, value: object, limit: int) -> tuple[s
     return tuple(dict.fromkeys(label for label in found if label is not None))
 
 
-def carried_by(value: object, bodies: object = None) -> frozenset[str]:
+def find_carriers(value: object, bodies: object = None) -> frozenset[str]:
     """Return the labels of carriers without a mesh, from ``meshes`` and ``bodies``."""
     silent = Faults()
     tables = [one for one in value if isinstance(one, dict)] if isinstance(value, list) else []
@@ -115,7 +115,7 @@ def read_wheels(
     """Read ``wheels``: teeth by label, or a table; of carriers their radii."""
     table = fields.read_table(faults, "gears.wheels", value, "wheels = { 1 = 20, 2 = 36 }") or {}
     if len(table) > WHEEL_LIMIT:
-        faults.add("gears.wheels", say("{} wheels, the limit is {}", len(table), WHEEL_LIMIT))
+        faults.add("gears.wheels", translate("{} wheels, the limit is {}", len(table), WHEEL_LIMIT))
         return
     silent = Faults()
     wheels = [one for key, one in table.items() if read_label(silent, "", key) not in carriers]
@@ -127,7 +127,7 @@ def read_wheels(
         if label is None:
             continue
         if label in draft.listed:
-            faults.add(path, say("wheel {} is given twice", label))
+            faults.add(path, translate("wheel {} is given twice", label))
         draft.listed.append(label)
         if label in carriers:
             _read_arm(faults, path, label, entry, draft)
@@ -135,10 +135,10 @@ def read_wheels(
         wheel = _read_wheel(faults, path, label, entry, draft)
         if label in unknown:
             if wheel.size is not None:
-                faults.add(path, say("wheel {} has a size, and is listed in unknown", label))
+                faults.add(path, translate("wheel {} has a size, and is listed in unknown", label))
         elif wheel.size is None:
             hint = "Give its teeth, or list it in unknown."
-            faults.add(path, say("wheel {} has no teeth", label), hint)
+            faults.add(path, translate("wheel {} has no teeth", label), hint)
         draft.wheels[label] = wheel
     for label in unknown:
         draft.wheels.setdefault(label, GearRim(label, None))
@@ -149,7 +149,7 @@ def _read_arm(faults: Faults, path: str, label: str, entry: object, draft: Train
     """Read the radius of a carrier, which has no teeth."""
     if not isinstance(entry, dict) or set(entry) != {"r"}:
         hint = "Give {{ r = 0.05 }}, the distance of the axes of its planets, or leave it out."
-        faults.add(path, say("{} is a carrier and has no teeth", label), hint)
+        faults.add(path, translate("{} is a carrier and has no teeth", label), hint)
         return
     radius = fields.read_length(faults, f"{path}.r", entry["r"])
     if radius is not None:
@@ -158,7 +158,7 @@ def _read_arm(faults: Faults, path: str, label: str, entry: object, draft: Train
 
 def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: TrainDraft) -> GearRim:
     if fields.is_number(entry):
-        teeth = fields.read_whole(faults, path, entry, 1, TEETH_LIMIT)
+        teeth = fields.read_integer(faults, path, entry, 1, TEETH_LIMIT)
         return GearRim(label, Fraction(teeth or 1))
     table = fields.read_table(faults, path, entry, "{ r = 0.07 }") or {}
     own = {"r": fields.read_length, "axis": _read_axis}
@@ -191,8 +191,8 @@ def read_meshes(faults: Faults, value: object, draft: TrainDraft) -> tuple[Mesh,
     """Read ``meshes``: pairs of wheels, each with its kind and the carrier of its axes."""
     example = '{ of = [1, 2], kind = "external" }'
     if not isinstance(value, list) or not 1 <= len(value) <= WHEEL_LIMIT:
-        told = say("expected 1 to {} meshes, got {}", WHEEL_LIMIT, fields.show(value))
-        faults.add("gears.meshes", told, say("For example: [{}]", example))
+        text = translate("expected 1 to {} meshes, got {}", WHEEL_LIMIT, fields.show(value))
+        faults.add("gears.meshes", text, translate("For example: [{}]", example))
         return ()
     found: list[Mesh] = []
     for index, entry in enumerate(value):
@@ -201,7 +201,7 @@ def read_meshes(faults: Faults, value: object, draft: TrainDraft) -> tuple[Mesh,
         mesh = None if table is None else _read_mesh(faults, path, table, draft)
         if mesh is not None:
             if {mesh.first, mesh.second} in [{m.first, m.second} for m in found]:
-                faults.add(path, say("the mesh {} is given twice", mesh.name))
+                faults.add(path, translate("the mesh {} is given twice", mesh.name))
             found.append(mesh)
     _share_modules(faults, found, draft)
     _check_radii(faults, found, draft)
@@ -210,7 +210,7 @@ def read_meshes(faults: Faults, value: object, draft: TrainDraft) -> tuple[Mesh,
         if label not in meshing and len(found) == len(value):
             faults.add(
                 f"gears.wheels.{segment(label)}",
-                say("wheel {} does not mesh with any other", label),
+                translate("wheel {} does not mesh with any other", label),
             )
     return tuple(found)
 
@@ -243,7 +243,7 @@ def _share_modules(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) ->
         mesh = by_mesh.get(frozenset(name.replace("′", "'").replace("’", "'").split("-")))
         if mesh is None or mesh.kind in FLEXIBLE:
             fields.report_unknown(
-                faults, f"gears.module.{segment(name)}", name, names, said="unknown mesh '{}'"
+                faults, f"gears.module.{segment(name)}", name, names, message="unknown mesh '{}'"
             )
         else:
             told[mesh] = given_module
@@ -255,10 +255,10 @@ def _share_modules(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) ->
         for path, module in given[1:]:
             if own is not None and module != own:
                 what = "{:g} mm, and {:g} mm of other wheels in its row"
-                what = say(what, float(module * 1000), float(own * 1000))
+                what = translate(what, float(module * 1000), float(own * 1000))
                 faults.add(path, what, "Wheels in mesh have one module.")
         if own is None and is_told and draft.module is None:
-            what = say("the mesh {} has no module", row[0].name)
+            what = translate("the mesh {} has no module", row[0].name)
             faults.add("gears.module", what, "Name every row, or give one module = ... (mm).")
         for label in labels if own is not None else ():
             if label in wheels:
@@ -267,7 +267,7 @@ def _share_modules(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) ->
         every = [w.module for w in wheels.values() if w.module is not None]
         draft.module = every[0] if every else None
     for label, wheel in wheels.items():
-        if not wheel.plain or wheel.size is None:
+        if not wheel.is_pulley or wheel.size is None:
             continue
         its = wheel.module or draft.module
         per = HALF_MODULES if its is None else 2 / its
@@ -282,19 +282,19 @@ def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) -> N
     toothed: set[str] = set()
     for mesh in meshes:
         pair = [w for w in (draft.wheels.get(x) for x in (mesh.first, mesh.second)) if w]
-        flexible = mesh.kind in FLEXIBLE and all(wheel.plain for wheel in pair)
+        flexible = mesh.kind in FLEXIBLE and all(wheel.is_pulley for wheel in pair)
         for wheel in pair:
             path = f"gears.wheels.{segment(wheel.label)}.r"
-            if not wheel.plain or wheel.size is None or flexible:
+            if not wheel.is_pulley or wheel.size is None or flexible:
                 continue
             toothed.add(wheel.label)
             if draft.module is None:
                 hint = "Give module = ... (mm), or every wheel by its radius."
                 faults.add(path, "a radius beside teeth needs the module", hint)
             elif wheel.size.denominator != 1:
-                faults.add(path, say("2r/m = {:g} teeth, not whole", float(wheel.size)))
+                faults.add(path, translate("2r/m = {:g} teeth, not whole", float(wheel.size)))
     for label in toothed:
-        draft.wheels[label] = replace(draft.wheels[label], plain=False)
+        draft.wheels[label] = replace(draft.wheels[label], is_pulley=False)
 
 
 def _read_mesh(faults: Faults, path: str, table: Any, draft: TrainDraft) -> Mesh | None:
@@ -321,7 +321,8 @@ def _read_mesh(faults: Faults, path: str, table: Any, draft: TrainDraft) -> Mesh
         return None
     if first.rstrip("'") == second.rstrip("'"):
         faults.add(
-            f"{path}.of", say("{} and {} are one body, and mesh with each other", first, second)
+            f"{path}.of",
+            translate("{} and {} are one body, and mesh with each other", first, second),
         )
         return None
     if rack:
@@ -329,7 +330,7 @@ def _read_mesh(faults: Faults, path: str, table: Any, draft: TrainDraft) -> Mesh
             faults.add(f"{path}.carrier", "a rack is guided in the frame and has no carrier")
         if second in wheels:
             hint = "The second of a rack is the rack; it has no teeth to count."
-            faults.add(f"{path}.of[1]", say("{} is a wheel", second), hint)
+            faults.add(f"{path}.of[1]", translate("{} is a wheel", second), hint)
         elif second not in draft.racks:
             draft.racks.append(second)
     if carrier is not None and carrier not in draft.carriers:

@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 from planmethod.problem.tables import PlanetaryTask
 
 
@@ -49,7 +49,7 @@ class GearRim(Struct, frozen=True):
         Shift x of the rack that cuts it, in modules.
     axis : tuple of float or None
         Direction of a bevel wheel's axis from the apex towards the wheel.
-    plain : bool
+    is_pulley : bool
         A pulley or a sprocket given by its radius beside wheels with teeth.
     module : Fraction or None, m
         Its own, where rows have different ones.
@@ -59,7 +59,7 @@ class GearRim(Struct, frozen=True):
     size: Fraction | None
     shift: Fraction = Fraction(0)
     axis: tuple[float, float, float] | None = None
-    plain: bool = False
+    is_pulley: bool = False
     module: Fraction | None = None
 
     @property
@@ -96,7 +96,7 @@ class Mesh(Struct, frozen=True):
         return f"{self.first}-{self.second}"
 
 
-class PictureSettings(Struct, frozen=True):
+class DiagramSettings(Struct, frozen=True):
     """Scales of the velocity diagrams (масштабы картин скоростей).
 
     Attributes
@@ -137,7 +137,7 @@ class Train(Struct, frozen=True):
         Radii of carriers by label, m: distances of the axes of their planets.
     toothed : bool
         Sizes are teeth (or half modules), not metres.
-    satellites : mapping
+    planets : mapping
         Number of planets on a carrier, by carrier.
     """
 
@@ -156,10 +156,10 @@ class Train(Struct, frozen=True):
     listed: tuple[str, ...]
     arms: Mapping[str, Fraction]
     coaxial: tuple[tuple[str, ...], ...]
-    satellites: Mapping[str, int]
+    planets: Mapping[str, int]
     output: str | None
     ask: tuple[str, ...]
-    picture: PictureSettings
+    picture: DiagramSettings
     design: PlanetaryTask | None = None
 
     @property
@@ -196,14 +196,14 @@ class Train(Struct, frozen=True):
 
     def counted(self, label: str) -> bool:
         """Return whether the size of a wheel is a number of teeth."""
-        return self.toothed and not self.wheels[label].plain
+        return self.toothed and not self.wheels[label].is_pulley
 
     def module_of(self, label: str) -> Fraction | None:
         """Return the module of a wheel, m; None where it is not given, or of a pulley."""
         wheel = self.wheels[label]
-        return None if wheel.plain else wheel.module or self.module
+        return None if wheel.is_pulley else wheel.module or self.module
 
-    def share(self, label: str) -> Fraction:
+    def module_ratio(self, label: str) -> Fraction:
         """Return the module of a wheel over that of the train, in which half modules count."""
         module = self.module_of(label)
         return Fraction(1) if module is None or self.module is None else module / self.module

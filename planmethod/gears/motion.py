@@ -14,7 +14,7 @@ from planmethod.gears.axes import TrainDimensions, find_axes
 from planmethod.gears.linear import LinearSolution, Row, solve
 from planmethod.gears.model import FLEXIBLE, PARALLEL, GearProblem, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles, find_roles
-from planmethod.languages import say
+from planmethod.languages import translate
 
 
 class TrainKind(Enum):
@@ -77,7 +77,7 @@ class TrainMotion(Struct, frozen=True):
     def speed(self, label: str, carrier: str | None = None) -> Fraction:
         """Return the speed of a label's body, or its speed relative to a carrier."""
         body = self.train.body_of[label]
-        if carrier is None or body in self.roles.across:
+        if carrier is None or body in self.roles.transverse:
             return self.speeds[body]
         return self.speeds[body] - self.speeds[self.train.body_of[carrier]]
 
@@ -111,7 +111,7 @@ def _levels(motion: TrainMotion) -> dict[str, tuple[int, int, int]]:
     for part, start in enumerate(main):
         if start in found:
             continue
-        found[start] = (part, int(start in motion.roles.across), level)
+        found[start] = (part, int(start in motion.roles.transverse), level)
         todo = [start]
         while todo:  # a level is gone through before the next one begins
             body = next((b for b in todo if found[b][2] == level), todo[0])
@@ -144,10 +144,10 @@ def analyse(problem: GearProblem) -> tuple[Roles, TrainDimensions, Mobility]:
     rank = solve(moving, _loose(train, rows_of(train, roles, axes))).rank
     mobility = len(moving) - rank
     if mobility < 1:
-        told = say(
+        text = translate(
             "the train cannot move: {} moving bodies, {} independent meshes", len(moving), rank
         )
-        raise ProblemError(problem.source_file, [Fault("gears.fixed", told, "Free a body.")])
+        raise ProblemError(problem.source_file, [Fault("gears.fixed", text, "Free a body.")])
     structure = Mobility(
         _kind(train, roles, mobility), len(moving), len(moving), len(train.meshes), mobility
     )
@@ -167,17 +167,17 @@ def solve_motion(problem: GearProblem) -> TrainMotion:
     given = {body: speed for body, speed in train.inputs.items() if body not in train.fixed}
     path, count = f"gears.{train.unit}", structure.mobility
     if len(given) > count:
-        told = say("over-determined: W = {}, and {} speeds are given", count, len(given))
-        raise ProblemError(problem.source_file, [Fault(path, told, say("Keep {}.", count))])
+        text = translate("over-determined: W = {}, and {} speeds are given", count, len(given))
+        raise ProblemError(problem.source_file, [Fault(path, text, translate("Keep {}.", count))])
     found = speeds_by(train, rows_of(train, roles, axes))
     if not found.consistent:
-        told = "over-determined: the speeds given contradict each other"
-        raise ProblemError(problem.source_file, [Fault(path, told, "Give others.")])
+        text = "over-determined: the speeds given contradict each other"
+        raise ProblemError(problem.source_file, [Fault(path, text, "Give others.")])
     if found.free:
-        told = "undetermined: W = {}, and {} speeds are given; the speed of {} does not follow"
-        told = say(told, count, len(given), found.free[0])
+        text = "undetermined: W = {}, and {} speeds are given; the speed of {} does not follow"
+        text = translate(text, count, len(given), found.free[0])
         hint = "For ratios alone, give one wheel the speed 1: n = { 1 = 1 }."
-        raise ProblemError(problem.source_file, [Fault(path, told, hint)])
+        raise ProblemError(problem.source_file, [Fault(path, text, hint)])
     return TrainMotion(train, roles, axes, structure, found.values)
 
 
@@ -206,7 +206,7 @@ def mesh_row(train: Train, roles: Roles, axes: TrainDimensions, mesh: Mesh) -> d
     row = {one: first, other: sign * second}
     carrier = train.carrier(mesh)
     if carrier is not None:
-        own = sum((row[body] for body in (one, other) if body not in roles.across), Fraction(0))
+        own = sum((row[body] for body in (one, other) if body not in roles.transverse), Fraction(0))
         row[carrier] = row.get(carrier, Fraction(0)) - own
     return row
 

@@ -7,32 +7,32 @@ from collections.abc import Iterator, Mapping
 from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
 from planmethod.gears.answers import answer
-from planmethod.gears.asked import parse
 from planmethod.gears.comparison import compare
 from planmethod.gears.construction import (
     POLE,
     DrawnPoint,
-    Found,
     GearDrawing,
     GearReading,
+    MeasuredQuantity,
     construct,
     read,
 )
 from planmethod.gears.model import GearProblem
-from planmethod.gears.picture import ContactKind, draw
+from planmethod.gears.requested_quantities import parse
 from planmethod.gears.sheet import as_drawn
+from planmethod.gears.sheet_texts import calculation, train_facts, unit_of
 from planmethod.gears.text import compared_sentences, compared_table
-from planmethod.gears.told import calculation, given, unit_of
+from planmethod.gears.velocity_diagrams import ContactKind, draw
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.formulas import view_name
 from planmethod.note.narrate.narrator import Line, StepNarrator
 from planmethod.note.numbers import Notation, half_up, raised
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, MessageTable
 
 
-def protocol_document(problem: GearProblem, words: Language, profile: Profile) -> Iterator[Node]:
+def protocol_document(problem: GearProblem, language: Language, profile: Profile) -> Iterator[Node]:
     """Yield the given data, the calculation, the construction of the diagrams, and readings.
 
     Raises
@@ -41,64 +41,66 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
         The train cannot be, or its inputs do not fit.
     """
     motion, notation = as_drawn(problem, profile), problem.sheet.notation
-    say: Words = words.gears["sheet"]
-    yield Title(say.protocol.format(title=escape(problem.title)))
+    texts: MessageTable = language.gears["sheet"]
+    yield Title(texts.protocol.format(title=escape(problem.title)))
     if problem.source:
-        yield Paragraph(say.source.format(source=escape(problem.source)))
-    yield Chapter(say.given)
-    facts = given(motion, words)
+        yield Paragraph(texts.source.format(source=escape(problem.source)))
+    yield Chapter(texts.given)
+    facts = train_facts(motion, language)
     yield Paragraph("; ".join(fact.text for fact in facts) + ".", facts=tuple(facts))
-    yield Chapter(say.calculation)
-    yield from (Item(line) for line in calculation(motion, words, notation))
+    yield Chapter(texts.calculation)
+    yield from (Item(line) for line in calculation(motion, language, notation))
     compared = compare(problem, motion)
     if compared is not None:
-        yield Chapter(words.teeth["compared"]["title"])
-        yield from (Paragraph(line) for line in compared_sentences(compared, words))
-        yield compared_table(compared, words)
+        yield Chapter(language.teeth["compared"]["title"])
+        yield from (Paragraph(line) for line in compared_sentences(compared, language))
+        yield compared_table(compared, language)
     picture = draw(motion)
     if picture is None:
-        yield Chapter(words.gears.picture)
-        yield Paragraph(words.gears.no_picture)
+        yield Chapter(language.gears.picture)
+        yield Paragraph(language.gears.no_picture)
     else:
         drawn = construct(motion, picture)
-        yield from _pictures(drawn, words)
-        yield from _readings(drawn, read(drawn, profile), profile, words)
+        yield from _diagram_steps(drawn, language)
+        yield from _readings(drawn, read(drawn, profile), profile, language)
 
 
-def _pictures(drawn: GearDrawing, words: Language) -> Iterator[Node]:
+def _diagram_steps(drawn: GearDrawing, language: Language) -> Iterator[Node]:
     """Yield the steps that draw both diagrams."""
-    narrator = PictureNarrator(drawn, words)
-    say: Words = words.gears["sheet"]
-    yield Chapter(say.pictures)
-    yield Step((say["steps"]["axis"],))
+    narrator = DiagramNarrator(drawn, language)
+    texts: MessageTable = language.gears["sheet"]
+    yield Chapter(texts.pictures)
+    yield Step((texts["steps"]["axis"],))
     for step in drawn.program.steps:
         if step.out == POLE:
             break
-        lines = narrator.tell(step)
+        lines = narrator.narrate(step)
         if lines:
             yield Step(tuple(lines))
-    yield Chapter(say["steps"]["rays"])
-    pole = words.say.given(half_up(float(drawn.picture.pole_mm), 2))
-    yield Step((say["steps"]["pole"].format(pole=pole),))
+    yield Chapter(texts["steps"]["rays"])
+    pole = language.notation.as_input(half_up(float(drawn.diagrams.pole_mm), 2))
+    yield Step((texts["steps"]["pole"].format(pole=pole),))
     for body in drawn.rays:
-        yield Step((say["steps"]["ray"].format(body=drawn.label(body)),))
+        yield Step((texts["steps"]["ray"].format(body=drawn.label(body)),))
 
 
-class PictureNarrator(StepNarrator):
+class DiagramNarrator(StepNarrator):
     """Narrates the linear velocity diagram; level lines are described where they are used."""
 
-    def __init__(self, drawn: GearDrawing, words: Language) -> None:
-        self.drawn, self.notation = drawn, words.say
-        self.say: Mapping[str, str] = words.gears["sheet"]["steps"]
+    def __init__(self, drawn: GearDrawing, language: Language) -> None:
+        self.drawn, self.notation = drawn, language.notation
+        self.say: Mapping[str, str] = language.gears["sheet"]["steps"]
         self._bodies = {line: drawn.label(body) for body, line in drawn.lines.items()}
         self._ends = {spot.end: spot for spot in drawn.spots}
 
-    def lay_off(self, step: steps.LayOff) -> list[Rich]:
+    def lay_off(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a velocity, or the place of a point on the axis of contact points."""
         spot = self._ends.get(step.out)
-        if spot is not None and spot.laid == step.length:
+        if spot is not None and spot.plotted == step.length:
             return self._start(spot)
-        what = ", ".join(self._what(spot) for spot in self.drawn.spots if spot.foot == step.out)
+        what = ", ".join(
+            self._describe_point(spot) for spot in self.drawn.spots if spot.base == step.out
+        )
         height = float(self.drawn.data[step.length])
         what = what or self._axis_at(height)
         shown = _mm(height, self.notation)
@@ -111,13 +113,13 @@ class PictureNarrator(StepNarrator):
         body = self._bodies[step.out]
         return [self.say["line"].format(one=step.tail, other=step.head, body=body)]
 
-    def meet(self, step: steps.MeetLines) -> list[Rich]:
+    def meet(self, step: steps.IntersectLines) -> list[Rich]:
         """Describe a velocity that the line of a body gives."""
         spot = self._ends[step.out]
-        facts = {"foot": spot.foot, "point": step.out, "what": self._what(spot, "of ")}
+        facts = {"foot": spot.base, "point": step.out, "what": self._describe_point(spot, "of ")}
         return [self.say["meet"].format(body=self._bodies[step.second], **facts)]
 
-    def _what(self, spot: DrawnPoint, case: str = "") -> Rich:
+    def _describe_point(self, spot: DrawnPoint, case: str = "") -> Rich:
         """Return the phrase for a point of the diagram; ``of `` selects the genitive."""
         key = "pitch" if spot.contact.kind is ContactKind.PITCH else "own"
         return self.say[case + key].format(name=spot.contact.of)
@@ -125,15 +127,15 @@ class PictureNarrator(StepNarrator):
     def _axis_at(self, height: float) -> Rich:
         """Return whose fixed axis is at a height that no contact has."""
         motion = self.drawn.motion
-        scale = float(motion.train.unit_m / self.drawn.picture.mu_l)
+        scale = float(motion.train.unit_m / self.drawn.diagrams.mu_l)
         heights = {body: float(motion.axes.heights[body]) * scale for body in self.drawn.lines}
         own = [body for body, at in heights.items() if abs(at - height) < 1e-6]
         return self.say["own"].format(name=", ".join(own))
 
     def _start(self, spot: DrawnPoint) -> list[Rich]:
         body = next((b for b in self.drawn.starts if b in spot.bodies), spot.bodies[0])
-        facts = {"foot": spot.foot, "point": spot.letter, "what": self._what(spot, "of ")}
-        mu_v = self.notation.short(self.drawn.picture.mu_v, 4)
+        facts = {"foot": spot.base, "point": spot.letter, "what": self._describe_point(spot, "of ")}
+        mu_v = self.notation.short(self.drawn.diagrams.mu_v, 4)
         length = _mm(abs(float(spot.speed)), self.notation)
         lines = [self.say["laid"].format(**facts, length=length, mu_v=mu_v)]
         inputs, label = self.drawn.motion.train.inputs, self.drawn.label(body)
@@ -145,42 +147,42 @@ class PictureNarrator(StepNarrator):
 
 
 def _readings(
-    drawn: GearDrawing, seen: GearReading, profile: Profile, words: Language
+    drawn: GearDrawing, reading: GearReading, profile: Profile, language: Language
 ) -> Iterator[Node]:
     """Yield the segments as read, and the values computed from them."""
-    notation, train = words.say, drawn.motion.train
-    say: Words = words.gears["sheet"]
-    yield Chapter(say["steps"]["readings"])
-    name = words.note["profiles"].get(profile.name, profile.name)
-    yield Step((say.ruler.format(ruler=notation.given(profile.ruler), profile=name),))
-    named = [(s.read, f"{s.foot}{s.letter}", "") for s in drawn.spots if s.read is not None]
+    notation, train = language.notation, drawn.motion.train
+    texts: MessageTable = language.gears["sheet"]
+    yield Chapter(texts["steps"]["readings"])
+    name = language.note["profiles"].get(profile.name, profile.name)
+    yield Step((texts.ruler.format(ruler=notation.as_input(profile.ruler), profile=name),))
+    named = [(s.read, f"{s.base}{s.letter}", "") for s in drawn.spots if s.read is not None]
     views = {
-        body: f" {words.sheets.read_on.format(view=view_name(knot, words))}"
-        for body, knot in drawn.read_on(seen.knots).items()
+        body: f" {language.sheets.read_on.format(view=view_name(detail_view, language))}"
+        for body, detail_view in drawn.read_on(reading.detail_views).items()
     }
     named += [(n, f"o{drawn.label(b)}", views.get(b, "")) for b, n in drawn.segments.items()]
     yield Step(
         tuple(
-            say["steps"]["read"].format(
+            texts["steps"]["read"].format(
                 name=name,
-                read=notation.ruled(float(seen.read.value[number])),
-                exact=_mm(float(seen.exact.value[number]), notation),
-                sigma=notation.number(sigma_text(seen.sigma[number])),
+                read=notation.measured(float(reading.read.value[number])),
+                exact=_mm(float(reading.exact.value[number]), notation),
+                sigma=notation.number(sigma_text(reading.sigma[number])),
                 view=view,
             )
             for number, name, view in named
         )
     )
-    unit = raised(words.gears["units"][train.units[0]])
+    unit = raised(language.gears["units"][train.units[0]])
     chosen = drawn.mu in drawn.data
-    scale = say["steps"]["scale"].format(
+    scale = texts["steps"]["scale"].format(
         symbol=_scale(drawn),
-        value=notation.short(float(seen.read.value[drawn.mu]), 4),
+        value=notation.short(float(reading.read.value[drawn.mu]), 4),
         unit=unit,
-        from_what=say["steps"]["chosen" if chosen else "input"],
+        from_what=texts["steps"]["chosen" if chosen else "input"],
     )
     yield Step((scale,))
-    yield Step(tuple(_found(one, drawn, seen, words) for one in drawn.found))
+    yield Step(tuple(_quantity_text(one, drawn, reading, language) for one in drawn.quantities))
 
 
 def _mm(value: float, notation: Notation) -> Rich:
@@ -191,9 +193,11 @@ def _scale(drawn: GearDrawing) -> Rich:
     return f"μ_{{{drawn.motion.train.letter}}}"
 
 
-def _found(one: Found, drawn: GearDrawing, seen: GearReading, words: Language) -> Rich:
+def _quantity_text(
+    one: MeasuredQuantity, drawn: GearDrawing, reading: GearReading, language: Language
+) -> Rich:
     """Return a quantity with its formula, as it is read and exactly."""
-    train, notation = drawn.motion.train, words.say
+    train, notation = drawn.motion.train, language.notation
     asked = parse(one.name, tuple(train.body_of))
     rays = [f"(o{drawn.label(body)})" for body in one.rays]
     parts = rays[: len(asked.labels)]
@@ -204,12 +208,12 @@ def _found(one: Found, drawn: GearDrawing, seen: GearReading, words: Language) -
         formula = f"{fraction('π', '30')}·{formula}"
     if asked.kind == "n" and train.unit != "n":
         formula = f"{fraction('30', 'π')}·{formula}"
-    value, sigma = float(seen.read.value[one.read]), seen.sigma[one.read]
-    unit = unit_of(answer(drawn.motion, one.name), words)
-    found: str = words.gears["sheet"]["steps"]["found"]
+    value, sigma = float(reading.read.value[one.read]), reading.sigma[one.read]
+    unit = unit_of(answer(drawn.motion, one.name), language)
+    found: str = language.gears["sheet"]["steps"]["found"]
     return found.format(
         formula=f"{parse(one.name, tuple(train.body_of)).symbol} = {formula}",
         read=f"{notation.number(rounded_to(value, sigma))} {unit}".rstrip(),
-        exact=notation.found(float(one.exact)),
+        exact=notation.computed(float(one.exact)),
         sigma=notation.number(sigma_text(sigma)),
     )

@@ -8,23 +8,23 @@ from pathlib import Path
 from typing import Any
 
 from planmethod.errors import ProblemError
-from planmethod.gears.asked import SoughtQuantityError, parse
 from planmethod.gears.meshes import (
     TrainDraft,
-    carried_by,
+    find_carriers,
     fraction,
     read_label,
     read_labels,
     read_meshes,
     read_wheels,
 )
-from planmethod.gears.model import GearProblem, PictureSettings, Train
-from planmethod.languages import say
+from planmethod.gears.model import DiagramSettings, GearProblem, Train
+from planmethod.gears.requested_quantities import RequestedQuantityError, parse
+from planmethod.languages import translate
 from planmethod.problem import fields, keys
-from planmethod.problem.answers import Plain, read_answers
+from planmethod.problem.answers import ComputedAnswerNames, read_answers
+from planmethod.problem.common import Published
 from planmethod.problem.fields import Faults
-from planmethod.problem.flat import read_flat
-from planmethod.problem.head import Published
+from planmethod.problem.flat_tables import read_flat
 from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
 from planmethod.problem.selector import read_published
@@ -73,7 +73,7 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     published = _read_published(faults, given.get("published", {}), train)
     answers = read_answers(faults, given, _scene(train))
     if faults or train is None:
-        raise ProblemError(str(path), faults.found)
+        raise ProblemError(str(path), faults.listed)
     return GearProblem(
         name=path.stem, source_file=str(path), variants=variants, variant=variant, train=train,
         **head, published=published, answers=answers,
@@ -88,9 +88,9 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     draft = TrainDraft(module, modules)
     for key, example in (("wheels", "{ 1 = 20, 2 = 36 }"), ("meshes", "[{ of = [1, 2] }]")):
         if key not in given:
-            faults.add(f"gears.{key}", "missing", say("For example: {} = {}", key, example))
+            faults.add(f"gears.{key}", "missing", translate("For example: {} = {}", key, example))
     unknown = read_labels(faults, "gears.unknown", given.get("unknown", []), GROUP_LIMIT)
-    carriers = carried_by(given.get("meshes"), given.get("bodies"))
+    carriers = find_carriers(given.get("meshes"), given.get("bodies"))
     read_wheels(faults, given.get("wheels", {}), unknown, draft, carriers)
     meshes = read_meshes(faults, given.get("meshes", []), draft)
     told_bodies = given.get("bodies", [])
@@ -98,19 +98,21 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     known = draft.labels()
     groups = _read_groups(faults, "gears.bodies", told_bodies, known)
     coaxial = _read_groups(faults, "gears.coaxial", given.get("coaxial", []), known)
-    body_of = draft.bodies(groups)
+    body_of = draft.merge_labels(groups)
     fixed = _known(faults, "gears.fixed", given.get("fixed", []), known)
     unit, inputs = _read_inputs(faults, given, known)
     for label in fixed:
         if body_of.get(label) in {body_of.get(name) for name, speed in inputs.items() if speed}:
-            faults.add("gears.fixed", say("{} is fixed, and a speed of it is given", label))
-    satellites = _read_satellites(faults, given.get("satellites", {}), draft)
+            faults.add("gears.fixed", translate("{} is fixed, and a speed of it is given", label))
+    satellites = _read_planets(faults, given.get("satellites", {}), draft)
     output = None
     if "output" in given:
         output = read_label(faults, "gears.output", given["output"], known)
         for what, held in (("fixed", fixed), ("an input", tuple(inputs))):
             if output is not None and body_of[output] in {body_of[label] for label in held}:
-                faults.add("gears.output", say("{} is {}, no power comes out of it", output, what))
+                faults.add(
+                    "gears.output", translate("{} is {}, no power comes out of it", output, what)
+                )
     picture = _read_picture(faults, given.get("picture", {}))
     design = _read_design(faults, given["design"]) if "design" in given else None
     ask = _read_ask(faults, given.get("ask", []), known)
@@ -121,7 +123,9 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     speeds: dict[str, Fraction] = {}
     for label, speed in inputs.items():
         if speeds.setdefault(body_of[label], speed) != speed:
-            faults.add(f"gears.{unit}", say("{} is given another speed than its own body", label))
+            faults.add(
+                f"gears.{unit}", translate("{} is given another speed than its own body", label)
+            )
     return Train(
         wheels=draft.wheels,
         meshes=meshes,
@@ -138,7 +142,7 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
         listed=tuple(draft.listed),
         arms=draft.arms,
         coaxial=tuple(tuple(body_of[label] for label in group) for group in coaxial),
-        satellites={body_of[c]: k for c, k in satellites.items()},
+        planets={body_of[c]: k for c, k in satellites.items()},
         output=None if output is None else body_of[output],
         ask=ask,
         picture=picture,
@@ -147,7 +151,7 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
 
 
 def _read_module(
-    faults: Faults, given: Mapping[str, Any]
+    faults: Faults, table: Mapping[str, Any]
 ) -> tuple[Fraction | None, dict[str, Fraction]]:
     """Read ``module``: that of all wheels, or of rows by their meshes, m."""
 
@@ -155,7 +159,7 @@ def _read_module(
         told = fields.read_number(faults, path, value, "a module in mm", low=0.01, high=1000)
         return None if told is None else fraction(told) / 1000
 
-    value = given.get("module")
+    value = table.get("module")
     if not isinstance(value, Mapping):
         return (None if value is None else read("gears.module", value)), {}
     found = {name: read(f"gears.module.{segment(name)}", one) for name, one in value.items()}
@@ -167,7 +171,7 @@ def _known(faults: Faults, path: str, value: object, known: tuple[str, ...]) -> 
     for index, label in enumerate(found):
         if label not in known:
             fields.report_unknown(
-                faults, f"{path}[{index}]", label, known, said="unknown wheel '{}'"
+                faults, f"{path}[{index}]", label, known, message="unknown wheel '{}'"
             )
     return tuple(label for label in found if label in known)
 
@@ -193,7 +197,7 @@ def _read_groups(
         faults.add(
             path,
             "expected a list of lists, got one list of labels",
-            say("Write {} = [[{}]].", path.partition(".")[2], written),
+            translate("Write {} = [[{}]].", path.partition(".")[2], written),
         )
         return []
     return [_known(faults, f"{path}[{i}]", group, known) for i, group in enumerate(value)]
@@ -203,14 +207,15 @@ _SPEEDS = {"n": "a rotational speed in rev/min", "omega": "an angular velocity i
 
 
 def _read_inputs(
-    faults: Faults, given: Mapping[str, Any], known: tuple[str, ...]
+    faults: Faults, gears_table: Mapping[str, Any], known: tuple[str, ...]
 ) -> tuple[str, dict[str, Fraction]]:
-    if "n" in given and "omega" in given:
+    if "n" in gears_table and "omega" in gears_table:
         faults.add("gears.omega", "n and omega are both given", "Keep one of them.")
-    unit = "omega" if "omega" in given else "n"
+    unit = "omega" if "omega" in gears_table else "n"
     found: dict[str, Fraction] = {}
     table = (
-        fields.read_table(faults, f"gears.{unit}", given.get(unit, {}), "n = { 1 = 2400 }") or {}
+        fields.read_table(faults, f"gears.{unit}", gears_table.get(unit, {}), "n = { 1 = 2400 }")
+        or {}
     )
     for key, value in table.items():
         path = joined("gears", unit, segment(key))
@@ -222,26 +227,26 @@ def _read_inputs(
     return unit, found
 
 
-def _read_satellites(faults: Faults, value: object, draft: TrainDraft) -> dict[str, int]:
+def _read_planets(faults: Faults, value: object, draft: TrainDraft) -> dict[str, int]:
     """Read the number of planets: one for every carrier, or by carrier."""
     carriers = tuple(draft.carriers)
     if not isinstance(value, Mapping):
-        count = fields.read_whole(faults, "gears.satellites", value, 1, 100)
+        count = fields.read_integer(faults, "gears.satellites", value, 1, 100)
         return {} if count is None else dict.fromkeys(carriers, count)
     found: dict[str, int] = {}
     for key, number in value.items():
         path = joined("gears.satellites", segment(key))
         label = read_label(faults, path, key, carriers)
-        count = fields.read_whole(faults, path, number, 1, 100)
+        count = fields.read_integer(faults, path, number, 1, 100)
         if label is not None and count is not None:
             found[label] = count
     return found
 
 
-def _read_picture(faults: Faults, value: object) -> PictureSettings:
+def _read_picture(faults: Faults, value: object) -> DiagramSettings:
     table = fields.read_table(faults, "gears.picture", value, "picture = { pole_mm = 40 }") or {}
     found = read_flat(faults, "gears.picture", table, PictureTable)
-    return PictureSettings(**{key: fraction(value) for key, value in found.items()})
+    return DiagramSettings(**{key: fraction(value) for key, value in found.items()})
 
 
 def _read_design(faults: Faults, value: object) -> PlanetaryTask:
@@ -253,7 +258,7 @@ def _read_design(faults: Faults, value: object) -> PlanetaryTask:
     for low, high in (("z_min", "z_max"), ("k_min", "k_max")):
         least, most = getattr(design, low), getattr(design, high)
         if least > most:
-            what = say("{} = {} is more than {} = {}", low, least, high, most)
+            what = translate("{} = {} is more than {} = {}", low, least, high, most)
             faults.add(f"gears.design.{low}", what, "Exchange them.")
     return design
 
@@ -265,41 +270,43 @@ def _read_ask(faults: Faults, value: object, known: tuple[str, ...]) -> tuple[st
     found: list[str] = []
     for index, name in enumerate(value):
         text = fields.read_text(faults, f"gears.ask[{index}]", name, limit=80)
-        if text is not None and _can_be_asked(faults, f"gears.ask[{index}]", text, known):
+        if text is not None and _is_requestable(faults, f"gears.ask[{index}]", text, known):
             found.append(text)
     return tuple(found)
 
 
-def _can_be_asked(faults: Faults, path: str, text: str, known: tuple[str, ...]) -> bool:
-    said = _fault_of(text, known)
-    if said:
-        faults.add(path, said, _NAMES)
-    return not said
+def _is_requestable(faults: Faults, path: str, text: str, known: tuple[str, ...]) -> bool:
+    phrase = _fault_of(text, known)
+    if phrase:
+        faults.add(path, phrase, _NAMES)
+    return not phrase
 
 
 def _fault_of(text: str, known: tuple[str, ...]) -> str:
     try:
         parse(text, known)
-    except SoughtQuantityError as error:
+    except RequestedQuantityError as error:
         return str(error)
     return ""
 
 
-def _scene(train: Train | None) -> Plain:
+def _scene(train: Train | None) -> ComputedAnswerNames:
     """Return the names that answers may use; any name where the train is faulty itself."""
     if train is None:
-        return Plain(lambda name: "", lambda name: False, _NAMES)
+        return ComputedAnswerNames(lambda name: "", lambda name: False, _NAMES)
     known = tuple(train.body_of)
-    return Plain(lambda n: _fault_of(n, known), lambda n: parse(n, known).kind in TURNS, _NAMES)
+    return ComputedAnswerNames(
+        lambda n: _fault_of(n, known), lambda n: parse(n, known).kind in TURNS, _NAMES
+    )
 
 
 def _read_published(faults: Faults, value: object, train: Train | None) -> tuple[Published, ...]:
     """Read the values that the source prints; ``what`` is a name that can be requested."""
 
-    def check(path: str, what: str, name: str) -> str:
+    def check(path: str, quantity: str, name: str) -> str:
         if train is not None:
-            _can_be_asked(faults, path, what or name, tuple(train.body_of))
-        return what or name
+            _is_requestable(faults, path, quantity or name, tuple(train.body_of))
+        return quantity or name
 
     example = 'value = -375, what = "n_5"'
     return read_published(faults, value, check, example=example, without=("per_mm", "position"))

@@ -8,15 +8,15 @@ from fractions import Fraction
 from typing import Any
 
 from planmethod.gears.answers import Answer, answer, named, rack_speed
-from planmethod.gears.asked import parse
 from planmethod.gears.comparison import PlanetaryComparison, compare
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import TrainMotion, analyse, solve_motion
-from planmethod.gears.picture import draw
+from planmethod.gears.requested_quantities import parse
+from planmethod.gears.velocity_diagrams import draw
 from planmethod.note.records.legend import legend_record
-from planmethod.note.wording import language
-from planmethod.problem.head import KindProblem, reading_record
+from planmethod.note.wording import get_language
+from planmethod.problem.common import KindProblem, reading_record
 
 
 def record(problem: GearProblem, lang: str) -> dict[str, Any]:
@@ -28,7 +28,7 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
         The train cannot be, or its inputs do not fit.
     """
     motion = solve_motion(problem)
-    words = language(lang).gears
+    texts = get_language(lang).gears
     train = motion.train
     sizes = motion.axes.sizes
     radii = motion.axes.radii
@@ -48,24 +48,24 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
         },
         "unit": train.units[0],
         "bodies": {label: _body(motion, label) for label in train.body_of},
-        "asked": {name: _answer(answer(motion, name), words["reasons"]) for name in train.ask},
+        "asked": {name: _answer(answer(motion, name), texts["reasons"]) for name in train.ask},
         "conditions": [
             {
                 "name": one.name,
-                "holds": one.holds,
-                "text": sentence(one, language(lang)),
+                "holds": one.is_met,
+                "text": sentence(one, get_language(lang)),
             }
             for one in conditions(motion)
         ],
-        "picture": _picture(motion),
+        "picture": _diagrams_record(motion),
     }
     if (compared := compare(problem, motion)) is not None:
         told["design"] = _compared(compared)
     if told["picture"] is None:
-        told["picture_reason"] = words.no_picture
+        told["picture_reason"] = texts.no_picture
     told["published"] = [
         {"name": one.name, "printed": one.value, "note": one.note, "unit": one.unit}
-        | _answer(answer(motion, one.what), words["reasons"])
+        | _answer(answer(motion, one.what), texts["reasons"])
         for one in problem.published
     ]
     known = tuple(train.body_of)
@@ -78,20 +78,20 @@ def _compared(compared: PlanetaryComparison) -> dict[str, Any]:
     place = compared.place
     return {
         "scheme": compared.scheme.name,
-        "ratio": {"name": compared.scheme.asked, "value": float(compared.ratio)},
-        "found": {str(k): count for k, count in compared.found.items()},
-        "satellites": compared.satellites,
+        "ratio": {"name": compared.scheme.ratio_name, "value": float(compared.ratio)},
+        "found": {str(k): count for k, count in compared.set_counts.items()},
+        "satellites": compared.planets,
         "place": None if place is None else place.place,
-        "error": float(compared.own.error),
+        "error": float(compared.file_set.error),
         "variants": [
             {
-                "satellites": one.satellites,
+                "satellites": one.planets,
                 "teeth": dict(zip(compared.scheme.wheels, one.chosen.teeth, strict=True)),
                 "value": float(one.chosen.ratio),
                 "error": float(one.chosen.error),
                 "size": float(one.chosen.size),
                 "size_mm": compared.diameter(one.chosen),
-                "is_own": one.is_own,
+                "is_own": one.is_file_train,
             }
             for one in compared.variants
         ],
@@ -118,11 +118,11 @@ def structure_record(problem: GearProblem) -> dict[str, Any]:
         "carriers": {
             carrier: {
                 "central": list(roles.central[carrier]),
-                "satellites": list(roles.satellites[carrier]),
+                "satellites": list(roles.planets[carrier]),
             }
             for carrier in problem.train.carriers
         },
-        "across": sorted(roles.across),
+        "across": sorted(roles.transverse),
     }
     return {**head(problem), "structure": told}
 
@@ -139,7 +139,7 @@ def head(problem: KindProblem) -> dict[str, Any]:
     }
 
 
-def shown(value: Fraction) -> str:
+def exact_text(value: Fraction) -> str:
     """Return a fraction as JSON has it: ``-375/1``."""
     return f"{value.numerator}/{value.denominator}"
 
@@ -154,17 +154,17 @@ def _body(motion: TrainMotion, label: str) -> dict[str, Any]:
     body = train.body_of[label]
     if body in train.racks:
         metres = rack_speed(motion, label)
-        return {"n": None, "omega": None, "v": metres, "exact": shown(speed)}
-    told = {**_speeds(train.unit, speed), "exact": shown(speed)}
+        return {"n": None, "omega": None, "v": metres, "exact": exact_text(speed)}
+    told = {**_speeds(train.unit, speed), "exact": exact_text(speed)}
     told["body"] = body
     relative = {
-        carrier: shown(motion.speed(label, carrier))
+        carrier: exact_text(motion.speed(label, carrier))
         for carrier in train.carriers
-        if body in (*motion.roles.central[carrier], *motion.roles.satellites[carrier])
+        if body in (*motion.roles.central[carrier], *motion.roles.planets[carrier])
     }
     if relative:
         told["relative"] = relative
-    if body in motion.roles.across:
+    if body in motion.roles.transverse:
         told["about_own_axis"] = True
     return told
 
@@ -175,17 +175,17 @@ def _speeds(unit: str, speed: Fraction) -> dict[str, float]:
     return {"n": float(speed) * 30 / math.pi, "omega": float(speed)}
 
 
-def _answer(found: Answer, reasons: Mapping[str, str]) -> dict[str, Any]:
+def _answer(result: Answer, reasons: Mapping[str, str]) -> dict[str, Any]:
     told: dict[str, Any] = {
-        "value": found.value,
-        "exact": None if found.exact is None else shown(found.exact),
+        "value": result.value,
+        "exact": None if result.exact is None else exact_text(result.exact),
     }
-    if found.value is None:
-        told["reason"] = reasons[found.reason].format(label=found.label)
+    if result.value is None:
+        told["reason"] = reasons[result.reason].format(label=result.label)
     return told
 
 
-def _picture(motion: TrainMotion) -> dict[str, Any] | None:
+def _diagrams_record(motion: TrainMotion) -> dict[str, Any] | None:
     picture = draw(motion)
     if picture is None:
         return None

@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from planmethod.errors import Fault
 from planmethod.gears.model import Mesh, MeshKind, Train
-from planmethod.languages import say
+from planmethod.languages import translate
 
 Vector = tuple[float, float, float]
 
@@ -19,19 +19,19 @@ class Roles(Struct, frozen=True):
 
     Attributes
     ----------
-    central, satellites : mapping
+    central, planets : mapping
         Central wheels and planets, by carrier.
     senses : mapping
         By bevel mesh: +1 where both wheels turn in the positive senses of their axes, else -1.
-    across : frozenset of str
+    transverse : frozenset of str
         Bodies whose axis is not parallel to the main one: their speeds are relative to their
         carrier, about their own axis.
     """
 
     central: Mapping[str, tuple[str, ...]]
-    satellites: Mapping[str, tuple[str, ...]]
+    planets: Mapping[str, tuple[str, ...]]
     senses: Mapping[Mesh, int]
-    across: frozenset[str]
+    transverse: frozenset[str]
 
 
 def find_roles(train: Train) -> tuple[Roles, list[Fault]]:
@@ -48,12 +48,14 @@ def find_roles(train: Train) -> tuple[Roles, list[Fault]]:
         middle, around = _split(train, carrier)
         central[carrier], satellites[carrier] = tuple(middle), tuple(around)
         if not around:
-            told = say("no wheel on the carrier {} is a planet", carrier)
-            faults.append(Fault("gears.meshes", told, "Name the carrier of each mesh, and check."))
+            text = translate("no wheel on the carrier {} is a planet", carrier)
+            faults.append(Fault("gears.meshes", text, "Name the carrier of each mesh, and check."))
     for mesh in train.meshes:
         if train.carrier(mesh) in train.ends(mesh):
-            told = say("a wheel of {} is one body with the carrier {}", mesh.name, mesh.carrier)
-            faults.append(Fault("gears.meshes", told, "It cannot roll on it: check bodies."))
+            text = translate(
+                "a wheel of {} is one body with the carrier {}", mesh.name, mesh.carrier
+            )
+            faults.append(Fault("gears.meshes", text, "It cannot roll on it: check bodies."))
     senses, across = _bevels(train, satellites, faults)
     return Roles(central, satellites, senses, across), faults
 
@@ -79,9 +81,9 @@ def _split(train: Train, carrier: str) -> tuple[list[str], list[str]]:
     return middle, [body for body in dict.fromkeys(ends) if body not in middle]
 
 
-def _is_between(train: Train, own: list[Mesh], body: str, sure: set[str]) -> bool:
+def _is_between(train: Train, carrier_meshes: list[Mesh], body: str, sure: set[str]) -> bool:
     """Return whether a body meshes with several central bodies only: then it is a planet."""
-    ends = [train.ends(mesh) for mesh in own]
+    ends = [train.ends(mesh) for mesh in carrier_meshes]
     mates = {b for both in ends if body in both for b in both} - {body}
     once = {b for b in mates if sum(b in both for both in ends) == 1}
     return body not in sure and len(mates) > 1 and mates <= sure | once
@@ -101,7 +103,7 @@ def _ring(train: Train, mesh: Mesh) -> str | None:
 
 
 def _bevels(
-    train: Train, satellites: Mapping[str, tuple[str, ...]], faults: list[Fault]
+    train: Train, planets: Mapping[str, tuple[str, ...]], faults: list[Fault]
 ) -> tuple[dict[Mesh, int], frozenset[str]]:
     """Give every bevel mesh its sense, by the directions of the axes from the apex.
 
@@ -109,7 +111,7 @@ def _bevels(
     apex to the wheels, the wheels turn in opposite senses of them. Where no axes are given, the
     first wheel in mesh with a planet is below it on the main axis, the next above.
     """
-    around = {body for bodies in satellites.values() for body in bodies}
+    around = {body for bodies in planets.values() for body in bodies}
     main = _main_axis(train, around)
     across: dict[str, bool] = {}
     above: dict[tuple[str, str], bool] = {}
@@ -118,14 +120,14 @@ def _bevels(
         if mesh.kind is not MeshKind.BEVEL:
             continue
         one, other = train.ends(mesh)
-        turned = _is_across(train, mesh, main, across, around)
+        turned = _is_transverse(train, mesh, main, across, around)
         across.setdefault(one, turned)
         across.setdefault(other, not turned)
         if across[one] == across[other]:
-            told = say(
+            text = translate(
                 "the axes of {} and {} are parallel, they cannot be bevel", mesh.first, mesh.second
             )
-            faults.append(Fault("gears.meshes", told))
+            faults.append(Fault("gears.meshes", text))
             continue
         axial, crossing = (other, one) if across[one] else (one, other)
         below = not any(c == crossing and up is False for (_, c), up in above.items())
@@ -142,19 +144,19 @@ def _bevels(
     return senses, frozenset(body for body, is_across in across.items() if is_across)
 
 
-def _is_across(
+def _is_transverse(
     train: Train,
     mesh: Mesh,
     main: Vector,
-    across: Mapping[str, bool],
+    transverse: Mapping[str, bool],
     around: set[str],
 ) -> bool:
     """Return whether the first wheel of a bevel mesh is transverse to the main axis."""
     ends = train.ends(mesh)
     axes = [train.wheels[label].axis for label in (mesh.first, mesh.second)]
     for body, axis, flip in zip(ends, axes, (False, True), strict=True):
-        if body in across:
-            return across[body] != flip
+        if body in transverse:
+            return transverse[body] != flip
         if axis is not None:
             return (_sign(axis, main) == 0) != flip
     return ends[0] in around and ends[1] not in around

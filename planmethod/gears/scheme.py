@@ -31,7 +31,7 @@ class Rim(Struct, frozen=True):
     Attributes
     ----------
     centre, radius : float, mm
-    ways : tuple of int
+    mesh_sides : tuple of int
         Sides of its axis on which it meshes there: +1 above.
     reaches : tuple of float, mm
         Its extent on each of them, where shifts make that different from ``radius``.
@@ -42,16 +42,16 @@ class Rim(Struct, frozen=True):
     centre: float
     radius: float
     ring: bool
-    ways: tuple[int, ...]
+    mesh_sides: tuple[int, ...]
     reaches: tuple[float, ...] = ()
 
-    def reach(self, way: int) -> float:
+    def reach(self, side: int) -> float:
         """Return its extent on a side of its axis, mm."""
-        return dict(zip(self.ways, self.reaches, strict=False)).get(way, self.radius)
+        return dict(zip(self.mesh_sides, self.reaches, strict=False)).get(side, self.radius)
 
     def spans(self) -> Iterator[tuple[float, float]]:
         """Yield the height ranges of its halves; for a ring only its rim."""
-        for way in self.ways:
+        for way in self.mesh_sides:
             far = self.centre + way * self.reach(way)
             yield (far, far) if self.ring else (min(self.centre, far), max(self.centre, far))
 
@@ -75,7 +75,7 @@ class Cone(Struct, frozen=True):
     side: int
 
 
-class Across(Struct, frozen=True):
+class TransverseBody(Struct, frozen=True):
     """A body whose axis is perpendicular to the others, in the paper (поперечное звено)."""
 
     body: str
@@ -122,12 +122,12 @@ class SchemeData(Struct, frozen=True, dict=True):
             left.remove(mesh)
             new, height = self._new_line(mesh, known) or ("", 0.0)
             known[new] = height
-        level = [b for b in train.bodies if b not in self.motion.roles.across | train.racks]
+        level = [b for b in train.bodies if b not in self.motion.roles.transverse | train.racks]
         return {body: known[line[body]] for body in level if line[body] in known}
 
     def _new_line(self, mesh: Mesh, known: Mapping[str, float]) -> tuple[str, float] | None:
         """Return the axis whose height a mesh determines, and the height."""
-        line, across = self.motion.axes.axis_of, self.motion.roles.across
+        line, across = self.motion.axes.axis_of, self.motion.roles.transverse
         ends = list(self.motion.train.ends(mesh))
         if mesh.kind is MeshKind.BEVEL:  # over the other level wheels of the body across
             (turned,) = [body for body in ends if body in across]
@@ -144,7 +144,7 @@ class SchemeData(Struct, frozen=True, dict=True):
         if mesh.kind is MeshKind.RACK:
             return None
         if mesh.kind in PARALLEL:
-            apart = float(self.motion.axes.apart[mesh.name]) * self.mm
+            apart = float(self.motion.axes.distances[mesh.name]) * self.mm
         else:
             apart = BELT * sum(self.radius(label) for label in (mesh.first, mesh.second))
         for one, other in (ends, ends[::-1]):
@@ -184,29 +184,29 @@ class SchemeData(Struct, frozen=True, dict=True):
                 found.setdefault(label, {})[mesh.name] = apart * share
         return found
 
-    def _cones(self, turned: str) -> Iterator[tuple[str, Mesh, float]]:
+    def _cones(self, transverse: str) -> Iterator[tuple[str, Mesh, float]]:
         """Yield the level bodies that a transverse body meshes with, and their radii."""
         train = self.motion.train
         for mesh in train.meshes:
-            if mesh.kind is MeshKind.BEVEL and turned in train.ends(mesh):
+            if mesh.kind is MeshKind.BEVEL and transverse in train.ends(mesh):
                 one, other = train.ends(mesh)
-                level, label = (other, mesh.second) if one == turned else (one, mesh.first)
+                level, label = (other, mesh.second) if one == transverse else (one, mesh.first)
                 yield level, mesh, self.radius(label)
 
     @cached_property
-    def across(self) -> tuple[Across, ...]:
+    def transverse_bodies(self) -> tuple[TransverseBody, ...]:
         """Transverse bodies, with their bevel meshes."""
         found = []
-        for turned in sorted(self.motion.roles.across):
+        for turned in sorted(self.motion.roles.transverse):
             cones, carrier = [], None
             for body, mesh, radius in self._cones(turned):
                 carrier = self.motion.train.carrier(mesh)
                 first = self.motion.train.ends(mesh)[0] == turned
                 own, other = (mesh.first, mesh.second)[:: 1 if first else -1]
-                rim = Rim(other, body, self.heights[body], radius, ring=False, ways=(1,))
+                rim = Rim(other, body, self.heights[body], radius, ring=False, mesh_sides=(1,))
                 side = -self.motion.roles.senses[mesh]
                 cones.append(Cone(rim, own, self.radius(own), side))
-            found.append(Across(turned, carrier, tuple(cones)))
+            found.append(TransverseBody(turned, carrier, tuple(cones)))
         return tuple(found)
 
     @cached_property
@@ -235,7 +235,7 @@ class SchemeData(Struct, frozen=True, dict=True):
     @cached_property
     def undrawn(self) -> tuple[str, ...]:
         """Meshes that cannot be drawn with all level axes in one plane, by kind."""
-        train, turned = self.motion.train, self.motion.roles.across
+        train, turned = self.motion.train, self.motion.roles.transverse
         found = []
         for mesh in train.meshes:
             ends = train.ends(mesh)
@@ -256,13 +256,13 @@ class SchemeData(Struct, frozen=True, dict=True):
         heights = self.heights
         return {
             body: carrier
-            for carrier, bodies in self.motion.roles.satellites.items()
+            for carrier, bodies in self.motion.roles.planets.items()
             for body in bodies
             if body in heights and carrier in heights and heights[body] != heights[carrier]
         }
 
     @cached_property
-    def beside(self) -> Mapping[str, frozenset[str]]:
+    def coaxial_bodies(self) -> Mapping[str, frozenset[str]]:
         """By body, the other bodies on its axis."""
         levels = {body: round(height, 6) for body, height in self.heights.items()}
         return {
@@ -279,7 +279,7 @@ class SchemeData(Struct, frozen=True, dict=True):
         columns: list[dict[str, Rim]] = []
         for rims in self._meshing():
             for column in columns:
-                if any(rim.label in column for rim in rims) and _fits(column, *rims):
+                if any(rim.label in column for rim in rims) and _has_no_overlap(column, *rims):
                     break
             else:
                 columns.append(column := {})
@@ -318,14 +318,14 @@ class SchemeData(Struct, frozen=True, dict=True):
 def _joined(before: Rim | None, rim: Rim) -> Rim:
     if before is None:
         return rim
-    ways = tuple(dict.fromkeys((*before.ways, *rim.ways)))
-    reaches = tuple((before if way in before.ways else rim).reach(way) for way in ways)
+    ways = tuple(dict.fromkeys((*before.mesh_sides, *rim.mesh_sides)))
+    reaches = tuple((before if way in before.mesh_sides else rim).reach(way) for way in ways)
     if all(abs(one - before.radius) < EPS for one in reaches):
-        return replace(before, ways=ways)
-    return replace(before, ways=ways, radius=sum(reaches) / len(reaches), reaches=reaches)
+        return replace(before, mesh_sides=ways)
+    return replace(before, mesh_sides=ways, radius=sum(reaches) / len(reaches), reaches=reaches)
 
 
-def _fits(column: Mapping[str, Rim], *rims: Rim) -> bool:
+def _has_no_overlap(column: Mapping[str, Rim], *rims: Rim) -> bool:
     """Return whether wheels fit in a column without overlap."""
     if any(column[rim.label].ring != rim.ring for rim in rims if rim.label in column):
         return False  # one wheel has teeth inside and outside

@@ -15,7 +15,8 @@ from planmethod.errors import LayoutError
 from planmethod.gears.arrangement import ColumnOrder, arrange, best_order
 from planmethod.gears.comparison import PlanetaryComparison, compare
 from planmethod.gears.construction import GearDrawing, GearReading, construct, read
-from planmethod.gears.drawn.pictures import (
+from planmethod.gears.drawn.side import SideView
+from planmethod.gears.drawn.views import (
     RAYS_POLE,
     angular,
     angular_spans,
@@ -24,55 +25,54 @@ from planmethod.gears.drawn.pictures import (
     linear,
     linear_spans,
 )
-from planmethod.gears.drawn.side import SideView
-from planmethod.gears.model import GearProblem, PictureSettings
+from planmethod.gears.model import DiagramSettings, GearProblem
 from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.gears.picture import draw
 from planmethod.gears.scheme import SchemeData
+from planmethod.gears.sheet_texts import calculation, results, train_facts
 from planmethod.gears.text import compared_sentences, compared_table
-from planmethod.gears.told import calculation, given, results
-from planmethod.languages import LANGUAGES, say
-from planmethod.note.narrate.formulas import knot_letter, view_name
-from planmethod.note.narrate.given import unbroken
+from planmethod.gears.velocity_diagrams import draw
+from planmethod.languages import LANGUAGES, translate
+from planmethod.note.narrate.formulas import detail_view_letter, view_name
+from planmethod.note.narrate.statement import unbroken
 from planmethod.note.numbers import half_up
-from planmethod.note.wording import Language, Words, language
-from planmethod.paper import STAMP_WIDTH, TRIED
+from planmethod.note.wording import Language, MessageTable, get_language
+from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Item, Span, View, shifted
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Line, Picture, Row, heading, paragraph
-from planmethod.render.layout.cuttings import Group, Packed
+from planmethod.render.layout.cuttings import Group, LayoutItem
 from planmethod.render.layout.equations import formula_block
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
-from planmethod.render.pictures.enlarged import ENLARGED
+from planmethod.render.pictures.detail_views import ENLARGED
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import (
-    Blank,
-    Misfit,
+    NoFitAdvice,
     Packing,
     Sizes,
-    Viewed,
+    TrialPaper,
+    ViewBlock,
     compose,
-    composed,
+    find_layout,
     view_of,
 )
 
 TARGETS = (210.0, 165.0, 130.0, 105.0, 85.0, 65.0)
 """Target heights of the scheme, mm, for scales that the sheet chooses."""
 
-LEAST_TARGET, MOST_A3 = 85.0, 130.0
+MIN_TARGET, MAX_A3 = 85.0, 130.0
 """The least of these where a larger paper can be taken, the most on A3, mm."""
 
-LEAST, MOST = 75.0, 260.0
+MIN_HEIGHT, MAX_HEIGHT = 75.0, 260.0
 """Heights of the scheme, mm, between which the scale of the file is kept."""
 
 WIDEST = 170.0
 """Width of the angular velocity diagram above which the sheet chooses a coarser scale, mm."""
 
-MOST_FRONT = 130.0
+MAX_FRONT = 130.0
 """Height of the view along the axes, mm, where it has a coarser scale than the side view."""
 
 WIDTHS = (STAMP_WIDTH - 10.0, 140.0)
@@ -81,7 +81,7 @@ WIDTHS = (STAMP_WIDTH - 10.0, 140.0)
 POLES = (40, 30, 25, 20, 15, 10)
 
 
-SHARES = (1.2, 2.2, 1.1, 1.1, 0.7, 0.8)
+COLUMN_PARTS = (1.2, 2.2, 1.1, 1.1, 0.7, 0.8)
 """Widths of the columns of the results, in parts."""
 
 GAP = 12.0
@@ -117,7 +117,9 @@ def drawings(
     """
     strategy = _Train(problem, solve_motion(problem), profile)
     furniture = Furniture.of(problem.sheet, before=before, total=total)
-    return compose(problem, strategy, _misfit(strategy), fields=fields, furniture=furniture)
+    return compose(
+        problem, strategy, _no_space_advice(strategy), fields=fields, furniture=furniture
+    )
 
 
 def as_drawn(problem: GearProblem, profile: Profile) -> TrainMotion:
@@ -135,7 +137,9 @@ def as_drawn(problem: GearProblem, profile: Profile) -> TrainMotion:
         return motion
     strategy = _Train(problem, motion, profile)
     try:
-        _, laid = composed(problem, strategy, _misfit(strategy), Furniture.of(problem.sheet))
+        _, laid = find_layout(
+            problem, strategy, _no_space_advice(strategy), Furniture.of(problem.sheet)
+        )
     except LayoutError:
         return motion
     scales = {name: Fraction(repr(value)) for name, value in laid.scales.items()}
@@ -143,9 +147,9 @@ def as_drawn(problem: GearProblem, profile: Profile) -> TrainMotion:
     return replace(motion, train=replace(motion.train, picture=settings))
 
 
-def _misfit(strategy: _Train) -> Misfit:
+def _no_space_advice(strategy: _Train) -> NoFitAdvice:
     wheels = len(strategy.motion.train.wheels)
-    return Misfit(
+    return NoFitAdvice(
         lambda paper, advice: LayoutError(
             "{}: the sheet of {} wheels does not fit {}. {}",
             strategy.problem.name,
@@ -153,19 +157,19 @@ def _misfit(strategy: _Train) -> Misfit:
             paper,
             advice,
         ),
-        say("Request fewer quantities in gears.ask."),
+        translate("Request fewer quantities in gears.ask."),
     )
 
 
-def pictures(
-    motion: TrainMotion, profile: Profile, words: Language, sizes: Sizes
+def draw_views(
+    motion: TrainMotion, profile: Profile, language: Language, sizes: Sizes
 ) -> tuple[Block, Block | None]:
     """Return the side view with the linear velocity diagram, and the angular one."""
     settings = motion.train.picture
     scheme = SchemeData(motion, float(motion.train.unit_m / settings.mu_l))
     order = None if scheme.undrawn else best_order(scheme)
-    sheet = _Sheet(motion, settings, profile, words, sizes, order, None)
-    return sheet.pictures()
+    sheet = _Sheet(motion, settings, profile, language, sizes, order, None)
+    return sheet.views()
 
 
 class _Train(Struct, frozen=True):
@@ -175,19 +179,19 @@ class _Train(Struct, frozen=True):
     motion: TrainMotion
     profile: Profile
 
-    formats = TRIED
+    formats = DEFAULT_SERIES
 
-    def proposals(self, papers: Sequence[Blank]) -> Iterator[Packing]:
+    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[Packing]:
         """Yield the blocks at a scale in several orders of reading, paper by paper."""
-        made: dict[tuple[PictureSettings, Sizes], list[tuple[Packed, ...]]] = {}
-        words = language(self.problem.sheet.lang or LANGUAGES[0])
+        made: dict[tuple[DiagramSettings, Sizes], list[tuple[LayoutItem, ...]]] = {}
+        language = get_language(self.problem.sheet.lang or LANGUAGES[0])
         train, compared = self.motion.train, compare(self.problem, self.motion)
         plain = SchemeData(self.motion, float(train.unit_m / train.picture.mu_l))
         order = None if plain.undrawn else best_order(plain)
         for paper, settings, sizes in self._scales(papers):
             notation = self.problem.sheet.notation
             sheet = _Sheet(
-                self.motion, settings, self.profile, words, sizes, order, notation, compared
+                self.motion, settings, self.profile, language, sizes, order, notation, compared
             )
             if (settings, sizes) not in made:
                 made[settings, sizes] = list(sheet.orders())
@@ -195,26 +199,30 @@ class _Train(Struct, frozen=True):
             for parts in made[settings, sizes]:
                 yield Packing(paper, (Group(parts),), scales=scales)
 
-    def _scales(self, papers: Sequence[Blank]) -> Iterator[tuple[Blank, PictureSettings, Sizes]]:
+    def _scales(
+        self, papers: Sequence[TrialPaper]
+    ) -> Iterator[tuple[TrialPaper, DiagramSettings, Sizes]]:
         """Yield papers and scales: first the scale of the file, where the scheme suits it."""
         motion, (*_, last) = self.motion, papers
-        train, settings, asked = motion.train, motion.train.picture, last.is_asked
+        train, settings, asked = motion.train, motion.train.picture, last.is_required
         extent = _extent(motion) * float(train.unit_m)
-        if LEAST <= extent / float(settings.mu_l) <= MOST:
+        if MIN_HEIGHT <= extent / float(settings.mu_l) <= MAX_HEIGHT:
             yield from ((paper, settings, USUAL) for paper in papers if paper != last or asked)
         for sizes, paper in product((USUAL, DENSE) if asked else (USUAL,), papers):
             for target in TARGETS:
-                most = MOST_A3 if paper.name == "A3" else TARGETS[0]
-                if not (asked or LEAST_TARGET <= target <= most):
+                most = MAX_A3 if paper.name == "A3" else TARGETS[0]
+                if not (asked or MIN_TARGET <= target <= most):
                     continue
                 mu_l = series_near(extent / target, up=True)
-                if not asked and extent / mu_l < LEAST:  # from 5 to 10 the series makes a wide step
+                if (
+                    not asked and extent / mu_l < MIN_HEIGHT
+                ):  # from 5 to 10 the series makes a wide step
                     mu_l = series_near(extent / target, up=False)
                 tried = replace(settings, mu_l=Fraction(repr(mu_l)))
                 yield paper, replace(tried, near_mm=_pole(motion, tried)), sizes
 
 
-def _pole(motion: TrainMotion, settings: PictureSettings) -> Fraction:
+def _pole(motion: TrainMotion, settings: DiagramSettings) -> Fraction:
     """Return a pole distance that keeps the rays within a width."""
     for pole in POLES:
         tried = replace(settings, near_mm=Fraction(pole))
@@ -231,7 +239,11 @@ def _extent(motion: TrainMotion) -> float:
     """Return how high the scheme is, in sizes."""
     scheme = SchemeData(motion, 1.0)
     rims = [rim for column in scheme.columns for rim in column] if not scheme.undrawn else []
-    rims += [] if scheme.undrawn else [cone.rim for one in scheme.across for cone in one.cones]
+    rims += (
+        []
+        if scheme.undrawn
+        else [cone.rim for one in scheme.transverse_bodies for cone in one.cones]
+    )
     ends = [rim.centre + way * rim.reach(way) for rim in rims for way in (1, -1)]
     return max(ends) - min(ends) if ends else 100.0
 
@@ -243,7 +255,7 @@ DENSE = Sizes(3.5, 3.5, 2.5, STAMP_WIDTH, row=5.5)
 """Sizes where the format was specified and larger ones do not fit."""
 
 
-class _Picture(Viewed, frozen=True):
+class _MeasuredView(ViewBlock, frozen=True):
     """A view of the train; its segments are known from its upper left corner."""
 
     measured: Sequence[Span]
@@ -254,27 +266,27 @@ class _Picture(Viewed, frozen=True):
             yield replace(one, start=one.start + corner, end=one.end + corner)
 
 
-class _Rays(Viewed, frozen=True):
+class _Rays(ViewBlock, frozen=True):
     """The angular velocity diagram with its detail views."""
 
     drawn: GearDrawing
-    seen: GearReading
+    reading: GearReading
 
     def spans(self, items: Sequence[Item], corner: complex) -> Iterator[Span]:
         """Yield the segments at their places on the sheet."""
         (pole,) = (one.centre for one in items if isinstance(one, Disc) and one.tag == RAYS_POLE)
         views = [
             next(item.centre for item in items
-                 if isinstance(item, Arc) and item.tag == f"{ENLARGED} {knot.number}")
-            for knot in self.seen.knots
+                 if isinstance(item, Arc) and item.tag == f"{ENLARGED} {detail_view.number}")
+            for detail_view in self.reading.detail_views
         ]  # fmt: skip
-        yield from angular_spans(self.drawn, self.seen, pole, views)
+        yield from angular_spans(self.drawn, self.reading, pole, views)
 
 
-class _Strip(_Picture, frozen=True):
+class _Strip(_MeasuredView, frozen=True):
     """The side view, and beside it the measured linear velocity diagram."""
 
-    beside: Scale
+    diagram_scale: Scale
     at: float  # where it begins, mm from the left
 
     def views(self, items: Sequence[Item], corner: complex) -> list[View]:
@@ -284,7 +296,7 @@ class _Strip(_Picture, frozen=True):
         scheme, velocities = ((left, low, right, high) for left, right in pairwise(edges))
         return [
             view_of(self.name, self.scale, scheme, ()),
-            view_of("velocity", self.beside, velocities, self.spans(items, corner)),
+            view_of("velocity", self.diagram_scale, velocities, self.spans(items, corner)),
         ]
 
 
@@ -292,29 +304,33 @@ class _Sheet(Struct, frozen=True):
     """Blocks of a sheet."""
 
     motion: TrainMotion
-    settings: PictureSettings
+    settings: DiagramSettings
     profile: Profile
-    words: Language
+    language: Language
     sizes: Sizes
     order: ColumnOrder | None
     notation: str | None
     compared: PlanetaryComparison | None = None
 
-    def orders(self) -> Iterator[tuple[Packed, ...]]:
+    def orders(self) -> Iterator[tuple[LayoutItem, ...]]:
         """Yield the blocks in orders of reading; the last is placed on the title block."""
         picture = draw(self.motion, self.settings)
         drawn = None if picture is None else construct(self.motion, picture)
         seen = None if drawn is None else read(drawn, self.profile)
         scheme = SchemeData(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
-        strip, last = Packed(self._strip(scheme, drawn, seen)), Packed(self._results(drawn, seen))
+        strip, last = (
+            LayoutItem(self._strip(scheme, drawn, seen)),
+            LayoutItem(self._results(drawn, seen)),
+        )
         shown = [] if drawn is None or seen is None else [
-            Packed(self._angular(drawn, seen)), Packed(self._segments(drawn, seen), text=True)
+            LayoutItem(self._angular(drawn, seen)),
+            LayoutItem(self._segments(drawn, seen), text=True),
         ]  # fmt: skip
         for view, width in product(self._fronts(), WIDTHS):
-            views = [strip] if view is None else [strip, Packed(view)]
-            texts = [Packed(self._told(width), text=True)]
+            views = [strip] if view is None else [strip, LayoutItem(view)]
+            texts = [LayoutItem(self._calculation_block(width), text=True)]
             if self.compared is not None:
-                texts.append(Packed(self._compared(self.compared), text=True))
+                texts.append(LayoutItem(self._compared(self.compared), text=True))
             if not shown:
                 yield (*views, *texts, last)
                 continue
@@ -325,7 +341,7 @@ class _Sheet(Struct, frozen=True):
             yield (strip, *texts, *views[1:], rays, last)
             yield (strip, rays, *views[1:], *texts, last)
 
-    def pictures(self) -> tuple[Block, Block | None]:
+    def views(self) -> tuple[Block, Block | None]:
         """Return the side view with the linear velocity diagram, and the angular one."""
         picture = draw(self.motion, self.settings)
         drawn = None if picture is None else construct(self.motion, picture)
@@ -342,36 +358,36 @@ class _Sheet(Struct, frozen=True):
         return Column(lines, gap=2.5, align="centre")
 
     def _scale(self, key: str, value: float, **more: str) -> str:
-        said: str = self.words.gears["sheet"]["inscriptions"][key]
-        return said.format(value=self.words.say.short(value, 4), **more)
+        phrase: str = self.language.gears["sheet"]["inscriptions"][key]
+        return phrase.format(value=self.language.notation.short(value, 4), **more)
 
     def _strip(
-        self, scheme: SchemeData, drawn: GearDrawing | None, seen: GearReading | None
+        self, scheme: SchemeData, drawn: GearDrawing | None, reading: GearReading | None
     ) -> Block:
         """Return the side view and, at the same heights, the linear velocity diagram."""
-        say: Words = self.words.gears["sheet"]
+        texts: MessageTable = self.language.gears["sheet"]
         if scheme.undrawn:
-            kinds = ", ".join(say["kinds"][kind] for kind in scheme.undrawn)
-            return paragraph(say.no_scheme.format(kinds=kinds), self.sizes.text, STAMP_WIDTH)
+            kinds = ", ".join(texts["kinds"][kind] for kind in scheme.undrawn)
+            return paragraph(texts.no_scheme.format(kinds=kinds), self.sizes.text, STAMP_WIDTH)
         spots = () if drawn is None else drawn.spots
         side = SideView(arrange(scheme, self.order), {spot.contact: spot.letter for spot in spots})
         items, labels = side.items(), list(side.labels(self.sizes.letter))
         left, _, right, _ = ink_bounds(items)
         mu_l = self._scale("mu_l", float(self.settings.mu_l))
-        heads = [(self._head(say.scheme, max(right - left, 50.0), mu_l), (left + right) / 2)]
+        heads = [(self._head(texts.scheme, max(right - left, 50.0), mu_l), (left + right) / 2)]
         middle = right
         origin = 0.0
-        if drawn is not None and seen is not None:
-            lines, named = linear(drawn, seen, self.sizes.letter)
+        if drawn is not None and reading is not None:
+            lines, named = linear(drawn, reading, self.sizes.letter)
             box = ink_bounds(lines)
-            mu_v = self._scale("mu_v", drawn.picture.mu_v)
-            head = self._head(say.linear, max(box[2] - box[0], 60.0), mu_v)
+            mu_v = self._scale("mu_v", drawn.diagrams.mu_v)
+            head = self._head(texts.linear, max(box[2] - box[0], 60.0), mu_v)
             room = max(0.0, (head.width - (box[2] - box[0])) / 2)
             end = max(right, heads[0][1] + heads[0][0].width / 2)
             origin = end + GAP + room - box[0]
             middle = end + GAP / 2
             items += [*side.projections(origin), *shifted(lines, origin)]
-            labels += [_moved(label, origin) for label in named]
+            labels += [_shift_label(label, origin) for label in named]
             heads.append((head, origin + (box[0] + box[2]) / 2))
         whole = lettered(items, labels)
         top = whole.bounds[3] + 5.0
@@ -384,39 +400,39 @@ class _Sheet(Struct, frozen=True):
         bounds = ink_bounds(placed)
         x, y = -bounds[0], -bounds[3]
         strip, mu = Picture(tuple(placed), bounds), Scale("mu_l", float(self.settings.mu_l), "m")
-        if drawn is None or seen is None:
-            return Viewed(strip, "position", mu)
-        spans = linear_spans(drawn, seen, complex(origin + x, y))
-        beside = Scale("mu_v", drawn.picture.mu_v, "m/s")
+        if drawn is None or reading is None:
+            return ViewBlock(strip, "position", mu)
+        spans = linear_spans(drawn, reading, complex(origin + x, y))
+        beside = Scale("mu_v", drawn.diagrams.mu_v, "m/s")
         return _Strip(strip, "position", mu, tuple(spans), beside, middle + x)
 
-    def _fronts(self) -> Iterator[Viewed | None]:
+    def _fronts(self) -> Iterator[ViewBlock | None]:
         """Yield the view along the axes at the scale of the side view, then at a coarser one.
 
         None where no axes are parallel.
         """
-        if self._is_turned():
+        if self._lacks_front_view():
             yield None
             return
         extent = _extent(self.motion) * float(self.motion.train.unit_m)
         own = float(self.settings.mu_l)
-        coarse = series_near(extent / MOST_FRONT, up=True)
+        coarse = series_near(extent / MAX_FRONT, up=True)
         for mu_l in (own, coarse) if coarse > own else (own,):
             scheme = SchemeData(self.motion, float(self.motion.train.unit_m) / mu_l)
-            title = self.words.gears["sheet"].front
+            title = self.language.gears["sheet"].front
             scales = [self._scale("mu_l", mu_l)]
-            view = front(scheme, self.sizes.letter, self._satellites())
+            view = front(scheme, self.sizes.letter, self._planets())
             yield self._titled(view, title, "position", Scale("mu_l", mu_l, "m"), scales)
 
-    def _satellites(self) -> Mapping[str, int]:
+    def _planets(self) -> Mapping[str, int]:
         """Return the number of planets of each carrier: from the file, else as compared."""
         train = self.motion.train
         common = (
-            {} if self.compared is None else dict.fromkeys(train.carriers, self.compared.satellites)
+            {} if self.compared is None else dict.fromkeys(train.carriers, self.compared.planets)
         )
-        return {**common, **train.satellites}
+        return {**common, **train.planets}
 
-    def _is_turned(self) -> bool:
+    def _lacks_front_view(self) -> bool:
         scheme = SchemeData(self.motion, 1.0)
         return bool(scheme.undrawn) or not scheme.columns
 
@@ -427,44 +443,46 @@ class _Sheet(Struct, frozen=True):
         kind: str,
         scale: Scale,
         scales: Sequence[str],
-    ) -> Viewed:
+    ) -> ViewBlock:
         """Return a view under its title."""
         head = self._head(title, max(view.width, 60.0), *scales)
-        return Viewed(Column([head, view], gap=5.0, align="centre"), kind, scale)
+        return ViewBlock(Column([head, view], gap=5.0, align="centre"), kind, scale)
 
-    def _angular(self, drawn: GearDrawing, seen: GearReading) -> Viewed:
-        picture = drawn.picture
-        pole = self.words.say.given(half_up(float(picture.pole_mm), 2))
+    def _angular(self, drawn: GearDrawing, reading: GearReading) -> ViewBlock:
+        picture = drawn.diagrams
+        pole = self.language.notation.as_input(half_up(float(picture.pole_mm), 2))
         name, per_mm = picture.ray_scale(self.motion.train.unit)
         scales = [self._scale(name, per_mm, pole=pole)]
-        title, letter = self.words.gears["sheet"].angular, self.sizes.letter
-        letters = [knot_letter(knot, self.words) for knot in seen.knots]
-        view = angular(drawn, seen, letter, letters)
+        title, letter = self.language.gears["sheet"].angular, self.sizes.letter
+        letters = [
+            detail_view_letter(detail_view, self.language) for detail_view in reading.detail_views
+        ]
+        view = angular(drawn, reading, letter, letters)
         head = self._head(title, max(view.width, 60.0), *scales)
         views = [
             Column(
-                [Line(typeset(view_name(knot, self.words), letter)),
-                 enlarged_rays(drawn, seen, knot, letter)],
+                [Line(typeset(view_name(detail_view, self.language), letter)),
+                 enlarged_rays(drawn, reading, detail_view, letter)],
                 2.5, "centre",
             )
-            for knot in seen.knots
+            for detail_view in reading.detail_views
         ]  # fmt: skip
         whole: Block = view
         if views:
             whole = Column([view, Row(views, 8.0, "centre")], gap=5.0, align="centre")
         block = Column([head, whole], gap=5.0, align="centre")
         scale = Scale({"mu_omega": "mu_ω"}.get(name, name), per_mm, "1/s")
-        return _Rays(block, "velocity", scale, drawn, seen)
+        return _Rays(block, "velocity", scale, drawn, reading)
 
     # Texts ---------------------------------------------------------------------------------------
 
-    def _told(self, width: float) -> Block:
+    def _calculation_block(self, width: float) -> Block:
         """Return the given data and the calculation."""
-        facts = unbroken(fact.text for fact in given(self.motion, self.words))
-        text = self.words.note.given.format(given=facts)
+        facts = unbroken(fact.text for fact in train_facts(self.motion, self.language))
+        text = self.language.note.given.format(given=facts)
         blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
-        blocks.append(heading(self.words.gears["sheet"].calculation, self.sizes.text))
-        lines = calculation(self.motion, self.words, self.notation)
+        blocks.append(heading(self.language.gears["sheet"].calculation, self.sizes.text))
+        lines = calculation(self.motion, self.language, self.notation)
         blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
         return Column(blocks, gap=2.4)
 
@@ -472,49 +490,57 @@ class _Sheet(Struct, frozen=True):
         """Return the variants that the train is compared with."""
         lines = [
             paragraph(line, self.sizes.text, STAMP_WIDTH)
-            for line in compared_sentences(compared, self.words)
+            for line in compared_sentences(compared, self.language)
         ]
-        told = compared_table(compared, self.words)
+        told = compared_table(compared, self.language)
         table = _table(told.head, told.rows, STAMP_WIDTH, self.sizes)
-        title = heading(self.words.teeth["compared"]["title"], self.sizes.text)
+        title = heading(self.language.teeth["compared"]["title"], self.sizes.text)
         return Column([title, *lines, table], gap=2.5)
 
-    def _segments(self, drawn: GearDrawing, seen: GearReading) -> Block:
-        say, rows, read_on = self.words.say, [], drawn.read_on(seen.knots)
+    def _segments(self, drawn: GearDrawing, reading: GearReading) -> Block:
+        notation, rows, read_on = self.language.notation, [], drawn.read_on(reading.detail_views)
         for spot in drawn.spots:
             length = float(spot.speed)
             shown = (float(spot.height), length)
-            told = "—" if spot.read is None else say.ruled(float(seen.read.value[spot.read]))
-            rows.append((f"{spot.foot}{spot.letter}", *map(self._mm, shown), told))
+            text = (
+                "—"
+                if spot.read is None
+                else notation.measured(float(reading.read.value[spot.read]))
+            )
+            rows.append((f"{spot.base}{spot.letter}", *map(self._mm, shown), text))
         for body, name in drawn.segments.items():
-            exact, ruled = (float(trace.value[name]) for trace in (seen.exact, seen.read))
-            view = f", {knot_letter(read_on[body], self.words)}" if body in read_on else ""
-            rows.append((f"o({drawn.label(body)}){view}", "—", self._mm(exact), say.ruled(ruled)))
-        columns = self.words.gears["sheet"]["columns_segments"]
+            exact, ruled = (float(trace.value[name]) for trace in (reading.exact, reading.read))
+            view = (
+                f", {detail_view_letter(read_on[body], self.language)}" if body in read_on else ""
+            )
+            rows.append(
+                (f"o({drawn.label(body)}){view}", "—", self._mm(exact), notation.measured(ruled))
+            )
+        columns = self.language.gears["sheet"]["columns_segments"]
         table = _table(columns, rows, 27.0 * self.sizes.text, self.sizes)
         return Column(
-            [Line(typeset(self.words.gears["sheet"].segments, self.sizes.text)), table], gap=2.5
+            [Line(typeset(self.language.gears["sheet"].segments, self.sizes.text)), table], gap=2.5
         )
 
     def _mm(self, value: float) -> str:
-        return self.words.say.number(f"{value + 0.0:.2f}")
+        return self.language.notation.number(f"{value + 0.0:.2f}")
 
-    def _results(self, drawn: GearDrawing | None, seen: GearReading | None) -> Block:
-        whole = list(results(self.motion, drawn, seen, self.words))
-        say: Words = self.words.gears["sheet"]
-        columns = say["columns_results"] if drawn is not None else say["columns_results"][:3]
+    def _results(self, drawn: GearDrawing | None, reading: GearReading | None) -> Block:
+        whole = list(results(self.motion, drawn, reading, self.language))
+        texts: MessageTable = self.language.gears["sheet"]
+        columns = texts["columns_results"] if drawn is not None else texts["columns_results"][:3]
         rows = [row[: len(columns)] for row in whole]
-        table = _table(columns, rows, STAMP_WIDTH - EDGE, self.sizes, SHARES)
-        title = say.results if drawn is not None else self.words.gears.asked
+        table = _table(columns, rows, STAMP_WIDTH - EDGE, self.sizes, COLUMN_PARTS)
+        title = texts.results if drawn is not None else self.language.gears.asked
         blocks: list[Block] = [Line(typeset(title, self.sizes.text)), table]
         if drawn is None:
-            blocks.append(paragraph(self.words.gears.no_picture, self.sizes.text, table.width))
+            blocks.append(paragraph(self.language.gears.no_picture, self.sizes.text, table.width))
         return Column(blocks, gap=2.5)
 
 
-def _moved(label: Label, by: float) -> Label:
-    along = None if label.along is None else (label.along[0] + by, label.along[1] + by)
-    return replace(label, anchor=label.anchor + by, along=along)
+def _shift_label(label: Label, by: float) -> Label:
+    along = None if label.segment is None else (label.segment[0] + by, label.segment[1] + by)
+    return replace(label, anchor=label.anchor + by, segment=along)
 
 
 def _table(
@@ -522,11 +548,11 @@ def _table(
     rows: Sequence[Sequence[str]],
     width: float,
     sizes: Sizes,
-    shares: Sequence[float] = (),
+    parts: Sequence[float] = (),
 ) -> Block:
-    shares = shares[: len(heads)] or [1.0] * len(heads)
+    parts = parts[: len(heads)] or [1.0] * len(heads)
     columns = [
-        TableColumn(head, tuple(cells), width=width * share / sum(shares))
-        for head, cells, share in zip(heads, zip(*rows, strict=True), shares, strict=True)
+        TableColumn(head, tuple(cells), width=width * share / sum(parts))
+        for head, cells, share in zip(heads, zip(*rows, strict=True), parts, strict=True)
     ]
     return table_block(columns, sizes.text, width=width, units="none", row_height=sizes.row)

@@ -23,17 +23,17 @@ class TrainScheme(Struct, frozen=True):
         Kinds of the meshes 1-2 and 2'-3, or of the only mesh.
     single : bool
         The second wheel has one rim.
-    carried : bool
+    is_planetary : bool
         A carrier H has wheel 2, and wheel 3 is held.
-    asked : str
+    ratio_name : str
         The ratio that U means.
     """
 
     name: str
     kinds: tuple[MeshKind, ...]
     single: bool
-    carried: bool
-    asked: str
+    is_planetary: bool
+    ratio_name: str
 
     @property
     def wheels(self) -> tuple[str, ...]:
@@ -61,18 +61,18 @@ SCHEMES = (
 """One-rim set with a ring, sets with two rims by their meshes, a pair, a coaxial pair of stages."""
 
 
-class Wanted(Struct, frozen=True):
+class TeethSpecification(Struct, frozen=True):
     """Specification of the teeth to be chosen (техническое задание).
 
     Attributes
     ----------
     ratio : Fraction
         U, with its sign.
-    within : Fraction
+    tolerance : Fraction
         Allowed relative error of U, both ways; below 1.
-    satellites : int
+    planets : int
         Number of planets k.
-    least, most, ring_most : int
+    min_teeth, max_teeth, max_ring_teeth : int
         Bounds of the teeth; the last of wheels with internal teeth.
     modules : tuple of Fraction, mm, or None
         Modules of the two rows; None where both have the same, whatever it is.
@@ -80,11 +80,11 @@ class Wanted(Struct, frozen=True):
 
     scheme: TrainScheme
     ratio: Fraction
-    within: Fraction = Fraction(2, 100)
-    satellites: int = 3
-    least: int = 17
-    most: int = 120
-    ring_most: int = 250
+    tolerance: Fraction = Fraction(2, 100)
+    planets: int = 3
+    min_teeth: int = 17
+    max_teeth: int = 120
+    max_ring_teeth: int = 250
     modules: tuple[Fraction, Fraction] | None = None
 
     @property
@@ -114,18 +114,18 @@ class TeethSet(Struct, frozen=True):
     size: Fraction
 
 
-class Chosen(Struct, frozen=True):
+class TeethSelection(Struct, frozen=True):
     """Result of a search for teeth (результат подбора).
 
     Attributes
     ----------
-    looked_at, found : int
+    tried_count, match_count : int
         Combinations of teeth tried, and sets among them.
     sets : tuple of TeethSet
         The first of them, by size, those of equal size by the error of U.
     """
 
-    wanted: Wanted
-    looked_at: int
-    found: int
+    spec: TeethSpecification
+    tried_count: int
+    match_count: int
     sets: tuple[TeethSet, ...]

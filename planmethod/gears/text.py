@@ -21,9 +21,9 @@ from planmethod.gears.motion import (
     mesh_row,
     solve_motion,
 )
-from planmethod.gears.picture import draw
 from planmethod.gears.roles import Roles
 from planmethod.gears.velocities import by_velocities
+from planmethod.gears.velocity_diagrams import draw
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import (
     Caption,
@@ -35,82 +35,85 @@ from planmethod.note.document import (
     table_of,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.narrate.given import reading_notes
+from planmethod.note.narrate.statement import reading_notes
 from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, half_up
 from planmethod.note.wording import Language
 
 
-def solved_document(problem: GearProblem, words: Language) -> Iterator[Node]:
+def solved_document(problem: GearProblem, language: Language) -> Iterator[Node]:
     """Yield structure, equations, speeds, requested values, conditions, diagrams, printed values.
 
     Raises
     ------
     ProblemError
     """
-    motion, say = solve_motion(problem), words.gears
-    structure = _structure(problem, motion.roles, motion.structure, words)
+    motion, texts = solve_motion(problem), language.gears
+    structure = _structure(problem, motion.roles, motion.structure, language)
     yield next(structure)
-    yield from reading_notes(problem, words)
+    yield from reading_notes(problem, language)
     yield from structure
-    yield Caption(say.equations)
+    yield Caption(texts.equations)
     for mesh in motion.train.meshes:
         equation, stage = (escape(plainly(text)) for text in equation_of(motion, mesh))
-        yield Item(say.equation.format(name=mesh.name, equation=equation, stage=stage))
-    if derived := [*derivation(motion, words), *by_velocities(motion, words)]:
-        yield Caption(say["derived"]["title"])
+        yield Item(texts.equation.format(name=mesh.name, equation=equation, stage=stage))
+    if derived := [*derivation(motion, language), *by_velocities(motion, language)]:
+        yield Caption(texts["derived"]["title"])
         yield from (Item(line.text) for line in derived)
-    yield Caption(say.wheels)
-    yield _wheels(motion, words)
-    yield Caption(say.speeds)
-    yield from _speeds(motion, words)
+    yield Caption(texts.wheels)
+    yield _wheels(motion, language)
+    yield Caption(texts.speeds)
+    yield from _speeds(motion, language)
     for turns in tabular(motion):
-        yield from _tabular(motion, turns, words)
+        yield from _tabular(motion, turns, language)
     if motion.train.ask:
-        yield Caption(say.asked)
-        yield from _asked(motion, words)
+        yield Caption(texts.asked)
+        yield from _requested_table(motion, language)
     judged = conditions(motion)
     if judged:
-        yield Caption(say.checked)
+        yield Caption(texts.checked)
     for one in judged:
-        yield Item(escape(judgement(one, words)))
+        yield Item(escape(judgement(one, language)))
     compared = compare(problem, motion)
     if compared is not None:
-        yield Caption(words.teeth["compared"]["title"])
-        yield from (Paragraph(line) for line in compared_sentences(compared, words))
-        yield compared_table(compared, words)
-    yield Caption(say.picture)
-    yield from _picture(motion, words)
+        yield Caption(language.teeth["compared"]["title"])
+        yield from (Paragraph(line) for line in compared_sentences(compared, language))
+        yield compared_table(compared, language)
+    yield Caption(texts.picture)
+    yield from _diagram_tables(motion, language)
     if problem.published:
-        yield Caption(say.published)
-        yield from _published(problem, motion, words)
+        yield Caption(texts.published)
+        yield from _published(problem, motion, language)
 
 
-def compared_sentences(compared: PlanetaryComparison, words: Language) -> Iterator[Rich]:
+def compared_sentences(compared: PlanetaryComparison, language: Language) -> Iterator[Rich]:
     """Yield the requirements, the number of sets, and the rank of the train of the file."""
-    say, task, number = words.teeth["compared"], compared.task, words.say.given
-    scheme: str = words.teeth["schemes"][compared.scheme.name]
+    say, task, number = language.teeth["compared"], compared.task, language.notation.as_input
+    scheme: str = language.teeth["schemes"][compared.scheme.name]
     yield say["asked"].format(
         scheme=escape(scheme.partition(";")[0]),
-        ratio=words.say.found(float(compared.ratio)),
-        symbol=compared.scheme.asked[0] + "_{" + compared.scheme.asked[2:].replace("_", "") + "}",
+        ratio=language.notation.computed(float(compared.ratio)),
+        symbol=compared.scheme.ratio_name[0]
+        + "_{"
+        + compared.scheme.ratio_name[2:].replace("_", "")
+        + "}",
         within=number(100 * task.within),
         least=task.z_min,
         most=task.z_max,
         ring=task.ring_max,
     )
     yield say["found"].format(
-        found="; ".join(f"k = {k}: {count}" for k, count in compared.found.items())
+        found="; ".join(f"k = {k}: {count}" for k, count in compared.set_counts.items())
     )
-    own, place = compared.own, compared.place
+    own, place = compared.file_set, compared.place
     facts = {
         "teeth": ", ".join(
             f"z_{{{label}}} = {z}"
             for label, z in zip(compared.scheme.wheels, own.teeth, strict=True)
         ),
-        "k": compared.satellites,
+        "k": compared.planets,
         "size": number(float(own.size)),
-        "error": words.say.number(f"{100 * float(own.error) + 0.0:.2f}"),
+        "error": language.notation.number(f"{100 * float(own.error) + 0.0:.2f}"),
     }
     if place is None:
         yield say["outside"].format(**facts)
@@ -120,28 +123,28 @@ def compared_sentences(compared: PlanetaryComparison, words: Language) -> Iterat
         yield say["chosen"].format(place=place.place, **facts)
 
 
-def compared_table(compared: PlanetaryComparison, words: Language) -> Table:
+def compared_table(compared: PlanetaryComparison, language: Language) -> Table:
     """Return the variants: planets, teeth, ratio, deviation, size; the file's with a star."""
-    say, number = words.teeth["compared"], words.say.given
+    say, number = language.teeth["compared"], language.notation.as_input
     first, *others = say["columns"]
     has_mm = compared.module_m is not None
     heads = [first, *(f"z_{{{label}}}" for label in compared.scheme.wheels), *others[:3]]
     rows = []
     for one in compared.variants:
         size = compared.diameter(one.chosen)
-        star = " *" if one.is_own else ""
+        star = " *" if one.is_file_train else ""
         row = [
-            f"{one.satellites}{star}",
+            f"{one.planets}{star}",
             *map(str, one.chosen.teeth),
-            words.say.found(float(one.chosen.ratio)),
-            words.say.number(f"{100 * float(one.chosen.error) + 0.0:.2f}"),
+            language.notation.computed(float(one.chosen.ratio)),
+            language.notation.number(f"{100 * float(one.chosen.error) + 0.0:.2f}"),
             number(float(one.chosen.size)),
         ]
         rows.append(row if size is None else [*row, number(size)])
     return table_of([*heads, *(others[3:] if has_mm else [])], rows, names=0)
 
 
-def structure_document(problem: GearProblem, words: Language) -> Iterator[Node]:
+def structure_document(problem: GearProblem, language: Language) -> Iterator[Node]:
     """Yield the structure of a train.
 
     Raises
@@ -149,43 +152,47 @@ def structure_document(problem: GearProblem, words: Language) -> Iterator[Node]:
     ProblemError
     """
     roles, _, structure = analyse(problem)
-    yield from _structure(problem, roles, structure, words)
+    yield from _structure(problem, roles, structure, language)
 
 
 def _structure(
-    problem: GearProblem, roles: Roles, found: Mobility, words: Language
+    problem: GearProblem, roles: Roles, mobility_data: Mobility, language: Language
 ) -> Iterator[Node]:
-    say, train = words.gears, problem.train
-    yield Title(say.title.format(title=escape(problem.title or problem.name)))
-    yield Caption(say.structure)
-    yield Paragraph(kind_of(found, words))
-    yield Item(mobility(found, words, problem.sheet.notation) + say.of_equal)
-    yield Item(say.by_meshes.format(rank=found.moving - found.mobility, w=found.mobility))
-    yield Item(say.redundant.format(plane=found.redundant, space=found.spatial))
+    texts, train = language.gears, problem.train
+    yield Title(texts.title.format(title=escape(problem.title or problem.name)))
+    yield Caption(texts.structure)
+    yield Paragraph(kind_of(mobility_data, language))
+    yield Item(mobility(mobility_data, language, problem.sheet.notation) + texts.of_equal)
+    yield Item(
+        texts.by_meshes.format(
+            rank=mobility_data.moving - mobility_data.mobility, w=mobility_data.mobility
+        )
+    )
+    yield Item(texts.redundant.format(plane=mobility_data.redundant, space=mobility_data.spatial))
     for carrier in train.carriers:
-        central, around = roles.central[carrier], roles.satellites[carrier]
+        central, around = roles.central[carrier], roles.planets[carrier]
         said = {"central": ", ".join(central) or "—", "satellites": ", ".join(around)}
-        yield Item(say.carrier.format(carrier=carrier, **said))
-    if found.kind is TrainKind.CLOSED:
+        yield Item(texts.carrier.format(carrier=carrier, **said))
+    if mobility_data.kind is TrainKind.CLOSED:
         names = [mesh.name for mesh in train.meshes if train.carrier(mesh) is None]
         if names:
-            yield Item(say.closing.format(meshes=", ".join(names)))
+            yield Item(texts.closing.format(meshes=", ".join(names)))
 
 
-def kind_of(found: Mobility, words: Language) -> Rich:
+def kind_of(structure: Mobility, language: Language) -> Rich:
     """Return the sentence on the kind of train."""
-    return words.gears.kind.format(kind=words.gears["kinds"][found.kind.value])
+    return language.gears.kind.format(kind=language.gears["kinds"][structure.kind.value])
 
 
-def mobility(found: Mobility, words: Language, notation: str | None = None) -> Rich:
+def mobility(structure: Mobility, language: Language, notation: str | None = None) -> Rich:
     """Return the mobility by Chebyshev's formula; ``notation`` is that of ``[sheet]``."""
-    formula = str(found.formula).replace("-", MINUS)
-    return words.gears.chebyshev.format(
-        n=found.moving,
-        low=found.lower,
-        high=found.higher,
+    formula = str(structure.formula).replace("-", MINUS)
+    return language.gears.chebyshev.format(
+        n=structure.moving,
+        low=structure.lower,
+        high=structure.higher,
         w=formula,
-        **pair_classes(notation, words),
+        **pair_classes(notation, language),
     )
 
 
@@ -208,7 +215,7 @@ def equation_of(motion: TrainMotion, mesh: Mesh) -> tuple[str, str]:
     def speed(label: str, body: str) -> str:
         if body in train.racks:
             return f"v_{{{label}}}"
-        if mesh.carrier is None or body in motion.roles.across:
+        if mesh.carrier is None or body in motion.roles.transverse:
             return f"{train.letter}_{{{label}}}"
         return f"({train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}})"
 
@@ -225,70 +232,74 @@ def equation_of(motion: TrainMotion, mesh: Mesh) -> tuple[str, str]:
     return f"{left} = {sign}{speed(mesh.second, other)}{size}", ratio
 
 
-def _wheels(motion: TrainMotion, words: Language) -> Table:
-    train, say = motion.train, words.gears
-    said = {"letter": "z" if train.toothed else "r, " + say["units"]["m"]}
-    said["unit"] = say["units"]["m/2" if train.toothed else "m"]
+def _wheels(motion: TrainMotion, language: Language) -> Table:
+    train, texts = motion.train, language.gears
+    said = {"letter": "z" if train.toothed else "r, " + texts["units"]["m"]}
+    said["unit"] = texts["units"]["m/2" if train.toothed else "m"]
     rows = []
     for label, size in motion.axes.sizes.items():
         height = motion.axes.heights.get(train.body_of[label])
         mark = "*" if label in train.unknown else ""
-        shown = [_size(x, words) if x is not None else "—" for x in (size, height)]
+        shown = [_size(x, language) if x is not None else "—" for x in (size, height)]
         if train.toothed and not train.counted(label):
             mm = motion.axes.radii[label] * train.unit_m * 1000
-            shown[0] = f"r = {_size(mm, words)} {say['units']['mm']}"
+            shown[0] = f"r = {_size(mm, language)} {texts['units']['mm']}"
         rows.append([label + mark, *shown])
-    return table_of([head.format(**said) for head in say["columns_wheels"]], rows)
+    return table_of([head.format(**said) for head in texts["columns_wheels"]], rows)
 
 
-def _size(value: Fraction, words: Language) -> Rich:
+def _size(value: Fraction, language: Language) -> Rich:
     if value.denominator == 1:
         return fraction_text(value)
-    return words.say.found(float(value))
+    return language.notation.computed(float(value))
 
 
-def _speeds(motion: TrainMotion, words: Language) -> Iterator[Node]:
-    train, say = motion.train, words.gears
+def _speeds(motion: TrainMotion, language: Language) -> Iterator[Node]:
+    train, texts = motion.train, language.gears
     said = {"letter": train.letter, "other": "ω" if train.letter == "n" else "n"}
-    said["unit"], said["other_unit"] = (say["units"][unit] for unit in train.units)
+    said["unit"], said["other_unit"] = (texts["units"][unit] for unit in train.units)
     rows = []
     for label in train.numbers:
         body, speed = train.body_of[label], motion.speed(label)
         if body in train.racks:
             metres = rack_speed(motion, label)
-            shown = "—" if metres is None else f"{words.say.found(metres)} {say['units']['m/s']}"
-            rows.append([f"{label} ({say.rack})", shown, "—", "—", ""])
+            shown = (
+                "—"
+                if metres is None
+                else f"{language.notation.computed(metres)} {texts['units']['m/s']}"
+            )
+            rows.append([f"{label} ({texts.rack})", shown, "—", "—", ""])
             continue
         relative = [
-            say.relative.format(
+            texts.relative.format(
                 letter=said["letter"], carrier=c, value=fraction_text(motion.speed(label, c))
             )
             for c in train.carriers
-            if body in (*motion.roles.central[c], *motion.roles.satellites[c])
+            if body in (*motion.roles.central[c], *motion.roles.planets[c])
         ]
-        other = words.say.found(float(speed) * train.factor)
-        value = words.say.found(float(speed))
+        other = language.notation.computed(float(speed) * train.factor)
+        value = language.notation.computed(float(speed))
         rows.append([label, value, fraction_text(speed), other, escape("; ".join(relative))])
-    heads = [head.format(**said) for head in say["columns_speeds"]]
+    heads = [head.format(**said) for head in texts["columns_speeds"]]
     if not train.carriers:
         heads, rows = heads[:-1], [row[:-1] for row in rows]
     yield table_of(heads, rows)
     for label in train.numbers:
-        if train.body_of[label] in motion.roles.across:
-            told = say.across if _is_carried(motion, train.body_of[label]) else say.crossing
-            yield Item(told.format(label=label))
+        if train.body_of[label] in motion.roles.transverse:
+            text = texts.across if _has_carrier(motion, train.body_of[label]) else texts.crossing
+            yield Item(text.format(label=label))
 
 
-def _is_carried(motion: TrainMotion, body: str) -> bool:
+def _has_carrier(motion: TrainMotion, body: str) -> bool:
     """Return whether a body meshes on a carrier."""
     train = motion.train
     return any(train.carrier(m) is not None and body in train.ends(m) for m in train.meshes)
 
 
-def _tabular(motion: TrainMotion, turns: Turns, words: Language) -> Iterator[Node]:
-    say, letter = words.gears, motion.train.letter
-    yield Caption(say.tabular.format(carrier=turns.carrier, wheel=", ".join(turns.started)))
-    total = {body: speed + turns.held[body] for body, speed in turns.together.items()}
+def _tabular(motion: TrainMotion, turns: TabularMotion, language: Language) -> Iterator[Node]:
+    texts, letter = language.gears, motion.train.letter
+    yield Caption(texts.tabular.format(carrier=turns.carrier, wheel=", ".join(turns.started)))
+    total = {body: speed + turns.held_speeds[body] for body, speed in turns.locked_speeds.items()}
     yield Table(
         ("", *total),
         tuple(
@@ -297,7 +308,7 @@ def _tabular(motion: TrainMotion, turns: Turns, words: Language) -> Iterator[Nod
                 *(fraction_text(part[body]) for body in total),
             )
             for name, part in zip(
-                say["tabular_rows"], (turns.together, turns.held, total), strict=True
+                texts["tabular_rows"], (turns.locked_speeds, turns.held_speeds, total), strict=True
             )
         ),
         names=0,
@@ -305,57 +316,59 @@ def _tabular(motion: TrainMotion, turns: Turns, words: Language) -> Iterator[Nod
     )
 
 
-def _asked(motion: TrainMotion, words: Language) -> Iterator[Node]:
-    say, rows, notes = words.gears, [], []
+def _requested_table(motion: TrainMotion, language: Language) -> Iterator[Node]:
+    texts, rows, notes = language.gears, [], []
     for name in motion.train.ask:
         one = answer(motion, name)
         if one.value is None:
-            reason = say["reasons"][one.reason].format(label=one.label)
+            reason = texts["reasons"][one.reason].format(label=one.label)
             notes.append(Item(f"{escape(name)}: {reason}"))
             continue
         exact = "" if one.exact is None else fraction_text(one.exact)
-        unit = say["units"][one.unit] if one.unit else ""
+        unit = texts["units"][one.unit] if one.unit else ""
         whole = one.exact is not None and one.exact.denominator == 1
-        rows.append([escape(name), exact if whole else words.say.found(one.value), exact, unit])
+        rows.append(
+            [escape(name), exact if whole else language.notation.computed(one.value), exact, unit]
+        )
     if rows:
-        yield table_of(say["columns_asked"], rows)
+        yield table_of(texts["columns_asked"], rows)
     yield from notes
 
 
-def _picture(motion: TrainMotion, words: Language) -> Iterator[Node]:
-    say, number, picture = words.gears, words.say.found, draw(motion)
+def _diagram_tables(motion: TrainMotion, language: Language) -> Iterator[Node]:
+    texts, number, picture = language.gears, language.notation.computed, draw(motion)
     if picture is None:
-        yield Item(say.no_picture)
+        yield Item(texts.no_picture)
         return
     name, per_mm = picture.ray_scale(motion.train.unit)
-    pole = words.say.given(half_up(float(picture.pole_mm), 2))
-    rays = say["sheet"]["inscriptions"][name].format(value=number(per_mm), pole=pole)
+    pole = language.notation.as_input(half_up(float(picture.pole_mm), 2))
+    rays = texts["sheet"]["inscriptions"][name].format(value=number(per_mm), pole=pole)
     mu_l, mu_v = number(float(picture.mu_l)), number(picture.mu_v)
-    yield Item(say.scales.format(mu_l=mu_l, mu_v=mu_v, rays=rays))
+    yield Item(texts.scales.format(mu_l=mu_l, mu_v=mu_v, rays=rays))
     points = []
     for one in picture.contacts:
         shown = (number(float(mm)) for mm in (one.height_mm, one.speed_mm))
-        points.append([say["points"][one.at.kind.value].format(name=one.at.of), *shown])
-    yield table_of(say["columns_contacts"], points)
+        points.append([texts["points"][one.at.kind.value].format(name=one.at.of), *shown])
+    yield table_of(texts["columns_contacts"], points)
     segments = ((label, number(float(segment))) for label, segment in picture.rays)
-    yield table_of(say["columns_rays"], segments)
+    yield table_of(texts["columns_rays"], segments)
 
 
-def _published(problem: GearProblem, motion: TrainMotion, words: Language) -> Iterator[Node]:
-    say, rows, notes = words.say, [], []
+def _published(problem: GearProblem, motion: TrainMotion, language: Language) -> Iterator[Node]:
+    notation, rows, notes = language.notation, [], []
     for one in problem.published:
         exact, name = answer(motion, one.what).value, escape(one.name)
         percent = ComparedNumber(exact or 0.0, one.value).percent
-        off = "" if percent is None else say.found(percent)
-        printed = say.number(f"{one.value:g}")
-        rows.append([name, printed, "—" if exact is None else say.found(exact), off])
+        off = "" if percent is None else notation.computed(percent)
+        printed = notation.number(f"{one.value:g}")
+        rows.append([name, printed, "—" if exact is None else notation.computed(exact), off])
         if one.note:
             notes.append(Item(f"{name}: {escape(one.note)}"))
-    yield table_of(words.gears["columns_published"], rows)
+    yield table_of(language.gears["columns_published"], rows)
     yield from notes
 
 
-class Turns(Struct, frozen=True):
+class TabularMotion(Struct, frozen=True):
     """The table of one carrier (таблица вращений).
 
     Attributes
@@ -363,18 +376,18 @@ class Turns(Struct, frozen=True):
     carrier : str
     started : tuple of str
         Bodies that are turned while the carrier is held; the others follow by the stages.
-    together, held : mapping
+    locked_speeds, held_speeds : mapping
         By body: speeds of the locked train, and those with the carrier held. Their sum is the
         speed; of a body across the main axis that is its own turning, with the carrier it has none.
     """
 
     carrier: str
     started: tuple[str, ...]
-    together: Mapping[str, Fraction]
-    held: Mapping[str, Fraction]
+    locked_speeds: Mapping[str, Fraction]
+    held_speeds: Mapping[str, Fraction]
 
 
-def tabular(motion: TrainMotion) -> tuple[Turns, ...]:
+def tabular(motion: TrainMotion) -> tuple[TabularMotion, ...]:
     """Make the tables of all carriers that may turn, and compare their sums with the speeds.
 
     Raises
@@ -389,12 +402,12 @@ def tabular(motion: TrainMotion) -> tuple[Turns, ...]:
     )
 
 
-def _table(motion: TrainMotion, carrier: str) -> Turns:
+def _table(motion: TrainMotion, carrier: str) -> TabularMotion:
     train, roles = motion.train, motion.roles
     central = roles.central[carrier]
-    bodies = (*central, *roles.satellites[carrier])
+    bodies = (*central, *roles.planets[carrier])
     locked = motion.speeds[carrier]
-    together = {b: Fraction(0) if b in roles.across else locked for b in bodies}
+    together = {b: Fraction(0) if b in roles.transverse else locked for b in bodies}
     sources = sorted(bodies, key=lambda b: (b not in train.fixed, b not in train.inputs))
     held: dict[str, Fraction] = {}
     started = []
@@ -414,12 +427,12 @@ def _table(motion: TrainMotion, carrier: str) -> Turns:
                 together[body] + held[body],
                 motion.speeds[body],
             )
-    return Turns(
+    return TabularMotion(
         carrier, tuple(started), {carrier: locked} | together, {carrier: Fraction(0)} | held
     )
 
 
-def _follow(motion: TrainMotion, carrier: str, held: dict[str, Fraction]) -> None:
+def _follow(motion: TrainMotion, carrier: str, held_speeds: dict[str, Fraction]) -> None:
     """Propagate the rotation through each mesh that has one end known already."""
     train = motion.train
     for mesh in train.meshes:
@@ -427,5 +440,5 @@ def _follow(motion: TrainMotion, carrier: str, held: dict[str, Fraction]) -> Non
             continue
         row = mesh_row(train, motion.roles, motion.axes, mesh)
         for near, far in (train.ends(mesh), train.ends(mesh)[::-1]):
-            if near in held and far not in held:
-                held[far] = -held[near] * row[near] / row[far]
+            if near in held_speeds and far not in held_speeds:
+                held_speeds[far] = -held_speeds[near] * row[near] / row[far]

@@ -14,10 +14,10 @@ from msgspec import Struct
 from planmethod.errors import PlanMethodError
 from planmethod.gears.derivation import DerivedLine
 from planmethod.gears.motion import TrainMotion
-from planmethod.gears.picture import ContactKind, carrier_of, draw
+from planmethod.gears.velocity_diagrams import ContactKind, carrier_of, draw
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.numbers import MINUS, raised
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, MessageTable
 
 POINTS = "ABCDEFGKLMNPQRSTUVW"
 """Letters of the pitch points, in the order of the meshes, as the scheme has them."""
@@ -31,7 +31,7 @@ class _Point(Struct, frozen=True):
     bodies: tuple[str, ...]
 
 
-def by_velocities(motion: TrainMotion, words: Language) -> list[DerivedLine]:
+def by_velocities(motion: TrainMotion, language: Language) -> list[DerivedLine]:
     """Return the method step by step; none where teeth are given, or there is no diagram.
 
     Raises
@@ -51,20 +51,20 @@ def by_velocities(motion: TrainMotion, words: Language) -> list[DerivedLine]:
         elif (carrier := carrier_of(motion, contact.at.of)) is not None:
             name = f"O_{{{contact.at.of}}}"
             points.append(_Point(name, height, (contact.at.of, carrier)))
-    lines = list(_Velocities(motion, points, words).steps())
-    return [DerivedLine(words.gears["derived"]["by_velocities"], False), *lines] if lines else []
+    lines = list(_Velocities(motion, points, language).steps())
+    return [DerivedLine(language.gears["derived"]["by_velocities"], False), *lines] if lines else []
 
 
 class _Velocities:
     """Goes from body to body: two known points give its speed, which gives its other points."""
 
-    def __init__(self, motion: TrainMotion, points: list[_Point], words: Language) -> None:
-        self.motion, self.points, self.words = motion, points, words
-        self.say: Words = words.gears["derived"]
+    def __init__(self, motion: TrainMotion, points: list[_Point], language: Language) -> None:
+        self.motion, self.points, self.language = motion, points, language
+        self.texts: MessageTable = language.gears["derived"]
         self.speeds = dict(motion.train.inputs) | dict.fromkeys(motion.train.fixed, Fraction(0))
         self.given = frozenset(self.speeds)
         self.velocities: dict[Rich, Fraction] = {}
-        around = {b for some in motion.roles.satellites.values() for b in some}
+        around = {b for some in motion.roles.planets.values() for b in some}
         heights = motion.axes.heights
         self.axes = {
             body: heights[body] * motion.train.unit_m
@@ -145,11 +145,11 @@ class _Velocities:
                 self.motion.speeds[body],
             )
         self.speeds[body] = speed
-        unit = raised(self.words.gears["units"]["1/s"])
-        sense = self.words.note.ccw if speed > 0 else self.words.note.cw
-        told = f", {sense}" if speed else ""
+        unit = raised(self.language.gears["units"]["1/s"])
+        sense = self.language.note.ccw if speed > 0 else self.language.note.cw
+        text = f", {sense}" if speed else ""
         yield DerivedLine(
-            f"ω_{{{body}}} = {' = '.join(sides)} = {self._number(abs(speed))} {unit}{told}"
+            f"ω_{{{body}}} = {' = '.join(sides)} = {self._number(abs(speed))} {unit}{text}"
         )
 
     def _of(self, body: str) -> list[_Point]:
@@ -169,11 +169,11 @@ class _Velocities:
         )
 
     def _number(self, value: Fraction) -> Rich:
-        shown: Rich = self.words.say.short(float(value), 6)
+        shown: Rich = self.language.notation.short(float(value), 6)
         return shown
 
     def _metres(self, value: Fraction) -> Rich:
-        units = self.words.gears["units"]
+        units = self.language.gears["units"]
         size, cm = self._number(abs(value)), self._number(abs(value) * 100)
-        told = f"{size} {units['m/s']} ({cm} {units['cm/s']})"
-        return told + (f", {self.say.right if value > 0 else self.say.left}" if value else "")
+        text = f"{size} {units['m/s']} ({cm} {units['cm/s']})"
+        return text + (f", {self.texts.right if value > 0 else self.texts.left}" if value else "")

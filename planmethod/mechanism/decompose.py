@@ -71,10 +71,10 @@ class Matching:
                 queue.append(holder)
         return False
 
-    def _shift(self, free: Node, came: Mapping[Node, int], start: int) -> None:
+    def _shift(self, free: Node, previous: Mapping[Node, int], start: int) -> None:
         unknown = free
         while True:
-            equation = came[unknown]
+            equation = previous[unknown]
             before = self._held.get(equation)
             self.equation_of[unknown], self._held[equation] = equation, unknown
             if equation == start:

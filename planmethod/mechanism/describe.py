@@ -81,7 +81,7 @@ class Role(Enum):
     """Ползун: slides on the frame."""
     ROD = "rod"
     """Шатун: has no pair with the frame."""
-    STONE = "stone"
+    SLIDING_BLOCK = "stone"
     """Камень: slides on a moving link."""
     SLOTTED_LINK = "slotted link"
     """Кулиса: turns about a fixed point and slides along its sliding block."""
@@ -147,19 +147,19 @@ def kind_of_motion(mechanism: Mechanism) -> list[LinkKind]:
     for link in mechanism.links:
         if link in sliding:
             motion = MotionKind.TRANSLATION
-            role = Role.SLIDER if link in on_frame else Role.STONE
+            role = Role.SLIDER if link in on_frame else Role.SLIDING_BLOCK
         elif link in turning:
             motion = MotionKind.ROTATION
             role = Role.ROCKER
             if link == mechanism.driver:
                 role = Role.CRANK
             elif link in stones:
-                role = Role.STONE
+                role = Role.SLIDING_BLOCK
             elif link in partners:
                 role = Role.SLOTTED_LINK
         else:
             motion = MotionKind.PLANE
-            role = Role.STONE if link in stones else Role.ROD
+            role = Role.SLIDING_BLOCK if link in stones else Role.ROD
         rows.append(LinkKind(link, motion, role))
     return rows
 

@@ -16,7 +16,7 @@ DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """Dyads (двухповодковые группы II класса) in the order of Artobolevsky's kinds 1 to 5."""
 
 
-class Lead(Struct, frozen=True):
+class OuterLeg(Struct, frozen=True):
     """Leg of a group: a link with its outer joint (поводок).
 
     ``to`` is the link outside the group, already known, on the other side of the joint (the frame,
@@ -40,7 +40,7 @@ class AssurGroup(Struct, frozen=True):
         sorted: ``RRR-RRR``.
     links : tuple of str
         In file order.
-    leads : tuple of Lead
+    legs : tuple of OuterLeg
         Outer joints; for a dyad exactly two, in the order of ``links``.
     inner : tuple of Joint
         Joints between links of the group. A hinge of several links is listed as a whole, although
@@ -53,36 +53,36 @@ class AssurGroup(Struct, frozen=True):
 
     signature: str
     links: tuple[str, ...]
-    leads: tuple[Lead, ...]
+    legs: tuple[OuterLeg, ...]
     inner: tuple[Joint, ...]
     class_number: int
     order: int
     kind: int | None
 
 
-class Legs(Struct, frozen=True):
+class Triad(Struct, frozen=True):
     """A triad: its base link and the three legs (трёхповодковая группа III класса).
 
     Attributes
     ----------
     base : str
         The base link (базисное звено), which all legs hold.
-    legs : tuple of (Lead, Joint)
+    legs : tuple of (OuterLeg, Joint)
         Each leg (поводок) by its outer joint, and the joint by which it holds the base.
     """
 
     base: str
-    legs: tuple[tuple[Lead, Joint], ...]
+    legs: tuple[tuple[OuterLeg, Joint], ...]
 
 
-def triad_of(group: AssurGroup) -> Legs | None:
+def triad_of(group: AssurGroup) -> Triad | None:
     """Return base link and legs of a triad; None for other groups and for a leg with two guides.
 
     A leg that slides at both ends does not let the base link turn on its own.
     """
-    if len(group.links) != 4 or len(group.leads) != 3 or len(group.inner) != 3:
+    if len(group.links) != 4 or len(group.legs) != 3 or len(group.inner) != 3:
         return None
-    outer = {lead.link for lead in group.leads}
+    outer = {lead.link for lead in group.legs}
     base = next((link for link in group.links if link not in outer), "")
     inner = {
         link: joint
@@ -93,10 +93,10 @@ def triad_of(group: AssurGroup) -> Legs | None:
     }
     if len(inner) != 3:
         return None
-    legs = tuple((lead, inner[lead.link]) for lead in group.leads)
+    legs = tuple((lead, inner[lead.link]) for lead in group.legs)
     if any(letter_of(lead.joint) == letter_of(joint) == "P" for lead, joint in legs):
         return None
-    return Legs(base, legs)
+    return Triad(base, legs)
 
 
 def links_of(joint: Joint) -> tuple[str, ...]:
@@ -139,7 +139,7 @@ def make_group(
         is joined to the first of them.
     """
     own = tuple(links)
-    leads: list[Lead] = []
+    leads: list[OuterLeg] = []
     inner: list[Joint] = []
     for _, joint in sorted(
         {number: joint for link in own for number, joint in joints_of[link]}.items()
@@ -149,7 +149,7 @@ def make_group(
         outside = [link for link in ends if link in known]
         if outside:
             to = min(outside, key=known.__getitem__)
-            leads += [Lead(link, joint, to) for link in inside]
+            leads += [OuterLeg(link, joint, to) for link in inside]
         elif len(inside) > 1:
             inner.append(joint)
     leads.sort(key=lambda lead: own.index(lead.link))
@@ -166,11 +166,11 @@ def make_group(
     return AssurGroup(signature, own, tuple(leads), tuple(inner), class_number, len(leads), None)
 
 
-def _pairs(joint: Joint, own: Collection[str]) -> int:
-    return sum(link in own for link in links_of(joint)) - 1
+def _pairs(joint: Joint, links: Collection[str]) -> int:
+    return sum(link in links for link in links_of(joint)) - 1
 
 
-def _class_of(own: Collection[str], inner: Sequence[Joint]) -> int:
+def _class_of(links: Collection[str], inner: Sequence[Joint]) -> int:
     """Class of a group larger than a dyad.
 
     A movable closed contour of k sides makes class k (IV and higher); a contour of three links is
@@ -181,7 +181,7 @@ def _class_of(own: Collection[str], inner: Sequence[Joint]) -> int:
         (("link", link), ("joint", i))
         for i, joint in enumerate(inner)
         for link in links_of(joint)
-        if link in own
+        if link in links
     ]
     # In the graph of links and joints a contour has as many edges at its links as at its joints.
     return max((len(contour) // 2 for contour in contours(edges)), default=3)

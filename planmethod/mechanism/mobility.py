@@ -8,12 +8,12 @@ from collections.abc import Collection, Iterable
 from msgspec.structs import replace
 
 from planmethod.errors import StructureError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.decompose import Node, Rigidity
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 
 
-def refuse_immovable(mechanism: Mechanism) -> None:
+def reject_immovable(mechanism: Mechanism) -> None:
     """Reject a mechanism whose driver, connections or mobility are wrong.
 
     Raises
@@ -21,9 +21,9 @@ def refuse_immovable(mechanism: Mechanism) -> None:
     StructureError
         With the links and numbers that are wrong and the next action.
     """
-    _refuse_unconnected(mechanism)
-    _refuse_driver(mechanism)
-    _refuse_sliding_contour(mechanism)
+    _reject_unconnected(mechanism)
+    _reject_driver(mechanism)
+    _reject_sliding_contour(mechanism)
     n, p1 = len(mechanism.links), mechanism.lower_pairs
     mobility = 3 * n - 2 * p1
     if mobility == 1:
@@ -33,30 +33,32 @@ def refuse_immovable(mechanism: Mechanism) -> None:
         ends = [link for link in ends if link != mechanism.driver]
         loose = ""
         if ends:
-            loose = say("{0} {1:|has|have} only one pair. ", _name(ends).capitalize(), len(ends))
-        cause = say(
+            loose = translate(
+                "{0} {1:|has|have} only one pair. ", _name(ends).capitalize(), len(ends)
+            )
+        cause = translate(
             "pairs are missing. {}Give the links more common points or slides, or remove the loose "
             "links.",
             loose,
         )
     else:
-        cause = say(
+        cause = translate(
             "there are too many pairs, or links are missing. Look for points given the same name "
             "by mistake and for slides given twice."
         )
         passive = _passive(mechanism) if not mobility else []
         if passive:
-            more = say(
+            more = translate(
                 " A link that only repeats the motion of the others is passive, as the third crank "
                 "of a parallelogram is: leave one such out. Without link {} W is 1.",
-                say(" or ").join(passive),
+                translate(" or ").join(passive),
             )
             cause = f"{cause}{more}"
-    told = "Mobility W = 3n - 2p1 = 3·{} - 2·{} = {}, but 1 driver is given: {}"
-    raise StructureError(told, n, p1, mobility, cause)
+    text = "Mobility W = 3n - 2p1 = 3·{} - 2·{} = {}, but 1 driver is given: {}"
+    raise StructureError(text, n, p1, mobility, cause)
 
 
-def refuse_unbalanced(mechanism: Mechanism) -> None:
+def reject_unbalanced(mechanism: Mechanism) -> None:
     """Reject a mechanism of W = 1 with an overconstrained part and a loose one.
 
     Raises
@@ -118,7 +120,7 @@ def refuse_unbalanced(mechanism: Mechanism) -> None:
     )
 
 
-def _refuse_unconnected(mechanism: Mechanism) -> None:
+def _reject_unconnected(mechanism: Mechanism) -> None:
     near: dict[str, set[str]] = {link: set() for link in (FRAME, *mechanism.links)}
     for ends in _joined(mechanism):
         for link in ends:
@@ -140,7 +142,7 @@ def _refuse_unconnected(mechanism: Mechanism) -> None:
         )
 
 
-def _refuse_driver(mechanism: Mechanism) -> None:
+def _reject_driver(mechanism: Mechanism) -> None:
     driver = mechanism.driver
     if driver not in mechanism.links:
         raise StructureError(
@@ -158,9 +160,9 @@ def _refuse_driver(mechanism: Mechanism) -> None:
             driver,
             len(pairs),
             ", ".join(
-                say("point {}", pair.point)
+                translate("point {}", pair.point)
                 if isinstance(pair, Revolute)
-                else say("the slide of {}", pair.slider)
+                else translate("the slide of {}", pair.slider)
                 for pair in pairs
             ),
         )
@@ -176,7 +178,7 @@ def _refuse_driver(mechanism: Mechanism) -> None:
     )
 
 
-def _refuse_sliding_contour(mechanism: Mechanism) -> None:
+def _reject_sliding_contour(mechanism: Mechanism) -> None:
     classes = _Classes((FRAME, *mechanism.links))
     before: list[Prismatic] = []
     for pair in mechanism.prismatics:
@@ -203,9 +205,9 @@ class _Classes:
             link = self._head[link]
         return link
 
-    def join(self, one: str, other: str) -> bool:
+    def join(self, one: str, two: str) -> bool:
         """Join two classes; False when they were one already."""
-        a, b = self.find(one), self.find(other)
+        a, b = self.find(one), self.find(two)
         self._head[a] = b
         return a != b
 
@@ -254,8 +256,8 @@ def _passive(mechanism: Mechanism) -> list[str]:
         if len(rest.links) < 2:
             continue
         try:
-            refuse_immovable(rest)
-            refuse_unbalanced(rest)
+            reject_immovable(rest)
+            reject_unbalanced(rest)
         except StructureError:
             continue
         found.append(link)
@@ -283,5 +285,5 @@ def _count_pairs(mechanism: Mechanism, link: str) -> int:
 
 def _name(links: Collection[str]) -> str:
     moving = [link for link in links if link != FRAME]
-    text = say("link{0:||s} {1}", len(moving), ", ".join(moving))
-    return text if len(moving) == len(links) else say("the frame and {}", text)
+    text = translate("link{0:||s} {1}", len(moving), ", ".join(moving))
+    return text if len(moving) == len(links) else translate("the frame and {}", text)

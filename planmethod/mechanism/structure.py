@@ -7,10 +7,10 @@ from msgspec import Struct
 from planmethod.errors import StructureError
 from planmethod.mechanism.decompose import Node, blocks
 from planmethod.mechanism.groups import AssurGroup, joints_of_links, make_group
-from planmethod.mechanism.mobility import refuse_immovable, refuse_unbalanced
+from planmethod.mechanism.mobility import reject_immovable, reject_unbalanced
 from planmethod.mechanism.model import FRAME, Mechanism
 
-WAYS_IN = 1
+DRIVER_COUNT = 1
 """Number of drivers W0 (число начальных звеньев)."""
 
 
@@ -84,8 +84,8 @@ def analyse(mechanism: Mechanism) -> Structure:
         If links are not connected with the frame, the driver is not joined with it, W is not 1,
         prismatic pairs alone close a contour, or a part is overconstrained while another is loose.
     """
-    refuse_immovable(mechanism)
-    refuse_unbalanced(mechanism)
+    reject_immovable(mechanism)
+    reject_unbalanced(mechanism)
     groups = _groups(mechanism)
     high = len(mechanism.higher)
     local = sum(pair.roller != "" for pair in mechanism.higher)
@@ -99,7 +99,7 @@ def analyse(mechanism: Mechanism) -> Structure:
         lower_pairs=p1,
         higher_pairs=high,
         spatial_mobility=spatial,
-        redundant=WAYS_IN + local - spatial,
+        redundant=DRIVER_COUNT + local - spatial,
         local_mobility=local,
         class_number=max((group.class_number for group in groups), default=1),
         groups=groups,

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.moving.construction import construct
-from planmethod.moving.course import course_of
+from planmethod.moving.interval import drawn_interval
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Undefined, move
 from planmethod.moving.sheet import sheet_scales
@@ -26,17 +26,17 @@ def audited(problem: PointProblem, ruler: float) -> list[Audited]:
     if not problem.published:
         return []
     motion, profile = move(problem), replace(PROFILES["board"], ruler=ruler)
-    scales = sheet_scales(problem, course_of(problem), profile)
+    scales = sheet_scales(problem, drawn_interval(problem), profile)
     told = []
     for item in problem.published:
         k = item.position or 0
         if not item.what:
-            told.append(Audited(item, why=NoValue.NO_WHAT))
+            told.append(Audited(item, reason=NoValue.NO_QUANTITY))
             continue
         exact = float(motion.columns[item.what][k])
         if np.isnan(exact):
             divided = motion.reasons[k] in (Undefined.REST, Undefined.STRAIGHT)
-            told.append(Audited(item, why=NoValue.ZERO_DIVISOR if divided else NoValue.NO_POINT))
+            told.append(Audited(item, reason=NoValue.ZERO_DIVISOR if divided else NoValue.NO_POINT))
             continue
         built = construct(problem, motion, k, scales)
         read = built.ruled(ruler).get(item.what, np.nan) if built is not None else np.nan

@@ -17,11 +17,11 @@ from msgspec import Struct, field
 from planmethod.construct.arithmetic import Arithmetic, Float64
 from planmethod.construct.drafting import Profile, sigmas
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, NumberName, PointName
-from planmethod.moving.course import Course
+from planmethod.moving.interval import DrawnInterval
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion, Undefined
 from planmethod.moving.series import Reals
@@ -46,7 +46,7 @@ class ConstructionVector(Struct, frozen=True):
     tail: PointName
     head: PointName
     plan: str
-    is_whole: bool = False
+    is_resultant: bool = False
 
 
 class MomentConstruction(Struct, frozen=True):
@@ -78,7 +78,7 @@ class MomentConstruction(Struct, frozen=True):
 
     def ruled(self, ruler: float) -> dict[str, float]:
         """Return the results as a ruler of this step, mm, gives them."""
-        trace = self.read(Hand(ruler=ruler))
+        trace = self.read(RulerArithmetic(ruler=ruler))
         return {key: float(trace.value[name]) for key, name in self.results.items()}
 
     def sigma(self, profile: Profile) -> dict[str, float]:
@@ -96,9 +96,9 @@ class _Draft(Struct):
     vectors: list[ConstructionVector] = field(default_factory=list)
     letters: dict[str, str] = field(default_factory=dict)
 
-    def given(self, name: str, letter: str = "") -> PointName:
+    def take_point(self, name: str, letter: str = "") -> PointName:
         self.data[name], self.letters[name] = 0j, letter or name
-        return self.b.given(name)
+        return self.b.take_point(name)
 
     def known(self, name: str, value: float, letter: str = "") -> NumberName:
         self.data[name], self.letters[name] = float(value), letter or name
@@ -107,14 +107,14 @@ class _Draft(Struct):
     def ray(self, name: str, through: PointName, angle: float) -> LineName:
         return self.b.at_angle(through, None, self.known(name, angle))
 
-    def laid(
+    def lay_off_vector(
         self, plan: str, symbol: str, value: float, origin: PointName, line: LineName
     ) -> PointName:
         """Lay a vector off along a line through its tail, at its scale."""
         size = self.known(symbol, value, symbol)
         length = self.b.compute(f"{symbol}, mm", (size, 1), factor=1 / self.scales[plan].per_mm)
         self.letters[length] = symbol
-        head = self.b.lay_off(f"{symbol}:", origin, line, length)
+        head = self.b.lay_off_length(f"{symbol}:", origin, line, length)
         self.letters[head] = symbol
         self.vectors.append(ConstructionVector(symbol, origin, head, plan))
         return head
@@ -125,17 +125,17 @@ class _Draft(Struct):
         """Lay parts off one after another: symbol, value, whether across the base line."""
         for symbol, value, across in parts:
             draw = self.b.perpendicular if across else self.b.parallel
-            at = self.laid(plan, symbol, value, at, draw(at, base))
+            at = self.lay_off_vector(plan, symbol, value, at, draw(at, base))
         return at
 
     def result(self, out: str, symbol: str, plan: str, length: NumberName) -> NumberName:
         self.letters[out] = symbol
         return self.b.compute(out, (length, 1), factor=self.scales[plan].per_mm)
 
-    def whole(self, plan: str, head: PointName) -> NumberName:
+    def close_plan(self, plan: str, head: PointName) -> NumberName:
         """Close a plan: the vector from its pole, measured."""
         pole = POLES[plan]
-        self.vectors.append(ConstructionVector(plan, pole, head, plan, is_whole=True))
+        self.vectors.append(ConstructionVector(plan, pole, head, plan, is_resultant=True))
         self.letters[head] = plan if plan == "v" else "a"
         length = self.b.measure(f"{pole}{plan}", pole, head)
         self.letters[length] = length
@@ -158,22 +158,22 @@ def construct(
     value = {name: float(column[k]) for name, column in motion.columns.items()}
     draft = _Draft(scales)
     b, results = draft.b, dict[str, NumberName]()
-    pole = draft.given(POLES["v"])
+    pole = draft.take_point(POLES["v"])
     if problem.law is Law.ROLLING and not np.isnan(value["xP"]):
         head = _rolling_velocity(draft, problem, value, pole)
     else:
         angle, parts = _velocity_parts(problem, value)
         head = draft.chain("v", draft.ray("angle", pole, angle), parts, pole)
-    results["v"] = draft.whole("v", head)
+    results["v"] = draft.close_plan("v", head)
     if why is not Undefined.ACCELERATION:
-        origin = draft.given(POLES["a"])
+        origin = draft.take_point(POLES["a"])
         at = origin
         for name, angle, parts in _acceleration_parts(problem, value):
             at = draft.chain("a", draft.ray(name, origin, angle), parts, at)
-        results["a"] = draft.whole("a", at)
+        results["a"] = draft.close_plan("a", at)
         if why is not Undefined.REST:
             tangent = b.parallel(origin, b.join(pole, head))
-            foot = b.meet_lines("n", tangent, b.perpendicular(at, tangent))
+            foot = b.intersect_lines("n", tangent, b.perpendicular(at, tangent))
             along = b.measure_along("πn", origin, foot, tangent)
             results["a_tangential"] = draft.result("a_tangential", "a^{τ}", "a", along)
             across = b.measure("na", foot, at)
@@ -274,7 +274,7 @@ def _rolling_velocity(
     wheel, b = problem.wheel, draft.b
     assert wheel is not None
     per_mm = draft.scales["l"].per_mm
-    touch = draft.given("P")
+    touch = draft.take_point("P")
     up = complex(value["xC"] - value["xP"], value["yC"] - value["yP"])
     sizes = (("CP", abs(up)), ("CM", wheel.r))
     lengths = [
@@ -282,15 +282,15 @@ def _rolling_velocity(
         for name, size in sizes
     ]
     normal = draft.ray("angle of CP", touch, float(np.degrees(np.angle(up))))
-    centre = b.lay_off("C", touch, normal, lengths[0])
+    centre = b.lay_off_length("C", touch, normal, lengths[0])
     arm = draft.ray("angle of CM", centre, float(np.degrees(value["phi"])) + wheel.angle)
-    point = b.lay_off("M", centre, arm, lengths[1])
+    point = b.lay_off_length("M", centre, arm, lengths[1])
     draft.letters |= {"C": "C", "M": "M", "PM": "PM", "CP, mm": "CP", "CM, mm": "CM"}
     reach = b.measure("PM", touch, point)
     omega = draft.known("omega", value["omega"], "ω")
     length = b.compute("v, mm", (omega, 1), (reach, 1), factor=per_mm / draft.scales["v"].per_mm)
     draft.letters[length] = "v"
-    return b.lay_off("v:", pole, b.perpendicular(pole, b.join(touch, point)), length)
+    return b.lay_off_length("v:", pole, b.perpendicular(pole, b.join(touch, point)), length)
 
 
 # The drawn hodograph ------------------------------------------------------------------------------
@@ -316,7 +316,7 @@ class ChordReading(Struct, frozen=True):
     exact: Reals
 
 
-def read_hodograph(course: Course, scale: Scale, profile: Profile) -> ChordReading:
+def read_hodograph(course: DrawnInterval, scale: Scale, profile: Profile) -> ChordReading:
     """Read accelerations off a hodograph of the velocity, by chords of neighbouring instants."""
     column = course.marks.columns
     count = len(column["t"])
@@ -325,18 +325,18 @@ def read_hodograph(course: Course, scale: Scale, profile: Profile) -> ChordReadi
         return ChordReading((), *(np.zeros(0) for _ in range(3)))
     k, b, zeros = np.array(inner), Builder(), np.zeros(len(inner))
     data: dict[str, Any] = {"p": zeros + 0j, "angle": zeros}
-    axis = b.at_angle(b.given("p"), None, b.known("angle"))
+    axis = b.at_angle(b.take_point("p"), None, b.known("angle"))
     ends = []
     for name, index in (("before", k - 1), ("after", k + 1)):
         data |= {f"{name} {c}": column[f"v{c}"][index] / scale.per_mm for c in "xy"}
-        foot = b.lay_off(f"{name}:", POLES["v"], axis, b.known(f"{name} x"))
+        foot = b.lay_off_length(f"{name}:", POLES["v"], axis, b.known(f"{name} x"))
         line = b.perpendicular(foot, axis)
-        ends.append(b.lay_off(name, foot, line, b.known(f"{name} y")))
+        ends.append(b.lay_off_length(name, foot, line, b.known(f"{name} y")))
     data["time"] = column["t"][k + 1] - column["t"][k - 1]
     chord = b.measure("chord", *ends)
     found = b.compute("a", (chord, 1), (b.known("time"), -1), factor=scale.per_mm)
     program = b.program()
-    read = evaluate(program, data, Hand(ruler=profile.ruler)).value[found]
+    read = evaluate(program, data, RulerArithmetic(ruler=profile.ruler)).value[found]
     return ChordReading(
         tuple(inner), read, sigmas(program, data, profile, FREE)[found], column["a"][k]
     )

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from planmethod.moving.construction import construct
-from planmethod.moving.course import course_of
+from planmethod.moving.interval import drawn_interval
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import LEGEND, Motion, move
-from planmethod.moving.reader import WHAT, column_of
+from planmethod.moving.reader import QUANTITY_COLUMNS, column_of
 from planmethod.moving.sheet import sheet_scales
-from planmethod.problem.figures import AnswerValue, Mistaken, Taken
+from planmethod.problem.figures import AnswerValue, Mistaken, QuantityReader
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -50,7 +50,7 @@ class PointFigures:
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
         """Return its segment on the drawing, mm, and one sigma of the reading."""
-        scales = sheet_scales(self.problem, course_of(self.problem), profile)
+        scales = sheet_scales(self.problem, drawn_interval(self.problem), profile)
         built = construct(self.problem, self.motion, position, scales)
         column = column_of(name) or ""
         sigma = {} if built is None else built.sigma(profile)
@@ -62,9 +62,9 @@ class PointFigures:
 
     def mistaken(self) -> Iterator[Mistaken]:
         """Yield the usual mistakes: roots, the parts of the acceleration, degrees."""
-        changes: list[tuple[str, Taken]] = [
+        changes: list[tuple[str, QuantityReader]] = [
             ("K1", self._exchanged),
-            *(("K2", partial(self._whole, of)) for of in (PARTS, PARTS[:1], PARTS[1:])),
+            *(("K2", partial(self._resultant, of)) for of in (PARTS, PARTS[:1], PARTS[1:])),
             *(("K3", partial(self._rooted, of, 2)) for of in (("v", "a"), ("v",), ("a",))),
             *(("K4", partial(self._rooted, of, 1)) for of in (("v", "a"), ("v",), ("a",))),
             ("K5", self._curved),
@@ -85,7 +85,7 @@ class PointFigures:
         column = column_of(name) or ""
         return self._of(parts.get(column, column), position)
 
-    def _whole(self, parts: tuple[str, ...], name: str, position: int) -> float | None:
+    def _resultant(self, parts: tuple[str, ...], name: str, position: int) -> float | None:
         """Take the whole acceleration for some of its parts."""
         column = column_of(name) or ""
         return self._of("a" if column in parts else column, position)
@@ -105,9 +105,9 @@ class PointFigures:
             return v / across
         return self._of(name, position)
 
-    def followed(self, name: str, own: Mapping[str, float]) -> Iterator[tuple[float, str]]:
+    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[tuple[float, str]]:
         """Yield lengths by their parts, a_n by a and a_tau, rho by v and a_n."""
-        mine = {column_of(key): (value, key) for key, value in own.items()}
+        mine = {column_of(key): (value, key) for key, value in answers.items()}
         for out, needs, make in (
             ("v", ("vx", "vy"), math.hypot),
             ("a", ("ax", "ay"), math.hypot),
@@ -121,9 +121,9 @@ class PointFigures:
 
 
 def _value(motion: Motion, name: str, position: int) -> float | None:
-    value = float(motion.columns[WHAT.get(name) or column_of(name) or name][position])
+    value = float(motion.columns[QUANTITY_COLUMNS.get(name) or column_of(name) or name][position])
     return value if math.isfinite(value) else None
 
 
-asked_of = PointFigures
+FIGURES = PointFigures
 """Quantities of this kind of problem."""

@@ -36,19 +36,19 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
         return record(problem, lang)
 
-    def solved_document(self, problem: PointProblem, words: Language) -> Document:
+    def solved_document(self, problem: PointProblem, language: Language) -> Document:
         """Return the document of ``solve``."""
         from planmethod.moving.text import solved_document
 
-        return Document.of(solved_document(problem, words))
+        return Document.of(solved_document(problem, language))
 
     def protocol_document(
-        self, problem: PointProblem, words: Language, profile: Profile
+        self, problem: PointProblem, language: Language, profile: Profile
     ) -> Document:
         """Return the document of ``protocol``."""
         from planmethod.moving.protocol import protocol_document
 
-        return Document.of(protocol_document(problem, words, profile))
+        return Document.of(protocol_document(problem, language, profile))
 
     def drawings(
         self,
@@ -70,14 +70,14 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
         return audited(problem, ruler)
 
-    def given(self, problem: PointProblem, words: Language) -> list[GivenFact]:
+    def given_facts(self, problem: PointProblem, language: Language) -> list[GivenFact]:
         """Return the given data, one fact each; the file can be rebuilt from them."""
-        from planmethod.moving.text import given
+        from planmethod.moving.text import given_facts
 
-        return given(problem, words)
+        return given_facts(problem, language)
 
     def figures(self, problem: PointProblem) -> Figures:
         """Return the quantities for questions to students."""
-        from planmethod.moving.figures import asked_of
+        from planmethod.moving.figures import FIGURES
 
-        return asked_of(problem)
+        return FIGURES(problem)

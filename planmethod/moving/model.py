@@ -8,10 +8,10 @@ from enum import Enum
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.languages import say
+from planmethod.languages import translate
+from planmethod.problem.common import KindProblem
 from planmethod.problem.fields import Faults, is_number
 from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, FormulaKind, Operation, Parser
-from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Scales
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short
 
@@ -61,14 +61,15 @@ def read_formula(
     if is_number(value):
         value = repr(value)
         if len(value) > LENGTH_LIMIT or value.strip("-") in ("inf", "nan"):
-            faults.add(path, say("expected a finite number, got {}", short(value)))
+            faults.add(path, translate("expected a finite number, got {}", short(value)))
             return None
     if not isinstance(value, str):
         faults.expected(path, "a formula", value, 'For example: "3*t*exp(t/2)".')
         return None
     if len(value) > LENGTH_LIMIT:
         faults.add(
-            path, say("the formula has {} characters, the limit is {}", len(value), LENGTH_LIMIT)
+            path,
+            translate("the formula has {} characters, the limit is {}", len(value), LENGTH_LIMIT),
         )
         return None
     if lookalikes(value):

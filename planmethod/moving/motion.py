@@ -106,27 +106,27 @@ def move(problem: PointProblem) -> Motion:
     times = np.array(problem.times)
     with np.errstate(all="ignore"):
         x, y, others = _coordinates(problem, times)
-        parts = [bounded(part).settled() for part in (x.value, y.value)]
-        rates = [bounded(part).settled() for part in (x.rate, y.rate)]
-        bends = [bounded(part).settled() for part in (x.acceleration, y.acceleration)]
+        parts = [bounded(part).rounded_to_zero() for part in (x.value, y.value)]
+        rates = [bounded(part).rounded_to_zero() for part in (x.rate, y.rate)]
+        bends = [bounded(part).rounded_to_zero() for part in (x.acceleration, y.acceleration)]
         speed, size = length(*rates), length(*bends)
         (vx, vy), (ax, ay) = rates, bends
-        along = ((vx * ax + vy * ay) / speed).settled()
-        cross = abs(vx * ay - vy * ax).settled()
+        along = ((vx * ax + vy * ay) / speed).rounded_to_zero()
+        cross = abs(vx * ay - vy * ax).rounded_to_zero()
         across = cross / speed
         rho = speed / across * speed
         found = [*parts, vx, vy, speed, ax, ay, size, along, across, rho]
         columns = {"t": times, **_reals(COLUMNS[1:], found)}
         columns |= others
-    return Motion(_whole(columns), _reasons(columns))
+    return Motion(_mask_partial_vectors(columns), _reasons(columns))
 
 
 LARGEST = 1e60
 """Limit above which a number of a motion is undefined: its powers must be finite, too."""
 
 
-def _reals(names: tuple[str, ...], found: list[Bounded]) -> dict[str, Reals]:
-    pairs = zip(names, found, strict=True)
+def _reals(names: tuple[str, ...], values: list[Bounded]) -> dict[str, Reals]:
+    pairs = zip(names, values, strict=True)
     return {name: np.where(abs(one.value) < LARGEST, one.value, np.nan) for name, one in pairs}
 
 
@@ -140,7 +140,7 @@ _LEVELS = {
 }
 
 
-def _whole(columns: dict[str, Reals]) -> dict[str, Reals]:
+def _mask_partial_vectors(columns: dict[str, Reals]) -> dict[str, Reals]:
     """Make all components of a vector NaN where one is: a vector exists or does not."""
     lost = np.zeros(len(columns["t"]), dtype=bool)
     told = dict(columns)
@@ -153,16 +153,16 @@ def _whole(columns: dict[str, Reals]) -> dict[str, Reals]:
 
 
 def _reasons(columns: dict[str, Reals]) -> tuple[Undefined | None, ...]:
-    def none_of(*names: str) -> Reals:
+    def is_missing(*names: str) -> Reals:
         missing: Reals = np.any([np.isnan(columns[name]) for name in names], axis=0)
         return missing
 
     cases = {
-        Undefined.POSITION: none_of("x", "y"),
-        Undefined.VELOCITY: none_of("vx", "vy"),
-        Undefined.ACCELERATION: none_of("ax", "ay"),
+        Undefined.POSITION: is_missing("x", "y"),
+        Undefined.VELOCITY: is_missing("vx", "vy"),
+        Undefined.ACCELERATION: is_missing("ax", "ay"),
         Undefined.REST: columns["v"] == 0.0,
-        Undefined.STRAIGHT: none_of("rho"),
+        Undefined.STRAIGHT: is_missing("rho"),
     }
     return tuple(
         next((why for why, is_so in cases.items() if is_so[k]), None)
@@ -181,25 +181,25 @@ def _coordinates(problem: PointProblem, times: Reals) -> tuple[Jet, Jet, dict[st
             return read["x"], read["y"], {}
         case Law.POLAR:
             r, phi = read["r"], read["phi"]
-            return *_turned(r, phi), _reals(POLAR, _polar(r, phi))
+            return *_to_cartesian(r, phi), _reals(POLAR, _polar(r, phi))
         case Law.NATURAL:
             s = read["s"]
             if problem.radius is None:
                 zeros = Bounded(np.zeros_like(times))
                 return s, Jet(zeros, zeros, zeros), {}
             turned = s / Bounded(problem.radius)
-            return *_turned(Jet(_given(problem.radius)), turned), {}
+            return *_to_cartesian(Jet(_file_number(problem.radius)), turned), {}
         case Law.ROLLING:
             assert problem.wheel is not None
             return _rolled(problem.wheel, read["phi"], read.get("theta"))
 
 
-def _given(value: float) -> Bounded:
+def _file_number(value: float) -> Bounded:
     """Return a number of the file with the bound of its rounding to float64."""
     return Bounded(value, ROUNDOFF * abs(value))
 
 
-def _turned(r: Jet, angle: Jet) -> tuple[Jet, Jet]:
+def _to_cartesian(r: Jet, angle: Jet) -> tuple[Jet, Jet]:
     return r * CALLS["cos"](angle), r * CALLS["sin"](angle)
 
 
@@ -209,17 +209,17 @@ def _rolled(wheel: Wheel, phi: Jet, theta: Jet | None) -> tuple[Jet, Jet, dict[s
     The arc that a wheel has rolled off is as long as that of the track: with the track's radius ρ
     (negative within it) the centre has turned by φR/(R + ρ).
     """
-    radius, nothing = _given(wheel.radius), Jet(Bounded(np.zeros_like(phi.value.value)))
+    radius, nothing = _file_number(wheel.radius), Jet(Bounded(np.zeros_like(phi.value.value)))
     if wheel.track:
-        span = radius + _given(wheel.track)
-        start = _given(np.copysign(np.pi / 2, wheel.track))
+        span = radius + _file_number(wheel.track)
+        start = _file_number(np.copysign(np.pi / 2, wheel.track))
         theta = phi * radius / Jet(span) + Jet(start)
         centre, touch = (
-            _turned(Jet(abs(span)), theta),
-            _turned(Jet(_given(abs(wheel.track))), theta),
+            _to_cartesian(Jet(abs(span)), theta),
+            _to_cartesian(Jet(_file_number(abs(wheel.track))), theta),
         )
     elif theta is not None:
-        centre = _turned(Jet(_given(wheel.arm)), theta)
+        centre = _to_cartesian(Jet(_file_number(wheel.arm)), theta)
         # v_C is across CP and ω·CP long.
         touch = (
             Jet(centre[0].value - centre[1].rate / phi.rate),
@@ -227,11 +227,13 @@ def _rolled(wheel: Wheel, phi: Jet, theta: Jet | None) -> tuple[Jet, Jet, dict[s
         )
     else:
         centre, touch = (-phi * radius, nothing + Jet(radius)), (-phi * radius, nothing)
-    arm = _turned(Jet(_given(wheel.r)), phi + Jet(_given(np.radians(wheel.angle))))
+    arm = _to_cartesian(
+        Jet(_file_number(wheel.r)), phi + Jet(_file_number(np.radians(wheel.angle)))
+    )
     told = [phi.value, phi.rate, phi.acceleration, *(part.value for part in (*centre, *touch))]
     if theta is not None:
         told += [theta.rate, theta.acceleration]
-    found = [bounded(part).settled() for part in told]
+    found = [bounded(part).rounded_to_zero() for part in told]
     columns = _reals(ROLLED[: len(found)], found)
     return centre[0] + arm[0], centre[1] + arm[1], columns
 
@@ -246,4 +248,4 @@ def _polar(r: Jet, phi: Jet) -> list[Bounded]:
         r.acceleration - r.value * phi.rate * phi.rate,
         r.value * phi.acceleration + 2.0 * r.rate * phi.rate,
     ]
-    return [bounded(one).settled() for one in found]
+    return [bounded(one).rounded_to_zero() for one in found]

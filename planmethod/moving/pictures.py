@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.construct.steps import PointName
 from planmethod.moving.construction import POLES, MomentConstruction
-from planmethod.moving.course import Complexes, Course, places_of
+from planmethod.moving.interval import Complexes, DrawnInterval, places_of
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion
 from planmethod.note.numbers import Notation, trimmed
@@ -23,7 +23,7 @@ from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.labels.spots import shared_spots
+from planmethod.render.labels.merged_labels import merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.paths import TRAJECTORY
@@ -35,25 +35,25 @@ AXIS = "axis of coordinates"
 SMALL = 3.5
 """Height of the numbers of instants and of the letters of components, mm."""
 
-_BEYOND = 9.0  # mm: an axis extends beyond the drawing
+_OVERSHOOT = 9.0  # mm: an axis extends beyond the drawing
 _HEAD = 3.5  # mm: arrowhead of an axis
 _TICK = 1.0  # mm: half of a tick
-_APART = 14.0  # mm: between the numbers of an axis
+_NUMBER_SPACING = 14.0  # mm: between the numbers of an axis
 _DOT = 0.8  # mm: a numbered instant
-_LEAST = 0.6  # mm: a shorter vector is not drawn
+_MIN_VECTOR = 0.6  # mm: a shorter vector is not drawn
 _CURVED = 45.0  # mm: a circle of curvature up to this radius is drawn
-_ROOM = 3.0  # mm: least room that letters take around a picture
+_MARGIN = 3.0  # mm: least room that letters take around a picture
 _LONGEST = 45.0  # mm: of a vector at the trajectory
 _ARROW = 4.0  # mm: arrowhead of a vector
 
 
-def plan_scale(course: Course, plan: str, box: tuple[float, float], asked: float | None,
+def plan_scale(course: DrawnInterval, plan: str, box: tuple[float, float], requested: float | None,
                convention: Convention) -> Scale:  # fmt: skip
     """Return the scale at which the hodograph of ``plan``, v or a, fills a box with its pole."""
     names, unit = (f"{plan}x", f"{plan}y"), {"v": "m/s", "a": "m/s²"}[plan]
     marks = course.numbered(*names)
     extent = _extent([np.zeros(1, complex), marks[~np.isnan(marks)], *course.curves(*names)])
-    return Scale(f"mu_{plan}", asked or _chosen(extent, box, convention), unit)
+    return Scale(f"mu_{plan}", requested or _chosen(extent, box, convention), unit)
 
 
 def _chosen(extent: tuple[float, float], box: tuple[float, float], convention: Convention) -> float:
@@ -65,7 +65,7 @@ def _extent(parts: Iterable[Complexes]) -> tuple[float, float]:
     return float(np.ptp(places.real)), float(np.ptp(places.imag))
 
 
-def vector_scales(course: Course, scales: Mapping[str, Scale]) -> dict[str, Scale]:
+def vector_scales(course: DrawnInterval, scales: Mapping[str, Scale]) -> dict[str, Scale]:
     """Return the scales of the vectors at the trajectory: not so large that they hide it."""
     found = dict(scales)
     for plan in "va":
@@ -79,7 +79,7 @@ def vector_scales(course: Course, scales: Mapping[str, Scale]) -> dict[str, Scal
 
 def length_scale(
     problem: PointProblem,
-    course: Course,
+    course: DrawnInterval,
     scales: Mapping[str, Scale],
     box: tuple[float, float],
 ) -> Scale:
@@ -114,11 +114,11 @@ def length_scale(
 
 def trajectory_picture(
     problem: PointProblem,
-    course: Course,
+    course: DrawnInterval,
     scales: Mapping[str, Scale],
     *,
     letter_height: float,
-    say: Notation,
+    notation: Notation,
     draft: bool = False,
 ) -> Picture:
     """Return the trajectory: axes, curve, numbered instants, vectors, the circle of curvature.
@@ -150,7 +150,10 @@ def trajectory_picture(
                 labels += more[1]
             labels.append(Label(typeset(f"M{own}", letter_height), complex(here[k]), gap=2.2,
                                 priority=2, name=f"point {k}"))  # fmt: skip
-    items = [*_axes(items, ("x", "y"), letter_height, labels, scale=scales["l"], say=say), *items]
+    items = [
+        *_axes(items, ("x", "y"), letter_height, labels, scale=scales["l"], say=notation),
+        *items,
+    ]
     items += _dots(here, labels, "instant")
     for k in course.shown:
         if not np.isnan(here[k]):
@@ -160,7 +163,7 @@ def trajectory_picture(
 
 def _roughly(items: Sequence[Item]) -> Picture:
     left, low, right, top = ink_bounds(items)
-    return Picture(tuple(items), (left - _ROOM, low - _ROOM, right + _ROOM, top + _ROOM))
+    return Picture(tuple(items), (left - _MARGIN, low - _MARGIN, right + _MARGIN, top + _MARGIN))
 
 
 def _curve(parts: Iterable[Complexes], per_mm: float, tag: str) -> list[Item]:
@@ -180,7 +183,7 @@ def _curve(parts: Iterable[Complexes], per_mm: float, tag: str) -> list[Item]:
 def _dots(places: Complexes, labels: list[Label], name: str) -> list[Item]:
     """Return the numbered instants; those in one place share one inscription."""
     numbered = [(complex(p), [str(k)]) for k, p in enumerate(places) if not np.isnan(p)]
-    spots = shared_spots(numbered, near=0.5)
+    spots = merge_letters(numbered, near=0.5)
     if not spots:
         return []
     for n, (place, numbers) in enumerate(spots):
@@ -188,7 +191,7 @@ def _dots(places: Complexes, labels: list[Label], name: str) -> list[Item]:
         text = ", ".join(numbers)
         side = 1j * (after - before)  # beside the curve
         labels.append(Label(typeset(text, SMALL), place, prefer=side, gap=1.4,
-                            name=f"{name} {text}", manner=BUSY))  # fmt: skip
+                            name=f"{name} {text}", style=BUSY))  # fmt: skip
     return [Disc(place, _DOT, Ink.BLACK, tag=name) for place, _ in spots]
 
 
@@ -197,7 +200,7 @@ def _vectors_at(
     k: int,
     scales: Mapping[str, Scale],
     here: complex,
-    own: str,
+    suffix: str,
     height: float,
     *,
     parts: bool,
@@ -206,16 +209,16 @@ def _vectors_at(
     value = {name: float(column[k]) for name, column in marks.columns.items()}
     v, a = (complex(value[f"{plan}x"], value[f"{plan}y"]) for plan in "va")
     along = v / abs(v) * value["a_tangential"] if abs(v) > 0 else complex("nan")
-    wanted = [(f"v{own}", "v", v, True), (f"a{own}", "a", a, True)]
+    wanted = [(f"v{suffix}", "v", v, True), (f"a{suffix}", "a", a, True)]
     if (
-        parts and min(abs(along), abs(a - along)) > _LEAST * scales["a"].per_mm
+        parts and min(abs(along), abs(a - along)) > _MIN_VECTOR * scales["a"].per_mm
     ):  # else it is the whole
         wanted += [("a^{τ}", "a", along, False), ("a^{n}", "a", a - along, False)]
     items: list[Item] = []
     labels: list[Label] = []
     for symbol, plan, vector, is_whole in wanted:
         size = vector / scales[plan].per_mm
-        if not abs(size) > _LEAST:
+        if not abs(size) > _MIN_VECTOR:
             continue
         pen, tag = (Pen.MAIN, "absolute") if is_whole else (Pen.THIN, "normal")
         items += vector_arrow(here, here + size, pen=pen, length=_ARROW, tag=tag)
@@ -229,7 +232,7 @@ def _letter(symbol: str, tail: complex, head: complex, height: float, prefix: st
     """Return the letter of a vector, at its head."""
     markup = vector_markup(symbol)
     return Label(typeset(markup, height), head, prefer=head - tail, gap=1.6, priority=1,
-                 name=f"{prefix}{symbol}", manner=BUSY)  # fmt: skip
+                 name=f"{prefix}{symbol}", style=BUSY)  # fmt: skip
 
 
 def _curvature(
@@ -268,9 +271,9 @@ def _wheel(
     radius = wheel.radius / per_mm
     items.append(Arc(centre, radius, pen=Pen.THIN, tag="wheel"))
     own = f"_{{{k}}}" if marks.columns["t"].size and len(problem.times) > 1 else ""
-    if abs(here - touch) > _LEAST:
+    if abs(here - touch) > _MIN_VECTOR:
         items.append(Stroke((touch, here), Pen.THIN, tag="reach"))
-    if abs(here - centre) > _LEAST:
+    if abs(here - centre) > _MIN_VECTOR:
         items.append(Stroke((centre, here), Pen.THIN, tag="arm"))
     spots = [("C", centre), ("P", touch)]
     if wheel.arm:
@@ -281,14 +284,14 @@ def _wheel(
             continue  # no centre of velocities: the wheel does not turn
         items.append(Disc(place, _DOT, Ink.BLACK, tag=f"centre {letter}"))
         named = typeset(letter if letter == "O" else letter + own, height)
-        labels.append(Label(named, place, gap=1.5, priority=1, name=f"{letter} {k}", manner=BUSY))
+        labels.append(Label(named, place, gap=1.5, priority=1, name=f"{letter} {k}", style=BUSY))
 
 
 # Hodograph ----------------------------------------------------------------------------------------
 
 
 def hodograph_picture(
-    course: Course,
+    course: DrawnInterval,
     plan: str,
     built: MomentConstruction | None,
     scales: Mapping[str, Scale],
@@ -313,7 +316,7 @@ def hodograph_picture(
     if plan == "v" and course.shown:
         k = course.shown[0]
         ends = marks[max(k - 1, 0) : k + 2]
-        if len(ends) == 3 and not np.isnan(ends).any() and abs(ends[2] - ends[0]) > _LEAST:
+        if len(ends) == 3 and not np.isnan(ends).any() and abs(ends[2] - ends[0]) > _MIN_VECTOR:
             chord = (complex(ends[0]), complex(ends[2]))
             items.append(Stroke(chord, Pen.THIN, tag="chord"))
     axes = [f"{plan}_{{x}}", f"{plan}_{{y}}"]
@@ -334,15 +337,15 @@ def _plan(built: MomentConstruction, plan: str, height: float) -> tuple[list[Ite
     items: list[Item] = []
     labels: list[Label] = []
     own = [vector for vector in built.vectors if vector.plan == plan]
-    wholes = [(at(vector.tail), at(vector.head)) for vector in own if vector.is_whole]
+    wholes = [(at(vector.tail), at(vector.head)) for vector in own if vector.is_resultant]
     for vector in own:
         tail, head = at(vector.tail), at(vector.head)
         same = any(abs(tail - one) < 0.5 and abs(head - two) < 0.5 for one, two in wholes)
-        if np.isnan(head) or abs(head - tail) < _LEAST or (same and not vector.is_whole):
+        if np.isnan(head) or abs(head - tail) < _MIN_VECTOR or (same and not vector.is_resultant):
             continue
-        pen, tag = (Pen.MAIN, "absolute") if vector.is_whole else (Pen.THIN, "relative")
+        pen, tag = (Pen.MAIN, "absolute") if vector.is_resultant else (Pen.THIN, "relative")
         items += vector_arrow(tail, head, pen=pen, length=_ARROW, tag=tag)
-        size = height if vector.is_whole else SMALL
+        size = height if vector.is_resultant else SMALL
         told, ends = typeset(vector_markup(vector.symbol), size), (tail, head)
         labels.append(Label(told, (tail + head) / 2, ends, gap=1.2, priority=1,
                             name=f"{plan}: {vector.symbol}"))  # fmt: skip
@@ -362,10 +365,10 @@ def _axes(
     """
     left, low, right, top = ink_bounds(items)
     near = 25.0
-    x0 = 0.0 if left - near <= 0.0 <= right + near else left - _BEYOND
-    y0 = 0.0 if low - near <= 0.0 <= top + near else low - _BEYOND
-    left, right = min(left, x0), max(right, x0) + _BEYOND
-    low, top = min(low, y0), max(top, y0) + _BEYOND
+    x0 = 0.0 if left - near <= 0.0 <= right + near else left - _OVERSHOOT
+    y0 = 0.0 if low - near <= 0.0 <= top + near else low - _OVERSHOOT
+    left, right = min(left, x0), max(right, x0) + _OVERSHOOT
+    low, top = min(low, y0), max(top, y0) + _OVERSHOOT
     drawn: list[Item] = []
     ways = ((1 + 0j, complex(left, y0), complex(right, y0), -1j),
             (1j, complex(x0, low), complex(x0, top), -1 + 0j))  # fmt: skip
@@ -378,7 +381,7 @@ def _axes(
         if scale is None or say is None:
             continue
         first, last = (float((p / way).real) for p in (start, end - 6.0 * way))
-        step = series_near(_APART * scale.per_mm, up=True)
+        step = series_near(_NUMBER_SPACING * scale.per_mm, up=True)
         for k in range(ceil(first * scale.per_mm / step), floor(last * scale.per_mm / step) + 1):
             place = way * (k * step / scale.per_mm) + (1j * y0 if way.real else x0)
             if not k and (x0, y0) == (0.0, 0.0) and way.imag:

@@ -9,7 +9,7 @@ import numpy as np
 from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
-from planmethod.construct.hand import Hand
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import Name, NumberName, PointName
 from planmethod.moving.construction import (
@@ -19,11 +19,11 @@ from planmethod.moving.construction import (
     construct,
     read_hodograph,
 )
-from planmethod.moving.course import Course, course_of
+from planmethod.moving.interval import DrawnInterval, drawn_interval
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import LEGEND
 from planmethod.moving.sheet import read_rows, sheet_scales
-from planmethod.moving.text import given, moment, title
+from planmethod.moving.text import given_facts, moment, title
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Caption, Chapter, Node, Paragraph, steps_of, table_of
 from planmethod.note.formula import Rich, escape, fraction
@@ -33,7 +33,9 @@ from planmethod.note.numbers import significant, with_unit
 from planmethod.note.wording import Language
 
 
-def protocol_document(problem: PointProblem, words: Language, profile: Profile) -> Iterator[Node]:
+def protocol_document(
+    problem: PointProblem, language: Language, profile: Profile
+) -> Iterator[Node]:
     """Yield the construction of a moving point; the scales are those of the sheet.
 
     Raises
@@ -43,39 +45,45 @@ def protocol_document(problem: PointProblem, words: Language, profile: Profile) 
     LayoutError
         The sheet cannot be drawn.
     """
-    course, said, say = course_of(problem), words.point, words.say
+    course, texts, notation = drawn_interval(problem), language.point, language.notation
     scales = sheet_scales(problem, course, profile)
     yield title(problem)
     if problem.source:
-        yield Paragraph(words.note.source.format(source=escape(problem.source)))
-    facts = given(problem, words)
-    told = words.note.given.format(given="; ".join(fact.text for fact in facts))
-    yield Paragraph(told, facts=tuple(facts))
-    yield Paragraph(said.wanted)
+        yield Paragraph(language.note.source.format(source=escape(problem.source)))
+    facts = given_facts(problem, language)
+    text = language.note.given.format(given="; ".join(fact.text for fact in facts))
+    yield Paragraph(text, facts=tuple(facts))
+    yield Paragraph(texts.wanted)
     convention = problem.scales.convention
-    told = ", ".join(scale_inscription(scales[name], convention, say) for name in "lva")
-    yield Paragraph(words.note.scales_text.format(scales=told))
-    yield Paragraph(words.note.ruler.format(ruler=say.given(profile.ruler)))
-    start, end = (say.given(t) for t in course.interval)
+    text = ", ".join(scale_inscription(scales[name], convention, notation) for name in "lva")
+    yield Paragraph(language.note.scales_text.format(scales=text))
+    yield Paragraph(language.note.ruler.format(ruler=notation.as_input(profile.ruler)))
+    start, end = (notation.as_input(t) for t in course.interval)
     count = len(course.marks.columns["t"])
-    yield Paragraph(said.curve.format(start=start, end=end, last=count - 1))
+    yield Paragraph(texts.curve.format(start=start, end=end, last=count - 1))
     for k in course.shown:
-        time = say.given(float(course.marks.columns["t"][k]))
-        yield Chapter(said.at.format(time=time), numbered=False)
-        yield from moment(problem, course.marks, k, words)
+        time = notation.as_input(float(course.marks.columns["t"][k]))
+        yield Chapter(texts.at.format(time=time), numbered=False)
+        yield from moment(problem, course.marks, k, language)
         built = construct(problem, course.marks, k, scales)
         if built is not None:
-            narrator = PointNarrator(built, words, profile)
+            narrator = PointNarrator(built, language, profile)
             for step in built.program.steps:
-                yield from steps_of(narrator.tell(step))
-            yield Caption(said.read_title.format(profile=words.note["profiles"][profile.name]))
-            yield table_of(said["read"], read_rows(built, course.marks, k, words, profile))
-    yield from _hodograph(course, scales["v"], words, profile)
+                yield from steps_of(narrator.narrate(step))
+            yield Caption(texts.read_title.format(profile=language.note["profiles"][profile.name]))
+            yield table_of(texts["read"], read_rows(built, course.marks, k, language, profile))
+    yield from _hodograph(course, scales["v"], language, profile)
 
 
-def _hodograph(course: Course, scale: Scale, words: Language, profile: Profile) -> Iterator[Node]:
+def _hodograph(
+    course: DrawnInterval, scale: Scale, language: Language, profile: Profile
+) -> Iterator[Node]:
     """Yield the accelerations that the hodograph of the velocity gives."""
-    chords, say, said = read_hodograph(course, scale, profile), words.say, words.point
+    chords, notation, said = (
+        read_hodograph(course, scale, profile),
+        language.notation,
+        language.point,
+    )
     if len(chords.at) < 2:
         return
     yield Chapter(said.by_hodograph, numbered=False)
@@ -86,22 +94,22 @@ def _hodograph(course: Course, scale: Scale, words: Language, profile: Profile) 
     ):
         one = ComparedNumber(float(exact), float(read), float(sigma))
         texts = (significant(one.exact), one.read_text, one.sigma_text, one.off_text)
-        at = say.given(float(course.marks.columns["t"][k]))
-        rows.append([str(k), at, *map(say.number, texts)])
+        at = notation.as_input(float(course.marks.columns["t"][k]))
+        rows.append([str(k), at, *map(notation.number, texts)])
     yield table_of(said["chords"], rows, names=0)
 
 
 class PointNarrator(StepNarrator):
     """Tells the steps of one moment (рассказчик)."""
 
-    def __init__(self, built: MomentConstruction, words: Language, profile: Profile) -> None:
-        self.built, self.words, self.said = built, words, words.point
+    def __init__(self, built: MomentConstruction, language: Language, profile: Profile) -> None:
+        self.built, self.language, self.texts = built, language, language.point
         self.step = {step.out: step for step in built.program.steps}
         self.exact: Trace = built.read()
-        self.read: Trace = built.read(Hand(ruler=profile.ruler))
+        self.read: Trace = built.read(RulerArithmetic(ruler=profile.ruler))
         self.parts: dict[PointName, ConstructionVector] = {}
         for vector in built.vectors:
-            if not vector.is_whole:
+            if not vector.is_resultant:
                 self.parts.setdefault(vector.head, vector)
         self.columns = {number: column for column, number in built.results.items()}
 
@@ -109,70 +117,72 @@ class PointNarrator(StepNarrator):
         trace = self.exact if exact else self.read
         return float(np.ravel(trace.value[name])[0])
 
-    def _put(self, value: float, digits: int = 4) -> Rich:
-        return self.words.say.short(value, digits)
+    def _format(self, value: float, digits: int = 4) -> Rich:
+        return self.language.notation.short(value, digits)
 
     def _of(self, name: PointName) -> Rich:
         """Return a point in the genitive: "точки P", "полюса p", "конца a_x"."""
-        words = self.words.note
-        while isinstance(step := self.step[name], steps.LayOff) and not self._number(step.length):
+        texts = self.language.note
+        while isinstance(step := self.step[name], steps.LayOffLength) and not self._number(
+            step.length
+        ):
             name = step.origin  # nothing was laid off
         if name in self.parts:
-            return self.said.end.format(symbol=self.parts[name].symbol)
-        text = words.of_pole if name in POLES.values() else words.of_point
+            return self.texts.end.format(symbol=self.parts[name].symbol)
+        text = texts.of_pole if name in POLES.values() else texts.of_point
         return text.format(point=self.built.letters[name])
 
     def line(self, step: Line) -> list[Rich]:
         """Describe a ray, a line across the wheel, or the direction of the tangent."""
         match step:
             case steps.AtAngle(_, through, _, angle):
-                text = self.said.ray if self._number(angle) else self.said.level
-                turn = self._put(self._number(angle))
+                text = self.texts.ray if self._number(angle) else self.texts.level
+                turn = self._format(self._number(angle))
                 return [text.format(of=self._of(through), angle=turn)]
             case steps.Join(_, tail, head) if tail not in POLES.values():
                 letters = self.built.letters
-                return [self.said.join.format(tail=letters[tail], head=letters[head])]
+                return [self.texts.join.format(tail=letters[tail], head=letters[head])]
             case steps.Parallel(_, through, to) if isinstance(self.step[to], steps.Join):
-                return [self.said.tangent.format(of=self._of(through))]
+                return [self.texts.tangent.format(of=self._of(through))]
             case _:
                 return []
 
-    def meet(self, step: steps.MeetLines) -> list[Rich]:
+    def meet(self, step: steps.IntersectLines) -> list[Rich]:
         """Describe the foot of the perpendicular on the tangent."""
-        return [self.said.foot.format(point=self.built.letters[step.out])]
+        return [self.texts.foot.format(point=self.built.letters[step.out])]
 
     def measure(self, step: Reading) -> list[Rich]:
         """Describe a side of the wheel; other segments are described with their readings."""
         if any(self._is_value(one, step.out) for one in self.columns):
             return []
-        length = self._put(self._number(step.out))
-        return [self.said.measured.format(segment=self.built.letters[step.out], length=length)]
+        length = self._format(self._number(step.out))
+        return [self.texts.measured.format(segment=self.built.letters[step.out], length=length)]
 
     def _is_value(self, result: NumberName, length: NumberName) -> bool:
         made = self.step[result]
         return isinstance(made, steps.Compute) and made.powers[0][0] == length
 
-    def lay_off(self, step: steps.LayOff) -> list[Rich]:
+    def lay_off(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a vector, or a side of the wheel: its length, origin and direction."""
-        said, made, letters = self.said, self.step[step.length], self.built.letters
+        texts, made, letters = self.texts, self.step[step.length], self.built.letters
         assert isinstance(made, steps.Compute)
         mm, symbol = self._number(step.length), letters[step.length]
         if isinstance(self.step[made.powers[-1][0]], steps.Measure):
-            return [said.across_pm.format(length=self._put(abs(mm)))]
+            return [texts.across_pm.format(length=self._format(abs(mm)))]
         if not mm:
-            return [said.nothing.format(symbol=symbol)]
+            return [texts.nothing.format(symbol=symbol)]
         part = self.parts.get(step.out)
         plan = "l" if part is None else part.plan
-        per_mm = self._put(self.built.scales[plan].per_mm)
-        numbers = fraction(self._put(abs(self._number(made.powers[0][0]))), per_mm)
+        per_mm = self._format(self.built.scales[plan].per_mm)
+        numbers = fraction(self._format(abs(self._number(made.powers[0][0]))), per_mm)
         quotient = fraction(f"|{symbol}|", f"μ_{{{plan}}}")
-        turned = isinstance(self.step[step.along], steps.Perpendicular)
-        way = said["ways"][("across" if turned else "along") + ("" if mm >= 0 else " back")]
-        told = said.lay_off_side if part is None else said.lay_off
+        turned = isinstance(self.step[step.line], steps.Perpendicular)
+        way = texts["ways"][("across" if turned else "along") + ("" if mm >= 0 else " back")]
+        text = texts.lay_off_side if part is None else texts.lay_off
         return [
-            told.format(
+            text.format(
                 symbol=symbol,
-                size=f"{quotient} = {numbers} = {self._put(abs(mm))}",
+                size=f"{quotient} = {numbers} = {self._format(abs(mm))}",
                 of=self._of(step.origin),
                 way=way,
                 point=letters[step.out],
@@ -185,23 +195,23 @@ class PointNarrator(StepNarrator):
         if column is None:
             return []
         found = self._number(step.out)
-        value = with_unit(self._put(found), self.words.say.units[LEGEND[column].unit])
+        value = with_unit(self._format(found), self.language.notation.units[LEGEND[column].unit])
         symbol, (length, _) = self.built.letters[step.out], step.powers[0]
         if not isinstance(self.step[length], steps.Measure | steps.MeasureAlong):
             if not np.isfinite(found):
                 return []
-            v, a = (self._put(self._number(name)) for name, _ in step.powers)
+            v, a = (self._format(self._number(name)) for name, _ in step.powers)
             sought = f"{fraction('v^{2}', 'a^{n}')} = {fraction(f'{v}^{{2}}', a)}"
             return [f"{symbol} = {sought} = {value}."]
         plan = "v" if column == "v" else "a"
         mm, segment = self._number(length), self.built.letters[length]
-        scale = self._put(self.built.scales[plan].per_mm)
-        size = f"({self._put(mm)})" if mm < 0 else self._put(mm)
+        scale = self._format(self.built.scales[plan].per_mm)
+        size = f"({self._format(mm)})" if mm < 0 else self._format(mm)
         return [
-            self.said.value.format(
+            self.texts.value.format(
                 segment=segment,
-                length=self._put(mm),
-                exact=self._put(self._number(length, exact=True), 5),
+                length=self._format(mm),
+                exact=self._format(self._number(length, exact=True), 5),
                 formula=f"{symbol} = μ_{{{plan}}}·{segment} = {scale}·{size} = {value}",
             )
         ]

@@ -11,17 +11,17 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.errors import ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.moving.model import FORMULAS, Law, PointProblem, TimeFunction, Wheel, read_formula
 from planmethod.moving.series import ROUNDOFF, evaluate
 from planmethod.problem import fields, keys
-from planmethod.problem.answers import Plain, read_answers
-from planmethod.problem.drive import read_scales, spread, too_many
+from planmethod.problem.answers import ComputedAnswerNames, read_answers
+from planmethod.problem.common import Published
+from planmethod.problem.drive import exceeds_position_limit, read_scales, spread
 from planmethod.problem.fields import Faults
 from planmethod.problem.formula import is_exact
-from planmethod.problem.head import Published
-from planmethod.problem.names import listed, near_hint, segment, short
-from planmethod.problem.reader import laid_over, varied
+from planmethod.problem.names import listed, nearest_name_hint, segment, short
+from planmethod.problem.reader import overlay_variant, varied
 from planmethod.problem.selector import read_published
 from planmethod.problem.sheet import read_head
 from planmethod.problem.source import parse
@@ -32,7 +32,7 @@ TOP = (
 )  # fmt: skip
 """Keys of a file with a moving point."""
 
-WHAT: Mapping[str, str] = {
+QUANTITY_COLUMNS: Mapping[str, str] = {
     **{name: name for name in ("x", "y", "vx", "vy", "v", "ax", "ay", "a", "rho")},
     **dict.fromkeys(("a_tangential", "a_tau", "at"), "a_tangential"),
     **dict.fromkeys(("a_normal", "a_n", "an"), "a_normal"),
@@ -48,7 +48,7 @@ def column_of(name: str) -> str | None:
     """Return the column of the record that a name means, as people write it; None of no such."""
     bare = "".join(name.split()).translate(str.maketrans("ₓᵧₙ", "xyn", "{}"))
     bare = _LETTERS.get(bare, bare)
-    return WHAT.get(bare) or WHAT.get(bare.replace("_", ""))
+    return QUANTITY_COLUMNS.get(bare) or QUANTITY_COLUMNS.get(bare.replace("_", ""))
 
 
 def load(path: str | Path, *, variant: str | None = None) -> PointProblem:
@@ -60,17 +60,17 @@ def load(path: str | Path, *, variant: str | None = None) -> PointProblem:
         With every fault of the file.
     """
     path = Path(path)
-    return _made(*varied(path, variant), str(path), path.stem, variant)
+    return _build_problem(*varied(path, variant), str(path), path.stem, variant)
 
 
 def loads(text: str, *, name: str, variant: str | None = None) -> PointProblem:
     """Read a moving point from a text."""
     faults = Faults()
-    table, variants = laid_over(faults, parse(text, name=name), name, variant)
-    return _made(table, variants, faults, name, name, variant)
+    table, variants = overlay_variant(faults, parse(text, name=name), name, variant)
+    return _build_problem(table, variants, faults, name, name, variant)
 
 
-def _made(
+def _build_problem(
     table: Mapping[str, Any],
     variants: tuple[str, ...],
     faults: Faults,
@@ -80,19 +80,19 @@ def _made(
 ) -> PointProblem:
     problem = _read(faults, table, name)
     if faults or problem is None:
-        raise ProblemError(source, faults.found)
+        raise ProblemError(source, faults.listed)
     return replace(problem, source_file=source, variants=variants, variant=variant)
 
 
 def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem | None:
     given = fields.read_keys(faults, "", table, TOP)
     if "point" not in given:
-        faults.add("point", "missing", say("For example: {}", _EXAMPLE))
+        faults.add("point", "missing", translate("For example: {}", _EXAMPLE))
     told = fields.read_table(faults, "point", given.get("point", {}), _EXAMPLE)
     before = len(faults)
     point = fields.read_keys(faults, "point", told or {}, keys.MOVING)
     is_whole = len(faults) == before and told is not None and "point" in given
-    law = _read_law(faults, point, is_whole=is_whole)
+    law = _read_law(faults, point, is_complete=is_whole)
     formulas = {
         key: formula
         for key in (*(FORMULAS[law] if law else ()), *(("theta",) if law is Law.ROLLING else ()))
@@ -105,9 +105,9 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
         radius = fields.read_length(faults, "point.radius", point["radius"])
     wheel = _read_wheel(faults, point["wheel"]) if "wheel" in point else None
     if law is Law.ROLLING and wheel is not None and bool(wheel.arm) != ("theta" in point):
-        said = "theta goes with wheel.arm: the carrier's turn and its length"
+        phrase = "theta goes with wheel.arm: the carrier's turn and its length"
         faults.add(
-            "point.theta", said, 'wheel = { arm = 0.05, ... } and theta = "4*t", or neither.'
+            "point.theta", phrase, 'wheel = { arm = 0.05, ... } and theta = "4*t", or neither.'
         )
     elif "theta" in point and law not in (Law.ROLLING, None):
         faults.add("point.theta", "goes with a wheel only", "Leave it out.")
@@ -134,7 +134,7 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
     return None if faults else problem
 
 
-def _read_law(faults: Faults, point: Mapping[str, Any], *, is_whole: bool) -> Law | None:
+def _read_law(faults: Faults, point: Mapping[str, Any], *, is_complete: bool) -> Law | None:
     """Return the form in which the motion is stated, by its keys."""
     told = set(point) - {"phi"} if {"wheel", "r"} & set(point) else set(point)
     found = [law for law, wanted in FORMULAS.items() if any(key in told for key in wanted)]
@@ -143,17 +143,19 @@ def _read_law(faults: Faults, point: Mapping[str, Any], *, is_whole: bool) -> La
     elif Law.ROLLING in found:
         found.remove(Law.ROLLING)
     if len(found) > 1:
-        both = say(" and ").join(f"{', '.join(FORMULAS[law])}" for law in found)
-        faults.add("point", say("the motion is stated twice: {}", both), "Keep one of them.")
+        both = translate(" and ").join(f"{', '.join(FORMULAS[law])}" for law in found)
+        faults.add("point", translate("the motion is stated twice: {}", both), "Keep one of them.")
         return None
     if not found:
-        if is_whole:
+        if is_complete:
             ways = "expected x and y, r and phi, or s, or a wheel and phi"
-            faults.add("point", ways, say("For example: {}", _EXAMPLE))
+            faults.add("point", ways, translate("For example: {}", _EXAMPLE))
         return None
     for key in FORMULAS[found[0]]:
-        if key not in point and is_whole:
-            faults.add(f"point.{key}", "missing", say('A formula of t: {} = "4*t*(1 + t/2)".', key))
+        if key not in point and is_complete:
+            faults.add(
+                f"point.{key}", "missing", translate('A formula of t: {} = "4*t*(1 + t/2)".', key)
+            )
     return found[0]
 
 
@@ -172,12 +174,14 @@ def _read_wheel(faults: Faults, value: object) -> Wheel | None:
         faults.add(f"{path}.radius", "missing", "The radius of the wheel, m: radius = 0.5")
     tracks = [key for key in ("on", "within", "arm") if key in given]
     if len(tracks) > 1:
-        both = say(" and ").join(tracks)
-        faults.add(f"{path}.{tracks[-1]}", say("{} are both given", both), "Keep one of them.")
+        both = translate(" and ").join(tracks)
+        faults.add(
+            f"{path}.{tracks[-1]}", translate("{} are both given", both), "Keep one of them."
+        )
     radius, within = lengths.get("radius"), lengths.get("within")
     if radius and within and within <= radius * (1 + 1e-9):
-        said = say("a circle of {:g} m has no room for a wheel of {:g} m", within, radius)
-        faults.add(f"{path}.within", said, "It must be larger than the wheel.")
+        phrase = translate("a circle of {:g} m has no room for a wheel of {:g} m", within, radius)
+        faults.add(f"{path}.within", phrase, "It must be larger than the wheel.")
     if len(faults) != before or radius is None or angle is None:
         return None
     track, arm = lengths.get("on") or -(within or 0.0), lengths.get("arm") or 0.0
@@ -195,7 +199,9 @@ def _read_show(faults: Faults, value: object) -> tuple[float, float] | None:
         return None
     if not end - start > 1e-9 * max(abs(start), abs(end)):
         faults.add(
-            path, say("{:g} s is not after {:g} s", end, start), "Give the earlier moment first."
+            path,
+            translate("{:g} s is not after {:g} s", end, start),
+            "Give the earlier moment first.",
         )
         return None
     return start, end
@@ -222,7 +228,7 @@ def _read_times(faults: Faults, value: object) -> tuple[float, ...]:
     if isinstance(value, list):
         if not value:
             faults.add(path, "expected at least one moment, got an empty list")
-        elif not too_many(faults, path, len(value)):
+        elif not exceeds_position_limit(faults, path, len(value)):
             read = [_read_time(faults, f"{path}[{i}]", item) for i, item in enumerate(value)]
             return () if len(faults) != before else tuple(item for item in read if item is not None)
         return ()
@@ -234,7 +240,7 @@ def _read_times(faults: Faults, value: object) -> tuple[float, ...]:
         return ()
     if set(given) not in ({"from", "to", "count"}, {"from", "to", "step"}):
         ways = "{ from, to, step } or { from, to, count }"
-        faults.add(path, say("expected {}, got {{ {} }}", ways, listed(given)))
+        faults.add(path, translate("expected {}, got {{ {} }}", ways, listed(given)))
         return ()
     start = _read_time(faults, f"{path}.from", given["from"])
     end = _read_time(faults, f"{path}.to", given["to"])
@@ -254,7 +260,7 @@ def _read_time(faults: Faults, path: str, value: object) -> float | None:
             return None
         number = _number_of(formula)
         if not math.isfinite(number):
-            faults.add(path, say("'{}' has no value", short(value)))
+            faults.add(path, translate("'{}' has no value", short(value)))
             return None
     what = "a moment in seconds"
     return fields.read_number(faults, path, number, what, low=-1e6, high=1e6, hint="Seconds.")
@@ -270,27 +276,34 @@ def _number_of(formula: TimeFunction) -> float:
 def _read_published(faults: Faults, table: object, moments: int) -> tuple[Published, ...]:
     """Read ``[published]``; its ``what`` names columns of the record."""
 
-    def check(path: str, what: str, _: str) -> str:
-        return _column(faults, path, what) if what else ""
+    def check(path: str, quantity: str, _: str) -> str:
+        return _column(faults, path, quantity) if quantity else ""
 
     found = read_published(faults, table, check, positions=moments)
     for item in found:
         if item.what and moments > 1 and item.position is None:
             path = f"published.{segment(item.name)}.position"
-            faults.add(path, "missing", say("There are {} moments: from 0.", moments))
+            faults.add(path, "missing", translate("There are {} moments: from 0.", moments))
     return found
 
 
-def _scene(moments: int) -> Plain:
+def _scene(moments: int) -> ComputedAnswerNames:
     def fault(name: str) -> str:
-        return "" if column_of(name) else say("a moving point has no '{}'", short(name))
+        return "" if column_of(name) else translate("a moving point has no '{}'", short(name))
 
-    return Plain(fault, lambda name: False, say("Known here: {}.", listed(WHAT, limit=20)), moments)
+    return ComputedAnswerNames(
+        fault,
+        lambda name: False,
+        translate("Known here: {}.", listed(QUANTITY_COLUMNS, limit=20)),
+        moments,
+    )
 
 
-def _column(faults: Faults, path: str, what: str) -> str:
-    name = fields.unmask(faults, path, what)
-    if name not in WHAT:
-        hint = near_hint(name, WHAT, say("Known here: {}.", listed(WHAT, limit=20)))
-        faults.add(path, say("a moving point has no '{}'", short(name)), hint)
-    return WHAT.get(name, "")
+def _column(faults: Faults, path: str, quantity: str) -> str:
+    name = fields.unmask(faults, path, quantity)
+    if name not in QUANTITY_COLUMNS:
+        hint = nearest_name_hint(
+            name, QUANTITY_COLUMNS, translate("Known here: {}.", listed(QUANTITY_COLUMNS, limit=20))
+        )
+        faults.add(path, translate("a moving point has no '{}'", short(name)), hint)
+    return QUANTITY_COLUMNS.get(name, "")

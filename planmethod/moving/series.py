@@ -80,7 +80,7 @@ class Bounded:
     def __abs__(self) -> Bounded:
         return Bounded(np.abs(self.value), self.radius)
 
-    def settled(self) -> Bounded:
+    def rounded_to_zero(self) -> Bounded:
         """Return the values with exact zeros where they are zero within the bound of rounding.
 
         A value that is infinite, or has an infinite bound, is NaN.
@@ -189,7 +189,7 @@ def _raised(base: Jet, power: Bounded) -> Jet:
 def _composed(inner: Jet, derivatives: Callable[[Any], Derivatives], *, edge: bool = False) -> Jet:
     """Return a function of a jet, by the rule of the chain; ``edge``: its domain ends at zero."""
     f, f1, f2 = (bounded(part) for part in inner.parts())
-    f = f.settled() if edge else f
+    f = f.rounded_to_zero() if edge else f
     d = derivatives(f.value)
 
     def part(k: int) -> Bounded:

@@ -12,9 +12,9 @@ from msgspec.structs import replace
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale
 from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES, say
+from planmethod.languages import LANGUAGES, translate
 from planmethod.moving.construction import MomentConstruction, construct, read_hodograph
-from planmethod.moving.course import Course, course_of
+from planmethod.moving.interval import DrawnInterval, drawn_interval
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import COLUMNS, LEGEND, Motion
 from planmethod.moving.pictures import (
@@ -24,35 +24,35 @@ from planmethod.moving.pictures import (
     trajectory_picture,
     vector_scales,
 )
-from planmethod.moving.text import given, head_of, moment, textbook
+from planmethod.moving.text import given_facts, head_of, moment, textbook
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Formula, Note
-from planmethod.note.narrate.given import unbroken
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import alike, significant
+from planmethod.note.narrate.statement import unbroken
+from planmethod.note.numbers import format_column, significant
 from planmethod.note.plaintext import plain_text
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.wording import Language, language
-from planmethod.paper import STAMP_WIDTH, TRIED
+from planmethod.note.wording import Language, get_language
+from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
-from planmethod.render.layout.cuttings import Group, Packed
+from planmethod.render.layout.cuttings import Group, LayoutItem
 from planmethod.render.layout.nodes import blocks_of
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.planview import POLE
 from planmethod.render.sheets.composer import (
-    Blank,
-    Laid,
-    Misfit,
+    NoFitAdvice,
     Packing,
+    SheetLayout,
     Sizes,
-    Viewed,
+    TrialPaper,
+    ViewBlock,
     compose,
-    composed,
-    enlarged,
+    find_layout,
+    grow_scales,
 )
 
 SIZES = Sizes(5.0, 5.0, 3.5, 120.0)
@@ -66,11 +66,11 @@ COLUMN_WIDTHS = (SIZES.column, 95.0)
 
 TABLE_WIDTH = STAMP_WIDTH + 15.0
 
-MOST_STEPS = 3
+MAX_SCALE_STEPS = 3
 """Maximum number of members of the series by which a scale grows."""
 
 
-class _Plan(Viewed, frozen=True):
+class _Plan(ViewBlock, frozen=True):
     """Hodograph of a kind, with the plan of the described moment."""
 
     built: MomentConstruction | None
@@ -83,7 +83,7 @@ class _Plan(Viewed, frozen=True):
         (pole,) = (one.centre for one in items if isinstance(one, Disc) and one.tag == POLE)
         trace = self.built.read()
         for vector in self.built.vectors:
-            if vector.plan == self.plan and vector.is_whole:
+            if vector.plan == self.plan and vector.is_resultant:
                 head = complex(np.ravel(trace.value[vector.head])[0])
                 if abs(head) > 0.05:
                     yield Span(plain_text(vector.symbol), None, pole, pole + head)
@@ -93,20 +93,20 @@ class _Point(Struct, frozen=True):
     """Search for the sheets of a point: smaller and smaller views, on more sheets."""
 
     problem: PointProblem
-    course: Course
+    course: DrawnInterval
     profile: Profile
-    words: Language
-    made: dict[tuple[object, ...], Block] = field(default_factory=dict)
+    language: Language
+    cache: dict[tuple[object, ...], Block] = field(default_factory=dict)
 
-    formats = TRIED
+    formats = DEFAULT_SERIES
 
-    def proposals(self, papers: Sequence[Blank]) -> Iterator[_Sheets]:
+    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[_Sheets]:
         """Yield scales and text widths, for one sheet, then for several of the requested format.
 
         Of several sheets the first has the views.
         """
         for paper in papers:
-            for count in (1, 2, 3) if paper.is_asked else (1,):
+            for count in (1, 2, 3) if paper.is_required else (1,):
                 tried: set[tuple[float, ...]] = set()
                 for factor in FACTORS:
                     scales = self.scales(factor)
@@ -126,17 +126,17 @@ class _Point(Struct, frozen=True):
         return found | {"l": length_scale(self.problem, self.course, found, whole)}
 
     def parts(
-        self, scales: Mapping[str, Scale], column: float, room: float, *, draft: bool
-    ) -> list[Packed]:
+        self, scales: Mapping[str, Scale], column: float, width: float, *, draft: bool
+    ) -> list[LayoutItem]:
         """Return the blocks in reading order."""
-        course, said = self.course, self.words.point
+        course, texts = self.course, self.language.point
         built = {
             k: made
             for k in course.shown
             if (made := construct(self.problem, course.marks, k, scales)) is not None
         }
         first = built.get(course.shown[0]) if course.shown else None
-        parts = [Packed(self._statement(column), text=True)]
+        parts = [LayoutItem(self._statement(column), text=True)]
 
         def trajectory() -> Block:
             own = vector_scales(course, scales)
@@ -145,15 +145,20 @@ class _Point(Struct, frozen=True):
                 course,
                 own,
                 letter_height=SIZES.letter,
-                say=self.words.say,
+                notation=self.language.notation,
                 draft=draft,
             )
-            return self._named(picture, said.trajectory, [own[name] for name in "lva"])
+            return self._named(picture, texts.trajectory, [own[name] for name in "lva"])
 
         parts.append(
-            Packed(Viewed(self._kept("lva", scales, trajectory, draft), "trajectory", scales["l"]))
+            LayoutItem(
+                ViewBlock(self._cached("lva", scales, trajectory, draft), "trajectory", scales["l"])
+            )
         )
-        for plan, title, depends in (("v", said.hodograph_v, "lv"), ("a", said.hodograph_a, "va")):
+        for plan, title, depends in (
+            ("v", texts.hodograph_v, "lv"),
+            ("a", texts.hodograph_a, "va"),
+        ):
             if plan == "a" and np.isnan(course.marks.columns["ax"]).all():
                 continue
 
@@ -163,49 +168,50 @@ class _Point(Struct, frozen=True):
                 )
                 return self._named(picture, title, [scales[plan]])
 
-            block = self._kept(depends, scales, hodograph, draft)
-            parts.append(Packed(_Plan(block, "hodograph", scales[plan], first, plan)))
+            block = self._cached(depends, scales, hodograph, draft)
+            parts.append(LayoutItem(_Plan(block, "hodograph", scales[plan], first, plan)))
         if course.shown:
-            parts.append(Packed(self._calculation(course.shown[0], column), text=True))
+            parts.append(LayoutItem(self._calculation(course.shown[0], column), text=True))
         if first is not None:
-            parts.append(Packed(self._read(first, course.shown[0]), text=True))
-        return [*parts, Packed(self._table(room, scales["v"]), text=False)]
+            parts.append(LayoutItem(self._read(first, course.shown[0]), text=True))
+        return [*parts, LayoutItem(self._table(width, scales["v"]), text=False)]
 
-    def _kept(
-        self, names: str, scales: Mapping[str, Scale], make: Callable[[], Block], draft: bool
+    def _cached(
+        self, names: str, scales: Mapping[str, Scale], build: Callable[[], Block], draft: bool
     ) -> Block:
         """Return a view that depends on some scales, made once for them."""
         key = (draft, names, *(scales[name].per_mm for name in names))
-        if key not in self.made:
-            self.made[key] = make()
-        return self.made[key]
+        if key not in self.cache:
+            self.cache[key] = build()
+        return self.cache[key]
 
     def _named(self, picture: Block, title: str, scales: Sequence[Scale]) -> Block:
-        convention, say = self.problem.scales.convention, self.words.say
+        convention, notation = self.problem.scales.convention, self.language.notation
         lines: list[Block] = [Line(typeset(title, SIZES.title))]
         lines += [
-            Line(typeset(scale_inscription(one, convention, say), SIZES.text)) for one in scales
+            Line(typeset(scale_inscription(one, convention, notation), SIZES.text))
+            for one in scales
         ]
         return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
 
     def _statement(self, width: float) -> Block:
         """Return "Дано" and the required quantities."""
-        said, decimal = self.words.point, self.words.say.decimal
-        facts = given(self.problem, self.words, lambda text: textbook(text, decimal))
+        said, decimal = self.language.point, self.language.notation.decimal
+        facts = given_facts(self.problem, self.language, lambda text: textbook(text, decimal))
         # A formula is not broken within.
         whole = {f"point.{key}" for key in self.problem.formulas} | {"point.t"}
         told = [unbroken([x.text]) if x.data.keys() & whole else x.text for x in facts]
-        texts = [self.words.note.given.format(given="; ".join(told)), said.wanted]
+        texts = [self.language.note.given.format(given="; ".join(told)), said.wanted]
         return Column([paragraph(text, SIZES.text, width=width) for text in texts], gap=3.0)
 
     def _calculation(self, k: int, width: float) -> Block:
         """Return the formulas of one moment with their numbers."""
-        time = self.words.say.given(float(self.course.marks.columns["t"][k]))
+        time = self.language.notation.as_input(float(self.course.marks.columns["t"][k]))
         blocks: list[Block] = [
-            heading(self.words.point.at.format(time=time), SIZES.text, width=width)
+            heading(self.language.point.at.format(time=time), SIZES.text, width=width)
         ]
         nodes: list[Formula | Note] = []
-        for node in moment(self.problem, self.course.marks, k, self.words):
+        for node in moment(self.problem, self.course.marks, k, self.language):
             if nodes and _is_short(node) and _is_short(nodes[-1]):
                 nodes[-1] = Formula(f"{nodes[-1].text};  {node.text}")  # two components
             else:
@@ -214,48 +220,47 @@ class _Point(Struct, frozen=True):
 
     def _read(self, built: MomentConstruction, k: int) -> Block:
         """Return the values of the drawing beside the exact ones, and its error."""
-        whole = read_rows(built, self.course.marks, k, self.words, self.profile)
-        rows, said = [row for row in whole if row[2] != "—"], self.words.point
+        whole = read_rows(built, self.course.marks, k, self.language, self.profile)
+        rows, texts = [row for row in whole if row[2] != "—"], self.language.point
         columns = [
-            TableColumn(head, tuple(row[n] for row in rows)) for n, head in enumerate(said["read"])
+            TableColumn(head, tuple(row[n] for row in rows)) for n, head in enumerate(texts["read"])
         ]
-        title = said.read_title.format(profile=self.words.note["profiles"][self.profile.name])
+        title = texts.read_title.format(profile=self.language.note["profiles"][self.profile.name])
         return Column(
             [Line(typeset(title, SIZES.text)), table_block(columns, SIZES.text, units="none")], 2.5
         )
 
-    def _table(self, room: float, scale: Scale) -> Block:
+    def _table(self, width: float, scale: Scale) -> Block:
         """Return the table of the numbered instants."""
-        say, marks, said = self.words.say, self.course.marks, self.words.point
+        notation, marks, texts = self.language.notation, self.course.marks, self.language.point
         count = len(marks.columns["t"])
-        columns = [TableColumn("№", tuple(map(str, range(count))), least=6.0)]
+        columns = [TableColumn("№", tuple(map(str, range(count))), min_width=6.0)]
         for name in COLUMNS:
             values = [float(value) + 0.0 for value in marks.columns[name]]
             whole = all(np.isfinite(values))
-            told = alike(values) if whole else [significant(value) for value in values]
-            cells = tuple("0" if not text.strip("-0.") else say.number(text) for text in told)
+            told = format_column(values) if whole else [significant(value) for value in values]
+            cells = tuple("0" if not text.strip("-0.") else notation.number(text) for text in told)
             if name == "t":
-                cells = tuple(say.given(value) for value in values)
-            unit = say.units[LEGEND[name].unit]
-            columns.append(TableColumn(LEGEND[name].symbol, cells, unit, least=8.0))
+                cells = tuple(notation.as_input(value) for value in values)
+            unit = notation.units[LEGEND[name].unit]
+            columns.append(TableColumn(LEGEND[name].symbol, cells, unit, min_width=8.0))
         chords = read_hodograph(self.course, scale, self.profile)
         if len(chords.at) > 1:
             shown = ["—"] * count
             for k, value, sigma in zip(chords.at, chords.read, chords.sigma, strict=True):
-                shown[k] = (
-                    f"{say.number(rounded_to(value, sigma))} ± {say.number(sigma_text(sigma))}"
-                )
-            columns.append(TableColumn(said.chord, tuple(shown), say.units["m/s²"]))
+                rounded = notation.number(rounded_to(value, sigma))
+                shown[k] = f"{rounded} ± {notation.number(sigma_text(sigma))}"
+            columns.append(TableColumn(texts.chord, tuple(shown), notation.units["m/s²"]))
         row = 6.0 if count > 8 else 7.0
         table = table_block(
             columns,
             SIZES.text,
-            width=min(room, TABLE_WIDTH),
+            width=min(width, TABLE_WIDTH),
             leading=2,
             row_height=row,
         )
-        notes = [] if len(chords.at) < 2 else [paragraph(said.chord_note, 2.5, STAMP_WIDTH)]
-        return Column([Line(typeset(said.table, SIZES.text)), table, *notes], gap=2.5)
+        notes = [] if len(chords.at) < 2 else [paragraph(texts.chord_note, 2.5, STAMP_WIDTH)]
+        return Column([Line(typeset(texts.table, SIZES.text)), table, *notes], gap=2.5)
 
 
 def _is_short(node: Formula | Note) -> bool:
@@ -264,51 +269,51 @@ def _is_short(node: Formula | Note) -> bool:
 
 
 def read_rows(
-    built: MomentConstruction, marks: Motion, k: int, words: Language, profile: Profile
+    built: MomentConstruction, marks: Motion, k: int, language: Language, profile: Profile
 ) -> Iterator[tuple[str, str, str, str]]:
     """Yield the values of the drawing beside the exact ones, rich text: symbol, exact, read, σ."""
-    ruled, sigma, say = built.ruled(profile.ruler), built.sigma(profile), words.say
+    ruled, sigma, notation = built.ruled(profile.ruler), built.sigma(profile), language.notation
     for name in built.results:
         one = ComparedNumber(float(marks.columns[name][k]) + 0.0, ruled[name], sigma[name])
         exact, read, error = map(
-            say.number, (significant(one.exact), one.read_text, one.sigma_text)
+            notation.number, (significant(one.exact), one.read_text, one.sigma_text)
         )
-        yield head_of(name, say), exact, read, error
+        yield head_of(name, notation), exact, read, error
 
 
 class _Sheets(Struct, frozen=True):
     """Sheets of a point at certain scales (`Proposal`)."""
 
     of: _Point
-    paper: Blank
+    paper: TrialPaper
     count: int
     scales: Mapping[str, Scale]
     column: float
 
-    def laid(self) -> Laid | None:
+    def arrange(self) -> SheetLayout | None:
         """Return the sheets, each view as large as the others allow."""
         given, scales = self.of.problem.scales, self.scales
         laid = self._at({key: scale.per_mm for key, scale in scales.items()})
         if laid is None:
             return None
         free = (key for key in "lva" if getattr(given, f"mu_{key}") is None)
-        turns = (key for key in free for _ in range(MOST_STEPS))
-        return enlarged(laid, turns, given, self._at)
+        turns = (key for key in free for _ in range(MAX_SCALE_STEPS))
+        return grow_scales(laid, turns, given, self._at)
 
-    def _at(self, per_mm: Mapping[str, float]) -> Laid | None:
+    def _at(self, per_mm: Mapping[str, float]) -> SheetLayout | None:
         """Return the sheets at some scales."""
         scales = {key: replace(self.scales[key], per_mm=mu) for key, mu in per_mm.items()}
-        left, _, right, _ = self.paper.room().inner
+        left, _, right, _ = self.paper.drawing_area().inner
         laid = None
         for draft in (True, False):  # placing letters is slow: first a draft
             parts = self.of.parts(scales, self.column, right - left - 2 * EDGE, draft=draft)
-            views = 1 + max(k for k, part in enumerate(parts) if isinstance(part.block, Viewed))
+            views = 1 + max(k for k, part in enumerate(parts) if isinstance(part.block, ViewBlock))
             ways = (
                 Packing(self.paper, [Group(tuple(parts[i:j])) for i, j in edges], scales=per_mm)
                 for turns in combinations(range(views, len(parts)), self.count - 1)
                 for edges in [pairwise((0, *turns, len(parts)))]
             )
-            laid = next((found for one in ways if (found := one.laid()) is not None), None)
+            laid = next((found for one in ways if (found := one.arrange()) is not None), None)
             if laid is None:
                 return None
         return laid
@@ -341,28 +346,33 @@ def drawings(
         The content fits no format, or not the requested one.
     """
     furniture = Furniture.of(problem.sheet, before=before, total=total)
-    strategy, title = _strategy(problem, course_of(problem), profile), problem.title or problem.name
-    misfit = _misfit(problem)
+    strategy, title = (
+        _strategy(problem, drawn_interval(problem), profile),
+        problem.title or problem.name,
+    )
+    misfit = _no_space_advice(problem)
     return compose(problem, strategy, misfit, fields=fields, furniture=furniture, title=title)
 
 
-def sheet_scales(problem: PointProblem, course: Course, profile: Profile) -> dict[str, Scale]:
+def sheet_scales(
+    problem: PointProblem, course: DrawnInterval, profile: Profile
+) -> dict[str, Scale]:
     """Return the scales that the sheet is drawn at, by ``l``, ``v``, ``a``."""
     strategy = _strategy(problem, course, profile)
-    _, laid = composed(problem, strategy, _misfit(problem), Furniture.of(problem.sheet))
+    _, laid = find_layout(problem, strategy, _no_space_advice(problem), Furniture.of(problem.sheet))
     usual = strategy.scales(1.0)
     return {key: replace(usual[key], per_mm=mu) for key, mu in laid.scales.items()}
 
 
-def _strategy(problem: PointProblem, course: Course, profile: Profile) -> _Point:
-    return _Point(problem, course, profile, language(problem.sheet.lang or LANGUAGES[0]))
+def _strategy(problem: PointProblem, course: DrawnInterval, profile: Profile) -> _Point:
+    return _Point(problem, course, profile, get_language(problem.sheet.lang or LANGUAGES[0]))
 
 
-def _misfit(problem: PointProblem) -> Misfit:
-    return Misfit(
+def _no_space_advice(problem: PointProblem) -> NoFitAdvice:
+    return NoFitAdvice(
         lambda paper, advice: LayoutError(
             "{}: the motion of the point does not fit {}. {}", problem.name, paper, advice
         ),
-        say("Request fewer moments, or a shorter show."),
+        translate("Request fewer moments, or a shorter show."),
         problem.scales,
     )

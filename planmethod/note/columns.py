@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from planmethod.note.written import Column, Records, together
+from planmethod.note.columnar import Column, ColumnarRecords, list_of
 from planmethod.solved.reading import Complexes, Flags, Reals
 
 
@@ -31,9 +31,9 @@ def _rounded_up(value: float) -> float:
     return float(f"{np.ceil(value / step - 1e-9) * step:.1e}")
 
 
-def pairs(places: Complexes) -> Records:
+def pairs(places: Complexes) -> ColumnarRecords:
     """Return places as pairs of coordinates."""
-    return together([listed(places.real), listed(places.imag)], len(places))
+    return list_of([listed(places.real), listed(places.imag)], len(places))
 
 
 def sizes(vectors: Complexes) -> Column:

@@ -16,10 +16,10 @@ from planmethod.note.rounding import rounded_to, sigma_text
 if TYPE_CHECKING:
     from planmethod.solved.errors.spread import Errors
 
-NONE = "—"
+DASH = "—"
 """Placeholder for a missing number."""
 
-MOST_OFF = 100.0
+MAX_PERCENT = 100.0
 """Error in per cent from which a reading is meaningless: the segment is too short."""
 
 
@@ -28,7 +28,7 @@ DRAWN = "*"
 
 
 def marked(errors: Errors, label: str, index: int) -> tuple[float, str]:
-    """Return a quantity's sigma in one position and its mark, `DRAWN` or nothing.
+    """Return a quantity's sigma in one position and its mark, `MIN_DRAWN_SIGMA` or nothing.
 
     A quantity that the drawing does not give, as the ω of a translating link, has no error.
     """
@@ -43,14 +43,14 @@ def sense_of(value: float) -> int:
     return (value > 0) - (value < 0)
 
 
-def percent_text(percent: float | None, decimals: int = 1, most: float = inf) -> str:
+def percent_text(percent: float | None, decimals: int = 1, limit: float = inf) -> str:
     """Return per cent as plain text; a dash for None, and for `most` or more.
 
     >>> percent_text(-0.04), percent_text(None), percent_text(-1.255, 2), percent_text(240.0)
     ('0.0', '—', '-1.25', '240.0')
     """
-    if percent is None or not abs(percent) < most:
-        return NONE
+    if percent is None or not abs(percent) < limit:
+        return DASH
     return f"{round(percent, decimals) + 0.0:.{decimals}f}"
 
 
@@ -67,7 +67,7 @@ class ComparedNumber(Struct, frozen=True):
         One sigma of ``read``; 0 for a given value, which was not drawn.
     mark : str
         The mark of a sigma that was found by random draws.
-    nothing : float
+    zero_limit : float
         The size up to which ``exact`` counts as zero, without an error in per cent.
     """
 
@@ -75,7 +75,7 @@ class ComparedNumber(Struct, frozen=True):
     read: float
     sigma: float = 0.0
     mark: str = ""
-    nothing: float = 0.0
+    zero_limit: float = 0.0
 
     @property
     def off(self) -> float:
@@ -89,7 +89,7 @@ class ComparedNumber(Struct, frozen=True):
         It is negative for a reading that is too small, clockwise as well as counterclockwise. None
         where the exact value is zero, or one of the two is not finite.
         """
-        if not abs(self.exact) > self.nothing:
+        if not abs(self.exact) > self.zero_limit:
             return None
         percent = 100.0 * self.off / self.exact
         return percent if isfinite(percent) else None
@@ -100,7 +100,7 @@ class ComparedNumber(Struct, frozen=True):
         return -self.off if self.exact < 0 else self.off
 
     @property
-    def share(self) -> float:
+    def percent_size(self) -> float:
         """Magnitude of Δ, per cent of the exact value; 0 where it is undefined."""
         return abs(self.percent or 0.0)
 
@@ -119,18 +119,18 @@ class ComparedNumber(Struct, frozen=True):
     @property
     def read_text(self) -> str:
         """The reading up to the last digit of its error; a dash where nothing can be read."""
-        return rounded_to(self.read, self.sigma) if isfinite(self.read) else NONE
+        return rounded_to(self.read, self.sigma) if isfinite(self.read) else DASH
 
     @property
     def sigma_text(self) -> str:
         """Sigma with its mark; a dash where it is not finite."""
-        return sigma_text(self.sigma) + self.mark if isfinite(self.sigma) else NONE
+        return sigma_text(self.sigma) + self.mark if isfinite(self.sigma) else DASH
 
     @property
     def off_text(self) -> str:
         """Δ in the unit of the number, two digits."""
         return significant(self.off, 2)
 
-    def percent_text(self, decimals: int = 1, most: float = inf) -> str:
+    def percent_text(self, decimals: int = 1, limit: float = inf) -> str:
         """Return Δ in per cent; a dash where it is undefined, and from `most` on."""
-        return percent_text(self.percent, decimals, most)
+        return percent_text(self.percent, decimals, limit)

@@ -17,7 +17,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
-from planmethod.languages import spoken_to
+from planmethod.languages import choose_language
 from planmethod.note.formula import Rich
 
 _REFERENCE = r"\\ref\{([^{}]*)\}"
@@ -325,11 +325,13 @@ class Document(Struct, frozen=True):
         from pkgutil import resolve_name
 
         # A document knows no writer: the page asks for one by name (ADR 0044).
-        shown: str = resolve_name("planmethod.note.writers.html:html_part")(self, spoken_to(()))
+        shown: str = resolve_name("planmethod.note.writers.html:html_part")(
+            self, choose_language(())
+        )
         return shown
 
 
-def within(written: Document) -> Iterator[Node]:
+def demote_headings(written: Document) -> Iterator[Node]:
     """Yield the nodes of a document as a chapter of another: each heading a level lower."""
     for node in written.nodes:
         match node:
@@ -398,7 +400,7 @@ def lines_of(page: TitlePage, words: Mapping[str, Any]) -> Iterator[Rich]:
     )
 
 
-def referred(written: Document) -> Document:
+def resolve_references(written: Document) -> Document:
     r"""Return a document with its references ``\ref{key}`` replaced by numbers.
 
     Writers do that before they write. A text names the kind itself: ``на рисунке \ref{scheme}``,
@@ -415,26 +417,26 @@ def referred(written: Document) -> Document:
         if isinstance(node, Formula | Equations | Figure | Table) and node.key and number
     }
 
-    def told(text: Rich) -> Rich:
+    def resolved(text: Rich) -> Rich:
         return re.sub(_REFERENCE, number, text) if "\\ref{" in text else text
 
-    def number(found: re.Match[str]) -> str:
-        if found[1] not in numbers:
+    def number(reference: re.Match[str]) -> str:
+        if reference[1] not in numbers:
             raise LayoutError(
                 "A text refers to '{}', but no numbered formula, figure or table has that key. "
                 "Keys: {}.",
-                found[1],
+                reference[1],
                 ", ".join(numbers) or "–",
             )
-        return numbers[found[1]]
+        return numbers[reference[1]]
 
     nodes = list[Node]()
     for node in written.nodes:
         match node:
             case Paragraph() | Item() | Note() | Formula() | Caption():
-                nodes.append(replace(node, text=told(node.text)))
+                nodes.append(replace(node, text=resolved(node.text)))
             case Step(lines):
-                nodes.append(replace(node, lines=tuple(map(told, lines))))
+                nodes.append(replace(node, lines=tuple(map(resolved, lines))))
             case _:
                 nodes.append(node)
     return Document(tuple(nodes))

@@ -26,13 +26,13 @@ from typing import TypeAlias, assert_never
 from msgspec import Struct
 
 from planmethod.errors import LayoutError
-from planmethod.languages import say
+from planmethod.languages import translate
 
 Rich: TypeAlias = str
 """Rich text: the way a formula or a sentence is written down in code and in catalogues."""
 
 SPECIAL = "_^{}\\"
-_PLAIN = r"[^_^{}\\]+"
+_TEXT_RUN = r"[^_^{}\\]+"
 
 
 class Letters(Struct, frozen=True):
@@ -106,15 +106,15 @@ def parse(markup: Rich) -> tuple[Node, ...]:
     LayoutError
         If braces do not pair, an index is empty, or a command is unknown.
     """
-    nodes, end = _parse(markup, 0, closing=False)
+    nodes, end = _parse(markup, 0, in_braces=False)
     assert end == len(markup)
     return nodes
 
 
-def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[Node, ...], int]:
+def _parse(markup: str, start: int, *, in_braces: bool) -> tuple[tuple[Node, ...], int]:
     """Read nodes from ``start`` up to the closing brace or the end."""
     nodes: list[Node] = []
-    letters, i, plain = "", start, re.compile(_PLAIN)
+    letters, i, plain = "", start, re.compile(_TEXT_RUN)
 
     def flush() -> None:
         nonlocal letters
@@ -124,7 +124,7 @@ def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[Node, ...],
 
     while i < len(markup):
         sign = markup[i]
-        if sign == "}" and closing:
+        if sign == "}" and in_braces:
             flush()
             return tuple(nodes), i
         if sign == "\\" and markup[i + 1 : i + 2] in tuple(SPECIAL):
@@ -139,11 +139,13 @@ def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[Node, ...],
             body, i = _index_body(markup, i)
             nodes.append(_merged(nodes, sign, body))
         elif sign in SPECIAL:
-            raise _fault(markup, i, say("'{}' does not pair or starts no known command", sign))
+            raise _fault(
+                markup, i, translate("'{}' does not pair or starts no known command", sign)
+            )
         elif found := plain.match(markup, i):
             letters += found[0]
             i = found.end()
-    if closing:
+    if in_braces:
         raise _fault(markup, start, "the brace opened here is not closed")
     flush()
     return tuple(nodes), i
@@ -151,14 +153,14 @@ def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[Node, ...],
 
 def _commanded(markup: str, command: re.Match[str]) -> tuple[Node, int]:
     """Read what a command makes; return it and the place after it."""
-    body, end = _parse(markup, command.end(), closing=True)
+    body, end = _parse(markup, command.end(), in_braces=True)
     if command[1] == "bar":
         return Overline(body), end + 1
     if command[1] == "sqrt":
         return Root(body), end + 1
     if markup[end + 1 : end + 2] != "{":
         raise _fault(markup, end, "a fraction has two pairs of braces, one after the other")
-    below, last = _parse(markup, end + 2, closing=True)
+    below, last = _parse(markup, end + 2, in_braces=True)
     if not (body and below):
         raise _fault(markup, command.start(), "the part above or below the line is empty")
     return Fraction(body, below), last + 1
@@ -168,12 +170,12 @@ def _index_body(markup: str, i: int) -> tuple[tuple[Node, ...], int]:
     """Read the index after the ``_`` or ``^`` at ``i``; return it and the place after it."""
     following = markup[i + 1 : i + 2]
     if following == "{":
-        body, end = _parse(markup, i + 2, closing=True)
+        body, end = _parse(markup, i + 2, in_braces=True)
         if body:
             return body, end + 1
     elif following and following not in SPECIAL and not following.isspace():
         return (Letters(following),), i + 2
-    raise _fault(markup, i, say("an index is missing after '{}'", markup[i]))
+    raise _fault(markup, i, translate("an index is missing after '{}'", markup[i]))
 
 
 def _merged(nodes: list[Node], sign: str, body: tuple[Node, ...]) -> Index:
@@ -189,12 +191,12 @@ def _merged(nodes: list[Node], sign: str, body: tuple[Node, ...]) -> Index:
     return Index(body, ()) if sign == "_" else Index((), body)
 
 
-def _fault(markup: str, i: int, what: str) -> LayoutError:
+def _fault(markup: str, i: int, problem: str) -> LayoutError:
     return LayoutError(
         "Cannot set the inscription {!r}: {} (sign {}). Pair the braces, or write a "
         "literal sign with a backslash before it.",
         markup,
-        what,
+        problem,
         i + 1,
     )
 
@@ -209,7 +211,7 @@ def inline(nodes: Iterable[Node]) -> tuple[Node, ...]:
     """
     found: list[Node] = []
 
-    def put(*several: Node) -> None:
+    def append(*several: Node) -> None:
         for node in several:
             last = found[-1] if found else None
             if isinstance(node, Letters) and isinstance(last, Letters):
@@ -220,19 +222,19 @@ def inline(nodes: Iterable[Node]) -> tuple[Node, ...]:
     for node, after in pairwise((*nodes, None)):
         match node:
             case Letters():
-                put(node)
+                append(node)
             case Index(below, above, is_power):
-                put(Index(inline(below), inline(above), is_power))
+                append(Index(inline(below), inline(above), is_power))
             case Overline(body):
-                put(Overline(inline(body)))
+                append(Overline(inline(body)))
             case Root(body):
-                put(Letters("√("), *inline(body), Letters(")"))
+                append(Letters("√("), *inline(body), Letters(")"))
             case Fraction(above, below):
                 whole = isinstance(after, Index) and bool(after.above)
-                put(*[Letters("(")] * whole)
-                put(*_bracketed(above, _is_sum(above)), Letters("/"))
-                put(*_bracketed(below, _is_sum(below) or _is_product(below)))
-                put(*[Letters(")")] * whole)
+                append(*[Letters("(")] * whole)
+                append(*_bracketed(above, _is_sum(above)), Letters("/"))
+                append(*_bracketed(below, _is_sum(below) or _is_product(below)))
+                append(*[Letters(")")] * whole)
             case None:
                 pass
             case _:

@@ -12,19 +12,19 @@ from msgspec import Struct
 MINUS = "−"
 
 
-NOTHING = 1e-12
+ZERO_TOLERANCE = 1e-12
 """Default size below which a number is a rounded zero."""
 
 
-def significant(value: float, digits: int = 4, *, nothing: float = NOTHING) -> str:
+def significant(value: float, digits: int = 4, *, zero_limit: float = ZERO_TOLERANCE) -> str:
     """Return a number with a decimal point and ``digits`` significant digits, without an exponent.
 
     Very large and very small numbers, which would need a row of zeros, keep an ``e``. A value
-    smaller than ``nothing`` is 0.
+    smaller than ``zero_limit`` is 0.
     """
     if not math.isfinite(value):
         return "—"
-    if abs(value) < nothing or value == 0.0:
+    if abs(value) < zero_limit or value == 0.0:
         return "0"
     power = math.floor(math.log10(abs(value)))
     rounded = half_up(value, digits - 1 - power)
@@ -47,20 +47,20 @@ _HALF = 4e-15
 """Share of a value by which it may be short of a half."""
 
 
-def trimmed(value: float, digits: int | None = None, *, nothing: float = NOTHING) -> str:
+def trimmed(value: float, digits: int | None = None, *, zero_limit: float = ZERO_TOLERANCE) -> str:
     """Return a given number as the problem writes it: no more digits than it has.
 
     Default for ``digits``: all that it has, to eight; for a number that has more, four, zeros
     among them, and at least two decimals, as angles have. One in a hundred numbers of sixteen
     digits is one of ten within its rounding, one in ten thousand one of eight.
     """
-    text = significant(value, digits or 6, nothing=nothing)
+    text = significant(value, digits or 6, zero_limit=zero_limit)
     if digits is None and math.isfinite(value):
-        longer = (significant(value, n, nothing=nothing) for n in range(6, 9))
+        longer = (significant(value, n, zero_limit=zero_limit) for n in range(6, 9))
         text = next((t for t in longer if abs(float(t) - value) <= 1e-12 * abs(value)), "")
         if not text:
             return (
-                significant(value, nothing=nothing)
+                significant(value, zero_limit=zero_limit)
                 if abs(value) < 100.0
                 else f"{half_up(value, 2):.2f}"
             )
@@ -129,15 +129,15 @@ class Notation(Struct, frozen=True, eq=False):
             return f"{self.symbols[role].removesuffix('}')}{index}}}"
         return self.symbols.get(name, name)
 
-    def given(self, value: float, *, nothing: float = NOTHING) -> str:
-        """Return a given number, as the problem writes it; one below ``nothing`` is 0."""
-        return self.number(trimmed(value, nothing=nothing))
+    def as_input(self, value: float, *, zero_limit: float = ZERO_TOLERANCE) -> str:
+        """Return a given number, as the problem writes it; one below ``zero_limit`` is 0."""
+        return self.number(trimmed(value, zero_limit=zero_limit))
 
-    def turned(self, degrees: float) -> str:
+    def crank_angle(self, degrees: float) -> str:
         """Return an angle of a crank within a turn, with at most two decimals, as everywhere."""
-        return self.given(round(degrees % 360.0, 2) % 360.0)
+        return self.as_input(round(degrees % 360.0, 2) % 360.0)
 
-    def found(self, value: float) -> str:
+    def computed(self, value: float) -> str:
         """Return a computed number, four digits of it."""
         return self.number(significant(value))
 
@@ -145,7 +145,7 @@ class Notation(Struct, frozen=True, eq=False):
         """Return a number for use in a formula, with at most ``digits`` digits."""
         return self.number(trimmed(value, digits))
 
-    def ruled(self, value: float) -> str:
+    def measured(self, value: float) -> str:
         """Return a length that a ruler has measured, mm; of a finer ruler with more digits.
 
         A length not measured with a ruler, but laid off, has four digits as any computed number.
@@ -154,15 +154,15 @@ class Notation(Struct, frozen=True, eq=False):
             text = f"{value:.{decimals}f}"
             if abs(float(text) - value) <= 1e-6 * abs(value):
                 return self.number(text)
-        return self.found(value)
+        return self.computed(value)
 
 
 def in_heads(
-    columns: Iterable[tuple[str, str, Sequence[str]]], say: Notation
+    columns: Iterable[tuple[str, str, Sequence[str]]], notation: Notation
 ) -> Iterator[tuple[str, str, Sequence[str]]]:
     """Yield columns of head, unit of SI or none, and cells, their units as heads of tables have."""
     for head, unit, cells in columns:
-        yield head, say.in_head(unit) if unit else "", cells
+        yield head, notation.in_head(unit) if unit else "", cells
 
 
 def with_unit(number: str, unit: str) -> str:
@@ -170,17 +170,17 @@ def with_unit(number: str, unit: str) -> str:
     return f"{number}{unit}" if unit == "°" else f"{number} {unit}"
 
 
-def plain(value: SupportsFloat) -> float:
+def record_float(value: SupportsFloat) -> float:
     """Return a float for a record, without a negative zero."""
     return float(value) + 0.0
 
 
 def finite_or_none(value: SupportsFloat) -> float | None:
     """Return a float for a record; None (null) for a value that a drawing cannot give."""
-    return plain(value) if math.isfinite(value) else None
+    return record_float(value) if math.isfinite(value) else None
 
 
-def is_nothing(value: float, peak: float) -> bool:
+def is_negligible(value: float, peak: float) -> bool:
     """Return whether a value is negligible beside the largest of its kind: no plan shows it."""
     return abs(value) <= 1e-5 * abs(peak)
 
@@ -193,7 +193,7 @@ def is_noise(value: float, peak: float) -> bool:
     return abs(value) <= 1e-9 * abs(peak)
 
 
-def alike(values: Sequence[float], digits: int = 4) -> list[str]:
+def format_column(values: Sequence[float], digits: int = 4) -> list[str]:
     """Return the numbers of one column with a common number of decimals.
 
     The largest has ``digits`` significant digits; zeros are a plain 0. Where that would leave

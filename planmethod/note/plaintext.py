@@ -19,7 +19,7 @@ from planmethod.note.formula import (
 from planmethod.note.numbers import rich_number, significant, trimmed
 
 if TYPE_CHECKING:
-    from planmethod.note.wording import Words
+    from planmethod.note.wording import MessageTable
 
 
 NO_BREAK = "\N{NO-BREAK SPACE}"
@@ -36,51 +36,51 @@ def plain_text(rich: str) -> str:
 
     A letter that has no raised one, ``τ``, follows a sign: ``a^τ_CB``.
     """
-    return _plain_of(inline(parse(rich))) if any(c in SPECIAL for c in rich) else rich
+    return _nodes_text(inline(parse(rich))) if any(c in SPECIAL for c in rich) else rich
 
 
-def _plain_of(nodes: Iterable[Node]) -> str:
+def _nodes_text(nodes: Iterable[Node]) -> str:
     text = ""
     for node in nodes:
-        text += _plain(node, is_ratio=text.endswith(_RATIO))
+        text += _node_text(node, is_ratio=text.endswith(_RATIO))
     return text
 
 
-def _plain(node: Node, *, is_ratio: bool = False) -> str:
+def _node_text(node: Node, *, is_ratio: bool = False) -> str:
     match node:
         case Letters(text):
             return text
         case Index(below, above, is_power):
-            low = _plain_of(below)
+            low = _nodes_text(below)
             lowered = "".join(_SUB[c] for c in low) if set(low) <= set(_SUB) else f"_{low}"
-            high = _plain_of(above)
+            high = _nodes_text(above)
             is_carrier = high.startswith("(") or (is_ratio and high.isalnum())
             is_said = is_carrier or any(c.isalpha() and c not in _SUPER for c in high)
             raised = f"^{high}" if is_said else "".join(_SUPER.get(c, c) for c in high)
             return lowered + raised if is_power else raised + lowered
         case Overline(body):
-            return _plain_of(body)
+            return _nodes_text(body)
         case Fraction() | Root():
             raise AssertionError  # the formula is in one line
         case _:
             assert_never(node)
 
 
-def spoken(text: str, words: Words) -> str:
+def localized(text: str, texts: MessageTable) -> str:
     """Return a number with a decimal point as the language writes it."""
-    return plain_text(rich_number(text, words.decimal))
+    return plain_text(rich_number(text, texts.decimal))
 
 
-def found(value: float, words: Words) -> str:
+def computed_text(value: float, texts: MessageTable) -> str:
     """Return a result, four significant digits."""
-    return spoken(significant(value), words)
+    return localized(significant(value), texts)
 
 
-def given(value: float, words: Words, digits: int | None = None) -> str:
+def input_text(value: float, texts: MessageTable, digits: int | None = None) -> str:
     """Return a given number, no more digits than it has."""
-    return spoken(trimmed(value, digits), words)
+    return localized(trimmed(value, digits), texts)
 
 
-def fixed(value: float, words: Words, places: int = 2) -> str:
+def fixed(value: float, texts: MessageTable, places: int = 2) -> str:
     """Return a number with ``places`` digits after the decimal sign."""
-    return spoken(f"{value + 0.0:.{places}f}", words)
+    return localized(f"{value + 0.0:.{places}f}", texts)

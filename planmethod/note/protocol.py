@@ -25,15 +25,15 @@ from planmethod.note.document import (
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.equations import direction_note, equation_of
 from planmethod.note.narrate.forces.common import closed
-from planmethod.note.narrate.given import drawn, given_paragraph
-from planmethod.note.narrate.given import given as given_facts
 from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.statement import drawn, given_paragraph
+from planmethod.note.narrate.statement import given_facts as given_facts
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.narrate.structure import group_title
 from planmethod.note.narrate.transfers import TransferNarrator
-from planmethod.note.plaintext import given
+from planmethod.note.plaintext import input_text
 from planmethod.note.tables.results import position_line, position_tables, scale_texts
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import Language, get_language
 from planmethod.plans.build import Section
 from planmethod.plans.model import PlanKind
 from planmethod.solved.solution import Solution
@@ -69,16 +69,16 @@ def document_of(solution: Solution, *, lang: str = "ru", position: int = 0) -> D
     """
     of_type("solution", solution, Solution, "planmethod.solve()")
     number_of("position", position, len(solution.positions))
-    return protocol_document(solution, language(text("lang", lang)), position)
+    return protocol_document(solution, get_language(text("lang", lang)), position)
 
 
-def protocol_document(solution: Solution, words: Language, position: int = 0) -> Document:
+def protocol_document(solution: Solution, language: Language, position: int = 0) -> Document:
     """Return the construction of one position step by step (протокол построения).
 
     Parameters
     ----------
     solution : Solution
-    words : Language
+    language : Language
     position : int
         Index into ``solution.positions``.
 
@@ -90,7 +90,7 @@ def protocol_document(solution: Solution, words: Language, position: int = 0) ->
     count = len(solution.positions)
     if not 0 <= position < count:
         raise IndexError(f"position {position} of {count}: expected 0 to {count - 1}")
-    return Document.of(_Protocol(solution, words, position).nodes())
+    return Document.of(_Protocol(solution, language, position).nodes())
 
 
 class _Protocol:
@@ -98,8 +98,8 @@ class _Protocol:
 
     def __init__(self, solution: Solution, language: Language, index: int) -> None:
         self.solution, self.language, self.index = solution, language, index
-        self.words = language.note
-        self.names = Names(solution, self.words)
+        self.texts = language.note
+        self.names = Names(solution, self.texts)
         self.narrator = Narrator(solution, self.names, index)
 
     def nodes(self) -> Iterator[Node]:
@@ -118,37 +118,37 @@ class _Protocol:
         if self.solution.problem.dynamics is not None:
             from planmethod.note.narrate.forces.protocol import force_chapters
 
-            yield from force_chapters(self.narrator.say, self.index)
+            yield from force_chapters(self.narrator.formulas, self.index)
         yield from self._results()
 
     def _transfers(self) -> Iterator[Node]:
-        transfers, words = transfers_of(self.solution), self.words
+        transfers, texts = transfers_of(self.solution), self.texts
         if transfers is None:
             return
-        told = TransferNarrator(self.narrator.say, transfers)
+        told = TransferNarrator(self.narrator.formulas, transfers)
         link = self.solution.problem.drive.link
-        end = "" if transfers.steps.even else words.transfer_epsilon.format(link=link)
-        yield Chapter(words.title_transfers)
-        lead = words.transfer_first.format(link=link)
+        end = "" if transfers.steps.even else texts.transfer_epsilon.format(link=link)
+        yield Chapter(texts.title_transfers)
+        lead = texts.transfer_first.format(link=link)
         yield Step((lead, *closed(told.formulas(PlanKind.VELOCITY))))
-        lead = words.transfer_second.format(end=end)
-        formula, *sentence = told.carried() or [""]
+        lead = texts.transfer_second.format(end=end)
+        formula, *sentence = told.crank_acceleration_lines() or [""]
         if formula:
             yield Step((lead, f"{formula}.", *sentence))
-        lead = words.read_off if formula else lead
+        lead = texts.read_off if formula else lead
         yield Step((lead, *closed(told.formulas(PlanKind.ACCELERATION))))
 
     def _head(self) -> Iterator[Node]:
-        words, problem = self.words, self.solution.problem
-        yield Title(f"{words.title_protocol}. {escape(problem.title)}")
+        texts, problem = self.texts, self.solution.problem
+        yield Title(f"{texts.title_protocol}. {escape(problem.title)}")
         if problem.source:
-            yield Paragraph(words.source.format(source=escape(problem.source)))
-        yield Paragraph(position_line(self.solution, words, self.index))
-        yield Paragraph(words.formula.format(formula=self.solution.structure.formula))
-        facts = [drawn(problem, self.language), *self._given()]
+            yield Paragraph(texts.source.format(source=escape(problem.source)))
+        yield Paragraph(position_line(self.solution, texts, self.index))
+        yield Paragraph(texts.formula.format(formula=self.solution.structure.formula))
+        facts = [drawn(problem, self.language), *self._given_facts()]
         yield given_paragraph(facts, self.language)
 
-    def _given(self) -> list[GivenFact]:
+    def _given_facts(self) -> list[GivenFact]:
         """Return the given facts of this position, with masses and loads where forces follow."""
         if self.solution.problem.dynamics is None:
             position = float(self.solution.positions[self.index])
@@ -159,51 +159,51 @@ class _Protocol:
         return statement(ForceReading(self.solution, self.index), self.language)
 
     def _scales(self) -> Iterator[Node]:
-        yield Chapter(self.words.scales)
+        yield Chapter(self.texts.scales)
         scales = "; ".join(scale_texts(self.solution, self.language, self.index))
-        yield Step((self.words.scales_text.format(scales=scales),))
-        ruler = given(self.solution.hand.ruler, self.words)
-        yield Step((self.words.ruler.format(ruler=ruler),))
+        yield Step((self.texts.scales_text.format(scales=scales),))
+        ruler = input_text(self.solution.ruler_arithmetic.ruler, self.texts)
+        yield Step((self.texts.ruler.format(ruler=ruler),))
 
     def _results(self) -> Iterator[Node]:
-        solution, words = self.solution, self.language
-        yield Chapter(self.words.title_results)
-        yield from position_tables(solution, words, self.index)
+        solution, language = self.solution, self.language
+        yield Chapter(self.texts.title_results)
+        yield from position_tables(solution, language, self.index)
         if solution.problem.cycle is not None:
-            from planmethod.note.tables.turn import cycle_steps, cycle_tables
+            from planmethod.note.tables.cycle import cycle_steps, cycle_tables
 
-            yield from cycle_tables(solution, words)
-            yield from cycle_steps(solution, words)
+            yield from cycle_tables(solution, language)
+            yield from cycle_steps(solution, language)
         if solution.problem.machine is not None:
             from planmethod.note.tables.machine import machine_steps, machine_tables
 
-            yield from machine_steps(solution, words)
-            yield from machine_tables(solution, words)
+            yield from machine_steps(solution, language)
+            yield from machine_tables(solution, language)
         if solution.problem.balancing is not None:
             from planmethod.note.tables.balancing import balancing_tables
 
-            yield from balancing_tables(solution, words)
+            yield from balancing_tables(solution, language)
 
     # Plans of motion -------------------------------------------------------------------------
 
     def _open_plan(self, kind: PlanKind) -> Iterator[Node]:
-        yield Chapter(self.words["plans"][kind.value])
+        yield Chapter(self.texts["plans"][kind.value])
         if kind is PlanKind.POSITION:
             return
-        words = self.words
+        texts = self.texts
         pole = self.names.construction.plan(kind).pole
         assert pole is not None
-        fixed = self.names.others(pole)
-        template = words.pole_fixed if fixed else words.pole
+        fixed = self.names.further_letters(pole)
+        template = texts.pole_fixed if fixed else texts.pole
         chosen = template.format(pole=self.names.pole(kind), points=", ".join(fixed)) + "."
-        yield Step((chosen, words.equation_legend) if kind is PlanKind.VELOCITY else (chosen,))
+        yield Step((chosen, texts.equation_legend) if kind is PlanKind.VELOCITY else (chosen,))
 
     def _title(self, section: Section) -> str:
         if section.frame:
-            return self.words.frame
+            return self.texts.frame
         if section.group is None:
-            return self.words.driver.format(link=self.solution.problem.drive.link)
-        return group_title(section.group, self.words)
+            return self.texts.driver.format(link=self.solution.problem.drive.link)
+        return group_title(section.group, self.texts)
 
     def _section(self, section: Section) -> Iterator[Node]:
         yield Part(self._title(section))
@@ -219,7 +219,7 @@ class _Protocol:
             yield from step_of(self.narrator.motion.without_coriolis(made))
         measured, read = False, []
         for step in section.steps:
-            lines = self.narrator.tell(step)
+            lines = self.narrator.narrate(step)
             if self.narrator.is_reading(step):
                 read += lines
                 continue
@@ -227,21 +227,21 @@ class _Protocol:
             measured = isinstance(step, MeasureAlong) or (measured and isinstance(step, Compute))
         yield from step_of(self.narrator.undrawn(section.steps))
         if read:
-            yield Step((self.words.read_off, *closed(read)))
+            yield Step((self.texts.read_off, *closed(read)))
 
     def _fixed_points(self) -> list[Rich]:
         points = []
         for name in self.solution.problem.bodies[FRAME].points:
-            place = self.narrator.say.place(PointName(name))
-            x, y = (given(value, self.words, 5) for value in (place.real, place.imag))
+            place = self.narrator.formulas.place(PointName(name))
+            x, y = (input_text(value, self.texts, 5) for value in (place.real, place.imag))
             points.append(f"{name} ({x}; {y})")
-        return [self.words.fixed_points.format(points=", ".join(points))] if points else []
+        return [self.texts.fixed_points.format(points=", ".join(points))] if points else []
 
-    def _equations(self, kind: PlanKind, made: set[PointName]) -> Iterator[Node]:
+    def _equations(self, kind: PlanKind, points: set[PointName]) -> Iterator[Node]:
         plan = self.names.construction.plan(kind)
-        found = [e for e in plan.equations if e.left.head in made]
+        found = [e for e in plan.equations if e.left.head in points]
         if found:
-            yield Caption(self.words.equations)
+            yield Caption(self.texts.equations)
             directed = partial(direction_note, self.names)
             yield Equations(tuple(equation_of(equation, directed) for equation in found))
 
@@ -250,22 +250,22 @@ class _Protocol:
         if section.group is not None or not drive.is_crank or drive.accelerates:
             return []
         symbol = f"ω_{{{drive.link}}}"
-        return [self.words.constant_speed.format(symbol=symbol, link=drive.link)]
+        return [self.texts.constant_speed.format(symbol=symbol, link=drive.link)]
 
     def _known_turning(self, section: Section) -> list[str]:
         """Return the rotation of the group's links if it is known before their plan is drawn."""
         if section.group is None:
             return []
-        lines, omega = [], self.names.kin.omega
+        lines, omega = [], self.names.kinematics.omega
         own = {step.out for step in section.steps}
         for link in section.group.links:
             if link not in omega:
                 index = f"_{{{link}}}"
-                lines.append(self.words.translating.format(link=link, index=index))
+                lines.append(self.texts.translating.format(link=link, index=index))
             elif omega[link] not in own:
                 other = self.names.owner(omega[link])
                 lines.append(
-                    self.words.shared_turning.format(
+                    self.texts.shared_turning.format(
                         link=link,
                         other=other,
                         symbol=f"ω_{{{link}}}",

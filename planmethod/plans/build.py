@@ -11,13 +11,13 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName, Step
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.structure import Structure
-from planmethod.plans.closing import Choice
+from planmethod.plans.assembly_mode import Choice
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import PlanSegment, Quantity, motion_quantities, plan_segments
 from planmethod.plans.model import Plan, PlanKind
 from planmethod.plans.motion.board import MotionBoard
 from planmethod.plans.motion.dyads import drive_motion, group_motion
-from planmethod.plans.motion.leads import Kinematics
+from planmethod.plans.motion.legs import Kinematics
 from planmethod.plans.motion.position import place_driver, place_frame, place_group
 from planmethod.problem.model import Problem
 
@@ -68,10 +68,10 @@ class Construction(Struct, frozen=True, dict=True):
 
     def step(self, name: Name) -> Step:
         """Return the step that makes a name."""
-        return self._made[name]
+        return self._steps_by_name[name]
 
     @cached_property
-    def _made(self) -> dict[Name, Step]:
+    def _steps_by_name(self) -> dict[Name, Step]:
         return {step.out: step for step in self.program.steps}
 
     @property
@@ -129,18 +129,20 @@ def build(problem: Problem, structure: Structure, choice: Choice) -> Constructio
     _positions(draft, structure.groups, cutter)
     velocity = MotionBoard.start(PlanKind.VELOCITY, draft)
     acceleration = MotionBoard.start(PlanKind.ACCELERATION, draft)
-    kin = Kinematics(draft, velocity, acceleration)
+    kinematics = Kinematics(draft, velocity, acceleration)
     for motion in (velocity, acceleration):
-        drive_motion(kin, motion)
+        drive_motion(kinematics, motion)
         cutter.cut(motion.kind)
         for group in structure.groups:
-            group_motion(kin, motion, group)
+            group_motion(kinematics, motion, group)
             cutter.cut(motion.kind, group)
-    legend = tuple(motion_quantities(kin, draft))
+    legend = tuple(motion_quantities(kinematics, draft))
     segments = tuple(plan_segments(draft, (velocity, acceleration)))
     plans = (_plan(velocity), _plan(acceleration))
     sections = tuple(cutter.sections)
-    return Construction(structure, draft.b.program(), draft, kin, plans, sections, legend, segments)
+    return Construction(
+        structure, draft.b.program(), draft, kinematics, plans, sections, legend, segments
+    )
 
 
 def _plan(motion: MotionBoard) -> Plan:

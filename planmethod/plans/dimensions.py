@@ -15,7 +15,7 @@ class DimensionKind(Enum):
     ACROSS = "y_"  # and across it
     OFFSET = "e_"  # of a point from a guide
     ANGLE = "angle_"  # of a link or of a guide, degrees
-    WAY = "s"  # of the driving slider
+    TRAVEL = "s"  # of the driving slider
 
 
 class Dimension(Struct, frozen=True):

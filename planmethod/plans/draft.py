@@ -8,9 +8,9 @@ import math
 from typing import NamedTuple
 
 from planmethod.construct.program import Builder
-from planmethod.construct.steps import LineName, Name, NumberName, PointName, Side, Way
+from planmethod.construct.steps import LineName, LineSense, Name, NumberName, PointName, Side
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.closing import Choice, Closing, Start
+from planmethod.plans.assembly_mode import AssemblyMode, Choice, Start
 from planmethod.plans.dimensions import Dimension, DimensionKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Body, Problem, Slide
@@ -25,7 +25,7 @@ RIGHT = 1e-9
 FLAT = 0.1
 """Sine of the angle of a triangle below which its sides do not give its corner well."""
 
-FAR = 10.0
+MAX_ORIGIN_DISTANCE = 10.0
 """Distance from the origin, in sizes of a mechanism, from which places are counted from its own."""
 
 
@@ -123,7 +123,7 @@ class Draft:
         self.b = Builder()
         self.numbers: dict[str, float] = {}
         self.places: dict[str, complex] = {}
-        self.branches: dict[str, Closing | Start] = {}
+        self.branches: dict[str, AssemblyMode | Start] = {}
         self.placed: dict[str, tuple[str, ...]] = {}
         self.marked: dict[str, None] = {}
         self.links_of = _links_of_points(problem)
@@ -182,12 +182,12 @@ class Draft:
         """Return whether the distance of two points is given, in this order."""
         return (p, q) in self._lengths
 
-    def branch(self, point: str, closing: Closing) -> NumberName | None:
+    def branch(self, point: str, mode: AssemblyMode) -> NumberName | None:
         """Return the number that gives a point's side in each position; None if it is fixed."""
-        if not closing.changes:
+        if not mode.changes:
             return None
         name = f"branch_{point}"
-        self.branches[name] = closing
+        self.branches[name] = mode
         return self.b.known(name)
 
     def length(self, link: str, p: str, q: str) -> NumberName:
@@ -256,7 +256,7 @@ class Draft:
         """Return the names of all points placed so far."""
         return set(self.marked)
 
-    def turned(self, line: LineName, through: PointName, angle: float, of: str) -> LineName:
+    def line_at_angle(self, line: LineName, through: PointName, angle: float, of: str) -> LineName:
         """Return a line through a point at an angle (degrees) to another, that a link has."""
         if angle == 0:
             return self.b.parallel(through, line)
@@ -276,7 +276,7 @@ class Draft:
             line = (
                 self.b.join(PointName(q), PointName(p))
                 if abs(beta) == 180
-                else self.turned(line, PointName(p), -beta, link)
+                else self.line_at_angle(line, PointName(p), -beta, link)
             )
         self.axes[link] = line
         return line
@@ -294,7 +294,7 @@ class Draft:
         if point in self.placed.get(link, ()):
             return PointName(point)
         if (arm := self._arm(link, point)) is not None:
-            return self._lay_arm(link, arm)
+            return self._lay_off_arm(link, arm)
         if (known := self._corners(link, point)) is not None:
             return self._strike(link, point, known)
         body = self.problem.bodies[link]
@@ -307,9 +307,9 @@ class Draft:
         else:
             p, unit, line = here[0], 1 + 0j, self.axis(link)
         w = (body.points[point] - body.points[p]) * unit.conjugate()
-        return self.lay(point, PointName(p), line, w, self.size(link))
+        return self.lay_off_coordinates(point, PointName(p), line, w, self.size(link))
 
-    def lay(
+    def lay_off_coordinates(
         self, point: str, origin: PointName, line: LineName, w: complex, size: float
     ) -> PointName:
         """Lay off ``w.real`` along a line and ``w.imag`` across it, m; note the point as placed."""
@@ -321,10 +321,12 @@ class Draft:
                 if across or w.real < 0
                 else self.dimension(DimensionKind.LENGTH, w.real, origin, point)
             )
-            at = self.b.lay_off(self._foot(point) if across else point, origin, line, length)
+            at = self.b.lay_off_length(
+                self._name_foot(point) if across else point, origin, line, length
+            )
         if across:
             length = self.drawn(self.dimension(DimensionKind.ACROSS, w.imag, point))
-            at = self.b.lay_off(point, at, self.b.perpendicular(at, line), length)
+            at = self.b.lay_off_length(point, at, self.b.perpendicular(at, line), length)
         return self.mark_placed(point)
 
     def place_rest(self, link: str) -> None:
@@ -372,18 +374,20 @@ class Draft:
         aside = ((points[point] - points[p]) * (points[q] - points[p]).conjugate()).imag
         radii = [self.drawn(self.length(link, one, point)) for one in known]
         side = Side.LEFT if aside > 0 else Side.RIGHT
-        self.b.meet_circles(point, PointName(p), radii[0], PointName(q), radii[1], side)
+        self.b.intersect_circles(point, PointName(p), radii[0], PointName(q), radii[1], side)
         return self.mark_placed(point)
 
-    def _lay_arm(self, link: str, arm: GivenArm) -> PointName:
+    def _lay_off_arm(self, link: str, arm: GivenArm) -> PointName:
         """Lay a length off at its given angle; note its end as placed."""
         vertex, (p, q) = PointName(arm.vertex), arm.of
-        line = self.turned(self.b.join(PointName(p), PointName(q)), vertex, arm.angle, arm.end)
+        line = self.line_at_angle(
+            self.b.join(PointName(p), PointName(q)), vertex, arm.angle, arm.end
+        )
         length = self.drawn(self.length(link, arm.vertex, arm.end))
-        self.b.lay_off(arm.end, vertex, line, length)
+        self.b.lay_off_length(arm.end, vertex, line, length)
         return self.mark_placed(arm.end)
 
-    def _foot(self, of: str) -> PointName:
+    def _name_foot(self, of: str) -> PointName:
         """Return the name of the next foot of an offset of a point."""
         foot = PointName(f"{of}~{len(self.feet) + 1}")
         self.feet[foot] = of
@@ -418,7 +422,7 @@ class Draft:
         name = f"{slide.label}:0"
         if name not in self.places:
             self.places[name] = slide.base - self.origin
-            return self.b.given(name)
+            return self.b.take_point(name)
         return PointName(name)
 
     def line(self, slide: Slide) -> LineName:
@@ -433,7 +437,7 @@ class Draft:
         if from_x is not None:
             angle = self.dimension(DimensionKind.ANGLE, from_x, slide.slider)
             return self.b.at_angle(base, None, angle)
-        return self.turned(self.axis(slide.host), base, slide.angle, slide.slider)
+        return self.line_at_angle(self.axis(slide.host), base, slide.angle, slide.slider)
 
     def angle_from_x(self, slide: Slide) -> float | None:
         """Return the angle of a slide line from +x where its host does not turn, degrees.
@@ -468,7 +472,9 @@ class Draft:
         if abs(across) <= TINY * size:
             return Track(base, line)
         length = self.drawn(self.dimension(DimensionKind.OFFSET, across, point, host=known))
-        foot = self.b.lay_off(self._foot(point), base, self.b.perpendicular(base, line), length)
+        foot = self.b.lay_off_length(
+            self._name_foot(point), base, self.b.perpendicular(base, line), length
+        )
         return Track(foot, self.b.parallel(foot, line))
 
     def direction(self, slide: Slide) -> LineName:
@@ -485,12 +491,14 @@ class Draft:
             self.axes[slide.slider] = (
                 self.b.parallel(at, self.line(slide))
                 if known == FRAME or self.placed.get(known)
-                else self.turned(self.axis(known), at, slide.angle, slide.slider)
+                else self.line_at_angle(self.axis(known), at, slide.angle, slide.slider)
             )
         else:
-            self.axes[slide.host] = self.turned(self.axis(known), at, -slide.angle, slide.host)
+            self.axes[slide.host] = self.line_at_angle(
+                self.axis(known), at, -slide.angle, slide.host
+            )
 
-    def across(self, slide: Slide, host_point: str, slider_point: str) -> float:
+    def transverse_offset(self, slide: Slide, host_point: str, slider_point: str) -> float:
         """Return the signed distance of the slider's point to the left of the host's point, m."""
         z_host = self.problem.bodies[slide.host].points[host_point]
         z_slider = self.problem.bodies[slide.slider].points[slider_point]
@@ -534,7 +542,7 @@ def _origin(problem: Problem) -> complex:
     fixed = list(problem.bodies[FRAME].points.values())
     fixed += [slide.base for slide in problem.slides.values() if slide.host == FRAME]
     sizes = [abs(place - fixed[0]) for place in fixed] + [abs(m) for _, _, m in problem.lengths]
-    return fixed[0] if abs(fixed[0]) > FAR * max(sizes) else 0j
+    return fixed[0] if abs(fixed[0]) > MAX_ORIGIN_DISTANCE * max(sizes) else 0j
 
 
 def side(sign: float) -> Side:
@@ -542,6 +550,6 @@ def side(sign: float) -> Side:
     return Side.LEFT if sign > 0 else Side.RIGHT
 
 
-def way(sign: float) -> Way:
+def line_sense(sign: float) -> LineSense:
     """Return FORWARD for a positive sign."""
-    return Way.FORWARD if sign > 0 else Way.BACKWARD
+    return LineSense.FORWARD if sign > 0 else LineSense.BACKWARD

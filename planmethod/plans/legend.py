@@ -11,11 +11,11 @@ from enum import Enum, unique
 
 from msgspec import Struct
 
-from planmethod.construct.steps import Compute, LayOff, Name, NumberName, PointName
+from planmethod.construct.steps import Compute, LayOffLength, Name, NumberName, PointName
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import RATES, PlanKind
-from planmethod.plans.motion.board import MotionBoard, plain_letter
-from planmethod.plans.motion.leads import Kinematics
+from planmethod.plans.motion.board import MotionBoard, plan_letter
+from planmethod.plans.motion.legs import Kinematics
 
 ZERO = "0"
 """Name of the number zero, which no object of a problem can have."""
@@ -197,7 +197,7 @@ class PlanSegment(Struct, frozen=True):
         return f"{self.kind.value}.{self.name}"
 
 
-def motion_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
+def motion_quantities(kinematics: Kinematics, draft: Draft) -> Iterator[Quantity]:
     """Yield the quantities of the motion: of points, links and sliding.
 
     Parameters
@@ -205,7 +205,7 @@ def motion_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
     draft : Draft
         Receives the own axes of links that have no line yet.
     """
-    velocity, acceleration = kin.velocity, kin.acceleration
+    velocity, acceleration = kinematics.velocity, kinematics.acceleration
     zero = draft.known(ZERO, 0.0)
     for name, at in velocity.named.items():
         yield Quantity(QuantityKind.PLACE, PointName(at[1]), name)
@@ -218,17 +218,17 @@ def motion_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
         axis = draft.axis(link)
         yield Quantity(QuantityKind.DIRECTION, axis, link)
         yield Quantity(QuantityKind.UNIT, axis, link)
-        omega, epsilon = kin.omega.get(link, zero), kin.epsilon.get(link, zero)
+        omega, epsilon = kinematics.omega.get(link, zero), kinematics.epsilon.get(link, zero)
         yield Quantity(QuantityKind.OMEGA, omega, link, omega)
         yield Quantity(QuantityKind.EPSILON, epsilon, link, epsilon)
     values = acceleration.segments.values
-    for r in kin.relatives.values():
-        assert r.a_start is not None and r.a_turned is not None and r.a_head is not None
+    for r in kinematics.relatives.values():
+        assert r.a_start is not None and r.a_coriolis is not None and r.a_head is not None
         yield Quantity(QuantityKind.SLIDING, r.speed, r.name, r.speed)
         # A guide that does not turn makes no Coriolis acceleration.
-        turned = values.get((r.a_start, r.a_turned), zero)
+        turned = values.get((r.a_start, r.a_coriolis), zero)
         yield Quantity(QuantityKind.CORIOLIS, turned, r.name, turned)
-        along = values[r.a_turned, r.a_head]
+        along = values[r.a_coriolis, r.a_head]
         yield Quantity(QuantityKind.RELATIVE, along, r.name, along)
 
 
@@ -236,7 +236,7 @@ def plan_segments(draft: Draft, motions: tuple[MotionBoard, MotionBoard]) -> Ite
     """Yield the segments that are measured on the plans; adds the readings of those laid off."""
     b = draft.b
     computed = {step.out for step in b.steps if isinstance(step, Compute)}
-    steps = [step for step in b.steps if isinstance(step, LayOff)]
+    steps = [step for step in b.steps if isinstance(step, LayOffLength)]
     laid = {frozenset((step.origin, step.out)): step.length for step in steps}
     for p, q in draft.segments():
         drawn = draft.measured(p, q)
@@ -247,5 +247,5 @@ def plan_segments(draft: Draft, motions: tuple[MotionBoard, MotionBoard]) -> Ite
             ends = (vector.tail, vector.head)
             length = motion.segments.drawn(ends)
             drawn = b.measure(f"{length} drawn", *ends) if length in computed else length
-            tail, head = (plain_letter(motion, end) for end in ends)
+            tail, head = (plan_letter(motion, end) for end in ends)
             yield PlanSegment(motion.kind, f"{tail}-{head}", length, drawn)

@@ -82,10 +82,10 @@ class VectorKind(Enum):
     SLIDING = "sliding"  # along a guide: v_B3B, a^r_B3B (относительная по направляющей)
 
 
-class Known(Enum):
+class KnownParts(Enum):
     """Number of underlines of a term: which parts of it are known before the plan is drawn."""
 
-    NOTHING = 0
+    NONE = 0
     ONE = 1  # direction only: one line
     BOTH = 2  # magnitude and direction: two lines
 
@@ -93,11 +93,11 @@ class Known(Enum):
 class Relation(Enum):
     """Relation of a vector to a line that is already on the drawing."""
 
-    ALONG = "along"  # ∥ (параллельно)
-    ACROSS = "across"  # ⊥ (перпендикулярно)
+    PARALLEL = "along"  # ∥ (параллельно)
+    PERPENDICULAR = "across"  # ⊥ (перпендикулярно)
     ANGLED = "angled"  # at an angle to it
     TOWARDS = "towards"  # along it, from the first point to the second
-    STILL = "still"  # no vector at all: = 0
+    ZERO = "still"  # no vector at all: = 0
 
 
 class Direction(Struct, frozen=True):
@@ -120,12 +120,12 @@ class Direction(Struct, frozen=True):
     angle: float = 0.0
 
 
-STILL = Direction(Relation.STILL)
+ZERO_VECTOR = Direction(Relation.ZERO)
 
 
-def across(p: str, q: str) -> Direction:
+def perpendicular_to(p: str, q: str) -> Direction:
     """Return the direction across the line of two points: ``⊥ BC``."""
-    return Direction(Relation.ACROSS, (p, q))
+    return Direction(Relation.PERPENDICULAR, (p, q))
 
 
 def towards(p: str, q: str) -> Direction:
@@ -150,7 +150,7 @@ class Vector(Struct, frozen=True):
     kind: VectorKind
     tail: PointName
     head: PointName
-    known: Known
+    known: KnownParts
     direction: Direction | None = None
 
 

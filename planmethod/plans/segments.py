@@ -91,7 +91,9 @@ class Segments(Struct):
         """Return the value of a segment that has been drawn and read."""
         return self.values[ends] if ends in self.values else self.values[ends[::-1]]
 
-    def read_along(self, tail: PointName, head: PointName, line: LineName, name: str) -> NumberName:
+    def read_signed(
+        self, tail: PointName, head: PointName, line: LineName, name: str
+    ) -> NumberName:
         """Read a segment along its line, with a sign, and return its value."""
         length = self.b.measure_along(f"|{tail}–{head}|{line}", tail, head, line)
         value = self.compute(name, (self.scale, 1), (length, 1))
@@ -99,10 +101,12 @@ class Segments(Struct):
         self._measured.add(length)
         return value
 
-    def lay_off(self, out: str, start: PointName, along: LineName, value: NumberName) -> PointName:
+    def lay_off_vector(
+        self, out: str, start: PointName, line: LineName, value: NumberName
+    ) -> PointName:
         """Lay off a vector of a computed size along a line."""
         length = self.b.compute(f"|{out}|", (value, 1), (self.scale, -1))
-        end = self.b.lay_off(out, start, along, length)
+        end = self.b.lay_off_length(out, start, line, length)
         self.lengths[start, end], self.values[start, end] = length, value
         return end
 

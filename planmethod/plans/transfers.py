@@ -17,7 +17,7 @@ from planmethod.plans.draft import Draft
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.plans.motion.board import MotionBoard
-from planmethod.plans.motion.leads import Kinematics, Turning
+from planmethod.plans.motion.legs import Kinematics, Turning
 from planmethod.problem.graphs import ratio_of
 
 Powers = tuple[tuple[NumberName, int], ...]
@@ -28,7 +28,7 @@ class TransferSteps:
 
     Parameters
     ----------
-    kin : Kinematics
+    kinematics : Kinematics
         Of a mechanism with a crank.
     draft : Draft
         Construction that is continued.
@@ -42,20 +42,20 @@ class TransferSteps:
         Point of the crank with whose segments all others are compared; empty if there is none.
     """
 
-    def __init__(self, kin: Kinematics, draft: Draft, *, by_values: bool = False) -> None:
-        self.kin, self.draft, self.b, self.by_values = kin, draft, draft.b, by_values
+    def __init__(self, kinematics: Kinematics, draft: Draft, *, by_values: bool = False) -> None:
+        self.kinematics, self.draft, self.b, self.by_values = kinematics, draft, draft.b, by_values
         self.drive = draft.problem.drive
         assert self.drive.pivot is not None
         points = draft.problem.bodies[self.drive.link].points
         self.pin = next((p for p in points if points[p] != points[self.drive.pivot]), "")
-        self.omega = kin.omega[self.drive.link]
+        self.omega = kinematics.omega[self.drive.link]
         self.even = self.drive.acceleration == 0.0
         self._made: dict[tuple[str, PlanKind], NumberName] = {}
 
     @property
     def normal(self) -> PointName:
         """End of the normal acceleration of the crank's pin on the plan, ``n_A``."""
-        motion = self.kin.acceleration
+        motion = self.kinematics.acceleration
         if self.even:
             return motion.point[self.drive.link, self.pin]
         return PointName(f"{FACTS[motion.kind].prefix}n_{self.pin}{self.drive.pivot}")
@@ -76,7 +76,9 @@ class TransferSteps:
         return 1 if kind is PlanKind.VELOCITY else 2
 
     def _motion(self, kind: PlanKind) -> MotionBoard:
-        return self.kin.velocity if kind is PlanKind.VELOCITY else self.kin.acceleration
+        return (
+            self.kinematics.velocity if kind is PlanKind.VELOCITY else self.kinematics.acceleration
+        )
 
     def of_point(self, point: str, kind: PlanKind) -> NumberName:
         """Return v_q or a_q of a named point, m."""
@@ -100,20 +102,20 @@ class TransferSteps:
             radius = self.draft.length(self.drive.link, self.drive.pivot, place)
             return self.b.compute(name, (radius, 1))
         else:
-            head = self.even_end(point)
+            head = self.uniform_end(point)
             length = self.b.measure(f"|{name}|", motion.pole, head)
         return self.b.compute(name, (length, 1), *self.per_mm(kind), size=True)
 
     def of_crank(self, point: str) -> bool:
         """Return whether a named point is on the crank itself: its a_q is its radius."""
-        link, place = self.kin.velocity.named[point]
+        link, place = self.kinematics.velocity.named[point]
         return link == self.drive.link and place in self.draft.problem.bodies[link].points
 
-    def even_end(self, point: str) -> PointName:
+    def uniform_end(self, point: str) -> PointName:
         """Carry the part of the crank's ε off the end of an acceleration: -v_q·ε, along (pc)."""
-        v, a = self.kin.velocity, self.kin.acceleration
+        v, a = self.kinematics.velocity, self.kinematics.acceleration
         tail, head = v.pole, v.point[v.named[point]]
-        epsilon = self.kin.epsilon[self.drive.link]
+        epsilon = self.kinematics.epsilon[self.drive.link]
         times = self.b.compute(
             f"times_q_{point}",
             *((v.segments.scale, 1), (epsilon, 1), (self.omega, -1), (a.segments.scale, -1)),
@@ -133,7 +135,7 @@ class TransferSteps:
         first = kind is PlanKind.VELOCITY
         name = f"u_{link}" if first else f"epsilon_q_{link}"
         if first or self.even:
-            rates = self.kin.rates(kind)
+            rates = self.kinematics.rates(kind)
             if link not in rates:
                 return self.draft.known(ZERO, 0.0)
             turning = None if self.by_values else self.turning(link, kind)
@@ -142,7 +144,7 @@ class TransferSteps:
             length = self._motion(kind).segments.drawn((turning.start, turning.head))
             inverse = tuple((factor, -power) for factor, power in turning.arm)
             return self.b.compute(name, (length, 1), *self.per_mm(kind), *inverse)
-        own, crank = self.kin.epsilon.get(link), self.kin.epsilon[self.drive.link]
+        own, crank = self.kinematics.epsilon.get(link), self.kinematics.epsilon[self.drive.link]
         u = self.of_link(link, PlanKind.VELOCITY)
         terms = [self.b.compute(f"{name}*", (u, 1), (crank, 1), (self.omega, -2), factor=-1.0)]
         if own is not None:
@@ -151,16 +153,16 @@ class TransferSteps:
 
     def turning(self, link: str, kind: PlanKind) -> Turning | None:
         """Return the segment that gives a link's rotation; None if it turns with the crank."""
-        rates = self.kin.rates(kind)
+        rates = self.kinematics.rates(kind)
         if rates[link] == rates.get(self.drive.link):
             return None
-        for (of, other), turning in self.kin.turnings.items():
+        for (of, other), turning in self.kinematics.turnings.items():
             if of is kind and rates[other] == rates[link]:
                 return turning
         return None
 
 
-def transfer_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
+def transfer_quantities(kinematics: Kinematics, draft: Draft) -> Iterator[Quantity]:
     """Yield the transfer functions of all moving points and links; none for a driving slider.
 
     Parameters
@@ -171,9 +173,11 @@ def transfer_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
     drive, problem = draft.problem.drive, draft.problem
     if not drive.revolves:
         return
-    steps, orders = TransferSteps(kin, draft), (PlanKind.VELOCITY, PlanKind.ACCELERATION)
+    steps, orders = TransferSteps(kinematics, draft), (PlanKind.VELOCITY, PlanKind.ACCELERATION)
     moving = [
-        n for n, at in kin.velocity.named.items() if kin.velocity.point[at] != kin.velocity.pole
+        n
+        for n, at in kinematics.velocity.named.items()
+        if kinematics.velocity.point[at] != kinematics.velocity.pole
     ]
     driven = [link for link in problem.mechanism.links if link not in (drive.link, FRAME)]
     for kind, of in zip(orders, (QuantityKind.TRANSFER, QuantityKind.TRANSFER_2), strict=True):

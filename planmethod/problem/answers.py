@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.problem import fields, keys
+from planmethod.problem.common import AnswerForm, DirectionMode, QuestionSpec
 from planmethod.problem.fields import Faults, Table
-from planmethod.problem.flat import OwnReader, read_flat
-from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
+from planmethod.problem.flat_tables import CustomReader, read_flat
 from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import short, split_pair
-from planmethod.problem.selector import ANALOGUES, MACHINE, Selector, check_what, read_position
+from planmethod.problem.selector import ANALOGUES, MACHINE, Selector, check_quantity, read_position
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
 
-WHAT_LIMIT = 200
+QUANTITY_LIMIT = 200
 ID_LIMIT = 40
 LETTERS_LIMIT = 40
 SPELLING_LIMIT = 10
@@ -33,7 +33,7 @@ _ID_RE = r"[^\W\d_][\w./@'{}^-]*\Z"
 _REACTION_RE = r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z"
 _BALANCING = {"dr": "balance", "lever": "lever"}
 _TRANSFERS = ("v_q_", "a_q_", "epsilon_q_")
-_TAKEN = ("mu_l", "mu_v", "mu_a", "mu_F", "ruler_mm")
+_RESERVED_NAMES = ("mu_l", "mu_v", "mu_a", "mu_F", "ruler_mm")
 """Names in a row of a group's table that are not answers."""
 
 _TURNS = frozenset({"omega", "epsilon", "M", "inertia couple"})
@@ -120,7 +120,7 @@ def _sliding(slides: Iterable[Slide]) -> dict[str, tuple[str, ...]]:
     return found
 
 
-class Plain(Struct, frozen=True):
+class ComputedAnswerNames(Struct, frozen=True):
     """Names that answers may use in a problem that is computed without plans.
 
     Attributes
@@ -141,40 +141,40 @@ class Plain(Struct, frozen=True):
 
 
 def read_answers(
-    faults: Faults, given: Mapping[str, object], scene: AnswerScope | Plain
-) -> tuple[AskedAnswer, ...]:
+    faults: Faults, document: Mapping[str, object], scene: AnswerScope | ComputedAnswerNames
+) -> tuple[QuestionSpec, ...]:
     """Read ``[[answers]]`` of a file, in its order, and check its ``compare``."""
-    if "compare" in given:
-        fields.read_flag(faults, "compare", given["compare"])
-    value = given.get("answers", [])
-    names = None if isinstance(scene, Plain) or faults else scene.names
-    global _KEPT
-    for table, before, answers in _KEPT:
+    if "compare" in document:
+        fields.read_flag(faults, "compare", document["compare"])
+    value = document.get("answers", [])
+    names = None if isinstance(scene, ComputedAnswerNames) or faults else scene.names
+    global _CACHE
+    for table, before, answers in _CACHE:
         if names is not None and table is value and before == names:
             return answers
     stated = len(faults.stated)
     found = _read_each(faults, value, scene)
     if names is not None and not faults and len(faults.stated) == stated:
-        _KEPT = ((value, names, found), *_KEPT[:1])
+        _CACHE = ((value, names, found), *_CACHE[:1])
     return found
 
 
-_KEPT: tuple[tuple[object, tuple[object, ...], tuple[AskedAnswer, ...]], ...] = ()
+_CACHE: tuple[tuple[object, tuple[object, ...], tuple[QuestionSpec, ...]], ...] = ()
 """Cache of the last faultless tables: most variants of a file share that of its main part. It is
 replaced, never modified: another thread may be reading it.
 """
 
 
 def _read_each(
-    faults: Faults, value: object, scene: AnswerScope | Plain
-) -> tuple[AskedAnswer, ...]:
+    faults: Faults, value: object, scene: AnswerScope | ComputedAnswerNames
+) -> tuple[QuestionSpec, ...]:
     """Read the answers in their order."""
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("answers", "tables [[answers]]", value)
         return ()
-    if faults.beyond("answers", "{} answers, the limit is {}", len(value), keys.ANSWER_LIMIT):
+    if faults.exceeds("answers", "{} answers, the limit is {}", len(value), keys.ANSWER_LIMIT):
         return ()
-    found: list[AskedAnswer] = []
+    found: list[QuestionSpec] = []
     ids: dict[str, int] = {}
     letters: dict[tuple[str, int | None], int] = {}
     for index, body in enumerate(value):
@@ -186,7 +186,7 @@ def _read_each(
         if ids.setdefault(answer.id, index) != index:
             faults.add(
                 path,
-                say("answers[{}] is called '{}' too", ids[answer.id], short(answer.id)),
+                translate("answers[{}] is called '{}' too", ids[answer.id], short(answer.id)),
                 "Give one of them an id of its own.",
             )
         for spelling in answer.letters:
@@ -194,48 +194,48 @@ def _read_each(
             if twin != index:
                 faults.add(
                     f"{path}.letters",
-                    say("'{}' denotes answers[{}] too", short(spelling), twin),
+                    translate("'{}' denotes answers[{}] too", short(spelling), twin),
                     "Give each of them letters of its own.",
                 )
     return tuple(found)
 
 
 def _read_answer(
-    faults: Faults, path: str, body: Table, scene: AnswerScope | Plain
-) -> AskedAnswer | None:
+    faults: Faults, path: str, body: Table, scene: AnswerScope | ComputedAnswerNames
+) -> QuestionSpec | None:
     before = len(faults)
-    positions = scene.positions if isinstance(scene, Plain) else 0
+    positions = scene.positions if isinstance(scene, ComputedAnswerNames) else 0
     if isinstance(scene, AnswerScope) and scene.drive:
         positions = len(scene.drive.positions)
-    own: dict[str, OwnReader] = {
+    own: dict[str, CustomReader] = {
         "id": _read_id,
         "letters": _read_letters,
         "position": partial(read_position, positions=positions),
         "segment": _read_segment,
     }
-    given = read_flat(faults, path, body, AskedAnswer, own)
+    given = read_flat(faults, path, body, QuestionSpec, own)
     if "what" not in given:
         return None
-    name = fields.read_text(faults, f"{path}.what", given["what"], limit=WHAT_LIMIT)
+    name = fields.read_text(faults, f"{path}.what", given["what"], limit=QUANTITY_LIMIT)
     if name is None:
         return None
     name = " ".join(fields.unmask(faults, f"{path}.what", name).split())
     own_sense, selector, words, kind, usual = None, None, name, "", AnswerForm.BOTH
-    if isinstance(scene, Plain):
+    if isinstance(scene, ComputedAnswerNames):
         usual = AnswerForm.VALUE
-        if said := scene.fault(name):
-            faults.add(f"{path}.what", said, scene.hint)
+        if phrase := scene.fault(name):
+            faults.add(f"{path}.what", phrase, scene.hint)
         else:
-            kind, own_sense = name, AskedSense.TURN if scene.turns(name) else None
+            kind, own_sense = name, DirectionMode.TURN if scene.turns(name) else None
     else:
         words = words_of(name, scene.slides.values())
-        selector = _read_what(faults, f"{path}.what", name, words, scene)
+        selector = _read_quantity(faults, f"{path}.what", name, words, scene)
         if selector is not None:
-            kind, own_sense = selector.kind, _own_sense(selector, scene.drive)
+            kind, own_sense = selector.kind, _quantity_sense(selector, scene.drive)
     if given.get("form") is AnswerForm.MM and selector is not None and _has_no_segment(selector):
         faults.add(
             f"{path}.form",
-            say("'{}' is not a segment of a plan", short(name)),
+            translate("'{}' is not a segment of a plan", short(name)),
             'Leave it, or form = "value".',
         )
     sense = given.get("sense", False)
@@ -249,34 +249,40 @@ def _read_answer(
     if position is not None:
         own_id += f"@{position}"
     usually: dict[str, Any] = {"id": own_id, "form": usual}
-    return AskedAnswer(**usually | given | {"what": words})
+    return QuestionSpec(**usually | given | {"what": words})
 
 
-def _read_what(
+def _read_quantity(
     faults: Faults, path: str, name: str, words: str, scene: AnswerScope
 ) -> Selector | None:
     """Check a quantity, and the joint of a reaction, which its words do not contain."""
     if name in scene.points:
         faults.add(
             path,
-            say("'{}' is a place, which is two numbers", name),
-            say("Ask for x {0}, y {0}.", name),
+            translate("'{}' is a place, which is two numbers", name),
+            translate("Ask for x {0}, y {0}.", name),
         )
         return None
     before = len(faults)
-    selector = check_what(faults, path, words, scene.points, scene.links, scene.dynamics)
+    selector = check_quantity(faults, path, words, scene.points, scene.links, scene.dynamics)
     if selector is not None and selector.kind in MACHINE:
-        faults.add(path, say("'{}' is of the flywheel", words), "Ask for the motion or the forces.")
+        faults.add(
+            path, translate("'{}' is of the flywheel", words), "Ask for the motion or the forces."
+        )
     elif selector is not None and selector.kind in ANALOGUES:
-        faults.add(path, say("'{}' is on no plan", words), "Ask for the motion or the forces.")
+        faults.add(
+            path, translate("'{}' is on no plan", words), "Ask for the motion or the forces."
+        )
     reaction = re.match(_REACTION_RE, name)
     if reaction and scene.points and len(faults) == before:
         joint, pair = reaction["joint"], {reaction["on"], reaction["by"]}
         if not _joined(joint, pair, scene):
             faults.add(
                 path,
-                say("links {} and {} have no joint {}", reaction["on"], reaction["by"], joint),
-                say("Without it: '{}'.", words),
+                translate(
+                    "links {} and {} have no joint {}", reaction["on"], reaction["by"], joint
+                ),
+                translate("Without it: '{}'.", words),
             )
     return selector
 
@@ -297,9 +303,11 @@ def _read_id(faults: Faults, path: str, value: object) -> str:
     if text is None:
         return ""
     text = fields.unmask(faults, path, text)
-    if text in _TAKEN:
+    if text in _RESERVED_NAMES:
         faults.add(
-            path, say("'{}' is a row of its own in tables of answers", text), "Take another id."
+            path,
+            translate("'{}' is a row of its own in tables of answers", text),
+            "Take another id.",
         )
     elif not re.match(_ID_RE, text):
         hint = "A letter first, then letters, digits and _ . / @ ' - without spaces: v_B3."
@@ -310,7 +318,7 @@ def _read_id(faults: Faults, path: str, value: object) -> str:
 def _read_letters(faults: Faults, path: str, value: object) -> tuple[str, ...]:
     entries = [value] if isinstance(value, str) else value
     if not isinstance(entries, list) or len(entries) > SPELLING_LIMIT:
-        faults.expected(path, say("a string or up to {} of them", SPELLING_LIMIT), value)
+        faults.expected(path, translate("a string or up to {} of them", SPELLING_LIMIT), value)
         return ()
     found: list[str] = []
     for index, entry in enumerate(entries):
@@ -324,43 +332,43 @@ def _read_letters(faults: Faults, path: str, value: object) -> tuple[str, ...]:
 
 
 def _read_sense(
-    faults: Faults, path: str, value: object, what: str, own: AskedSense | None
-) -> AskedSense | None:
+    faults: Faults, path: str, value: object, quantity: str, default: DirectionMode | None
+) -> DirectionMode | None:
     """Read the form of a sense; ``true`` is the form of the quantity.
 
-    ``what`` is empty for an unknown quantity.
+    ``quantity`` is empty for an unknown quantity.
     """
     if value is False:
         return None
     asked = None
     if value is not True:
         if not isinstance(value, str):
-            words = ", ".join(f"'{kind.value}'" for kind in AskedSense)
-            faults.expected(path, say("true, false or one of {}", words), value)
+            words = ", ".join(f"'{kind.value}'" for kind in DirectionMode)
+            faults.expected(path, translate("true, false or one of {}", words), value)
             return None
-        asked = fields.read_member(faults, path, value, AskedSense)
+        asked = fields.read_member(faults, path, value, DirectionMode)
         if asked is None:
             return None
-    if not what:
+    if not quantity:
         return asked
-    if own is None:
+    if default is None:
         hint = "Leave sense out: the sign of a number, or the size of a load, says all."
-        faults.add(path, say("'{}' has no sense that could be requested", what), hint)
-    elif asked is not None and (asked is AskedSense.TURN) != (own is AskedSense.TURN):
-        told = "'{}' turns" if own is AskedSense.TURN else "'{}' is a vector"
-        faults.add(path, say(told, what), say('Write sense = "{}".', own.value))
-    return asked or own
+        faults.add(path, translate("'{}' has no sense that could be requested", quantity), hint)
+    elif asked is not None and (asked is DirectionMode.TURN) != (default is DirectionMode.TURN):
+        text = "'{}' turns" if default is DirectionMode.TURN else "'{}' is a vector"
+        faults.add(path, translate(text, quantity), translate('Write sense = "{}".', default.value))
+    return asked or default
 
 
-def _own_sense(selector: Selector, drive: Drive | None) -> AskedSense | None:
+def _quantity_sense(selector: Selector, drive: Drive | None) -> DirectionMode | None:
     if selector.over is not None:
         return None
     if selector.kind in ("balance", "lever") and not selector.names:
         turns = drive is None or drive.balancing.turns
-        return AskedSense.TURN if turns else AskedSense.DIRECTION
+        return DirectionMode.TURN if turns else DirectionMode.DIRECTION
     if selector.kind in _TURNS:
-        return AskedSense.TURN
-    return AskedSense.DIRECTION if selector.kind in _VECTORS else None
+        return DirectionMode.TURN
+    return DirectionMode.DIRECTION if selector.kind in _VECTORS else None
 
 
 def _read_segment(faults: Faults, path: str, value: object) -> str:

@@ -8,35 +8,35 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields
 from planmethod.problem.cycle_records import CycleTask, PoleDistances, StrokeSense, Zero
 from planmethod.problem.fields import Faults
-from planmethod.problem.flat import OwnReader, read_flat
+from planmethod.problem.flat_tables import CustomReader, read_flat
 from planmethod.problem.graphs import OUTPUT, graph_quantities
 from planmethod.problem.machine_records import Machine
 from planmethod.problem.model import SAME_DEG, Body, Drive, Slide
-from planmethod.problem.names import near, short
+from planmethod.problem.names import nearest_name, short
 
 _EXAMPLE = '[cycle] output = "B", zero = "extreme", count = 12'
 _NAMED = {zero.value: zero for zero in Zero if zero is not Zero.USUAL}
 _COUNTS, _OF_MACHINE = range(3, 361), range(4, 73)
 
-_MOST_GRAPHS = 24
-MOST_LISTED = 36
+_MAX_GRAPHS = 24
+MAX_LISTED = 36
 """Maximum number of positions of a turn that a cycle without a count uses from the driver."""
 
 
-def cycle_count(given: Mapping[str, Any]) -> int:
+def cycle_count(document: Mapping[str, Any]) -> int:
     """Return the number of positions of the cycle of a file, as far as it can be read; 0 if none.
 
     Parameters
     ----------
-    given : mapping
+    document : mapping
         The whole file.
     """
-    table, machine = given.get("cycle"), given.get("machine")
+    table, machine = document.get("cycle"), document.get("machine")
     if not isinstance(table, Mapping):
         return 0
     machine = machine if isinstance(machine, Mapping) else {}
@@ -46,17 +46,17 @@ def cycle_count(given: Mapping[str, Any]) -> int:
         return own * turns
     if isinstance(other, int) and other % turns == 0 and other // turns in _COUNTS:
         return other
-    return (_driver_count(given) or 12) * turns
+    return (_driver_count(document) or 12) * turns
 
 
-def _driver_count(given: Mapping[str, Any]) -> int | None:
+def _driver_count(document: Mapping[str, Any]) -> int | None:
     """Return the number of positions if the driver of a file lists a full turn, else None."""
-    driver = given.get("driver")
+    driver = document.get("driver")
     phi = driver.get("phi") if isinstance(driver, Mapping) else None
     if not isinstance(phi, Mapping) or phi.keys() != {"from", "count"}:
         return None
     count = phi["count"]
-    return count if isinstance(count, int) and _COUNTS[0] <= count <= MOST_LISTED else None
+    return count if isinstance(count, int) and _COUNTS[0] <= count <= MAX_LISTED else None
 
 
 def read_cycle(
@@ -86,12 +86,12 @@ def read_cycle(
     if drive is not None and not drive.goes_round:
         faults.add(
             "cycle",
-            say("the driver, link {}, slides: it has no turn", drive.link),
+            translate("the driver, link {}, slides: it has no turn", drive.link),
             "A cycle is a turn of a crank. Delete [cycle], or let a crank drive.",
         )
     output = partial(_read_output, bodies=bodies, slides=slides, drive=drive)
     graphs = partial(_read_graphs, bodies=bodies, slides=slides, drive=drive)
-    own: dict[str, OwnReader] = {
+    own: dict[str, CustomReader] = {
         "output": output,
         "zero": _read_zero,
         "pole": _read_pole,
@@ -108,32 +108,32 @@ def read_cycle(
     return None if len(faults) > before else CycleTask(**found)
 
 
-def _check_working(faults: Faults, found: Mapping[str, Any], slides: Mapping[str, Slide]) -> None:
+def _check_working(faults: Faults, entries: Mapping[str, Any], slides: Mapping[str, Slide]) -> None:
     """Reject a sense of rotation of an output that slides."""
-    sense, output = found.get("working"), found.get("output")
+    sense, output = entries.get("working"), entries.get("output")
     slides_on = output in slides or any(slide.pin == output for slide in slides.values())
     if sense in (StrokeSense.CCW, StrokeSense.CW) and slides_on:
         hint = 'Say where it goes: "left", "right", "up" or "down".'
-        faults.add("cycle.working", say("{} slides: it does not turn", output), hint)
+        faults.add("cycle.working", translate("{} slides: it does not turn", output), hint)
 
 
-def _of_machine(faults: Faults, found: Mapping[str, Any], machine: Machine) -> dict[str, Any]:
+def _of_machine(faults: Faults, entries: Mapping[str, Any], machine: Machine) -> dict[str, Any]:
     """Return the data of the positions that only ``[machine]`` has; data in both must agree."""
     told: dict[str, Any] = {}
     turns = round(machine.cycle_deg / 360.0)
-    start, count = machine.start_deg, machine.told_count
-    if start is not None and "zero" not in found:
+    start, count = machine.start_deg, machine.stated_count
+    if start is not None and "zero" not in entries:
         told["zero"] = start
-    elif start is not None and not isinstance(found["zero"], Zero):
-        report_start(faults, found["zero"], start)
+    elif start is not None and not isinstance(entries["zero"], Zero):
+        report_start(faults, entries["zero"], start)
     if count is None:
         return told
-    if "count" not in found and count % turns == 0 and count // turns in _COUNTS:
+    if "count" not in entries and count % turns == 0 and count // turns in _COUNTS:
         told["count"] = count // turns
-    elif count != found.get("count", 0) * turns:
-        message = say("{} positions of a cycle of {:g} degrees", count, machine.cycle_deg)
-        if "count" in found:
-            message = say("{}, and [cycle] has {} of a turn", message, found["count"])
+    elif count != entries.get("count", 0) * turns:
+        message = translate("{} positions of a cycle of {:g} degrees", count, machine.cycle_deg)
+        if "count" in entries:
+            message = translate("{}, and [cycle] has {} of a turn", message, entries["count"])
         hint = "The positions are those of [cycle]: delete count of [machine]."
         faults.add("machine.count", message, hint)
     return told
@@ -143,17 +143,17 @@ def report_start(faults: Faults, zero: float, start: float) -> None:
     """Note a fault if a machine starts in another position than the cycle."""
     if abs((start - zero + 180.0) % 360.0 - 180.0) > SAME_DEG:
         hint = "The positions are those of [cycle]: delete phi_0 of [machine]."
-        message = say("{:g} deg, and position 0 of [cycle] is at {:.2f} deg", start, zero)
+        message = translate("{:g} deg, and position 0 of [cycle] is at {:.2f} deg", start, zero)
         faults.add("machine.phi_0", message, hint)
 
 
-def followed(faults: Faults, machine: Machine, cycle: CycleTask) -> Machine:
+def with_cycle_count(faults: Faults, machine: Machine, cycle: CycleTask) -> Machine:
     """Return a machine with as many positions as the cycle has."""
     count = cycle.count * round(machine.cycle_deg / 360.0)
-    if count not in _OF_MACHINE and machine.told_count is None:
-        message = say("{} positions of a cycle of {:g} degrees", count, machine.cycle_deg)
+    if count not in _OF_MACHINE and machine.stated_count is None:
+        message = translate("{} positions of a cycle of {:g} degrees", count, machine.cycle_deg)
         low, high = _OF_MACHINE[0], _OF_MACHINE[-1]
-        faults.add("cycle.count", message, say("A flywheel takes from {} to {}.", low, high))
+        faults.add("cycle.count", message, translate("A flywheel takes from {} to {}.", low, high))
     return replace(machine, count=count)
 
 
@@ -163,8 +163,8 @@ def _read_zero(faults: Faults, path: str, value: object) -> Zero | float | None:
     if isinstance(value, str):
         word = fields.read_word(faults, path, value, _NAMED)
         return None if word is None else _NAMED[word]
-    wanted = say(" or ").join(f'"{word}"' for word in _NAMED)
-    faults.expected(path, say("{} or an angle in degrees", wanted), value)
+    wanted = translate(" or ").join(f'"{word}"' for word in _NAMED)
+    faults.expected(path, translate("{} or an angle in degrees", wanted), value)
     return None
 
 
@@ -183,28 +183,32 @@ def _read_output(
 ) -> str | None:
     """Read the output: a link, or a point of a link that moves along a guide of the frame."""
     if not isinstance(value, str):
-        hint = say('Write output = "{}".', value) if isinstance(value, int) else ""
+        hint = translate('Write output = "{}".', value) if isinstance(value, int) else ""
         faults.expected(path, "a point or a link", value, hint)
         return None
     moving = [link for link in bodies if link != FRAME]
     name = value if value in moving else fields.unmask(faults, path, value)
     if name in moving:
         if drive is not None and name == drive.link:
-            faults.add(path, say("link {} drives", name), "The output is a link that is driven.")
+            faults.add(
+                path, translate("link {} drives", name), "The output is a link that is driven."
+            )
             return None
         return name
     points = list(dict.fromkeys(point for link in moving for point in bodies[link].points))
     if name not in points:
         fields.report_unknown(
-            faults, path, name, [*points, *moving], said="unknown point or link '{}'"
+            faults, path, name, [*points, *moving], message="unknown point or link '{}'"
         )
         return None
     if guiding(name, bodies, slides) is None:
         links = [link for link in moving if name in bodies[link].points]
         faults.add(
             path,
-            say("point {} moves along no guide of the frame", name),
-            say("Name a point of a slider, or a link whose angle is meant: {}.", ", ".join(links)),
+            translate("point {} moves along no guide of the frame", name),
+            translate(
+                "Name a point of a slider, or a link whose angle is meant: {}.", ", ".join(links)
+            ),
         )
         return None
     return name
@@ -219,10 +223,12 @@ def _read_graphs(
     drive: Drive | None,
 ) -> tuple[str, ...]:
     """Read the quantities of the requested graphs."""
-    if not isinstance(value, list) or not 1 <= len(value) <= _MOST_GRAPHS:
+    if not isinstance(value, list) or not 1 <= len(value) <= _MAX_GRAPHS:
         example = 'graphs = ["v_q_C", "u_31", "x_C"]'
-        faults.expected(path, say("a list of quantities, 1 to {} of them", _MOST_GRAPHS), value,
-                        say("For example: {}", example))  # fmt: skip
+        faults.expected(
+            path, translate("a list of quantities, 1 to {} of them", _MAX_GRAPHS), value,
+            translate("For example: {}", example),
+        )  # fmt: skip
         return ()
     moving = [link for link in bodies if link != FRAME]
     fixed = bodies[FRAME].points if FRAME in bodies else {}
@@ -236,15 +242,15 @@ def _read_graphs(
         if not isinstance(label, str):
             faults.expected(f"{path}[{k}]", "a quantity", label)
         elif drive is not None and label not in known:
-            said = "unknown quantity '{}'"
-            faults.add(f"{path}[{k}]", say(said, short(label)), _nearest(label, known))
+            phrase = "unknown quantity '{}'"
+            faults.add(f"{path}[{k}]", translate(phrase, short(label)), _nearest(label, known))
     return tuple(label for label in value if isinstance(label, str))
 
 
 def _nearest(label: str, known: list[str]) -> str:
-    guess = near(label, known)
+    guess = nearest_name(label, known)
     if guess is not None:
-        return say("Did you mean '{}'?", guess)
+        return translate("Did you mean '{}'?", guess)
     return 'For example: "x_C", "phi_3", "v_q_C", "u_31", "omega_3", "a_C".'
 
 

@@ -9,7 +9,7 @@ from typing import Annotated
 
 from msgspec import Struct
 
-from planmethod.problem.declared import NumberKey, OwnKey, WholeKey, WordKey
+from planmethod.problem.key_types import CustomKey, IntegerKey, NumberKey, WordKey
 from planmethod.problem.load_records import TurningSense
 
 DIAGRAM_HINT = "Millimetres of the diagrams."
@@ -73,14 +73,14 @@ class CycleTask(Struct, frozen=True):
 
     output: Annotated[
         str | None,
-        OwnKey(
+        CustomKey(
             "a point on a guide of the frame, or a link; default: the last driven link that "
             "is joined to the frame"
         ),
     ] = None
     zero: Annotated[
         Zero | float,
-        OwnKey(
+        CustomKey(
             'position zero: `"extreme"`, `"other extreme"`, `"working"`, or the angle of '
             "the crank, degrees; default: `phi_0` of `[machine]`, else the start of the "
             'working stroke if loads or `working` determine it, else `"extreme"`'
@@ -95,7 +95,7 @@ class CycleTask(Struct, frozen=True):
     ] = None
     count: Annotated[
         int,
-        WholeKey(
+        IntegerKey(
             "positions of a turn", 3, 360,
             more="; `count` of `[machine]` if it is the only one, else that of a full turn "
             "of `[driver] phi`",
@@ -118,14 +118,14 @@ class CycleTask(Struct, frozen=True):
     ] = None  # fmt: skip
     pole: Annotated[
         PoleDistances,
-        OwnKey(
+        CustomKey(
             "pole distances of both differentiations: `{ v = 36, a = 36 }`, mm; default: "
             "from round scales"
         ),
     ] = PoleDistances()
     graphs: Annotated[
         tuple[str, ...],
-        OwnKey(
+        CustomKey(
             'quantities whose graphs over the turn are drawn: `["x_C", "phi_3", "v_q_C", '
             '"v_qx_C", "u_31", "omega_3", "ay_C"]`; `"output"` means the position of the '
             "output and its transfer functions",
@@ -159,7 +159,7 @@ class ProjectTask(Struct, frozen=True):
 
     calculated: Annotated[
         int | None,
-        WholeKey(
+        IntegerKey(
             "number of the calculated position, from 0: drawn bold, loaded, told in full",
             0,
             719,
@@ -168,25 +168,25 @@ class ProjectTask(Struct, frozen=True):
     ] = None
     gears: Annotated[
         str,
-        OwnKey(
+        CustomKey(
             'file of the gear train, beside this one: `"train.toml"`',
             absent="`[gears]` of this file",
         ),
     ] = ""
     meshing: Annotated[
         str,
-        OwnKey(
+        CustomKey(
             'file of the wheels in mesh, beside this one: `"wheels.toml"`',
             absent="`[meshing]` of this file",
         ),
     ] = ""
     cam: Annotated[
         str,
-        OwnKey('file of the cam, beside this one: `"cam.toml"`', absent="`[cam]` of this file"),
+        CustomKey('file of the cam, beside this one: `"cam.toml"`', absent="`[cam]` of this file"),
     ] = ""
     parts: Annotated[
         tuple[str, ...],
-        OwnKey(
+        CustomKey(
             "which parts are made: " + ", ".join(f'`"{part}"`' for part in PROJECT_PARTS),
             absent="all that the file has",
         ),

@@ -7,24 +7,24 @@ from collections.abc import Collection, Mapping
 
 from msgspec.structs import replace
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
-from planmethod.problem.flat import read_flat
+from planmethod.problem.flat_tables import read_flat
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import (
     ANYWHERE,
+    AssemblyRelation,
+    CamDrive,
     Convention,
     Drive,
-    Geared,
-    Lifted,
+    GearDrive,
     Rule,
     Scales,
-    Where,
 )
-from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
-from planmethod.problem.posed import is_length, is_place, is_posed, is_rate, read_posed
+from planmethod.problem.names import is_point_name, listed, nearest_name, segment, split_pair
+from planmethod.problem.output_positions import is_length, is_place, is_posed, is_rate, read_posed
 
 Span = tuple[float, ...]
 ANGLES = ("phi", "cam")
@@ -37,7 +37,7 @@ def read_drive(
     links: Mapping[str, LinkText],
     fixed: Collection[str],
     hosts: Mapping[str, str],
-    leading: Geared | Lifted | None = None,
+    leading: GearDrive | CamDrive | None = None,
     numbered: int = 0,
 ) -> Drive | None:
     """Read ``[driver]``; ``hosts`` maps each slider to its host, ``leading`` its train or cam.
@@ -61,8 +61,8 @@ def read_drive(
         if link.sound:
             faults.add(
                 "driver.link",
-                say("link {} is not joined to the frame", link.name),
-                say(
+                translate("link {} is not joined to the frame", link.name),
+                translate(
                     "A driver turns about a fixed point ({}) or slides on a guide of the frame.",
                     listed(fixed),
                 ),
@@ -74,8 +74,8 @@ def read_drive(
     kind = "a crank" if pivots else "a driving slider"
     for key in given:
         if key in other and key not in own:
-            hint = say("Link {} is {}: {}.", link.name, kind, listed(own))
-            faults.add(f"driver.{key}", say("does not go with {}", kind), hint)
+            hint = translate("Link {} is {}: {}.", link.name, kind, listed(own))
+            faults.add(f"driver.{key}", translate("does not go with {}", kind), hint)
     posed = read_posed(faults, given, link, links, fixed, crank=bool(pivots))
     counted = bool(numbered and pivots)
     required: tuple[str, ...] = () if any(map(is_place, given)) else ("phi" if pivots else "s",)
@@ -89,7 +89,7 @@ def read_drive(
         required += ("omega",)
     for key in given:
         if acted and key in ("omega", "n", "train", "epsilon", "v", "a"):
-            faults.add(f"driver.{key}", _LIFTED if lifted else _ACTED)
+            faults.add(f"driver.{key}", _WITH_CAM if lifted else _ACTED)
     for key in required:
         if key not in given and whole:
             faults.add(f"driver.{key}", "missing", _EXAMPLES[key])
@@ -121,45 +121,45 @@ def read_drive(
     turns = rate * 30.0 / math.pi if "n" in given else None
     pivot, geared = (pivots[0], geared) if pivots else (None, None)
     return Drive(
-        link.name, pivot, positions, rate, acceleration, geared, turns, posed, judged, followed=led
+        link.name, pivot, positions, rate, acceleration, geared, turns, posed, judged, cam_drive=led
     )
 
 
-def _split(leading: Geared | Lifted) -> tuple[Geared | None, Lifted | None]:
+def _split(leading: GearDrive | CamDrive) -> tuple[GearDrive | None, CamDrive | None]:
     """Return the train, or the cam."""
-    return (leading, None) if isinstance(leading, Geared) else (None, leading)
+    return (leading, None) if isinstance(leading, GearDrive) else (None, leading)
 
 
-def _check_follower(faults: Faults, given: Table, led: Lifted | None, *, crank: bool) -> None:
+def _check_follower(faults: Faults, table: Table, led: CamDrive | None, *, crank: bool) -> None:
     """Note why a cam's follower cannot drive: its kind, or several positions."""
     key = "phi" if crank else "s"
     if led is not None and led.turns is not crank:
         what = "a translating follower moves a slider, an oscillating one a crank"
         faults.add("driver.cam", what, "Change follower of [cam], or the driving link.")
-    if isinstance(given.get(key), list | Mapping):
+    if isinstance(table.get(key), list | Mapping):
         what = "one place is expected: that of the link while the follower is lowest"
         faults.add(f"driver.{key}", what, "Give the angles of the cam: cam = [0, 30, 60].")
-    for other in ("stroke", "at", "root", *filter(is_posed, given)):
-        if other in given:
-            faults.add(f"driver.{other}", _LIFTED)
+    for other in ("stroke", "at", "root", *filter(is_posed, table)):
+        if other in table:
+            faults.add(f"driver.{other}", _WITH_CAM)
 
 
 _ACTED = "does not go with an actuator, whose rate drives"
-_LIFTED = "does not go with a cam, whose follower drives"
+_WITH_CAM = "does not go with a cam, whose follower drives"
 
 
-def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> LinkText | None:
-    if "link" not in given:
-        faults.add("driver.link", "missing", say("Name the driving link: {}.", listed(links)))
+def _read_link(faults: Faults, table: Table, links: Mapping[str, LinkText]) -> LinkText | None:
+    if "link" not in table:
+        faults.add("driver.link", "missing", translate("Name the driving link: {}.", listed(links)))
         return None
-    value = given["link"]
+    value = table["link"]
     if not isinstance(value, str):
-        hint = say('Write link = "{}".', value) if isinstance(value, int) else ""
+        hint = translate('Write link = "{}".', value) if isinstance(value, int) else ""
         faults.expected("driver.link", "the name of a link", value, hint)
         return None
     name = value if value in links else fields.unmask(faults, "driver.link", value)
     if name not in links:
-        fields.report_unknown(faults, "driver.link", name, links, said="unknown link '{}'")
+        fields.report_unknown(faults, "driver.link", name, links, message="unknown link '{}'")
         return None
     return links[name]
 
@@ -172,12 +172,14 @@ def _check_crank_axis(faults: Faults, link: LinkText, pivot: str) -> None:
     if first.a == pivot:
         return
     if first.b == pivot:
-        hint = say("Write {}{} instead of {}: from the pivot outwards.", pivot, first.a, first.key)
+        hint = translate(
+            "Write {}{} instead of {}: from the pivot outwards.", pivot, first.a, first.key
+        )
     else:
-        hint = say("Put first the length that starts at the pivot {}.", pivot)
+        hint = translate("Put first the length that starts at the pivot {}.", pivot)
     faults.add(
         f"{link.path}.{first.key}",
-        say(
+        translate(
             "the own axis of the crank starts at {}, phi is measured at the pivot {}",
             first.a,
             pivot,
@@ -186,16 +188,16 @@ def _check_crank_axis(faults: Faults, link: LinkText, pivot: str) -> None:
     )
 
 
-def _read_positions(faults: Faults, given: Table, key: str) -> Span | None:
+def _read_positions(faults: Faults, table: Table, key: str) -> Span | None:
     path = f"driver.{key}"
-    if key not in given:
+    if key not in table:
         return None
-    value = given[key]
+    value = table[key]
     if isinstance(value, list):
         if not value:
             faults.add(path, "expected at least one position, got an empty list")
             return None
-        if too_many(faults, path, len(value)):
+        if exceeds_position_limit(faults, path, len(value)):
             return None
         read = [_read_position(faults, f"{path}[{i}]", item, key) for i, item in enumerate(value)]
         kept = [item for item in read if item is not None]
@@ -218,12 +220,12 @@ def _read_position(faults: Faults, path: str, value: object, key: str) -> float 
     )
 
 
-def too_many(faults: Faults, path: str, count: int) -> bool:
+def exceeds_position_limit(faults: Faults, path: str, count: int) -> bool:
     """Return whether there are more positions than a file may have, noting the fault."""
     if count <= keys.POSITION_LIMIT:
         return False
     shown = f"{count}" if count < 10**9 else "over a billion"
-    faults.add(path, say("{} positions, the limit is {}", shown, keys.POSITION_LIMIT))
+    faults.add(path, translate("{} positions, the limit is {}", shown, keys.POSITION_LIMIT))
     return True
 
 
@@ -238,8 +240,8 @@ def _read_span(faults: Faults, path: str, table: Table, key: str) -> Span | None
     if not full_turn and names not in ({"from", "to", "count"}, {"from", "to", "step"}):
         ways = "{ from, to, step } or { from, to, count }"
         if key in ANGLES:
-            ways = say("{{ from, count }} (a full turn), {}", ways)
-        faults.add(path, say("expected {}, got {{ {} }}", ways, listed(given)))
+            ways = translate("{{ from, count }} (a full turn), {}", ways)
+        faults.add(path, translate("expected {}, got {{ {} }}", ways, listed(given)))
         return None
     start = _read_position(faults, f"{path}.from", given["from"], key)
     end = 0.0 if full_turn else _read_position(faults, f"{path}.to", given["to"], key)
@@ -249,61 +251,64 @@ def _read_span(faults: Faults, path: str, table: Table, key: str) -> Span | None
 def spread(
     faults: Faults,
     path: str,
-    given: Table,
+    table: Table,
     start: float | None,
     end: float | None,
     *,
     full_turn: bool = False,
 ) -> Span | None:
     """Return the row from one place to another by its ``count`` or ``step``; None after a fault."""
-    if "count" in given:
-        count = given["count"]
+    if "count" in table:
+        count = table["count"]
         least = 1 if full_turn else 2
         if not isinstance(count, int) or isinstance(count, bool) or count < least:
-            faults.expected(f"{path}.count", say("a whole number from {}", least), count)
+            faults.expected(f"{path}.count", translate("a whole number from {}", least), count)
             return None
-        if too_many(faults, f"{path}.count", count) or start is None or end is None:
+        if exceeds_position_limit(faults, f"{path}.count", count) or start is None or end is None:
             return None
         if full_turn:
             return tuple(start + 360.0 * k / count for k in range(count))
         return tuple(start + (end - start) * k / (count - 1) for k in range(count))
-    step = fields.read_number(faults, f"{path}.step", given["step"], "a step", low=-1e6, high=1e6)
+    step = fields.read_number(faults, f"{path}.step", table["step"], "a step", low=-1e6, high=1e6)
     if start is None or end is None or step is None:
         return None
     if step == 0 or (end - start) / step < 0:
         faults.add(
-            f"{path}.step", say("the step {:g} does not lead from {:g} to {:g}", step, start, end)
+            f"{path}.step",
+            translate("the step {:g} does not lead from {:g} to {:g}", step, start, end),
         )
         return None
     # a step of 0.1 must reach its end in spite of rounding
     last = math.floor((end - start) / step + 1e-9) if (end - start) / step < 1e9 else 10**9
-    if too_many(faults, path, last + 1):
+    if exceeds_position_limit(faults, path, last + 1):
         return None
     return tuple(start + step * k for k in range(last + 1))
 
 
-def _read_rate(faults: Faults, given: Table, key: str, what: str) -> float | None:
+def _read_rate(faults: Faults, table: Table, key: str, expected: str) -> float | None:
     """Read a rate; zero when it is not given."""
-    return fields.read_number(faults, f"driver.{key}", given.get(key, 0.0), what)
+    return fields.read_number(faults, f"driver.{key}", table.get(key, 0.0), expected)
 
 
-def _read_turning(faults: Faults, given: Table, geared: Geared | None) -> float | None:
+def _read_turning(faults: Faults, table: Table, geared: GearDrive | None) -> float | None:
     """Angular velocity, 1/s, from omega, n or the train."""
-    if "cam" in given or any(map(is_length, given)):
+    if "cam" in table or any(map(is_length, table)):
         return 0.0  # found with the position, or by the cam
-    one, *others = [key for key in ("omega", "n", "train") if key in given] or ["omega"]
+    one, *others = [key for key in ("omega", "n", "train") if key in table] or ["omega"]
     for other in others:
         faults.add(
-            f"driver.{other}", say("{} and {} are both given", one, other), "Keep one of them."
+            f"driver.{other}",
+            translate("{} and {} are both given", one, other),
+            "Keep one of them.",
         )
     if others:
         return None
-    if "train" in given:
+    if "train" in table:
         return None if geared is None else geared.rate
-    if "n" in given:
-        turns = _read_rate(faults, given, "n", "a rotational speed in rev/min")
+    if "n" in table:
+        turns = _read_rate(faults, table, "n", "a rotational speed in rev/min")
         return None if turns is None else turns * math.pi / 30.0
-    return _read_rate(faults, given, "omega", "an angular velocity in 1/s")
+    return _read_rate(faults, table, "omega", "an angular velocity in 1/s")
 
 
 _EXAMPLES = {
@@ -314,14 +319,14 @@ _EXAMPLES = {
 }
 
 _POINT_WORDS = {
-    "right": Where.RIGHT,
-    "left": Where.LEFT,
-    "above": Where.ABOVE,
-    "below": Where.BELOW,
-    "towards": Where.TOWARDS,
-    "away": Where.AWAY,
+    "right": AssemblyRelation.RIGHT,
+    "left": AssemblyRelation.LEFT,
+    "above": AssemblyRelation.ABOVE,
+    "below": AssemblyRelation.BELOW,
+    "towards": AssemblyRelation.TOWARDS,
+    "away": AssemblyRelation.AWAY,
 }
-_LINE_WORDS = {"left": Where.LEFT_OF, "right": Where.RIGHT_OF}
+_LINE_WORDS = {"left": AssemblyRelation.LEFT_OF, "right": AssemblyRelation.RIGHT_OF}
 
 
 def read_assembly(
@@ -346,10 +351,12 @@ def read_assembly(
         path = f"assembly.{segment(key)}"
         name = fields.unmask(faults, path, key)
         if name in fixed:
-            faults.add(path, say("point {} is fixed", name), "Rules are for points that move.")
+            faults.add(
+                path, translate("point {} is fixed", name), "Rules are for points that move."
+            )
             continue
         if name not in moving:
-            fields.report_unknown(faults, path, name, moving, said="unknown point '{}'")
+            fields.report_unknown(faults, path, name, moving, message="unknown point '{}'")
             continue
         rule = _read_rule(faults, path, name, value, known)
         if rule is not None:
@@ -370,18 +377,18 @@ def _read_rule(
     if len(words) == 3 and words[1] == ("from" if words[0] == "away" else "of"):
         del words[1]
     if len(words) != 2 or words[0] not in _POINT_WORDS:
-        guess = near(words[0], _POINT_WORDS) if words else None
+        guess = nearest_name(words[0], _POINT_WORDS) if words else None
         meant = {"right": "right of", "left": "left of", "away": "away from"}.get(
             guess or "", guess
         )
-        hint = say('Write "{} {}".', meant, words[-1]) if guess and guess != words[0] else ""
+        hint = translate('Write "{} {}".', meant, words[-1]) if guess and guess != words[0] else ""
         faults.expected(path, want, value, hint)
         return None
     side, name = words
     if is_point_name(name):
         ref = fields.read_known_point(faults, path, name, known, of="the mechanism")
         if ref == point:
-            faults.add(path, say("{} cannot be compared with itself", point))
+            faults.add(path, translate("{} cannot be compared with itself", point))
             return None
         return None if ref is None else Rule(point, _POINT_WORDS[side], (ref,))
     if split_pair(name) is None:
@@ -391,11 +398,11 @@ def _read_rule(
     if line is None:
         return None
     if side not in _LINE_WORDS:
-        hint = say("A point is above or below one point: {} {}.", side, line[1])
-        faults.add(path, say("'{}' does not go with the line {}", side, name), hint)
+        hint = translate("A point is above or below one point: {} {}.", side, line[1])
+        faults.add(path, translate("'{}' does not go with the line {}", side, name), hint)
         return None
     if point in line:
-        faults.add(path, say("the line {} goes through {} itself", name, point))
+        faults.add(path, translate("the line {} goes through {} itself", name, point))
         return None
     return Rule(point, _LINE_WORDS[side], line)
 
@@ -405,8 +412,8 @@ def _read_rule_table(
 ) -> Rule | None:
     given = fields.read_keys(faults, path, value, keys.RULE)
     keep = given.get("keep")
-    if "keep" in given and keep not in keys.KEEP:
-        wanted = say(" or ").join(f'"{word}"' for word in keys.KEEP)
+    if "keep" in given and keep not in keys.ASSEMBLY_FLAGS:
+        wanted = translate(" or ").join(f'"{word}"' for word in keys.ASSEMBLY_FLAGS)
         faults.expected(f"{path}.keep", wanted, keep)
         return None
     first = [key for key in ("near", "rule") if key in given]
@@ -414,10 +421,12 @@ def _read_rule_table(
         if first:
             faults.add(f"{path}.{first[0]}", "a parallelogram has one closing", "Delete this key.")
             return None
-        return Rule(point, Where.PARALLEL)
+        return Rule(point, AssemblyRelation.PARALLEL)
     if len(first) != 1:
         said = "give near or rule, not both" if first else "missing"
-        faults.add(f"{path}.near", said, say("For example: {} = {{ near = [0.1, 0.2] }}", point))
+        faults.add(
+            f"{path}.near", said, translate("For example: {} = {{ near = [0.1, 0.2] }}", point)
+        )
         return None
     if "rule" in given:
         phrase = given["rule"]
@@ -427,7 +436,7 @@ def _read_rule_table(
         found = _read_rule(faults, f"{path}.rule", point, phrase, known)
     else:
         at = fields.read_place(faults, f"{path}.near", given["near"])
-        found = None if at is None else Rule(point, Where.NEAR, at=at)
+        found = None if at is None else Rule(point, AssemblyRelation.NEAR, at=at)
     return None if found is None else replace(found, continuous=keep is not None)
 
 

@@ -10,11 +10,11 @@ from collections.abc import Collection, Mapping
 from functools import partial
 from typing import Any
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields
 from planmethod.problem.fields import Faults, Table
-from planmethod.problem.flat import OwnReader, read_flat
+from planmethod.problem.flat_tables import CustomReader, read_flat
 from planmethod.problem.forces import LoadScope, read_loads
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import (
@@ -28,7 +28,7 @@ from planmethod.problem.load_records import (
 )
 from planmethod.problem.machine_records import CounterweightTask, Machine, Weighing
 from planmethod.problem.model import Drive
-from planmethod.problem.names import listed, near_hint, pair_name, segment
+from planmethod.problem.names import listed, nearest_name_hint, pair_name, segment
 from planmethod.problem.sizes import TURN
 
 _EXAMPLE = '[dynamics.links.2] mass = 40, centre = "S2", inertia = 2'
@@ -36,7 +36,7 @@ _EXAMPLE = '[dynamics.links.2] mass = 40, centre = "S2", inertia = 2'
 
 def read_dynamics(
     faults: Faults,
-    given: Mapping[str, Any],
+    document: Mapping[str, Any],
     links: Mapping[str, LinkText],
     fixed: Collection[str],
     drive: Drive | None,
@@ -46,7 +46,7 @@ def read_dynamics(
 
     Parameters
     ----------
-    given : mapping
+    document : mapping
         The whole file.
     fixed : collection of str
         Points of the frame.
@@ -60,18 +60,18 @@ def read_dynamics(
     Dynamics or None
         None when the file has neither.
     """
-    if "dynamics" not in given and "loads" not in given:
+    if "dynamics" not in document and "loads" not in document:
         return None
     scene = LoadScope(links, fixed, drive, TURN if machine is None else machine.cycle_deg)
     found: dict[str, Any] = {"gravity": 0.0, "masses": {}}
-    if "dynamics" in given:
-        table = fields.read_table(faults, "dynamics", given["dynamics"], _EXAMPLE)
-        own: dict[str, OwnReader] = {
+    if "dynamics" in document:
+        table = fields.read_table(faults, "dynamics", document["dynamics"], _EXAMPLE)
+        own: dict[str, CustomReader] = {
             "gravity": _read_gravity,
             "links": partial(_read_masses, scene=scene),
         }
         found |= {"gravity": GRAVITY} | read_flat(faults, "dynamics", table or {}, Dynamics, own)
-    return Dynamics(loads=read_loads(faults, given.get("loads", []), scene), **found)
+    return Dynamics(loads=read_loads(faults, document.get("loads", []), scene), **found)
 
 
 def _read_gravity(faults: Faults, path: str, value: object) -> float:
@@ -81,7 +81,7 @@ def _read_gravity(faults: Faults, path: str, value: object) -> float:
         faults.add(
             path,
             "expected a number in m/s² or false, got the boolean true",
-            say("Leave it out for {}.", GRAVITY),
+            translate("Leave it out for {}.", GRAVITY),
         )
         return 0.0
     what = "an acceleration of free fall in m/s²"
@@ -98,7 +98,9 @@ def _read_masses(faults: Faults, path: str, table: object, scene: LoadScope) -> 
             continue
         if link.name in masses:
             faults.add(
-                where, say("the mass of link {} is given twice", link.name), "Keep one of them."
+                where,
+                translate("the mass of link {} is given twice", link.name),
+                "Keep one of them.",
             )
             continue
         mass = _read_mass(faults, where, body, link, scene)
@@ -116,8 +118,8 @@ def _read_mass(
     if len(faults) == before and "centre" not in found:
         if len(link.points) == 1:
             found["centre"] = link.points[0]
-        elif found.get("mass") and link.whole:
-            hint = say(
+        elif found.get("mass") and link.is_complete:
+            hint = translate(
                 "Name the centre of mass among the points of link {} ({}), or give the link "
                 "another point there.",
                 link.name,
@@ -132,7 +134,7 @@ _BALANCED = '[balancing] method = "full", radii = { 1 = 0.1, 3 = 0.08 }'
 
 def read_balancing(
     faults: Faults,
-    given: Mapping[str, Any],
+    document: Mapping[str, Any],
     links: Collection[str],
     drive: Drive | None,
     dynamics: Dynamics | None,
@@ -141,14 +143,14 @@ def read_balancing(
 
     Parameters
     ----------
-    given : mapping
+    document : mapping
         The whole file.
     links : collection of str
     drive, dynamics : Drive and Dynamics, or None
         None where the file has none of them, or they could not be read.
     """
     before = len(faults)
-    table = fields.read_table(faults, "balancing", given["balancing"], _BALANCED)
+    table = fields.read_table(faults, "balancing", document["balancing"], _BALANCED)
     if table is None:
         return None
     hint = "Counterweights are on the links of a crank mechanism: give it phi and n."
@@ -173,8 +175,8 @@ def _read_radii(
     for link, distance in (fields.read_table(faults, path, value, _BALANCED) or {}).items():
         where = f"{path}.{segment(link)}"
         if link not in links:
-            hint = near_hint(link, links, say("There are {}.", listed(list(links))))
-            faults.add(where, say("link '{}' does not exist", link), hint)
+            hint = nearest_name_hint(link, links, translate("There are {}.", listed(list(links))))
+            faults.add(where, translate("link '{}' does not exist", link), hint)
             continue
         found = fields.read_metres(faults, where, distance, low=1e-6, high=1e4)
         if found is not None:
@@ -186,30 +188,30 @@ _PUSHED = '[balancing_force] at = "A"'
 
 
 def read_balancing_force(
-    faults: Faults, given: Mapping[str, Any], links: Mapping[str, LinkText], drive: Drive | None
+    faults: Faults, document: Mapping[str, Any], links: Mapping[str, LinkText], drive: Drive | None
 ) -> BalancingForceTask | None:
     """Read ``[balancing_force]``; None after noting a fault.
 
     Parameters
     ----------
-    given : mapping
+    document : mapping
         The whole file.
     """
     path, before = "balancing_force", len(faults)
-    table = fields.read_table(faults, path, given[path], _PUSHED)
+    table = fields.read_table(faults, path, document[path], _PUSHED)
     if table is None:
         return None
-    if "dynamics" not in given and "loads" not in given:
+    if "dynamics" not in document and "loads" not in document:
         faults.add(path, "there are neither masses nor loads that it could balance", _MASSES)
     if drive is None or drive.link not in links:
         return None
     if drive.actuator is not None:
         hint = "Delete the table: what balances an actuator's mechanism is the force along it."
-        faults.add(path, say("the actuator {} drives", "".join(drive.actuator)), hint)
+        faults.add(path, translate("the actuator {} drives", "".join(drive.actuator)), hint)
         return None
     if drive.pivot is None:
         hint = "Delete the table: what balances a driving slider is a force along its guide."
-        faults.add(path, say("link {} slides and has no turn", drive.link), hint)
+        faults.add(path, translate("link {} slides and has no turn", drive.link), hint)
         return None
     crank = links[drive.link]
     others = [point for point in crank.points if point != drive.pivot]
@@ -217,8 +219,10 @@ def read_balancing_force(
     def point(faults: Faults, path: str, value: object) -> str | None:
         name = LoadScope(links, (), drive).find_point(faults, path, value, crank)
         if name == drive.pivot:
-            hint = say("Name another point of link {}: {}.", drive.link, listed(others))
-            faults.add(path, say("point {} is the axis: there a force has no arm", name), hint)
+            hint = translate("Name another point of link {}: {}.", drive.link, listed(others))
+            faults.add(
+                path, translate("point {} is the axis: there a force has no arm", name), hint
+            )
         return name
 
     found = read_flat(faults, path, table, BalancingForceTask, {"at": point}, example=_PUSHED)
@@ -231,7 +235,7 @@ _FRICTION = "[friction] f = 0.1, f_pin = 0.1, radius = 0.01"
 
 def read_friction(
     faults: Faults,
-    given: Mapping[str, Any],
+    document: Mapping[str, Any],
     links: Collection[str],
     drive: Drive | None,
     points: Collection[str],
@@ -240,24 +244,24 @@ def read_friction(
 
     Parameters
     ----------
-    given : mapping
+    document : mapping
         The whole file.
     points : collection of str
         Every point of the mechanism.
     """
     path, before = "friction", len(faults)
-    table = fields.read_table(faults, path, given[path], _FRICTION)
+    table = fields.read_table(faults, path, document[path], _FRICTION)
     if table is None:
         return None
-    if "dynamics" not in given and "loads" not in given:
+    if "dynamics" not in document and "loads" not in document:
         faults.add(path, "there are neither masses nor loads that could press", _MASSES)
-    if drive is not None and drive.stands:
+    if drive is not None and drive.is_at_rest:
         hint = "Give the driver a speed: friction acts against the motion."
         faults.add(path, "the driver stands, so friction has no sense", hint)
     own = {"pairs": partial(_read_pairs, links=[*links, FRAME], points=points)}
     found = read_flat(faults, path, table, FrictionTask, own)
     if len(faults) == before and found.get("f_pin") and "radius" not in found:
-        hint = say("For example: {}", _FRICTION)
+        hint = translate("For example: {}", _FRICTION)
         faults.add(f"{path}.radius", "missing: the friction of a pin goes with its radius", hint)
     return None if len(faults) != before else FrictionTask(**found)
 
@@ -278,8 +282,8 @@ def _read_pairs(
             (links, other, "link '{}' does not exist"),
         ):
             if wanted not in known:
-                hint = near_hint(wanted, known, say("For example: {}", example))
-                faults.add(where, say(message, wanted), hint)
+                hint = nearest_name_hint(wanted, known, translate("For example: {}", example))
+                faults.add(where, translate(message, wanted), hint)
                 break
         else:
             table = fields.read_table(faults, where, body, example)
@@ -294,24 +298,26 @@ _BEARINGS = "[bearings.O] at = [-0.04, 0.06]"
 
 
 def read_bearings(
-    faults: Faults, given: Mapping[str, Any], turning: Collection[str]
+    faults: Faults, document: Mapping[str, Any], turning: Collection[str]
 ) -> dict[str, BearingTable]:
     """Read ``[bearings]``, by joint.
 
     Parameters
     ----------
-    given : mapping
+    document : mapping
         The whole file.
     turning : collection of str
         Points of the frame about which a link turns.
     """
     found: dict[str, BearingTable] = {}
-    shafts = fields.read_table(faults, "bearings", given["bearings"], _BEARINGS)
+    shafts = fields.read_table(faults, "bearings", document["bearings"], _BEARINGS)
     for joint, body in (shafts or {}).items():
         where = f"bearings.{segment(joint)}"
         if joint not in turning:
-            hint = near_hint(joint, turning, say("Shafts are in {}.", listed(list(turning))))
-            faults.add(where, say("no link turns about a fixed point '{}'", joint), hint)
+            hint = nearest_name_hint(
+                joint, turning, translate("Shafts are in {}.", listed(list(turning)))
+            )
+            faults.add(where, translate("no link turns about a fixed point '{}'", joint), hint)
             continue
         table = fields.read_table(faults, where, body, _BEARINGS)
         before = len(faults)
@@ -319,14 +325,16 @@ def read_bearings(
         read = read_flat(faults, where, table or {}, BearingTable, own, example=_BEARINGS)
         if table is not None and len(faults) == before:
             found[joint] = BearingTable(**read)
-    if "dynamics" not in given and "loads" not in given:
+    if "dynamics" not in document and "loads" not in document:
         faults.add("bearings", "there are neither masses nor loads that they could carry", _MASSES)
     return found
 
 
 def _read_places(faults: Faults, path: str, value: object) -> tuple[float, float] | None:
     if not isinstance(value, list) or len(value) != 2:
-        faults.expected(path, "two distances in metres", value, say("For example: {}", _BEARINGS))
+        faults.expected(
+            path, "two distances in metres", value, translate("For example: {}", _BEARINGS)
+        )
         return None
     one, two = (
         fields.read_metres(faults, f"{path}[{k}]", each, low=-1e3, high=1e3)

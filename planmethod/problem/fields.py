@@ -9,9 +9,8 @@ from enum import Enum
 from typing import Any, TypeAlias, TypeGuard, TypeVar
 
 from planmethod.errors import Fault
-from planmethod.languages import HIDDEN, say
-from planmethod.problem.formula import FormulaError, work_out
-from planmethod.problem.mistyped import INSTEAD, value_hint
+from planmethod.languages import HIDDEN, translate
+from planmethod.problem.formula import FormulaError, evaluate_arithmetic
 from planmethod.problem.model import Drive
 from planmethod.problem.names import (
     UNITS,
@@ -21,12 +20,13 @@ from planmethod.problem.names import (
     joined,
     listed,
     lookalikes,
-    near,
-    near_hint,
+    nearest_name,
+    nearest_name_hint,
     segment,
     short,
     split_pair,
 )
+from planmethod.problem.typos import INSTEAD, value_hint
 from planmethod.problem.units import expected_unit, measured, read_unit
 
 FAULT_LIMIT = 100
@@ -79,39 +79,39 @@ class Faults:
         if self.count <= FAULT_LIMIT:
             self._found.append(fault)
 
-    def expected(self, path: str, what: str, value: object, hint: str = "") -> None:
-        """Note that ``what`` was expected instead of a value."""
-        self.add(path, say("expected {}, got {}", what, show(value)), hint)
+    def expected(self, path: str, expected: str, value: object, hint: str = "") -> None:
+        """Note that ``expected`` was expected instead of a value."""
+        self.add(path, translate("expected {}, got {}", expected, show(value)), hint)
 
-    def beyond(self, path: str, said: str, count: int, limit: int) -> bool:
+    def exceeds(self, path: str, message: str, count: int, limit: int) -> bool:
         """Note an exceeded limit, ``{} links, the limit is {}``; return whether it is exceeded."""
         if count > limit:
-            self.add(path, say(said, count, limit))
+            self.add(path, translate(message, count, limit))
         return count > limit
 
     @property
-    def found(self) -> tuple[Fault, ...]:
+    def listed(self) -> tuple[Fault, ...]:
         """Faults in the order of finding."""
         left = self.count - len(self._found)
         if left <= 0:
             return tuple(self._found)
-        return (*self._found, Fault("", say("and {} more faults", left), "Fix these first."))
+        return (*self._found, Fault("", translate("and {} more faults", left), "Fix these first."))
 
 
 def show(value: object) -> str:
     """Describe a TOML value for a message: ``the string 'abc'``, ``the integer 3``, ``a table``."""
     if isinstance(value, bool):
-        return say("the boolean {}", str(value).lower())
+        return translate("the boolean {}", str(value).lower())
     if isinstance(value, str):
-        return say("the string {!r}", short(value))
+        return translate("the string {!r}", short(value))
     if isinstance(value, int):
-        return say("the integer {}", value) if abs(value) < 10**15 else "a huge integer"
+        return translate("the integer {}", value) if abs(value) < 10**15 else "a huge integer"
     if isinstance(value, float):
-        return say("the number {:g}", value)
+        return translate("the number {:g}", value)
     if isinstance(value, Mapping):
         return "a table"
     if isinstance(value, list):
-        return say("a list of {}", len(value)) if value else "an empty list"
+        return translate("a list of {}", len(value)) if value else "an empty list"
     return "a date or time"
 
 
@@ -129,7 +129,7 @@ def read_number(
     faults: Faults,
     path: str,
     value: object,
-    what: str = "a number",
+    expected: str = "a number",
     *,
     low: float = -1e9,
     high: float = 1e9,
@@ -141,7 +141,7 @@ def read_number(
 
     Parameters
     ----------
-    what : str
+    expected : str
         Expected value, with its unit: ``a length in metres``.
     positive : bool
         Zero and negative numbers are then reported as such, before the bounds are checked.
@@ -150,32 +150,34 @@ def read_number(
     hint : str
         What to do about a number that is out of bounds.
     """
-    number = read_measured(faults, path, value, what)
+    number = read_measured(faults, path, value, expected)
     if number is not None and not math.isfinite(number):
         return None
     mistyped = "" if number is not None else value_hint(value)
     value = value if number is None else number
     if isinstance(value, str) and not mistyped and any(map(str.isdecimal, value)):
         try:
-            number = work_out(value)
+            number = evaluate_arithmetic(value)
         except FormulaError as error:
-            said = say("expected {}, got {}: {}", what, show(value), str(error))
-            faults.add(path, said, error.hint)
+            phrase = translate("expected {}, got {}: {}", expected, show(value), str(error))
+            faults.add(path, phrase, error.hint)
             return None
         faults.stated[path], value = value, number
     if not is_number(value):
-        faults.expected(path, what, value, mistyped)
+        faults.expected(path, expected, value, mistyped)
         return None
     try:
         number = float(value)
     except OverflowError:
         number = math.inf if value > 0 else -math.inf
     if not math.isfinite(number):
-        faults.add(path, say("expected {}, got {:g}", what, number), "The number must be finite.")
+        faults.add(
+            path, translate("expected {}, got {:g}", expected, number), "The number must be finite."
+        )
         return None
     if positive and number < TINY:
         small = "So small a number is zero here: check its power of ten." if number > 0 else ""
-        faults.add(path, say("expected {} greater than 0, got {:g}", what, number), small)
+        faults.add(path, translate("expected {} greater than 0, got {:g}", expected, number), small)
         return None
     if 0 < abs(number) < TINY:
         if not offset:
@@ -183,13 +185,15 @@ def read_number(
         number = 0.0
     if not low <= number <= high:
         faults.add(
-            path, say("expected {} from {:g} to {:g}, got {:g}", what, low, high, number), hint
+            path,
+            translate("expected {} from {:g} to {:g}, got {:g}", expected, low, high, number),
+            hint,
         )
         return None
     return number
 
 
-def read_measured(faults: Faults, path: str, value: object, what: str) -> float | None:
+def read_measured(faults: Faults, path: str, value: object, expected: str) -> float | None:
     """Return a number that has a unit, ``"4 in"``, in the unit that is expected.
 
     Returns
@@ -200,33 +204,33 @@ def read_measured(faults: Faults, path: str, value: object, what: str) -> float 
     told = measured(value) if isinstance(value, str) else None
     if told is None:
         return None
-    unit = expected_unit(what)
+    unit = expected_unit(expected)
     number = told.in_unit(unit) if unit else None
     if number is None:
         wanted = read_unit(unit) if unit else None
         if wanted is None:
-            hint = say("Write {} alone: it has no unit.", told.number)
+            hint = translate("Write {} alone: it has no unit.", told.number)
         elif wanted.dimension == told.of.dimension:
-            hint = say("Write {} for turns, or {} for an angle a second.", "rpm", "rad/s")
+            hint = translate("Write {} for turns, or {} for an angle a second.", "rpm", "rad/s")
         else:
-            hint = say("{} is a unit of {}: check it.", told.unit, told.quantity)
-        faults.expected(path, what, value, hint)
+            hint = translate("{} is a unit of {}: check it.", told.unit, told.quantity)
+        faults.expected(path, expected, value, hint)
         return math.nan
     wanted = read_unit(unit)
-    if not is_plain(told.number) and wanted is not None and told.of.factor == wanted.factor:
+    if not is_plain_number(told.number) and wanted is not None and told.of.factor == wanted.factor:
         faults.stated[path] = told.number
     return number
 
 
-def is_plain(text: str) -> bool:
+def is_plain_number(text: str) -> bool:
     """Return whether a text is a plain number, not arithmetic."""
     return re.fullmatch(r"[-+−]?\d+(?:[.,]\d+)?", text) is not None
 
 
-def read_whole(faults: Faults, path: str, value: object, low: int, high: int) -> int | None:
+def read_integer(faults: Faults, path: str, value: object, low: int, high: int) -> int | None:
     """Read a whole number within bounds; None after noting a fault."""
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-        faults.expected(path, say("a whole number from {} to {}", low, high), value)
+        faults.expected(path, translate("a whole number from {} to {}", low, high), value)
         return None
     return value
 
@@ -240,7 +244,7 @@ def read_flag(faults: Faults, path: str, value: object) -> bool | None:
     return None
 
 
-_SAID: Mapping[str, Mapping[str, str]] = {
+_EXPECTED_TEXTS: Mapping[str, Mapping[str, str]] = {
     "m": {
         "length": "a length in metres",
         "distance": "a distance in metres",
@@ -298,7 +302,7 @@ def read_metres(
     kind : str
         ``length``, ``distance`` or ``coordinate``: how it is called.
     """
-    per, what = UNITS[faults.unit], _SAID[faults.unit][kind]
+    per, what = UNITS[faults.unit], _EXPECTED_TEXTS[faults.unit][kind]
     number = read_number(
         faults, path, value, what, low=low * per, high=high * per, positive=positive,
         offset=not positive,
@@ -316,7 +320,7 @@ def read_angle(faults: Faults, path: str, value: object) -> float | None:
     """Read an angle, degrees."""
     radians = re.sub("π|pi", "180", value) if isinstance(value, str) else value
     if isinstance(value, str) and radians != value and measured(value) is None:
-        hint = say('pi is 180 degrees: write "{}".', radians)
+        hint = translate('pi is 180 degrees: write "{}".', radians)
         faults.expected(path, "an angle in degrees", value, hint)
         return None
     return read_number(
@@ -328,14 +332,16 @@ def read_text(faults: Faults, path: str, value: object, *, limit: int) -> str | 
     """Read a line of text without control characters."""
     if not isinstance(value, str):
         hint = (
-            "Put it in quotes." if is_number(value) or show(value) == say("a date or time") else ""
+            "Put it in quotes."
+            if is_number(value) or show(value) == translate("a date or time")
+            else ""
         )
         faults.expected(path, "a string", value, hint)
         return None
     if len(value) > limit:
         faults.add(
             path,
-            say("the text has {} characters, the limit is {}", len(value), limit),
+            translate("the text has {} characters, the limit is {}", len(value), limit),
             "Shorten it.",
         )
         return None
@@ -343,7 +349,7 @@ def read_text(faults: Faults, path: str, value: object, *, limit: int) -> str | 
     if bad is not None:
         faults.add(
             path,
-            say("the text has the control character U+{:04X}", ord(bad[0])),
+            translate("the text has the control character U+{:04X}", ord(bad[0])),
             "Write it on one line, without tabs.",
         )
         return None
@@ -354,7 +360,7 @@ def read_table(faults: Faults, path: str, value: object, example: str = "") -> T
     """Read a table."""
     if isinstance(value, Mapping):
         return value
-    hint = say("For example: {}", example) if example else ""
+    hint = translate("For example: {}", example) if example else ""
     faults.expected(path, "a table", value, hint)
     return None
 
@@ -364,7 +370,9 @@ def read_place(faults: Faults, path: str, value: object) -> complex | None:
     if not isinstance(value, list) or len(value) != 2:
         commas = isinstance(value, list) and len(value) in (3, 4)
         hint = "The decimal sign is a point: [0.5, 0.3]." if commas else ""
-        faults.expected(path, _SAID[faults.unit]["place"], value, hint or value_hint(value))
+        faults.expected(
+            path, _EXPECTED_TEXTS[faults.unit]["place"], value, hint or value_hint(value)
+        )
         return None
     x = read_coordinate(faults, f"{path}[0]", value[0], "coordinate")
     y = read_coordinate(faults, f"{path}[1]", value[1], "coordinate")
@@ -385,41 +393,43 @@ def read_keys(faults: Faults, path: str, table: Table, known: Iterable[str]) -> 
 
 
 def report_unknown(
-    faults: Faults, path: str, name: str, known: Iterable[str], *, said: str = "unknown key"
+    faults: Faults, path: str, name: str, known: Iterable[str], *, message: str = "unknown key"
 ) -> None:
     """Note an unknown key or name, as ``unknown link '{}'``, with the nearest known one."""
     names = tuple(known)
     # the nearest name is searched for only if the fault will be listed
-    guess = near(name, names) if faults.count < FAULT_LIMIT else None
-    hint = say("Did you mean '{}'?", guess) if guess else ""
+    guess = nearest_name(name, names) if faults.count < FAULT_LIMIT else None
+    hint = translate("Did you mean '{}'?", guess) if guess else ""
     if "omega" in names:
         hint = INSTEAD.get(name, hint)
     if not hint and names:
-        hint = say("Known here: {}.", listed(names))
-    faults.add(path, say(said, short(name)), hint)
+        hint = translate("Known here: {}.", listed(names))
+    faults.add(path, translate(message, short(name)), hint)
 
 
 def require_turning(
-    faults: Faults, path: str, drive: Drive | None, slides: str, stands: str
+    faults: Faults, path: str, drive: Drive | None, slides: str, hint_at_rest: str
 ) -> None:
     """Note that a table needs a rotating crank, with a hint for the actual driver."""
-    if drive is not None and drive.followed is not None:
+    if drive is not None and drive.cam_drive is not None:
         what = "a cam's follower moves link {}, which does not turn all round"
-        faults.add(path, say(what, drive.link), slides)
+        faults.add(path, translate(what, drive.link), slides)
     elif drive is not None and drive.actuator is not None:
         what = "the actuator {} moves link {}, which does not turn all round"
-        faults.add(path, say(what, "".join(drive.actuator), drive.link), slides)
+        faults.add(path, translate(what, "".join(drive.actuator), drive.link), slides)
     elif drive is not None and not drive.is_crank:
-        faults.add(path, say("link {} slides and has no turn", drive.link), slides)
-    elif drive is not None and drive.stands:
-        faults.add(path, "the crank stands", stands)
+        faults.add(path, translate("link {} slides and has no turn", drive.link), slides)
+    elif drive is not None and drive.is_at_rest:
+        faults.add(path, "the crank stands", hint_at_rest)
 
 
 def unmask(faults: Faults, path: str, name: str) -> str:
     """Note the look-alike letters of a name and return the intended name."""
     if lookalikes(name) and fold(name).isascii():
         meant = short(fold(name))
-        faults.add(path, describe_lookalikes(name), say("Type '{}' in the Latin layout.", meant))
+        faults.add(
+            path, describe_lookalikes(name), translate("Type '{}' in the Latin layout.", meant)
+        )
     return fold(name) if fold(name).isascii() else name
 
 
@@ -431,7 +441,7 @@ def read_word(faults: Faults, path: str, value: object, known: Iterable[str]) ->
         return None
     word = unmask(faults, path, value)
     if word not in words:
-        faults.expected(path, _either(words), value, near_hint(word, words))
+        faults.expected(path, _either(words), value, nearest_name_hint(word, words))
         return None
     return word
 
@@ -444,7 +454,7 @@ def read_member(faults: Faults, path: str, value: object, kind: type[M]) -> M | 
 
 def _either(words: tuple[str, ...]) -> str:
     *first, last = (f"'{word}'" for word in words)
-    return say("{} or {}", ", ".join(first), last) if first else last
+    return translate("{} or {}", ", ".join(first), last) if first else last
 
 
 def read_point_name(faults: Faults, path: str, value: object) -> str | None:
@@ -470,7 +480,7 @@ Owner: TypeAlias = str | Callable[[], str]
 
 
 def _no_point(owner: Owner, name: str) -> str:
-    return say("{} has no point '{}'", owner if isinstance(owner, str) else owner(), name)
+    return translate("{} has no point '{}'", owner if isinstance(owner, str) else owner(), name)
 
 
 def read_known_point(
@@ -482,7 +492,7 @@ def read_known_point(
         return None
     points = tuple(known)
     if name not in points:
-        hint = near_hint(name, points, say("Its points are {}.", listed(points)))
+        hint = nearest_name_hint(name, points, translate("Its points are {}.", listed(points)))
         faults.add(path, _no_point(of, name), hint if points else "")
         return None
     return name
@@ -502,7 +512,7 @@ def read_line_name(
     points = tuple(known)
     for name in pair:
         if name not in points:
-            hint = say("Its points are {}.", listed(points)) if points else ""
+            hint = translate("Its points are {}.", listed(points)) if points else ""
             faults.add(path, _no_point(of, name), hint)
             return None
     return pair

@@ -10,7 +10,7 @@ from msgspec import Struct
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
 
-Taken = Callable[[str, int], float | None]
+QuantityReader = Callable[[str, int], float | None]
 """Value of a quantity by its name and position; None where it has none."""
 
 
@@ -28,7 +28,7 @@ class AnswerValue(Struct, frozen=True):
         Whether the sign belongs to the number.
     turns : bool
         Whether it has a sense of turning.
-    whole : bool
+    is_integer : bool
         A count: nothing but the number itself is right.
     """
 
@@ -37,15 +37,15 @@ class AnswerValue(Struct, frozen=True):
     value: float
     signed: bool = True
     turns: bool = False
-    whole: bool = False
+    is_integer: bool = False
 
 
 class Mistaken(NamedTuple):
     """A mistake by its code, where it is made, and what all quantities then are."""
 
     code: str
-    where: str
-    take: Taken
+    position_note: str
+    read: QuantityReader
 
 
 class Figures(Protocol):
@@ -71,5 +71,5 @@ class Figures(Protocol):
     def mistaken(self) -> Iterator[Mistaken]:
         """Yield the usual mistakes."""
 
-    def followed(self, name: str, own: Mapping[str, float]) -> Iterator[tuple[float, str]]:
+    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[tuple[float, str]]:
         """Yield values of a quantity from other answers of the same position, with their names."""

@@ -10,14 +10,14 @@ from collections.abc import Collection, Iterable, Mapping
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import Against, Couple, Fixed, Load, SizeTable
 from planmethod.problem.model import Drive
-from planmethod.problem.names import indexed, listed, near_hint
+from planmethod.problem.names import indexed, listed, nearest_name_hint
 from planmethod.problem.sizes import LIKE, TURN, liken, read_phase, read_size
 
 NAME_LIMIT = 40
@@ -47,35 +47,35 @@ class LoadScope(Struct, frozen=True):
     def find_link(self, faults: Faults, path: str, value: object, verb: str) -> LinkText | None:
         """Return a moving link by its name; ``verb`` names their action in messages."""
         if not isinstance(value, str):
-            hint = say('Write link = "{}".', value) if type(value) is int else ""
+            hint = translate('Write link = "{}".', value) if type(value) is int else ""
             faults.expected(path, "the name of a link", value, hint)
             return None
         name = value if value in self.links else fields.unmask(faults, path, value)
         if name == FRAME:
-            hint = say("Moving links {}: {}.", verb, listed(self.links))
+            hint = translate("Moving links {}: {}.", verb, listed(self.links))
             faults.add(path, "0 is the frame (стойка), which does not move", hint)
             return None
         if name not in self.links:
             if self.links:
-                fields.report_unknown(faults, path, name, self.links, said="unknown link '{}'")
+                fields.report_unknown(faults, path, name, self.links, message="unknown link '{}'")
             return None
         return self.links[name]
 
     def find_point(self, faults: Faults, path: str, value: object, link: LinkText) -> str | None:
         """Return a point of a link by its name."""
         name = fields.read_point_name(faults, path, value)
-        if name is None or name in link.points or not link.whole:
+        if name is None or name in link.points or not link.is_complete:
             return name
         others = [other.name for other in self.links.values() if name in other.points]
-        points = say("the points of link {} are {}", link.name, listed(link.points))
+        points = translate("the points of link {} are {}", link.name, listed(link.points))
         if others:
-            told = "{0} is a point of link{1:||s} {2}; {3}."
-            hint = say(told, name, len(others), listed(others), points)
+            text = "{0} is a point of link{1:||s} {2}; {3}."
+            hint = translate(text, name, len(others), listed(others), points)
         elif name in self.fixed:
-            hint = say("{} is a point of the frame; {}.", name, points)
+            hint = translate("{} is a point of the frame; {}.", name, points)
         else:
-            hint = near_hint(name, link.points, f"{points[:1].upper()}{points[1:]}.")
-        faults.add(path, say("link {} has no point '{}'", link.name, name), hint)
+            hint = nearest_name_hint(name, link.points, f"{points[:1].upper()}{points[1:]}.")
+        faults.add(path, translate("link {} has no point '{}'", link.name, name), hint)
         return None
 
 
@@ -84,7 +84,7 @@ def read_loads(faults: Faults, value: object, scene: LoadScope) -> tuple[Load | 
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("loads", "tables [[loads]]", value)
         return ()
-    if faults.beyond("loads", "{} loads, the limit is {}", len(value), keys.LOAD_LIMIT):
+    if faults.exceeds("loads", "{} loads, the limit is {}", len(value), keys.LOAD_LIMIT):
         return ()
     names = _read_names(faults, value)
     taken = {name for name in names if name is not None}
@@ -105,10 +105,10 @@ def read_loads(faults: Faults, value: object, scene: LoadScope) -> tuple[Load | 
     return tuple(found.values())
 
 
-def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
+def _read_names(faults: Faults, tables: Iterable[Table]) -> list[str | None]:
     """Read the names in the file, which must differ."""
     names: list[str | None] = []
-    for index, body in enumerate(bodies):
+    for index, body in enumerate(tables):
         path, name = f"loads[{index}].name", None
         if "name" in body:
             name = fields.read_text(faults, path, body["name"], limit=NAME_LIMIT)
@@ -122,18 +122,18 @@ def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
         if name is not None and name in names:
             twin = names.index(name)
             faults.add(
-                path, say("loads[{}] is called {} too", twin, name), "Give it another letter."
+                path, translate("loads[{}] is called {} too", twin, name), "Give it another letter."
             )
         names.append(name)
     return names
 
 
-def _default_name(letter: str, link: str, taken: Collection[str]) -> str:
+def _default_name(letter: str, link: str, used: Collection[str]) -> str:
     """Return the first free name of a load: ``F_{5}``, ``F_{5}'``, ``F_{5}''``, ``F_{5}^{(3)}``."""
     stem = f"{letter}_{{{link}}}"
-    for count in range(len(taken) + 1):
+    for count in range(len(used) + 1):
         name = stem + ("'" * count if count < 3 else f"^{{({count})}}")
-        if name not in taken:
+        if name not in used:
             return name
     raise AssertionError("more names than loads are taken")
 
@@ -143,7 +143,7 @@ def _read_load(
     path: str,
     body: Table,
     name: str | None,
-    taken: Collection[str],
+    used: Collection[str],
     scene: LoadScope,
 ) -> Load | Couple | None:
     before = len(faults)
@@ -154,7 +154,7 @@ def _read_load(
     if "link" in given:
         link = scene.find_link(faults, f"{path}.link", given["link"], "carry loads")
     elif whole:
-        faults.add(f"{path}.link", "missing", say("Name the link: {}.", listed(scene.links)))
+        faults.add(f"{path}.link", "missing", translate("Name the link: {}.", listed(scene.links)))
     load: Load | Couple | None = None
     likened = {key: given[key] for key in keys.LIKE if key in given}
     if likened and ("force" in given or "couple" in given):
@@ -169,7 +169,7 @@ def _read_load(
         hint = "Write them as two [[loads]]."
         faults.add(f"{path}.couple", "force and couple are both given", hint)
     elif "force" in given:
-        load = _read_force(faults, path, given, link, scene, whole=whole)
+        load = _read_force(faults, path, given, link, scene, is_complete=whole)
     elif "couple" in given:
         load = _read_couple(faults, path, given, link, scene)
     elif whole:
@@ -178,82 +178,86 @@ def _read_load(
     if load is None or len(faults) != before:
         return None
     letter = "F" if isinstance(load, Load) else "M"
-    return replace(load, name=name or _default_name(letter, load.link, taken))
+    return replace(load, name=name or _default_name(letter, load.link, used))
 
 
 def _read_force(
     faults: Faults,
     path: str,
-    given: Table,
+    table: Table,
     link: LinkText | None,
     scene: LoadScope,
     *,
-    whole: bool,
+    is_complete: bool,
 ) -> Load | None:
     at = None
-    if "at" not in given:
-        if whole and link is not None:
-            hint = say(
+    if "at" not in table:
+        if is_complete and link is not None:
+            hint = translate(
                 "Name the point of link {} where it acts: {}.", link.name, listed(link.points)
             )
             faults.add(f"{path}.at", "missing", hint)
     elif link is not None:
-        at = scene.find_point(faults, f"{path}.at", given["at"], link)
+        at = scene.find_point(faults, f"{path}.at", table["at"], link)
     fixed = at in scene.fixed
     sense: Fixed | Against | None = None
-    if "angle" in given and "against" in given:
+    if "angle" in table and "against" in table:
         message = "angle and against are both given"
         faults.add(f"{path}.against", message, "A force has one direction: keep one of them.")
-    elif "angle" in given:
-        angle = fields.read_angle(faults, f"{path}.angle", given["angle"])
+    elif "angle" in table:
+        angle = fields.read_angle(faults, f"{path}.angle", table["angle"])
         sense = None if angle is None else Fixed(angle)
-    elif "against" in given:
-        sense = _read_against(faults, f"{path}.against", given["against"], "velocity")
+    elif "against" in table:
+        sense = _read_against(faults, f"{path}.against", table["against"], "velocity")
         if fixed:
             hint = "Give the direction as an angle."
-            faults.add(f"{path}.against", say("point {} is fixed and has no velocity", at), hint)
-    elif whole:
+            faults.add(
+                f"{path}.against", translate("point {} is fixed and has no velocity", at), hint
+            )
+    elif is_complete:
         hint = 'Give angle = -90 (degrees from +x) or against = "velocity".'
         faults.add(path, "expected a direction, got neither angle nor against", hint)
-    where = path if "like" in given else f"{path}.force"
-    size = read_size(faults, where, given["force"], scene.drive, turn=scene.cycle)
+    where = path if "like" in table else f"{path}.force"
+    size = read_size(faults, where, table["force"], scene.drive, turn=scene.cycle)
     phase = None
-    if "phases" in given:
+    if "phases" in table:
         still = at if fixed else None
-        phase = read_phase(faults, f"{path}.phases", given["phases"], scene.drive, still=still)
+        phase = read_phase(
+            faults, f"{path}.phases", table["phases"], scene.drive, fixed_point=still
+        )
     if link is None or at is None or sense is None or size is None:
         return None
     return Load("", link.name, at, size, sense, phase)
 
 
 def _read_couple(
-    faults: Faults, path: str, given: Table, link: LinkText | None, scene: LoadScope
+    faults: Faults, path: str, table: Table, link: LinkText | None, scene: LoadScope
 ) -> Couple | None:
     for key, why in (
         ("at", "A couple acts on the whole link."),
         ("angle", "A couple is counter-clockwise when positive."),
     ):
-        if key in given:
+        if key in table:
             faults.add(f"{path}.{key}", "does not go with a couple", why)
     sense = None
-    if "against" in given:
-        sense = _read_against(faults, f"{path}.against", given["against"], "rotation")
+    if "against" in table:
+        sense = _read_against(faults, f"{path}.against", table["against"], "rotation")
     where = f"{path}.couple"
-    size = read_size(faults, where, given["couple"], scene.drive, couple=True, turn=scene.cycle)
+    size = read_size(faults, where, table["couple"], scene.drive, couple=True, turn=scene.cycle)
     phase = None
-    if "phases" in given:
+    if "phases" in table:
         where = f"{path}.phases"
-        phase = read_phase(faults, where, given["phases"], scene.drive, couple=True)
+        phase = read_phase(faults, where, table["phases"], scene.drive, couple=True)
     return None if link is None or size is None else Couple("", link.name, size, sense, phase)
 
 
-def _read_against(faults: Faults, path: str, value: object, wanted: str) -> Against | None:
+def _read_against(faults: Faults, path: str, value: object, expected: str) -> Against | None:
     word = fields.read_word(faults, path, value, ("velocity", "rotation"))
     if word is None:
         return None
-    if word != wanted:
-        message = say("expected '{}', got '{}'", wanted, word)
-        faults.add(path, message, _AGAINST[wanted])
+    if word != expected:
+        message = translate("expected '{}', got '{}'", expected, word)
+        faults.add(path, message, _AGAINST[expected])
         return None
     return Against()
 

@@ -23,8 +23,8 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from planmethod.languages import say
-from planmethod.problem.names import listed, near_hint, short
+from planmethod.languages import translate
+from planmethod.problem.names import listed, nearest_name_hint, short
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -142,7 +142,7 @@ _AS_TYPED = str.maketrans("−–—·×∙÷:", "---***//")
 _COMMA = r"(?<=\d),(?=\d)"
 
 
-def work_out(text: str) -> float:
+def evaluate_arithmetic(text: str) -> float:
     """Return the value of arithmetic (вычислить).
 
     Raises
@@ -151,11 +151,13 @@ def work_out(text: str) -> float:
         It cannot be read, or has no value: a division by zero, the root of a negative number.
     """
     if len(text) > LENGTH_LIMIT:
-        raise FormulaError(say("it has {} characters, the limit is {}", len(text), LENGTH_LIMIT))
+        raise FormulaError(
+            translate("it has {} characters, the limit is {}", len(text), LENGTH_LIMIT)
+        )
     stack: list[float] = []
     for operation in Parser(re.sub(_COMMA, ".", text.translate(_AS_TYPED)), printed=True).parse():
         try:
-            stack.append(_carried_out(operation, stack))
+            stack.append(_apply_operation(operation, stack))
         except ZeroDivisionError:
             raise FormulaError("a division by zero has no value", "Correct the divisor.") from None
         except OverflowError:
@@ -165,7 +167,7 @@ def work_out(text: str) -> float:
     return stack[-1]
 
 
-def _carried_out(operation: Operation, stack: list[float]) -> float:
+def _apply_operation(operation: Operation, stack: list[float]) -> float:
     """Return the result of an operation; pop its operands off the stack."""
     match operation.kind:
         case FormulaKind.NUMBER | FormulaKind.CONSTANT:
@@ -206,19 +208,19 @@ class Parser:
         self._sum()
         kind, text, where = self.tokens[self.at]
         if text == ")":
-            raise FormulaError(say("character {}: ')' closes no '('", where))
+            raise FormulaError(translate("character {}: ')' closes no '('", where))
         if kind != "end":
-            raise self._bare()
+            raise self._missing_operator()
         return self.made
 
-    def _bare(self) -> FormulaError:
+    def _missing_operator(self) -> FormulaError:
         """Return the fault of a missing operator."""
         (_, before, _), (_, text, where) = self.tokens[self.at - 1 : self.at + 1]
-        said = say("character {}: expected an operator before '{}'", where, text)
+        phrase = translate("character {}: expected an operator before '{}'", where, text)
         if text.startswith("."):
-            return FormulaError(said, "A number has one decimal point.")
+            return FormulaError(phrase, "A number has one decimal point.")
         hint = "Nothing is multiplied without a sign: write {}*{}."
-        return FormulaError(said, say(hint, before, short(text, 12)))
+        return FormulaError(phrase, translate(hint, before, short(text, 12)))
 
     def _sum(self) -> None:
         self._row(("+", "-"), self._product)
@@ -262,13 +264,13 @@ class Parser:
         if kind == "number":
             written = read_decimal(text)
             if written is None:
-                said = "character {}: the power of ten of {} is beyond {}"
-                said = say(said, where, short(text), EXPONENT_LIMIT)
-                raise FormulaError(said, "Correct the exponent.")
+                phrase = "character {}: the power of ten of {} is beyond {}"
+                phrase = translate(phrase, where, short(text), EXPONENT_LIMIT)
+                raise FormulaError(phrase, "Correct the exponent.")
             number = float(written)
             if not math.isfinite(number):
                 raise FormulaError(
-                    say("character {}: the number {} is too large", where, short(text, 12))
+                    translate("character {}: the number {} is too large", where, short(text, 12))
                 )
             self.at += 1
             self.made.append(Operation(FormulaKind.NUMBER, value=number, is_exact=is_exact(text)))
@@ -288,13 +290,19 @@ class Parser:
             raise FormulaError("the formula ends where a number or a name is expected")
         else:
             hint = 'A bracket holds something: "(1 + t)".' if text == ")" else ""
-            raise FormulaError(say("character {}: expected a number, got '{}'", where, text), hint)
+            raise FormulaError(
+                translate("character {}: expected a number, got '{}'", where, text), hint
+            )
 
-    def _name(self, text: str, where: int) -> None:
+    def _name(self, text: str, position: int) -> None:
         self.at += 1
         if text not in self.names:
-            hint = near_hint(text, self.names, say("Known: {}.", listed(self.names, limit=30)))
-            raise FormulaError(say("character {}: unknown name '{}'", where, short(text)), hint)
+            hint = nearest_name_hint(
+                text, self.names, translate("Known: {}.", listed(self.names, limit=30))
+            )
+            raise FormulaError(
+                translate("character {}: unknown name '{}'", position, short(text)), hint
+            )
         if text == TIME:
             self.made.append(Operation(FormulaKind.TIME))
         elif text in CONSTANTS:
@@ -302,7 +310,9 @@ class Parser:
         else:
             if self._text != "(":
                 hint = f"Write {text}({TIME if TIME in self.names else 2})."
-                raise FormulaError(say("character {}: expected '(' after {}", where, text), hint)
+                raise FormulaError(
+                    translate("character {}: expected '(' after {}", position, text), hint
+                )
             self._bracket()
             self.made.append(Operation(FormulaKind.CALL, FUNCTIONS[text]))
 
@@ -312,8 +322,8 @@ class Parser:
         self._sum()
         if self._text != ")":
             if self._text:
-                raise self._bare()
-            raise FormulaError(say("character {}: '(' is not closed", where), "Add ')'.")
+                raise self._missing_operator()
+            raise FormulaError(translate("character {}: '(' is not closed", where), "Add ')'.")
         self.at += 1
         self.depth -= 1
 
@@ -321,7 +331,9 @@ class Parser:
         self.at += 1
         self.depth += 1
         if self.depth > DEPTH_LIMIT:
-            raise FormulaError(say("the formula is nested deeper than {} levels", DEPTH_LIMIT))
+            raise FormulaError(
+                translate("the formula is nested deeper than {} levels", DEPTH_LIMIT)
+            )
 
     @property
     def _text(self) -> str:
@@ -341,7 +353,7 @@ def _tokens(text: str, token: str) -> list[tuple[str, str, int]]:
         if match is None:
             char = text[at]
             shown = f"'{char}'" if char.isprintable() else f"U+{ord(char):04X}"
-            message = say("character {}: {} has no meaning in a formula", at + 1, shown)
+            message = translate("character {}: {} has no meaning in a formula", at + 1, shown)
             raise FormulaError(message, _INSTEAD.get(char, ""))
         found.append((str(match.lastgroup), match[0], at + 1))
         at = match.end()

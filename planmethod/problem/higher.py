@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, HigherPair
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
-from planmethod.problem.flat import read_flat
+from planmethod.problem.flat_tables import read_flat
 from planmethod.problem.links import Length, LinkText
 from planmethod.problem.names import NAME_LIMIT, is_label, listed
 from planmethod.problem.slides import FrameText
@@ -28,7 +28,7 @@ def read_higher(
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("higher_pairs", "tables [[higher_pairs]]", value)
         return ()
-    if faults.beyond("higher_pairs", "{} pairs, the limit is {}", len(value), keys.HIGHER_LIMIT):
+    if faults.exceeds("higher_pairs", "{} pairs, the limit is {}", len(value), keys.HIGHER_LIMIT):
         return ()
     found: list[HigherPair] = []
     for index, table in enumerate(value):
@@ -49,11 +49,11 @@ class _Reader:
         path: str,
         links: dict[str, LinkText],
         frame: FrameText,
-        others: list[HigherPair],
+        previous: list[HigherPair],
     ) -> None:
         self.faults, self.path, self.links, self.frame = faults, path, links, frame
-        self.rollers = {pair.roller for pair in others} - {""}
-        self.names = {pair.name for pair in others}
+        self.rollers = {pair.roller for pair in previous} - {""}
+        self.names = {pair.name for pair in previous}
 
     def read(self, table: Table) -> HigherPair | None:
         """Read the pair and add its link; None after noting a fault."""
@@ -79,21 +79,23 @@ class _Reader:
         for link, centre in zip(ends, centres, strict=False):
             own = self.frame.points if link == FRAME else self.links[link].points
             if centre not in own:
-                owner = say("the frame") if link == FRAME else say("link {}", link)
-                hint = say("Its points are {}.", listed(own))
-                faults.add(f"{path}.centres", say("{} has no point '{}'", owner, centre), hint)
+                owner = translate("the frame") if link == FRAME else translate("link {}", link)
+                hint = translate("Its points are {}.", listed(own))
+                faults.add(
+                    f"{path}.centres", translate("{} has no point '{}'", owner, centre), hint
+                )
         used = {point for link in self.links.values() for point in link.points}
         if given["name"] in used | set(self.frame.points) | self.names:
-            faults.add(f"{path}.name", say("another point has the name {}", given["name"]))
+            faults.add(f"{path}.name", translate("another point has the name {}", given["name"]))
         straight = len(centres) == 1
         self._check_form(given, straight=straight)
         if len(faults) != before:
             return None
         roller, by = given.get("roller", ""), given.get("by") or self._free(given.get("roller", ""))
         if roller and roller == by:
-            faults.add(f"{path}.by", say("link '{}' is given twice", by))
+            faults.add(f"{path}.by", translate("link '{}' is given twice", by))
             return None
-        link = LinkText(by, tuple(centres), where=path)
+        link = LinkText(by, tuple(centres), location=path)
         if straight:
             link.slides = {"on": ends[1], **given["slides"]}
         else:
@@ -101,24 +103,24 @@ class _Reader:
         self.links[by] = link
         return HigherPair(given["name"], tuple(ends), by, roller, centres[-1] if roller else "")
 
-    def _check_form(self, given: Mapping[str, object], *, straight: bool) -> None:
+    def _check_form(self, table: Mapping[str, object], *, straight: bool) -> None:
         faults, path = self.faults, self.path
         wanted, other = ("slides", "distance") if straight else ("distance", "slides")
-        if other in given:
+        if other in table:
             hint = (
                 "With one centre the second profile is straight: give slides."
                 if straight
                 else "With two centres give their distance."
             )
             faults.add(f"{path}.{other}", "does not go with these centres", hint)
-        if wanted not in given:
+        if wanted not in table:
             hint = (
                 'Give the straight profile of the second link: slides = { along = "DE" }.'
                 if straight
                 else "Give the distance of the centres: the sum of the radii."
             )
             faults.add(f"{path}.{wanted}", "missing", hint)
-        if straight and "roller" in given:
+        if straight and "roller" in table:
             hint = "A roller has its centre on the second link: give both centres."
             faults.add(f"{path}.roller", "does not go with these centres", hint)
 
@@ -139,7 +141,7 @@ class _Reader:
         name = fields.read_text(faults, path, value, limit=NAME_LIMIT)
         if name is not None and name not in (FRAME, *self.links):
             fields.report_unknown(
-                faults, path, name, [FRAME, *self.links], said="unknown link '{}'"
+                faults, path, name, [FRAME, *self.links], message="unknown link '{}'"
             )
             return None
         return name
@@ -149,9 +151,9 @@ class _Reader:
         if name is None:
             return None
         if not is_label(name):
-            faults.add(path, say("{!r} cannot name {}", name[:40], "a link"))
+            faults.add(path, translate("{!r} cannot name {}", name[:40], "a link"))
         elif name in self.links or name in self.rollers or name in (FRAME, self.frame.number):
-            faults.add(path, say("link '{}' is given twice", name))
+            faults.add(path, translate("link '{}' is given twice", name))
         else:
             return name
         return None

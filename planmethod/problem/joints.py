@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from itertools import combinations
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.problem.fields import Faults
 from planmethod.problem.links import LinkText
@@ -45,7 +45,7 @@ def join(
         for slider, host in hosts.items()
         if links[slider].points
     )
-    _refuse_doubles(faults, revolutes, prismatics)
+    _reject_duplicates(faults, revolutes, prismatics)
     if complete:
         _check_reach(faults, links, revolutes, prismatics, driver)
     _check_coincident(faults, members, prismatics)
@@ -65,10 +65,10 @@ def coincident_points(slides: Iterable[Slide]) -> list[str]:
 
 
 def _called(link: str) -> str:
-    return "the frame" if link == FRAME else say("link {}", link)
+    return "the frame" if link == FRAME else translate("link {}", link)
 
 
-def _refuse_doubles(
+def _reject_duplicates(
     faults: Faults, revolutes: tuple[Revolute, ...], prismatics: tuple[Prismatic, ...]
 ) -> None:
     shared: dict[tuple[str, str], list[str]] = {}
@@ -79,11 +79,11 @@ def _refuse_doubles(
         if len(points) > 1:
             faults.add(
                 f"links.{two}.points",
-                say(
+                translate(
                     "{} and link {} share the points {}: they make one rigid body",
                     _called(one),
                     two,
-                    say(" and ").join(points),
+                    translate(" and ").join(points),
                 ),
                 "Two links are joined at one point; give the other points other names.",
             )
@@ -93,13 +93,13 @@ def _refuse_doubles(
         if points:
             faults.add(
                 f"links.{slide.slider}.slides",
-                say(
+                translate(
                     "link {} slides on {} and is pivoted to it in {}: they make one rigid body",
                     slide.slider,
                     _called(slide.host),
                     points[0],
                 ),
-                say(
+                translate(
                     "The pin of a slider is not a point of the link that carries its line; "
                     "remove {} from one of them.",
                     points[0],
@@ -133,8 +133,8 @@ def _check_reach(
         if name not in reached:
             faults.add(
                 link.path,
-                say("link {} is not joined to the frame through other links", name),
-                say(
+                translate("link {} is not joined to the frame through other links", name),
+                translate(
                     "Links are joined by points of the same name and by slides: check the names "
                     "{}.",
                     listed(link.points),
@@ -144,7 +144,7 @@ def _check_reach(
             where = next((p for p in link.points if any(j.point == p for j in revolutes)), None)
             faults.add(
                 link.path,
-                say("link {} has one joint only{}", name, f", {where}" if where else ""),
+                translate("link {} has one joint only{}", name, f", {where}" if where else ""),
                 "It would move freely: join another of its points, or make them points of the "
                 "link it is joined to.",
             )
@@ -158,14 +158,14 @@ def _check_coincident(
         if slide.host != FRAME and name in members:
             faults.add(
                 f"links.{slide.slider}.slides",
-                say(
+                translate(
                     "the point of link {} under the pin {} is called {}, and another point has "
                     "this name",
                     slide.host,
                     slide.pin,
                     name,
                 ),
-                say("Rename the point {}.", name),
+                translate("Rename the point {}.", name),
             )
 
 
@@ -177,11 +177,11 @@ def _check_letters(faults: Faults, points: Iterable[str]) -> None:
         if twin != point:
             faults.add(
                 "links",
-                say(
+                translate(
                     "the points {} and {} differ only in case: on the plans both are {}",
                     twin,
                     point,
                     point.lower(),
                 ),
-                say("Rename the point {}.", point),
+                translate("Rename the point {}.", point),
             )

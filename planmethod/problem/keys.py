@@ -8,17 +8,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from planmethod.languages import LANGUAGES
-from planmethod.problem.cycle_records import CycleTask, PoleDistances, ProjectTask
-from planmethod.problem.declared import declared
-from planmethod.problem.head import (
+from planmethod.problem.common import (
     LETTERINGS,
     TITLE_BLOCK,
     TITLE_BLOCK_IN,
     TITLE_FORMS,
-    AskedAnswer,
     Published,
+    QuestionSpec,
     SheetSettings,
 )
+from planmethod.problem.cycle_records import CycleTask, PoleDistances, ProjectTask
+from planmethod.problem.key_types import declared
 from planmethod.problem.load_records import (
     BalancingForceTask,
     BearingTable,
@@ -89,7 +89,7 @@ PLACES = ("phi", "s", "stroke", "at")
 DRIVER = ("link", *dict.fromkeys((*CRANK, *SLIDER)), "stroke", "at", "root")
 SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
-KEEP = ("parallel", "continuous")
+ASSEMBLY_FLAGS = ("parallel", "continuous")
 MOVING = ("x", "y", "r", "phi", "s", "radius", "wheel", "theta", "t", "show")
 """Keys of ``[point]``."""
 ROLLING = ("radius", "r", "angle", "on", "within", "arm")
@@ -112,7 +112,7 @@ GEARS = (
 MESH = ("of", "kind", "carrier", "eta", "hand")
 FLAT: Mapping[str, type[object]] = {
     "cycle": CycleTask, "pole": PoleDistances, "scales": Scales, "sheet": SheetSettings,
-    "published": Published, "answer": AskedAnswer, "dynamics": Dynamics, "mass": Mass,
+    "published": Published, "answer": QuestionSpec, "dynamics": Dynamics, "mass": Mass,
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
     "wheel": GearWheelTable, "picture": PictureTable, "design": PlanetaryTask,
@@ -122,7 +122,7 @@ FLAT: Mapping[str, type[object]] = {
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 
-OTHERS: Mapping[str, tuple[str, ...]] = {
+OTHER_TABLES: Mapping[str, tuple[str, ...]] = {
     "top": TOP, "frame": FRAME, "guide": GUIDE, "link": LINK, "slides": SLIDES, "point": POINT,
     "driver": DRIVER, "span": SPAN, "rule": RULE, "moving": MOVING, "rolling": ROLLING,
     "stamp": (*TITLE_BLOCK, *TITLE_BLOCK_IN), "table": TABLE, "gears": GEARS, "mesh": MESH,
@@ -132,14 +132,14 @@ OTHERS: Mapping[str, tuple[str, ...]] = {
 CHOICES = {"form": TITLE_FORMS, "lettering": LETTERINGS, "lang": LANGUAGES}
 """Keys of ``[sheet]`` that take one of some names."""
 
-KINDS = (*OTHERS, *FLAT)
+KINDS = (*OTHER_TABLES, *FLAT)
 
 
 def known(kind: str) -> tuple[str, ...]:
     """Return the keys of a kind of table; none of one that there is not."""
     if kind in FLAT:
         return tuple(field.name for field in declared(FLAT[kind]))
-    return OTHERS.get(kind, ())
+    return OTHER_TABLES.get(kind, ())
 
 
 POINT_LIMIT = 400

@@ -9,7 +9,7 @@ from itertools import permutations
 
 from msgspec import Struct, field
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
@@ -22,7 +22,7 @@ from planmethod.problem.names import (
     is_point_name,
     listed,
     looks_latin,
-    near,
+    nearest_name,
     segment,
     split_names,
     split_pair,
@@ -38,7 +38,7 @@ class Length(Struct, frozen=True):
     b: str
     value: float
 
-    def other(self, point: str) -> str:
+    def opposite_end(self, point: str) -> str:
         """Return the end that is not ``point``."""
         return self.b if point == self.a else self.a
 
@@ -62,14 +62,14 @@ class LinkText(Struct):
     ----------
     sound : bool
         False once a fault has been noted in the link.
-    whole : bool
+    is_complete : bool
         False when its points or its slide could not be read: then its joints are not
         used.
     faulty : set of str
         Points whose tables could not be read.
     arc : tuple of two str, or None
         Host and centre of a circular slot: its block is read as a link from the centre to the pin.
-    where : str
+    location : str
         Path of the higher pair that the link replaces; empty for a link of the file.
     """
 
@@ -80,15 +80,15 @@ class LinkText(Struct):
     angles: list[Angle] = field(default_factory=list)
     slides: Table | None = None
     sound: bool = True
-    whole: bool = True
+    is_complete: bool = True
     faulty: set[str] = field(default_factory=set)
     arc: tuple[str, str] | None = None
-    where: str = ""
+    location: str = ""
 
     @property
     def path(self) -> str:
         """Dotted path of the link, or of its source in the file."""
-        return self.where or f"links.{segment(self.name)}"
+        return self.location or f"links.{segment(self.name)}"
 
     def lengths_of(self, point: str) -> list[Length]:
         """Lengths that end in a point, in file order."""
@@ -101,8 +101,8 @@ def read_label(faults: Faults, path: str, name: str, noun: str) -> bool:
         return True
     faults.add(
         path,
-        say("{!r} cannot name {}", name[:40], noun),
-        say("Use letters and digits, at most {}.", NAME_LIMIT),
+        translate("{!r} cannot name {}", name[:40], noun),
+        translate("Use letters and digits, at most {}.", NAME_LIMIT),
     )
     return False
 
@@ -115,7 +115,7 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
         return found
     if not entries:
         faults.add("links", "the file has no links", 'Add [links.1] with points = ["A", "B"].')
-    if faults.beyond("links", "{} links, the limit is {}", len(entries), keys.LINK_LIMIT):
+    if faults.exceeds("links", "{} links, the limit is {}", len(entries), keys.LINK_LIMIT):
         return found
     for key, value in entries.items():
         path = f"links.{segment(key)}"
@@ -126,30 +126,32 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
         if not read_label(faults, path, name, "a link"):
             continue
         if name in found:
-            faults.add(path, say("link '{}' is given twice", name))
+            faults.add(path, translate("link '{}' is given twice", name))
             continue
         body = fields.read_table(faults, path, value, 'points = ["A", "B"]')
         before = len(faults)
         link = LinkText(name) if body is None else _read_link(faults, path, name, body)
         link.sound = link.sound and body is not None and len(faults) == before
-        link.whole = link.whole and body is not None
+        link.is_complete = link.is_complete and body is not None
         found[name] = link
     total = len({point for link in found.values() for point in link.points})
-    if faults.beyond("links", "{} points, the limit is {}", total, keys.POINT_LIMIT):
+    if faults.exceeds("links", "{} points, the limit is {}", total, keys.POINT_LIMIT):
         return {}
     return found
 
 
 def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
     link = LinkText(name)
-    if faults.beyond(path, "{} keys in a link, the limit is {}", len(table), keys.LINK_KEY_LIMIT):
+    if faults.exceeds(path, "{} keys in a link, the limit is {}", len(table), keys.LINK_KEY_LIMIT):
         return link
     if "points" in table:
-        link.points, link.whole = _read_points(faults, f"{path}.points", table["points"])
+        link.points, link.is_complete = _read_points(faults, f"{path}.points", table["points"])
     else:
-        hint = say("Write points = [...] with the names of its points{}.", _seen_points(table))
+        hint = translate(
+            "Write points = [...] with the names of its points{}.", _list_points(table)
+        )
         faults.add(f"{path}.points", "missing", hint)
-        link.whole = False
+        link.is_complete = False
     for key, value in table.items():
         where = f"{path}.{segment(key)}"
         if key == "points":
@@ -158,7 +160,7 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
             link.slides = fields.read_table(faults, where, value, 'slides = { on = "x-x" }')
             if link.slides is None:
                 link.slides = {}  # the link stays a slider: fewer follow-up faults
-                link.whole = False
+                link.is_complete = False
             continue
         if key == "angle":
             _read_angles(faults, where, value, link)
@@ -199,12 +201,12 @@ def _read_arc(faults: Faults, path: str, link: LinkText) -> None:
         fields.read_length(faults, f"{path}.radius", given["radius"]) if "radius" in given else None
     )
     if centre in link.points:
-        faults.add(f"{path}.centre", say("{} is a point of the stone itself", centre))
+        faults.add(f"{path}.centre", translate("{} is a point of the stone itself", centre))
     if centre and host and radius and link.points and centre not in link.points:
         pin = link.points[0]
         link.arc, link.points = (host, centre), (centre, *link.points)
         link.lengths.insert(0, Length(f"{centre}{pin}", centre, pin, radius))
-    link.whole = link.whole and len(faults) == before
+    link.is_complete = link.is_complete and len(faults) == before
 
 
 def check_arcs(faults: Faults, links: Mapping[str, LinkText], fixed: Collection[str]) -> None:
@@ -217,16 +219,16 @@ def check_arcs(faults: Faults, links: Mapping[str, LinkText], fixed: Collection[
         path = f"{link.path}.slides"
         if known is None:
             fields.report_unknown(
-                faults, f"{path}.on", host, [FRAME, *links], said="unknown link '{}'"
+                faults, f"{path}.on", host, [FRAME, *links], message="unknown link '{}'"
             )
         else:
             owner = "the frame" if host == FRAME else f"link {host}"
-            hint = say("Its points are {}.", listed(known))
-            faults.add(f"{path}.centre", say("{} has no point '{}'", owner, centre), hint)
-        link.whole = link.sound = False
+            hint = translate("Its points are {}.", listed(known))
+            faults.add(f"{path}.centre", translate("{} has no point '{}'", owner, centre), hint)
+        link.is_complete = link.sound = False
 
 
-def _seen_points(table: Table) -> str:
+def _list_points(table: Table) -> str:
     pairs = [pair for key in table if (pair := split_pair(fold(key)))]
     points = list(dict.fromkeys(point for pair in pairs for point in pair))
     return f" ({listed(points)})" if points else ""
@@ -238,7 +240,7 @@ def _read_points(faults: Faults, path: str, value: object) -> tuple[tuple[str, .
         hint = 'For example: points = ["A", "B"]'
         faults.expected(path, "a list of point names", value, hint)
         return (), False
-    if faults.beyond(
+    if faults.exceeds(
         path, "{} points in a link, the limit is {}", len(value), keys.LINK_POINT_LIMIT
     ):
         return (), False
@@ -249,7 +251,7 @@ def _read_points(faults: Faults, path: str, value: object) -> tuple[tuple[str, .
         if name is None:
             whole = False
         elif name in points:
-            faults.add(f"{path}[{index}]", say("point '{}' is listed twice", name))
+            faults.add(f"{path}[{index}]", translate("point '{}' is listed twice", name))
         else:
             points.append(name)
     return tuple(points), whole
@@ -263,18 +265,18 @@ def _read_length_key(faults: Faults, path: str, key: str, value: object, link: L
     pair = split_pair(key)
     if pair is None:
         example = "".join(link.points[:2]) if len(link.points) > 1 else "AB"
-        hint = say("A length is named by its two points: {}.", example)
+        hint = translate("A length is named by its two points: {}.", example)
         _report_unknown_key(faults, path, key, link, hint)
         return
     strangers = [point for point in dict.fromkeys(pair) if point not in link.points]
     if strangers:
-        if link.whole:
-            names = say(" and ").join(f"'{point}'" for point in strangers)
+        if link.is_complete:
+            names = translate(" and ").join(f"'{point}'" for point in strangers)
             adds = ", ".join(f'"{point}"' for point in strangers)
             faults.add(
                 path,
-                say("link {} has no point {}", link.name, names),
-                say(
+                translate("link {} has no point {}", link.name, names),
+                translate(
                     "Its points are {}. If links are joined at {}, add {} to {}.points; a "
                     "distance between points of two links changes as they move: the "
                     "position of the driver is given by phi, x_B or another key of "
@@ -291,7 +293,7 @@ def _read_length_key(faults: Faults, path: str, key: str, value: object, link: L
         return
     twin = next((known for known in link.lengths if {known.a, known.b} == set(pair)), None)
     if twin is not None:
-        faults.add(path, say("the same length as {}", twin.key), "Keep one of them.")
+        faults.add(path, translate("the same length as {}", twin.key), "Keep one of them.")
         return
     length = fields.read_length(faults, path, value)
     if length is not None:
@@ -312,11 +314,11 @@ def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> No
         strangers = [
             point for point in dict.fromkeys(split_names(letters)) if point not in link.points
         ]
-        if strangers and link.whole:
-            hint = _hint_for_slot(link, lines, item) or say(
+        if strangers and link.is_complete:
+            hint = _hint_for_slot(link, lines, item) or translate(
                 "Its points are {}.", listed(link.points)
             )
-            faults.add(where, say("link {} has no point '{}'", link.name, strangers[0]), hint)
+            faults.add(where, translate("link {} has no point '{}'", link.name, strangers[0]), hint)
         angle = fields.read_angle(faults, where, item)
         if angle is not None and not strangers:
             link.angles.append(Angle(key, *lines, angle))
@@ -331,7 +333,7 @@ def _hint_for_slot(link: LinkText, lines: Sequence[tuple[str, ...]], value: obje
             continue
         (pin,) = {*slot} - {*ends}
         turned = sign * float(value) + 180 * ((arm != own) + (slot[1] != pin))
-        return say(
+        return translate(
             "Its points are {0}. Where {1} is the pin of a stone on the line {2}{1}, leave this "
             'key out and write on the stone slides = {{ on = "{3}", through = "{2}", angle = '
             "{4:g} }}, the angle from {5} to {2}{1}.",
@@ -345,37 +347,39 @@ def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: Li
         fields.read_length(faults, path, value)
     elif is_point_name(key):
         link.faulty.add(key)
-        hint = say(
+        hint = translate(
             'For example: {} = {{ on = "{}", at = 0.1 }}', key, "".join(link.points[:2]) or "BC"
         )
         if isinstance(value, str) and value.startswith(("left of", "right of")):
-            hint = say('Write {}.side = "{}".', key, value)
+            hint = translate('Write {}.side = "{}".', key, value)
         faults.expected(path, "a table that places the point", value, hint)
     else:
         known = (*keys.LINK, *_pair_names(link.points))
-        _report_unknown_key(faults, path, key, link, say("Known here: {}.", listed(known)))
+        _report_unknown_key(faults, path, key, link, translate("Known here: {}.", listed(known)))
 
 
 def _report_unknown_key(faults: Faults, path: str, key: str, link: LinkText, hint: str) -> None:
     """Note a key that no link has; ``hint`` is for one that is near to none."""
-    guess = near(key, (*keys.LINK, *_pair_names(link.points), *keys.known("mass")))
+    guess = nearest_name(key, (*keys.LINK, *_pair_names(link.points), *keys.known("mass")))
     if guess in keys.known("mass"):
-        hint = say("It belongs in [dynamics.links.{}]: {} = ...", segment(link.name), guess)
+        hint = translate("It belongs in [dynamics.links.{}]: {} = ...", segment(link.name), guess)
     elif guess:
-        hint = say("Did you mean '{}'?", guess)
+        hint = translate("Did you mean '{}'?", guess)
     faults.add(path, "unknown key", hint)
 
 
 def _read_form(faults: Faults, path: str, point: str, value: Table, link: LinkText) -> None:
     if point not in link.points:
-        if not link.whole:
+        if not link.is_complete:
             return  # it may be the name that could not be read
         faults.add(
             path,
-            say("link {} has no point '{}'", link.name, point),
-            say('Add "{}" to {}.points or correct the name.', point, link.path),
+            translate("link {} has no point '{}'", link.name, point),
+            translate('Add "{}" to {}.points or correct the name.', point, link.path),
         )
         return
-    form = read_form(faults, path, point, value, link.points, lambda: say("link {}", link.name))
+    form = read_form(
+        faults, path, point, value, link.points, lambda: translate("link {}", link.name)
+    )
     if form is not None:
         link.forms[point] = form

@@ -10,11 +10,11 @@ from typing import Annotated
 
 from msgspec import Struct, field
 
-from planmethod.problem.declared import (
+from planmethod.problem.key_types import (
     AngleKey,
+    CustomKey,
     FlagKey,
     NumberKey,
-    OwnKey,
     TextKey,
     WordKey,
 )
@@ -29,7 +29,7 @@ class Mass(Struct, frozen=True):
     mass: Annotated[float, NumberKey("mass (масса)", "a mass", "kg", 0.0, 1e12)] = 0.0
     centre: Annotated[
         str | None,
-        OwnKey(
+        CustomKey(
             "centre of mass (центр масс): a point of the link by name. Required with a mass, "
             "unless the link has one point only"
         ),
@@ -153,7 +153,7 @@ class Phase(Struct, frozen=True):
 
     phi: Annotated[
         tuple[tuple[float, float], ...],
-        OwnKey(
+        CustomKey(
             "`[from, to]`, degrees, of the driving crank, or a list of such pairs. It runs "
             "counter-clockwise whichever way the crank turns, through 360 where needed; both ends "
             "included"
@@ -184,39 +184,39 @@ class LoadEntry(Struct, frozen=True):
             "`M_{5}`, ... for couples",
         ),
     ] = ""
-    link: Annotated[str, OwnKey("name of the link", required=True)] = ""
+    link: Annotated[str, CustomKey("name of the link", required=True)] = ""
     at: Annotated[
         str,
-        OwnKey(
+        CustomKey(
             "point of application (точка приложения): a point of that link by name; required with "
             "a force, not for a couple"
         ),
     ] = ""
-    force: Annotated[float | SizeTable, OwnKey("force, N: a number or a table")] = 0.0
+    force: Annotated[float | SizeTable, CustomKey("force, N: a number or a table")] = 0.0
     couple: Annotated[
         float | SizeTable,
-        OwnKey("couple (момент), N·m: a number or a table; counter-clockwise positive"),
+        CustomKey("couple (момент), N·m: a number or a table; counter-clockwise positive"),
     ] = 0.0
     angle: Annotated[float | None, AngleKey("direction of the force from +x, degrees")] = None
     against: Annotated[
         str,
-        OwnKey(
+        CustomKey(
             '`"velocity"`: the force is opposite to the velocity of its point; `"rotation"`: the '
             "couple is opposite to the rotation of its link"
         ),
     ] = ""
-    phases: Annotated[Phase, OwnKey("when it acts (фазы действия), see below; default: always")] = (
-        Phase()
-    )
+    phases: Annotated[
+        Phase, CustomKey("when it acts (фазы действия), see below; default: always")
+    ] = Phase()
     like: Annotated[
         str,
-        OwnKey(
+        CustomKey(
             "in place of `force`: the load of another piston, whose indicator diagram this one has"
         ),
     ] = ""
     shift: Annotated[
         float | None,
-        OwnKey("with `like`: how many degrees of the cycle later, the firing interval"),
+        CustomKey("with `like`: how many degrees of the cycle later, the firing interval"),
     ] = None
 
 
@@ -272,7 +272,7 @@ class BalancingForceTask(Struct, frozen=True):
     """Task of ``[balancing_force]`` (уравновешивающая сила): a force at a point of the crank."""
 
     at: Annotated[
-        str, OwnKey("point of the crank where the force acts (точка приложения)", required=True)
+        str, CustomKey("point of the crank where the force acts (точка приложения)", required=True)
     ]
     angle: Annotated[
         float | None,
@@ -317,7 +317,7 @@ class FrictionTask(Struct, frozen=True):
     ] = 0.0
     pairs: Annotated[
         Mapping[str, PairFriction],
-        OwnKey(
+        CustomKey(
             "a table for each pair that has other values, named by its joint and its two links: "
             '`"B 3-0" = { f = 0.2 }`, a sliding pair by its pin, the frame is 0'
         ),
@@ -329,7 +329,7 @@ class BearingTable(Struct, frozen=True):
 
     at: Annotated[
         tuple[float, float],
-        OwnKey(
+        CustomKey(
             "`[z′, z″]`: where the bearings O′ and O″ are along the axis of the shaft, m, counted "
             "from anywhere",
             required=True,
@@ -341,7 +341,7 @@ class BearingTable(Struct, frozen=True):
     ] = 0.0
 
     @property
-    def shares(self) -> tuple[float, float]:
+    def load_fractions(self) -> tuple[float, float]:
         """Fractions of an in-plane force on the two bearings; negative where it acts back."""
         first, second = self.at
         return (second - self.plane) / (second - first), (self.plane - first) / (second - first)
@@ -368,14 +368,14 @@ class Dynamics(Struct, frozen=True):
 
     gravity: Annotated[
         float,
-        OwnKey(
+        CustomKey(
             "acceleration of free fall (ускорение свободного падения), m/s², along -y; `0` "
             "or `false` for no weights; default: 9.81"
         ),
     ]
     masses: Annotated[
         Mapping[str, Mass],
-        OwnKey(
+        CustomKey(
             "a table for each link that has mass; a link that is not named is massless (невесомое "
             "звено)",
             name="links",

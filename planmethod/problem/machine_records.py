@@ -10,11 +10,11 @@ from typing import Annotated
 
 from msgspec import Struct, field
 
-from planmethod.problem.declared import (
+from planmethod.problem.key_types import (
     AngleKey,
+    CustomKey,
+    IntegerKey,
     NumberKey,
-    OwnKey,
-    WholeKey,
     WordKey,
 )
 
@@ -136,9 +136,9 @@ class MotorTable(Struct, frozen=True):
 
     kloss: Annotated[
         KlossTable,
-        OwnKey("a table: Kloss's formula M = 2M_max/(s/s_k + s_k/s), s = 1 − n/n_sync"),
+        CustomKey("a table: Kloss's formula M = 2M_max/(s/s_k + s_k/s), s = 1 − n/n_sync"),
     ] = KlossTable()
-    line: Annotated[LineTable, OwnKey("a table: a straight line")] = LineTable()
+    line: Annotated[LineTable, CustomKey("a table: a straight line")] = LineTable()
     ratio: Annotated[
         float,
         NumberKey(
@@ -179,7 +179,7 @@ class Machine(Struct, frozen=True):
 
     delta: Annotated[
         float,
-        OwnKey(
+        CustomKey(
             "irregularity of the motion (коэффициент неравномерности δ), between 0 and 1: a number "
             'or a fraction such as `"1/18"`',
             required=True,
@@ -202,7 +202,7 @@ class Machine(Struct, frozen=True):
     ] = ConstantMoment.DRIVING
     cycle_deg: Annotated[
         float,
-        OwnKey("length of a cycle, degrees: 360, or 720 for a four-stroke engine; default: 360"),
+        CustomKey("length of a cycle, degrees: 360, or 720 for a four-stroke engine; default: 360"),
     ] = 360.0
     crank_inertia: Annotated[
         float,
@@ -213,7 +213,7 @@ class Machine(Struct, frozen=True):
     ] = 0.0  # fmt: skip
     count: Annotated[
         int,
-        WholeKey(
+        IntegerKey(
             "positions of the construction in a cycle", 4, 72,
             absent="those of `[cycle]`, else one for every 30 degrees",
         ),
@@ -271,11 +271,11 @@ class Machine(Struct, frozen=True):
         ),
     ] = None  # fmt: skip
     wheel: Annotated[
-        FlywheelTask, OwnKey("a table: what the flywheel is to be like", name="flywheel")
+        FlywheelTask, CustomKey("a table: what the flywheel is to be like", name="flywheel")
     ] = FlywheelTask()
     motor: Annotated[
         Motor | None,
-        OwnKey(
+        CustomKey(
             "a table: the motor's characteristic (механическая характеристика двигателя), for the "
             "run-up and the motion that it keeps; the driving moment that the flywheel is chosen "
             "with stays constant"
@@ -288,7 +288,7 @@ class Machine(Struct, frozen=True):
             more="; 0: it coasts. `planmethod sheet FILE --layout run-up` draws run-up and stop",
         ),
     ] = None  # fmt: skip
-    told_count: int | None = None
+    stated_count: int | None = None
     """``count`` where the file has it."""
 
 
@@ -316,7 +316,7 @@ class CounterweightTask(Struct, frozen=True):
     ] = None  # fmt: skip
     radii: Annotated[
         Mapping[str, float],
-        OwnKey(
+        CustomKey(
             "distance of the counterweight of a link from its axis (the crank's pin on a "
             "rod), m; default: the length of the link"
         ),

@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.problem.common import KindProblem
 from planmethod.problem.cycle_records import CycleTask, ProjectTask
-from planmethod.problem.declared import FlagKey, NumberKey, WordKey
-from planmethod.problem.head import KindProblem
-from planmethod.problem.names import split_pair, told_length
+from planmethod.problem.key_types import FlagKey, NumberKey, WordKey
+from planmethod.problem.names import format_length, split_pair
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -71,7 +71,7 @@ class PointForm(Struct, frozen=True):
     point: str = ""
     left: bool = True
     at: float = 0.0
-    across: float = 0.0
+    lateral_offset: float = 0.0
     angle: float = 0.0
     distance: float | None = None
 
@@ -113,7 +113,7 @@ class Slide(Struct, frozen=True):
     length: float | None = None
 
 
-class Where(Enum):
+class AssemblyRelation(Enum):
     """Relation by which an assembly rule distinguishes the two assemblies of a group."""
 
     RIGHT = "right"
@@ -140,7 +140,7 @@ class Rule(Struct, frozen=True):
     """
 
     point: str
-    where: Where
+    relation: AssemblyRelation
     refs: tuple[str, ...] = ()
     at: complex = 0j
     continuous: bool = False
@@ -161,26 +161,26 @@ class Coordinate(Struct, frozen=True):
     rates: tuple[str, str]
     turn: float
 
-    def apart(self, one: float, two: float) -> float:
+    def distance(self, one: float, two: float) -> float:
         """Return the distance of two positions, within a turn."""
         way, turn = one - two, self.turn
         return abs(way) if isinf(turn) else abs((way + turn / 2) % turn - turn / 2)
 
-    def told(self, value: float, unit: str, digits: int = 12) -> str:
+    def format_value(self, value: float, unit: str, digits: int = 12) -> str:
         """Return a value for a message, lengths in the unit of the file: ``phi = 20 deg``."""
         if self.unit == "m":
-            return f"{self.name} = {told_length(value, unit, digits)}"
-        return f"{self.name} = {value:.{digits}g} {say(self.unit)}"
+            return f"{self.name} = {format_length(value, unit, digits)}"
+        return f"{self.name} = {value:.{digits}g} {translate(self.unit)}"
 
 
 class BalancingQuantity(Struct, frozen=True):
     """Balancing quantity of the driver (уравновешивающий момент, уравновешивающая сила).
 
-    Records name it by ``quantity``, sentences by ``said``; ``symbol`` is the key of its letters in
-    a language.
+    Records name it by ``quantity``, sentences by ``phrase_key``; ``symbol`` is the key of its
+    letters in a language.
     """
 
-    said: str
+    phrase_key: str
     quantity: str
     symbol: str
     letter: str
@@ -194,7 +194,7 @@ PUSH = BalancingQuantity("push", "force", "balancing force", "F", "N", turns=Fal
 THRUST = BalancingQuantity("thrust", "force", "balancing force", "F", "N", turns=False)
 
 
-class Geared(Struct, frozen=True):
+class GearDrive(Struct, frozen=True):
     """Gear train through which a crank is driven (привод через зубчатый механизм).
 
     Attributes
@@ -219,7 +219,7 @@ class Geared(Struct, frozen=True):
     rate: float
     efficiency: float | None = None
 
-    def given(self, words: Any) -> Sequence[Any]:
+    def given_facts(self, words: Any) -> Sequence[Any]:
         """Return the given facts of the train, in a language (`Language`).
 
         The subclass of a train (`gears/driving.py`) has them.
@@ -241,7 +241,7 @@ class LawPiece(NamedTuple):
     phase: float = 0.0
 
 
-class Lifted(Struct, frozen=True):
+class CamDrive(Struct, frozen=True):
     """Follower of a cam that drives a linkage (привод от толкателя кулачка).
 
     Attributes
@@ -261,7 +261,7 @@ class Lifted(Struct, frozen=True):
     pieces: tuple[LawPiece, ...]
     lowest: float = 0.0
 
-    def given(self, words: Any) -> Sequence[Any]:
+    def given_facts(self, words: Any) -> Sequence[Any]:
         """Return the given facts of the cam, in a language (`Language`).
 
         The subclass of a cam (`cams/driving.py`) has them.
@@ -269,7 +269,7 @@ class Lifted(Struct, frozen=True):
         return ()
 
 
-class PosedBy(Enum):
+class OutputPositionKind(Enum):
     """Quantity that gives a position of the mechanism in place of the driver's coordinate."""
 
     X = "x"
@@ -282,12 +282,12 @@ class PosedBy(Enum):
     LENGTH = "length"
 
 
-class Posed(Struct, frozen=True):
+class OutputPositions(Struct, frozen=True):
     """Positions given by the output (положения, заданные выходным звеном).
 
     Attributes
     ----------
-    by : PosedBy
+    by : OutputPositionKind
     of : str
         The point, the link of an angle, two links with a low line between (``2_3``), or two points
         of a length; empty of a share of the stroke, of an extreme, and of a point on a line.
@@ -300,7 +300,7 @@ class Posed(Struct, frozen=True):
     going : str
         Choice among several positions: that in which the output moves ``right``, ``ccw``,
         ``forth`` ...; empty where the file does not give it.
-    near : float or None
+    nearest_to : float or None
         That nearest to this position of the driver, degrees or m.
     number : int
         That of this number, from 1, as positions of the driver grow; 0 where the file has none.
@@ -308,24 +308,24 @@ class Posed(Struct, frozen=True):
         Of an actuator, which drives by the distance of two points: m/s, m/s².
     """
 
-    by: PosedBy
+    by: OutputPositionKind
     of: str
     values: tuple[float, ...]
     extremes: tuple[str, ...] = ()
     going: str = ""
-    near: float | None = None
+    nearest_to: float | None = None
     rates: tuple[float, float] = (0.0, 0.0)
     number: int = 0
 
     @property
     def key(self) -> str:
         """Key in ``[driver]``."""
-        if self.by is PosedBy.LENGTH:
+        if self.by is OutputPositionKind.LENGTH:
             return self.of
-        if self.by is PosedBy.LINE:
-            return PosedBy.EXTREME.value
-        if self.by is PosedBy.BETWEEN:
-            return f"{PosedBy.PHI.value}_{self.of}"
+        if self.by is OutputPositionKind.LINE:
+            return OutputPositionKind.EXTREME.value
+        if self.by is OutputPositionKind.BETWEEN:
+            return f"{OutputPositionKind.PHI.value}_{self.of}"
         return f"{self.by.value}_{self.of}" if self.of else self.by.value
 
 
@@ -351,19 +351,19 @@ class Drive(Struct, frozen=True):
         omega, 1/s and epsilon, 1/s² (counter-clockwise positive); or v, m/s and a, m/s². For a
         cam's follower those of the cam in its sense: the link's own are in
         `planmethod.solved.driving`.
-    geared : Geared or None
+    gear_drive : GearDrive or None
         The train that drives a crank, where one is given.
     turns : float or None, rev/min
         Rotational speed, where the file gives that.
-    posed : Posed or None
+    posed : OutputPositions or None
         Quantity that gives the positions in place of the driver's coordinate; it determines
         `positions`.
-    judged : tuple of float
+    assembly_positions : tuple of float
         Positions in which the assembly rules are checked, where ``[cycle]`` gives the positions:
         those that the file lists, else `ANYWHERE`; empty where they are `positions`.
     pushed : BalancingForceTask or None
         The force at a point of a crank that balances it, in place of a couple.
-    followed : Lifted or None
+    cam_drive : CamDrive or None
         The cam's follower that is the driving link, or moves it.
     """
 
@@ -372,12 +372,12 @@ class Drive(Struct, frozen=True):
     positions: tuple[float, ...]
     rate: float
     acceleration: float
-    geared: Geared | None = None
+    gear_drive: GearDrive | None = None
     turns: float | None = None
-    posed: Posed | None = None
-    judged: tuple[float, ...] = ()
+    posed: OutputPositions | None = None
+    assembly_positions: tuple[float, ...] = ()
     pushed: BalancingForceTask | None = None
-    followed: Lifted | None = None
+    cam_drive: CamDrive | None = None
 
     @property
     def is_crank(self) -> bool:
@@ -387,17 +387,17 @@ class Drive(Struct, frozen=True):
     @property
     def goes_round(self) -> bool:
         """True if its positions are angles of a turn, of a crank or of the cam that moves it."""
-        return self.is_crank or self.followed is not None
+        return self.is_crank or self.cam_drive is not None
 
     @property
     def actuator(self) -> tuple[str, str] | None:
         """The ends of the actuator that drives, where one does."""
-        if self.posed is None or self.posed.by is not PosedBy.LENGTH:
+        if self.posed is None or self.posed.by is not OutputPositionKind.LENGTH:
             return None
         return split_pair(self.posed.of)
 
     @property
-    def stands(self) -> bool:
+    def is_at_rest(self) -> bool:
         """True if its speed is zero or missing; for an actuator, the actuator's."""
         acted = self.posed if self.actuator is not None else None
         return not (self.rate if acted is None else acted.rates[0])
@@ -405,20 +405,20 @@ class Drive(Struct, frozen=True):
     @property
     def mover(self) -> str:
         """Body whose turn its positions are in, a key of sentences: ``crank`` or ``cam``."""
-        return "crank" if self.followed is None else "cam"
+        return "crank" if self.cam_drive is None else "cam"
 
     @property
     def revolves(self) -> bool:
         """True if it is a crank that can rotate fully, not one that a follower swings."""
-        return self.is_crank and self.followed is None
+        return self.is_crank and self.cam_drive is None
 
     @property
     def accelerates(self) -> bool:
         """True if its link accelerates in at least one position."""
-        return self.acceleration != 0 or self.followed is not None
+        return self.acceleration != 0 or self.cam_drive is not None
 
     @property
-    def given(self) -> tuple[str, str, str]:
+    def program_inputs(self) -> tuple[str, str, str]:
         """Names of position, rate and acceleration of its link in a program."""
         return ("phi" if self.is_crank else "s", *self.coordinate.rates)
 
@@ -426,7 +426,7 @@ class Drive(Struct, frozen=True):
     def coordinate(self) -> Coordinate:
         """Coordinate of its positions."""
         rates = (f"omega_{self.link}", f"epsilon_{self.link}") if self.is_crank else ("v", "a")
-        if self.followed is not None:
+        if self.cam_drive is not None:
             return Coordinate("cam", "deg", "cam_deg", "φ", rates, 360.0)
         if self.is_crank:
             return Coordinate("phi", "deg", "phi_deg", f"φ_{{{self.link}}}", rates, 360.0)
@@ -508,11 +508,11 @@ def _is_pair(name: str) -> bool:
     return half > 0 and name[half] in "-–" and name[:half] == name[half + 1 :]
 
 
-class GivenTable(dict[str, Any]):
+class SourceTable(dict[str, Any]):
     """Parsed TOML of a file, ignored when problems are compared for equality."""
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, GivenTable)
+        return isinstance(other, SourceTable)
 
     def __ne__(self, other: object) -> bool:
         return not self == other
@@ -550,7 +550,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         Unit in which the file gives lengths: ``m``, ``cm``, ``mm`` or ``in``.
     stated : mapping of str to str
         Arithmetic that the file has for a number (``0.25/3``), by path.
-    given : GivenTable
+    source_table : SourceTable
         Parsed TOML of the file with the variant's values; empty for a problem that was not
         read from one.
     vanished : mapping of str to float
@@ -575,7 +575,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     tables: Mapping[str, Any] = field(default_factory=dict)
     unit: str = "m"
     stated: Mapping[str, str] = field(default_factory=dict)
-    given: GivenTable = field(default_factory=GivenTable)
+    source_table: SourceTable = field(default_factory=SourceTable)
     vanished: Mapping[str, float] = field(default_factory=dict)
 
     @property
@@ -583,7 +583,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         """Turns of the crank in a cycle: two of a machine of 720 degrees."""
         return 1 if self.machine is None else round(self.machine.cycle_deg / 360.0)
 
-    def shown(self, position: float) -> float:
+    def display_position(self, position: float) -> float:
         """Return a driver position as in documents: a numbered one is within a turn.
 
         The number of the position shows which of two turns it is in.

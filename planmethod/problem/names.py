@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
-from planmethod.languages import say, typed
+from planmethod.languages import translate, typed
 from planmethod.mechanism.model import FRAME
 
 UNITS: Mapping[str, float] = MappingProxyType(
@@ -46,12 +46,12 @@ _LABEL_RE = r"[^\W_]+(?:[- ][^\W_]+)*'{0,3}\Z"
 _LENGTHS = {"m": "{} m", "cm": "{} cm", "mm": "{} mm", "in": "{} in"}
 
 
-def told_length(metres: float, unit: str, digits: int = 4) -> str:
+def format_length(metres: float, unit: str, digits: int = 4) -> str:
     """Return a length for a message, in the unit of its file: ``190 mm``."""
-    return say(_LENGTHS[unit], f"{metres * UNITS[unit]:.{digits}g}")
+    return translate(_LENGTHS[unit], f"{metres * UNITS[unit]:.{digits}g}")
 
 
-def told_place(place: complex, unit: str) -> str:
+def format_place(place: complex, unit: str) -> str:
     """Return coordinates in the unit of its file, as in the file: ``310, 120``."""
     z = place * UNITS[unit]
     return f"{z.real:.4g}, {z.imag:.4g}"
@@ -70,8 +70,8 @@ def lookalikes(text: str) -> tuple[str, ...]:
 def _letter(c: str) -> str:
     """Name of a look-alike letter."""
     greek = "Ͱ" <= c <= "Ͽ"
-    said = "the Greek letter {} (U+{:04X})" if greek else "the Cyrillic letter {} (U+{:04X})"
-    return say(said, c, ord(c))
+    phrase = "the Greek letter {} (U+{:04X})" if greek else "the Cyrillic letter {} (U+{:04X})"
+    return translate(phrase, c, ord(c))
 
 
 def describe_lookalikes(text: str) -> str:
@@ -80,9 +80,9 @@ def describe_lookalikes(text: str) -> str:
     first = letters[0]
     digit = LOOKALIKES[first].isdigit()
     kind = "expected the digit{0:||s} {1}" if digit else "expected the Latin letter{0:||s} {1}"
-    wanted = say(kind, len(letters), ", ".join(f"'{LOOKALIKES[c]}'" for c in letters))
-    said = "'{}' is {}, {}" if text == first else "'{}' has {}, {}"
-    return say(said, short(text), say(" and ").join(map(_letter, letters)), wanted)
+    wanted = translate(kind, len(letters), ", ".join(f"'{LOOKALIKES[c]}'" for c in letters))
+    phrase = "'{}' is {}, {}" if text == first else "'{}' has {}, {}"
+    return translate(phrase, short(text), translate(" and ").join(map(_letter, letters)), wanted)
 
 
 def is_point_name(text: str) -> bool:
@@ -144,7 +144,7 @@ def looks_latin(text: str) -> bool:
     return bool(lookalikes(text)) and fold(text).isascii()
 
 
-def near(name: str, known: Iterable[str]) -> str | None:
+def nearest_name(name: str, known: Iterable[str]) -> str | None:
     """Return the nearest of the known names, or None when none is close (ближайшее имя)."""
     from difflib import get_close_matches
 
@@ -161,17 +161,17 @@ def near(name: str, known: Iterable[str]) -> str | None:
     return found[0] if found else None
 
 
-def near_hint(name: str, known: Iterable[str], otherwise: str = "") -> str:
+def nearest_name_hint(name: str, known: Iterable[str], otherwise: str = "") -> str:
     """Return the hint that names the nearest of the known names, else another one."""
-    guess = near(name, known)
-    return say("Did you mean '{}'?", guess) if guess else otherwise
+    guess = nearest_name(name, known)
+    return translate("Did you mean '{}'?", guess) if guess else otherwise
 
 
 def listed(names: Iterable[str], *, limit: int = 12) -> str:
     """Names in one line for a message, cut when there are many."""
     every = list(names)
     text = ", ".join(every[:limit])
-    return say("{}, ... ({} in all)", text, len(every)) if len(every) > limit else text
+    return translate("{}, ... ({} in all)", text, len(every)) if len(every) > limit else text
 
 
 def indexed(name: str) -> str:
@@ -202,7 +202,7 @@ def joined(*parts: str) -> str:
     return ".".join(part for part in parts if part)
 
 
-def pair_name(joint: str, one: str, other: str) -> str:
+def pair_name(joint: str, one: str, second: str) -> str:
     """Return the name of a kinematic pair: its joint and its links, the frame last.
 
     Examples
@@ -210,5 +210,5 @@ def pair_name(joint: str, one: str, other: str) -> str:
     >>> pair_name("B", "0", "3"), pair_name("B", "3", "2")
     ('B 3-0', 'B 2-3')
     """
-    first, last = sorted((one, other), key=lambda link: (link == FRAME, link))
+    first, last = sorted((one, second), key=lambda link: (link == FRAME, link))
     return f"{joint} {first}-{last}"

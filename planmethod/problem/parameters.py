@@ -14,22 +14,22 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem import fields
 from planmethod.problem.fields import Faults, Table, is_number
-from planmethod.problem.model import Body, PosedBy, Problem
+from planmethod.problem.model import Body, OutputPositionKind, Problem
 from planmethod.problem.names import UNITS, segment, split_names, split_pair
 from planmethod.problem.reader import read_parsed
 
 Key = tuple[str | int, ...]
 
-_TOLD = (
+_IRRELEVANT_TABLES = (
     "variants", "published", "answers", "compare", "stamp", "sheet", "scales", "project",
     "balancing",
 )  # fmt: skip
 """Tables on which no number of a plan depends at unit scales."""
 
-_KEPT = ("drive", "assembly", "dynamics", "machine", "cycle")
+_REPLACEABLE_PARTS = ("drive", "assembly", "dynamics", "machine", "cycle")
 """Parts of a problem that are kept where they were replaced after it was read."""
 
 
@@ -58,8 +58,8 @@ class Parameter(Struct, frozen=True):
         """Key as in files: ``links.2.D.at``, ``frame.C[1]``, ``loads.0.force``."""
         if self.key[0] == "loads":
             return ".".join(map(str, self.key))
-        told = ".".join(segment(part) for part in self.key if isinstance(part, str))
-        return told + "".join(f"[{part}]" for part in self.key if isinstance(part, int))
+        text = ".".join(segment(part) for part in self.key if isinstance(part, str))
+        return text + "".join(f"[{part}]" for part in self.key if isinstance(part, int))
 
     @property
     def part(self) -> str:
@@ -89,7 +89,7 @@ class Parameters:
     def __init__(self, problem: Problem, pose: Callable[[Problem], Problem]) -> None:
         self.problem, self._pose = problem, pose
         self.by_name: dict[str, Parameter] = {}
-        for one in _numbers(problem) if problem.given else ():
+        for one in _numbers(problem) if problem.source_table else ():
             name = one.dotted if one.name in self.by_name else one.name
             self.by_name[name] = replace(one, name=name)
         self._others = {one.dotted: name for name, one in self.by_name.items()}
@@ -119,9 +119,13 @@ class Parameters:
         """
         for one in chosen:
             if one.part in self._replaced:
-                said = say("the problem is not as its file has it: {} was replaced", one.part)
-                hint = say("Read the file with each value of {}, and solve it alone.", one.name)
-                raise ProblemError(self.problem.source_file, [Fault(one.dotted, said, hint)])
+                phrase = translate(
+                    "the problem is not as its file has it: {} was replaced", one.part
+                )
+                hint = translate(
+                    "Read the file with each value of {}, and solve it alone.", one.name
+                )
+                raise ProblemError(self.problem.source_file, [Fault(one.dotted, phrase, hint)])
 
     def read(self, values: Mapping[Parameter, float]) -> Problem:
         """Return the problem of the same file with other numbers, SI and degrees.
@@ -142,28 +146,32 @@ class Parameters:
         """Parts of the problem that are not as the file has them."""
         if self._parts is None:
             read = self._read({})
-            names = ("bodies", "slides", "mechanism", *_KEPT)
+            names = ("bodies", "slides", "mechanism", *_REPLACEABLE_PARTS)
             pairs = ((name, getattr(self.problem, name)) for name in names)
             self._parts = {name: own for name, own in pairs if own != getattr(read, name)}
         return self._parts
 
     def _read(self, values: Mapping[Parameter, float]) -> Problem:
         problem, drive = self.problem, self.problem.drive
-        table = {key: value for key, value in problem.given.items() if key not in _TOLD}
+        table = {
+            key: value
+            for key, value in problem.source_table.items()
+            if key not in _IRRELEVANT_TABLES
+        }
         for one, value in values.items():
-            _put(table, one.key, float(value) * one.per)
+            _set_number(table, one.key, float(value) * one.per)
         read = read_parsed(
             table,
             source=problem.source_file,
             name=problem.name,
-            train=lambda *_: drive.geared or drive.followed,
+            train=lambda *_: drive.gear_drive or drive.cam_drive,
         )
         if drive.posed is not None:
             return self._pose(read)
         return replace(read, drive=replace(read.drive, positions=drive.positions))
 
 
-def _put(table: dict[str, Any], key: Key, value: float) -> None:
+def _set_number(table: dict[str, Any], key: Key, value: float) -> None:
     """Set a number in a table, copying each container on its path."""
     level: Any = table
     for part in key[:-1]:
@@ -178,7 +186,7 @@ def _put(table: dict[str, Any], key: Key, value: float) -> None:
 
 def _numbers(problem: Problem) -> Iterator[Parameter]:
     """Yield the numbers that a file gives and that plans depend on."""
-    read, given = _Reader(problem.unit), problem.given
+    read, given = _Reader(problem.unit), problem.source_table
     yield from _of_frame(read, given.get("frame", {}))
     for link, table in given["links"].items():
         yield from _of_link(read, link, table, problem.bodies.get(link))
@@ -276,10 +284,10 @@ def _of_point(
 
 
 def _of_driver(read: _Reader, problem: Problem) -> Iterator[Parameter]:
-    drive, driver = problem.drive, problem.given["driver"]
+    drive, driver = problem.drive, problem.source_table["driver"]
     if isinstance(driver, list):
         return
-    if drive.posed is not None and drive.posed.by is PosedBy.LENGTH:
+    if drive.posed is not None and drive.posed.by is OutputPositionKind.LENGTH:
         pair = drive.posed.of
         yield from read.length(f"l_{pair}", ("driver", pair), driver[pair])
         for name in (f"v_{pair}", f"a_{pair}"):
@@ -295,9 +303,9 @@ def _of_driver(read: _Reader, problem: Problem) -> Iterator[Parameter]:
 
 def _rates_left_out(problem: Problem) -> Iterator[Parameter]:
     """Yield rates of the driver that the file may give and leaves out."""
-    drive, driver = problem.drive, problem.given.get("driver", {})
-    acted = drive.posed is not None and drive.posed.by is PosedBy.LENGTH
-    if not isinstance(driver, Mapping) or drive.followed is not None or acted or not driver:
+    drive, driver = problem.drive, problem.source_table.get("driver", {})
+    acted = drive.posed is not None and drive.posed.by is OutputPositionKind.LENGTH
+    if not isinstance(driver, Mapping) or drive.cam_drive is not None or acted or not driver:
         return
     if drive.is_crank and "epsilon" not in driver:
         yield Parameter(f"epsilon_{drive.link}", ("driver", "epsilon"), 0.0)
@@ -306,7 +314,7 @@ def _rates_left_out(problem: Problem) -> Iterator[Parameter]:
 
 
 def _of_forces(read: _Reader, problem: Problem) -> Iterator[Parameter]:
-    dynamics = problem.given.get("dynamics", {})
+    dynamics = problem.source_table.get("dynamics", {})
     if is_number(dynamics.get("gravity")):
         yield from read.number("g", ("dynamics", "gravity"), dynamics["gravity"])
     for link, mass in dynamics.get("links", {}).items():
@@ -315,7 +323,9 @@ def _of_forces(read: _Reader, problem: Problem) -> Iterator[Parameter]:
                 key = ("dynamics", "links", link, name)
                 yield from read.number(f"{letter}_{link}", key, mass[name])
     own = () if problem.dynamics is None else problem.dynamics.loads
-    for index, (load, table) in enumerate(zip(own, problem.given.get("loads", ()), strict=False)):
+    for index, (load, table) in enumerate(
+        zip(own, problem.source_table.get("loads", ()), strict=False)
+    ):
         name = load.name.translate({ord("{"): None, ord("}"): None})
         for kind in ("force", "couple"):
             if kind in table and not isinstance(table[kind], Mapping):

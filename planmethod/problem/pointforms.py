@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Any
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.model import PointForm
@@ -32,16 +32,16 @@ def read_form(
     table = fields.read_keys(faults, path, value, keys.POINT)
     kinds = [kind for kind in keys.POINT_FORMS if kind in table]
     if len(kinds) != 1:
-        got = say("got {}", say(" and ").join(kinds)) if kinds else "got none of them"
-        hint = say('For example: {} = {{ on = "BC", at = 0.1, across = 0 }}', point)
-        faults.add(path, say("expected one of side, on, from, vertex, {}", got), hint)
+        got = translate("got {}", translate(" and ").join(kinds)) if kinds else "got none of them"
+        hint = translate('For example: {} = {{ on = "BC", at = 0.1, across = 0 }}', point)
+        faults.add(path, translate("expected one of side, on, from, vertex, {}", got), hint)
         return None
     (kind,) = kinds
     allowed = keys.POINT_FORMS[kind]
     for key in table:
         if key not in allowed:
-            hint = say("With '{}' go {}.", kind, listed(allowed))
-            faults.add(f"{path}.{key}", say("does not go with '{}'", kind), hint)
+            hint = translate("With '{}' go {}.", kind, listed(allowed))
+            faults.add(f"{path}.{key}", translate("does not go with '{}'", kind), hint)
     return _READERS[kind](faults, path, point, table, points, of)
 
 
@@ -66,7 +66,7 @@ def _read_side(
     if line is None:
         return None
     if point in line:
-        faults.add(where, say("the line {} goes through {} itself", words[2], point))
+        faults.add(where, translate("the line {} goes through {} itself", words[2], point))
         return None
     return PointForm("side", line=line, left=words[0] == "left")
 
@@ -87,9 +87,11 @@ def _read_on(
     if line is None or along is None:
         return None
     if point in line:
-        faults.add(f"{path}.on", say("the line {} is named by {} itself", "".join(line), point))
+        faults.add(
+            f"{path}.on", translate("the line {} is named by {} itself", "".join(line), point)
+        )
         return None
-    return PointForm("on", line=line, at=along[0], across=along[1])
+    return PointForm("on", line=line, at=along[0], lateral_offset=along[1])
 
 
 def _read_from(
@@ -100,9 +102,9 @@ def _read_from(
     if start is None or along is None:
         return None
     if start == point:
-        faults.add(f"{path}.from", say("{} cannot be measured from itself", point))
+        faults.add(f"{path}.from", translate("{} cannot be measured from itself", point))
         return None
-    return PointForm("from", point=start, at=along[0], across=along[1])
+    return PointForm("from", point=start, at=along[0], lateral_offset=along[1])
 
 
 def _read_vertex(
@@ -123,7 +125,7 @@ def _read_vertex(
     if ray[0] != vertex or point in ray:
         faults.add(
             f"{path}.ray",
-            say(
+            translate(
                 "expected a ray from {} to another point of the link, got '{}'",
                 vertex,
                 "".join(ray),

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import PurePath
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem import fields
 from planmethod.problem.cycle_records import PROJECT_PARTS, ProjectTask
 from planmethod.problem.fields import Faults
-from planmethod.problem.flat import OwnReader, read_flat
-from planmethod.problem.names import near_hint, short
+from planmethod.problem.flat_tables import CustomReader, read_flat
+from planmethod.problem.names import nearest_name_hint, short
 
 _EXAMPLE = '[project] calculated = 4, gears = "train.toml"'
 
@@ -20,17 +20,17 @@ def read_project(faults: Faults, table: object) -> ProjectTask | None:
     entries = fields.read_table(faults, "project", table, _EXAMPLE)
     if entries is None:
         return None
-    own: dict[str, OwnReader] = {
-        "gears": _read_beside,
-        "meshing": _read_beside,
-        "cam": _read_beside,
+    own: dict[str, CustomReader] = {
+        "gears": _read_file_name,
+        "meshing": _read_file_name,
+        "cam": _read_file_name,
         "parts": _read_parts,
     }
     found = read_flat(faults, "project", entries, ProjectTask, own)
     return None if len(faults) > before else ProjectTask(**found)
 
 
-def _read_beside(faults: Faults, path: str, value: object) -> str | None:
+def _read_file_name(faults: Faults, path: str, value: object) -> str | None:
     """Read the name of a problem file in the same folder."""
     if isinstance(value, str) and PurePath(value).name == value and value.endswith(".toml"):
         return value
@@ -38,8 +38,8 @@ def _read_beside(faults: Faults, path: str, value: object) -> str | None:
     key = path.rpartition(".")[2]
     faults.add(
         path,
-        say("expected the name of a problem file, got '{}'", told),
-        say('For example: {} = "train.toml", beside this file.', key),
+        translate("expected the name of a problem file, got '{}'", told),
+        translate('For example: {} = "train.toml", beside this file.', key),
     )
     return None
 
@@ -53,8 +53,8 @@ def _read_parts(faults: Faults, path: str, value: object) -> tuple[str, ...] | N
             listed = ", ".join(PROJECT_PARTS)
             faults.add(
                 path,
-                say("unknown part '{}'", short(name)),
-                near_hint(name, PROJECT_PARTS, say("There are {}.", listed)),
+                translate("unknown part '{}'", short(name)),
+                nearest_name_hint(name, PROJECT_PARTS, translate("There are {}.", listed)),
             )
             return None
     return tuple(dict.fromkeys(value))

@@ -10,11 +10,11 @@ from typing import Any, TypeAlias
 from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say, spoken
+from planmethod.languages import current_language, translate
 from planmethod.problem.fields import Faults, read_units
-from planmethod.problem.model import GivenTable, Problem
-from planmethod.problem.names import fold, listed, near
-from planmethod.problem.parts import TrainReader, read_parts
+from planmethod.problem.linkage import TrainReader, read_parts
+from planmethod.problem.model import Problem, SourceTable
+from planmethod.problem.names import fold, listed, nearest_name
 from planmethod.problem.source import parse, read_source
 from planmethod.problem.variants import apply_variant, read_variants, with_table
 
@@ -59,7 +59,7 @@ def load_each(
     table, known, faults = _from_file(path)
     names = tuple(known)  # one for all: ten thousand have as many names each
     for variant in variants:
-        varied = _laid_over(faults, table, known, str(path), variant)
+        varied = _overlay_variant(faults, table, known, str(path), variant)
         yield _read_varied(faults.copy(), varied, names, str(path), path.stem, variant, train)
 
 
@@ -71,7 +71,7 @@ def _from_file(path: Path) -> tuple[Mapping[str, Any], Variants, Faults]:
     text = read_source(path)
     beside = isinstance(parse(text, name=str(path)).get("variants"), str)
     look = _looked_through.__wrapped__ if beside else _looked_through  # that may change alone
-    table, variants, faults = look(text, path, spoken())
+    table, variants, faults = look(text, path, current_language())
     return table, variants, faults.copy()
 
 
@@ -96,12 +96,12 @@ def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], tuple[st
         The file cannot be read, or has no such variant.
     """
     table, known, faults = _from_file(path)
-    table = _laid_over(faults, table, known, str(path), variant)
+    table = _overlay_variant(faults, table, known, str(path), variant)
     read_units(faults, table)
     return table, tuple(known), faults
 
 
-def laid_over(
+def overlay_variant(
     faults: Faults, table: Mapping[str, Any], source: str, variant: str | None
 ) -> tuple[Mapping[str, Any], tuple[str, ...]]:
     """Return a table with a variant's values, and the names of all variants.
@@ -112,10 +112,10 @@ def laid_over(
         No such variant.
     """
     variants = read_variants(faults, table)
-    return _laid_over(faults, table, variants, source, variant), tuple(variants)
+    return _overlay_variant(faults, table, variants, source, variant), tuple(variants)
 
 
-def _laid_over(
+def _overlay_variant(
     faults: Faults,
     table: Mapping[str, Any],
     variants: Variants,
@@ -125,7 +125,7 @@ def _laid_over(
     if variant is None:
         return table
     if variant not in variants:
-        raise ProblemError(source, [*faults.found, unknown_variant(variant, variants)])
+        raise ProblemError(source, [*faults.listed, unknown_variant(variant, variants)])
     return apply_variant(table, variants[variant])
 
 
@@ -148,7 +148,7 @@ def variant_names(path: str | Path) -> tuple[str, ...]:
     path = Path(path)
     _, variants, faults = _from_file(path)
     if faults:
-        raise ProblemError(str(path), faults.found)
+        raise ProblemError(str(path), faults.listed)
     return tuple(variants)
 
 
@@ -177,7 +177,7 @@ def read_parsed(
     """
     faults = Faults()
     table = with_table(faults, table, None)
-    table, variants = laid_over(faults, table, source, variant)
+    table, variants = overlay_variant(faults, table, source, variant)
     return _read_varied(faults, table, variants, source, name, variant, train)
 
 
@@ -192,9 +192,13 @@ def _read_varied(
 ) -> Problem:
     problem = read_parts(faults, table, name, train)
     if faults or problem is None:
-        raise ProblemError(source, faults.found)
+        raise ProblemError(source, faults.listed)
     return replace(
-        problem, source_file=source, variants=variants, variant=variant, given=GivenTable(table)
+        problem,
+        source_file=source,
+        variants=variants,
+        variant=variant,
+        source_table=SourceTable(table),
     )
 
 
@@ -202,10 +206,18 @@ def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
     """Return the fault of a variant that a file has not, with the nearest name."""
     if not known:
         return Fault(
-            "variants", say("variant '{}' does not exist", variant), "The file has no variants."
+            "variants",
+            translate("variant '{}' does not exist", variant),
+            "The file has no variants.",
         )
-    guess = near(variant, known) or next((k for k in known if fold(k) == fold(variant)), None)
-    hint = say("Did you mean '{}'?", guess) if guess else say("There are {}.", listed(known))
+    guess = nearest_name(variant, known) or next(
+        (k for k in known if fold(k) == fold(variant)), None
+    )
+    hint = (
+        translate("Did you mean '{}'?", guess)
+        if guess
+        else translate("There are {}.", listed(known))
+    )
     if guess and fold(guess) == fold(variant):
-        hint = say("Did you mean '{}' in the other layout (Russian or Latin)?", guess)
-    return Fault("variants", say("variant '{}' does not exist", variant), hint)
+        hint = translate("Did you mean '{}' in the other layout (Russian or Latin)?", guess)
+    return Fault("variants", translate("variant '{}' does not exist", variant), hint)

@@ -11,13 +11,20 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields, keys
+from planmethod.problem.common import Published
 from planmethod.problem.fields import Faults
-from planmethod.problem.flat import read_flat
-from planmethod.problem.head import Published
-from planmethod.problem.names import indexed, listed, near, near_hint, segment, short
+from planmethod.problem.flat_tables import read_flat
+from planmethod.problem.names import (
+    indexed,
+    listed,
+    nearest_name,
+    nearest_name_hint,
+    segment,
+    short,
+)
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
@@ -182,19 +189,19 @@ def _parse_one(text: str) -> Selector:
         counts = QUANTITIES.get(kind) or tuple(len(form) for form in FORCES[kind])
     if kind.startswith("arm "):
         if names[-2:-1] != [_ABOUT]:
-            raise SelectorError(say("'{}' ends with '{}' and a point", kind, _ABOUT))
+            raise SelectorError(translate("'{}' ends with '{}' and a point", kind, _ABOUT))
         del names[-2]
     if len(names) not in counts:
-        wanted = say(" or ").join(map(str, counts))
+        wanted = translate(" or ").join(map(str, counts))
         told = "'{0}' takes {1} name{2:||s}, got {3}"
-        raise SelectorError(say(told, kind, wanted, 1 if wanted == "1" else 2, len(names)))
+        raise SelectorError(translate(told, kind, wanted, 1 if wanted == "1" else 2, len(names)))
     selector = Selector(kind, tuple(names))
     if kind in FORCES:
         indices = (indexed(n) if role is NameRole.LOAD else n for n, role in roles(selector))
         selector = Selector(kind, tuple(indices))
     for pair in _must_differ(selector):
         if len(set(pair)) != len(pair):
-            raise SelectorError(say("'{}' needs two different names", kind))
+            raise SelectorError(translate("'{}' needs two different names", kind))
     return selector
 
 
@@ -207,9 +214,9 @@ def _kind(words: list[str]) -> tuple[str, list[str]]:
             return kind, words[size:]
     known = [*QUANTITIES, *FORCES, *MACHINE]
     unknown = " ".join(words[:2]) if first in _PAIRED else first
-    guess = near(unknown, known)
-    tail = say(" (the nearest is '{}')", guess) if guess else ""
-    raise SelectorError(say("unknown quantity '{}'{}", short(unknown), tail))
+    guess = nearest_name(unknown, known)
+    tail = translate(" (the nearest is '{}')", guess) if guess else ""
+    raise SelectorError(translate("unknown quantity '{}'{}", short(unknown), tail))
 
 
 def _must_differ(selector: Selector) -> list[tuple[str, ...]]:
@@ -291,7 +298,9 @@ def read_published(
         An entry, and the keys that one may not have.
     """
     entries = fields.read_table(faults, "published", table, f'[published."v_B"] {example}') or {}
-    if faults.beyond("published", "{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT):
+    if faults.exceeds(
+        "published", "{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT
+    ):
         return ()
     own = {"position": partial(read_position, positions=positions)}
     found: list[Published] = []
@@ -315,20 +324,22 @@ def read_position(faults: Faults, path: str, value: object, positions: int) -> i
         faults.expected(path, "a whole number from 0", value)
         return None
     if positions and value >= positions:
-        faults.add(path, say("position {} of {}", value, positions), "The first position is 0.")
+        faults.add(
+            path, translate("position {} of {}", value, positions), "The first position is 0."
+        )
         return None
     return value
 
 
-def check_what(
+def check_quantity(
     faults: Faults,
     path: str,
-    what: str,
+    quantity: str,
     points: Collection[str],
     links: Collection[str],
     dynamics: Dynamics | None,
 ) -> Selector | None:
-    """Parse ``what`` and check its names; None where it cannot be parsed.
+    """Parse ``quantity`` and check its names; None where it cannot be parsed.
 
     Parameters
     ----------
@@ -336,7 +347,7 @@ def check_what(
         Names of the mechanism, with those of coincident points; empty when it could not be read.
     """
     try:
-        selector = parse_selector(what)
+        selector = parse_selector(quantity)
     except SelectorError as error:
         faults.add(path, str(error), 'For example: "v C", "an C B", "omega 2", "F 2 1".')
         return None
@@ -345,21 +356,21 @@ def check_what(
     if is_force(selector) and dynamics is None:
         faults.add(
             path,
-            say(
+            translate(
                 "'{}' is of the force analysis, and the file has no masses and no loads",
-                short(what),
+                short(quantity),
             ),
             "Give [dynamics] or [[loads]].",
         )
         return selector
     loads = [load.name for load in dynamics.loads] if dynamics else []
     for name in unknown_names(selector, points, links, loads):
-        known = [say("Points: {}", listed(points))]
+        known = [translate("Points: {}", listed(points))]
         if is_force(selector):
-            known += [say("links: {}", listed(links))]
-            known += [say("loads: {}", listed(loads))] if loads else []
-        hint = near_hint(name, [*points, *links, *loads], f"{'; '.join(known)}.")
-        faults.add(path, say("the mechanism has no '{}'", name), hint)
+            known += [translate("links: {}", listed(links))]
+            known += [translate("loads: {}", listed(loads))] if loads else []
+        hint = nearest_name_hint(name, [*points, *links, *loads], f"{'; '.join(known)}.")
+        faults.add(path, translate("the mechanism has no '{}'", name), hint)
     return selector
 
 

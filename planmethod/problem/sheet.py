@@ -17,9 +17,16 @@ from typing import Any
 from msgspec import Struct, field
 
 from planmethod.errors import ConfigError, Fault, LayoutError, ProblemError
-from planmethod.languages import LANGUAGES, say
+from planmethod.languages import LANGUAGES, translate
 from planmethod.paper import paper_format
 from planmethod.problem import keys
+from planmethod.problem.common import (
+    SEVERAL,
+    STAMP_LIMIT,
+    TITLE_BLOCK,
+    TITLE_BLOCK_IN,
+    SheetSettings,
+)
 from planmethod.problem.fields import (
     Faults,
     Table,
@@ -28,8 +35,7 @@ from planmethod.problem.fields import (
     read_text,
     read_word,
 )
-from planmethod.problem.flat import read_choice, read_flat
-from planmethod.problem.head import SEVERAL, STAMP_LIMIT, TITLE_BLOCK, TITLE_BLOCK_IN, SheetSettings
+from planmethod.problem.flat_tables import read_choice, read_flat
 from planmethod.problem.names import TITLE_LIMIT, joined, segment
 from planmethod.problem.source import parse, read_source
 
@@ -37,31 +43,33 @@ _PAPER_LIMIT = 40
 _READINGS_LIMIT = 10
 
 
-def read_head(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
+def read_head(faults: Faults, document: Mapping[str, Any]) -> dict[str, Any]:
     """Read the common head of all files: title, source, title block, sheet settings."""
     return {
-        **{key: _read_heading(faults, given, key) for key in ("title", "source")},
-        **_read_reading(faults, given),
-        **_read_stamps(faults, given.get("stamp", {})),
-        "sheet": read_sheet(faults, given.get("sheet", {})),
+        **{key: _read_heading(faults, document, key) for key in ("title", "source")},
+        **_read_reading(faults, document),
+        **_read_stamps(faults, document.get("stamp", {})),
+        "sheet": read_sheet(faults, document.get("sheet", {})),
     }
 
 
-def _read_heading(faults: Faults, given: Mapping[str, Any], key: str) -> str:
-    return read_text(faults, key, given.get(key, ""), limit=TITLE_LIMIT) or ""
+def _read_heading(faults: Faults, document: Mapping[str, Any], key: str) -> str:
+    return read_text(faults, key, document.get(key, ""), limit=TITLE_LIMIT) or ""
 
 
-def _read_reading(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
+def _read_reading(faults: Faults, document: Mapping[str, Any]) -> dict[str, Any]:
     """Read whether the scheme is one of several matching the data, and the others."""
-    if "reading" not in given:
-        if "other_readings" in given:
-            hint = say('Write reading = "{}".', SEVERAL)
+    if "reading" not in document:
+        if "other_readings" in document:
+            hint = translate('Write reading = "{}".', SEVERAL)
             faults.add("other_readings", "goes with a reading", hint)
         return {}
-    word = read_word(faults, "reading", given["reading"], (SEVERAL,))
-    others = given.get("other_readings", [])
+    word = read_word(faults, "reading", document["reading"], (SEVERAL,))
+    others = document.get("other_readings", [])
     if not isinstance(others, list) or len(others) > _READINGS_LIMIT:
-        faults.expected("other_readings", say("a list of up to {} texts", _READINGS_LIMIT), others)
+        faults.expected(
+            "other_readings", translate("a list of up to {} texts", _READINGS_LIMIT), others
+        )
         return {}
     texts = [
         read_text(faults, f"other_readings[{k}]", one, limit=TITLE_LIMIT)
@@ -100,23 +108,27 @@ def read_sheet(faults: Faults, table: object) -> SheetSettings:
     given = _without_astray(faults, "sheet", table, "stamp", "side_columns = true")
     own = {"paper": _read_paper, "lang": _read_language}
     return (
-        SheetSettings(**read_flat(faults, "sheet", given, SheetSettings, own)) if given else _NONE
+        SheetSettings(**read_flat(faults, "sheet", given, SheetSettings, own))
+        if given
+        else _DEFAULTS
     )
 
 
-_NONE = SheetSettings()
+_DEFAULTS = SheetSettings()
 
 
-def _without_astray(faults: Faults, path: str, table: object, other: str, example: str) -> Table:
+def _without_astray(faults: Faults, path: str, table: object, second: str, example: str) -> Table:
     """Return a table without the keys that belong to the other one, each of which is a fault."""
     entries = read_table(faults, path, table, example)
     if not entries:
         return {}
     own = keys.known(path.partition(".")[0])
-    astray = set(entries).intersection(keys.known(other)).difference(own)
+    astray = set(entries).intersection(keys.known(second)).difference(own)
     for key in entries:
         if key in astray:
-            faults.add(joined(path, segment(key)), "unknown key", say("It belongs in [{}].", other))
+            faults.add(
+                joined(path, segment(key)), "unknown key", translate("It belongs in [{}].", second)
+            )
     return {key: value for key, value in entries.items() if key not in astray}
 
 
@@ -184,7 +196,7 @@ def load_config(path: Path) -> Config:
     name = str(path)
     try:
         if not path.exists():
-            hint = say("Check --config or {}, or go without: --no-config.", VARIABLE)
+            hint = translate("Check --config or {}, or go without: --no-config.", VARIABLE)
             raise ConfigError(name, [Fault("", "there is no such file", hint)])
         if path.is_dir():
             raise ConfigError(
@@ -197,7 +209,12 @@ def load_config(path: Path) -> Config:
         raise ConfigError(name, error.faults) from None
     except OSError as error:
         raise ConfigError(
-            name, [Fault("", say("the file cannot be read: {}", error.strerror), "Check the path.")]
+            name,
+            [
+                Fault(
+                    "", translate("the file cannot be read: {}", error.strerror), "Check the path."
+                )
+            ],
         ) from None
     faults = Faults()
     given = read_keys(faults, "", table, keys.CONFIG)
@@ -205,5 +222,5 @@ def load_config(path: Path) -> Config:
         read_stamp(faults, given.get("stamp", {})), read_sheet(faults, given.get("sheet", {}))
     )
     if faults:
-        raise ConfigError(name, faults.found)
+        raise ConfigError(name, faults.listed)
     return config

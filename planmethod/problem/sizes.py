@@ -8,10 +8,10 @@ from itertools import pairwise
 
 from msgspec.structs import replace
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
-from planmethod.problem.flat import read_flat
+from planmethod.problem.flat_tables import read_flat
 from planmethod.problem.load_records import (
     IndicatorDiagram,
     Interpolation,
@@ -58,13 +58,15 @@ def read_size(
         return _read_table(faults, path, value, drive, turn, couple=couple)
     what = "a couple in N·m" if couple else "a force in N"
     if not fields.is_number(value) and not isinstance(value, str):
-        faults.expected(path, say("{} or a table", what), value, say("A table: {}.", _TABLE))
+        faults.expected(
+            path, translate("{} or a table", what), value, translate("A table: {}.", _TABLE)
+        )
         return None
     return _read_value(faults, path, value, what)
 
 
-def _read_value(faults: Faults, path: str, value: object, what: str) -> float | None:
-    return fields.read_number(faults, path, value, what, low=-1e12, high=1e12)
+def _read_value(faults: Faults, path: str, value: object, expected: str) -> float | None:
+    return fields.read_number(faults, path, value, expected, low=-1e12, high=1e12)
 
 
 def _read_table(
@@ -81,7 +83,7 @@ def _read_table(
         if law is None:
             return None
     if law is LoadLaw.INDICATOR:
-        return _read_indicator(faults, path, given, drive, couple=couple, whole=whole)
+        return _read_indicator(faults, path, given, drive, couple=couple, is_complete=whole)
     for key in keys.INDICATOR:
         if key in given:
             hint = LIKE if key in keys.LIKE else ""
@@ -89,14 +91,14 @@ def _read_table(
     if law is not None:
         given = {**_LAWS[law], **given}
     if whole and "over" not in given:
-        hint = say("Say what the values are over: {}.", listed(_OVERS))
+        hint = translate("Say what the values are over: {}.", listed(_OVERS))
         faults.add(f"{path}.over", "missing", hint)
     if whole and "values" not in given:
-        faults.add(f"{path}.values", "missing", say("For example: {}.", _TABLE))
+        faults.add(f"{path}.values", "missing", translate("For example: {}.", _TABLE))
     over = None
     if "over" in given:
         over = _read_over(faults, f"{path}.over", given["over"], drive, couple=couple)
-    interpolation = _read_interpolation(faults, path, given, over, whole=whole)
+    interpolation = _read_interpolation(faults, path, given, over, is_complete=whole)
     if over is None or "values" not in given:
         return None
     what = "a couple in N·m" if couple else "a force in N"
@@ -119,26 +121,26 @@ def _check_piston(faults: Faults, path: str, drive: Drive | None, *, couple: boo
     if couple:
         faults.add(path, "'indicator' does not go with a couple", "A piston has a force.")
     if drive is not None and not drive.is_crank:
-        faults.add(path, say("link {} slides: it has no crank cycle", drive.link))
+        faults.add(path, translate("link {} slides: it has no crank cycle", drive.link))
 
 
 def _read_like(
-    faults: Faults, path: str, given: Table, drive: Drive | None, cycle: float, *, couple: bool
+    faults: Faults, path: str, table: Table, drive: Drive | None, cycle: float, *, couple: bool
 ) -> SizeTable | None:
     """Read an indicator diagram that is another piston's, later; its rows come with `liken`."""
     before = len(faults)
     _check_piston(faults, f"{path}.like", drive, couple=couple)
-    for key in given:
-        if key not in (*keys.LIKE, "law") or (key == "law" and given[key] != "indicator"):
+    for key in table:
+        if key not in (*keys.LIKE, "law") or (key == "law" and table[key] != "indicator"):
             faults.add(f"{path}.{key}", "does not go with like", LIKE)
-    name = fields.read_text(faults, f"{path}.like", given["like"], limit=40)
+    name = fields.read_text(faults, f"{path}.like", table["like"], limit=40)
     shift = None
-    if "shift" in given:
-        shift = fields.read_angle(faults, f"{path}.shift", given["shift"])
+    if "shift" in table:
+        shift = fields.read_angle(faults, f"{path}.shift", table["shift"])
     else:
         faults.add(f"{path}.shift", "missing", LIKE)
     if shift is not None and not 0.0 <= shift < cycle:
-        message = say("expected from 0 to less than {:g} degrees, got {:g}", cycle, shift)
+        message = translate("expected from 0 to less than {:g} degrees, got {:g}", cycle, shift)
         faults.add(f"{path}.shift", message, _SHIFT)
     if len(faults) != before or name is None or shift is None:
         return None
@@ -156,35 +158,35 @@ _SHIFT = (
 
 
 def liken(
-    faults: Faults, path: str, own: str, size: SizeTable, known: Mapping[str, object]
+    faults: Faults, path: str, load_name: str, size: SizeTable, known: Mapping[str, object]
 ) -> SizeTable | None:
     """Return a diagram that is another piston's with the rows of that one; None after a fault.
 
     Parameters
     ----------
-    own : str
+    load_name : str
         The name of its load.
     known : mapping of str to object
         Sizes of the forces of the file by name; None of one that could not be read.
     """
     assert size.like is not None
     path = f"{path}.like"
-    if size.like == own:
-        faults.add(path, say("load {} cannot be like itself", own), LIKE)
+    if size.like == load_name:
+        faults.add(path, translate("load {} cannot be like itself", load_name), LIKE)
         return None
     if size.like not in known:
-        others = [name for name in known if name != own]
-        fields.report_unknown(faults, path, size.like, others, said="unknown load '{}'")
+        others = [name for name in known if name != load_name]
+        fields.report_unknown(faults, path, size.like, others, message="unknown load '{}'")
         return None
     other = known[size.like]
     if other is None:
         return None
     if not isinstance(other, SizeTable) or other.over is not Over.STROKES:
-        message = say("load {} is not an indicator diagram", size.like)
+        message = translate("load {} is not an indicator diagram", size.like)
         faults.add(path, message, 'It has law = "indicator" and its strokes.')
         return None
     if other.like is not None:
-        message = say("load {} is like {} itself", size.like, other.like)
+        message = translate("load {} is like {} itself", size.like, other.like)
         faults.add(path, message, "Name the load that has the strokes.")
         return None
     return replace(other, like=size.like, shift=size.shift)
@@ -193,32 +195,34 @@ def liken(
 def _read_indicator(
     faults: Faults,
     path: str,
-    given: Table,
+    table: Table,
     drive: Drive | None,
     *,
     couple: bool,
-    whole: bool,
+    is_complete: bool,
 ) -> SizeTable | None:
     """Read pressures over strokes: the force on the piston, N, over the strokes done."""
     before = len(faults)
     _check_piston(faults, f"{path}.law", drive, couple=couple)
     for key in ("over", "values", "interpolation"):
-        if key in given:
+        if key in table:
             faults.add(f"{path}.{key}", 'does not go with law = "indicator"', _INDICATOR)
-    if "shift" in given:
+    if "shift" in table:
         faults.add(f"{path}.shift", "goes with like only", LIKE)
     for key in ("strokes", "area"):
-        if key not in given and whole:
+        if key not in table and is_complete:
             faults.add(f"{path}.{key}", "missing", _INDICATOR)
-    strokes, area = given.get("strokes", []), _read_area(faults, f"{path}.area", given.get("area"))
-    sides = fields.read_whole(faults, f"{path}.sides", given.get("sides", 1), 1, 2)
-    area_2 = _read_area(faults, f"{path}.area_2", given.get("area_2", given.get("area")))
-    if "area_2" in given and sides == 1:
+    strokes, area = table.get("strokes", []), _read_area(faults, f"{path}.area", table.get("area"))
+    sides = fields.read_integer(faults, f"{path}.sides", table.get("sides", 1), 1, 2)
+    area_2 = _read_area(faults, f"{path}.area_2", table.get("area_2", table.get("area")))
+    if "area_2" in table and sides == 1:
         faults.add(f"{path}.area_2", "is of the other side of the piston", "Give sides = 2.")
     if not isinstance(strokes, list) or len(strokes) not in (2, 4):
-        if "strokes" in given:
+        if "strokes" in table:
             shown = fields.show(strokes)
-            faults.add(f"{path}.strokes", say("expected 2 or 4 strokes, got {}", shown), _INDICATOR)
+            faults.add(
+                f"{path}.strokes", translate("expected 2 or 4 strokes, got {}", shown), _INDICATOR
+            )
         return None
     at: list[float] = []
     pressures: list[float] = []
@@ -242,10 +246,10 @@ def _read_indicator(
     return replace(whole_force, indicator=diagram)
 
 
-def _both_sides(own: SizeTable, share: float, count: int) -> SizeTable:
+def _both_sides(diagram: SizeTable, fraction: float, count: int) -> SizeTable:
     """Return the force on a piston whose other side is one stroke ahead."""
-    shifted = [(at - 1.0) % count for at in own.at]
-    nodes = sorted({*own.at, *shifted, 0.0, float(count)})
+    shifted = [(at - 1.0) % count for at in diagram.at]
+    nodes = sorted({*diagram.at, *shifted, 0.0, float(count)})
     at: list[float] = []
     values: list[float] = []
     for node in nodes:
@@ -254,8 +258,8 @@ def _both_sides(own: SizeTable, share: float, count: int) -> SizeTable:
             if other > count or (other == count and after):
                 other -= count
             at.append(node)
-            values.append(_limit(own, node, after) - share * _limit(own, other, after))
-    return SizeTable(own.over, tuple(at), tuple(values))
+            values.append(_limit(diagram, node, after) - fraction * _limit(diagram, other, after))
+    return SizeTable(diagram.over, tuple(at), tuple(values))
 
 
 def _limit(table: SizeTable, at: float, after: bool) -> float:
@@ -290,11 +294,11 @@ def _read_over(
         return None
     over = Over(word)
     if over is Over.PATH and drive is not None and not drive.is_crank:
-        faults.add(path, say("link {} slides: it has no stroke of a full turn", drive.link))
+        faults.add(path, translate("link {} slides: it has no stroke of a full turn", drive.link))
         return None
     if couple and over in (Over.X, Over.Y, Over.PATH):
         hint = "A couple has no point: give it over phi, s or position."
-        faults.add(path, say("'{}' does not go with a couple", over.value), hint)
+        faults.add(path, translate("'{}' does not go with a couple", over.value), hint)
         return None
     if drive is None:
         return over
@@ -303,20 +307,20 @@ def _read_over(
         message = "'{}' is not what the driver has: link {} slides"
         if drive.goes_round:
             message = "'{}' is not what the driver has: link {} turns"
-        hint = say("Give the table over {}.", own.value)
-        faults.add(path, say(message, over.value, drive.link), hint)
+        hint = translate("Give the table over {}.", own.value)
+        faults.add(path, translate(message, over.value, drive.link), hint)
         return None
     return over
 
 
 def _read_interpolation(
-    faults: Faults, path: str, given: Table, over: Over | None, *, whole: bool
+    faults: Faults, path: str, table: Table, over: Over | None, *, is_complete: bool
 ) -> Interpolation | None:
     where = f"{path}.interpolation"
-    if "interpolation" not in given:
+    if "interpolation" not in table:
         if over is Over.POSITION:
             return Interpolation.STEP
-        if whole:
+        if is_complete:
             hint = 'Say how to read between the rows: interpolation = "linear" or "step".'
             faults.add(where, "missing", hint)
         return None
@@ -324,7 +328,7 @@ def _read_interpolation(
         hint = "There is a value for each position."
         faults.add(where, 'does not go with over = "position"', hint)
         return None
-    return fields.read_member(faults, where, given["interpolation"], Interpolation)
+    return fields.read_member(faults, where, table["interpolation"], Interpolation)
 
 
 Rows = tuple[tuple[float, ...], tuple[float, ...]]
@@ -335,36 +339,38 @@ def _read_rows(
     path: str,
     value: object,
     over: Over,
-    what: str,
+    expected: str,
     drive: Drive | None,
     turn: float,
 ) -> Rows | None:
     """Read the rows of a table: abscissae and values."""
     if not isinstance(value, list):
-        faults.expected(path, "a list", value, say("For example: {}.", _TABLE))
+        faults.expected(path, "a list", value, translate("For example: {}.", _TABLE))
         return None
-    if faults.beyond(path, "{} values, the limit is {}", len(value), keys.ROW_LIMIT):
+    if faults.exceeds(path, "{} values, the limit is {}", len(value), keys.ROW_LIMIT):
         return None
     if over is Over.POSITION:
-        return _read_by_position(faults, path, value, what, drive)
+        return _read_by_position(faults, path, value, expected, drive)
     if len(value) < 2:
-        hint = say("For example: {}. A constant load is just a number.", _TABLE)
+        hint = translate("For example: {}. A constant load is just a number.", _TABLE)
         faults.add(
             path,
-            say("expected at least two rows [{}, value], got {}", over.value, len(value)),
+            translate("expected at least two rows [{}, value], got {}", over.value, len(value)),
             hint,
         )
         return None
     before = len(faults)
-    read = {Over.PHI: fields.read_angle, Over.PATH: _read_share}.get(over, fields.read_coordinate)
+    read = {Over.PHI: fields.read_angle, Over.PATH: _read_fraction}.get(
+        over, fields.read_coordinate
+    )
     rows: list[tuple[float, float]] = []
     for index, row in enumerate(value):
         where = f"{path}[{index}]"
         if not isinstance(row, list) or len(row) != 2:
-            faults.expected(where, say("[{}, value]", over.value), row)
+            faults.expected(where, translate("[{}, value]", over.value), row)
             continue
         at = read(faults, f"{where}[0]", row[0])
-        size = _read_value(faults, f"{where}[1]", row[1], what)
+        size = _read_value(faults, f"{where}[1]", row[1], expected)
         if at is not None and size is not None:
             rows.append((at, size))
     if len(faults) != before or not _check_order(faults, path, rows, over, turn):
@@ -373,21 +379,21 @@ def _read_rows(
 
 
 def _read_by_position(
-    faults: Faults, path: str, value: list[object], what: str, drive: Drive | None
+    faults: Faults, path: str, value: list[object], expected: str, drive: Drive | None
 ) -> Rows | None:
-    read = [_read_value(faults, f"{path}[{i}]", item, what) for i, item in enumerate(value)]
+    read = [_read_value(faults, f"{path}[{i}]", item, expected) for i, item in enumerate(value)]
     sizes = tuple(size for size in read if size is not None)
     if len(sizes) != len(read):
         return None
     if drive is not None and len(sizes) != len(drive.positions):
         count = len(drive.positions)
         hint = "Give one for each position of the driver, or a table over its motion."
-        faults.add(path, say("{} values for {} positions", len(sizes), count), hint)
+        faults.add(path, translate("{} values for {} positions", len(sizes), count), hint)
         return None
     return (), sizes
 
 
-def _read_share(faults: Faults, path: str, value: object) -> float | None:
+def _read_fraction(faults: Faults, path: str, value: object) -> float | None:
     hint = "0 is where the stroke begins, 1 where it ends: divide the path by the stroke."
     return fields.read_number(
         faults, path, value, "a share of the stroke", low=0.0, high=1.0, hint=hint
@@ -403,9 +409,12 @@ def _check_order(
         if two > one or (jumps and two == one and (index < 2 or rows[index - 2][0] < one)):
             continue
         if two == one:
-            message, hint = say("{} = {:g} is in two rows", over.value, two), "Keep one of them."
+            message, hint = (
+                translate("{} = {:g} is in two rows", over.value, two),
+                "Keep one of them.",
+            )
         else:
-            message = say("{} = {:g} after {:g}", over.value, two, one)
+            message = translate("{} = {:g} after {:g}", over.value, two, one)
             hint = "Put the rows in order."
         faults.add(f"{path}[{index}]", message, hint)
         return False
@@ -416,10 +425,12 @@ def _check_order(
         message = "the rows span {:g} degrees, a turn has {:g}"
         if turn != TURN:
             message = "the rows span {:g} degrees, a cycle has {:g}"
-        faults.add(path, say(message, end - start, turn), "The table repeats with every turn.")
+        faults.add(
+            path, translate(message, end - start, turn), "The table repeats with every turn."
+        )
         return False
     if end - start == turn and first != last:
-        message = say("{:g} at {:g} degrees and {:g} a turn later", first, start, last)
+        message = translate("{:g} at {:g} degrees and {:g} a turn later", first, start, last)
         faults.add(path, message, "The table repeats with every turn: its ends are one position.")
         return False
     return True
@@ -435,31 +446,31 @@ def read_phase(
     drive: Drive | None,
     *,
     couple: bool = False,
-    still: str | None = None,
+    fixed_point: str | None = None,
 ) -> Phase | None:
     """Read ``phases``.
 
     Parameters
     ----------
-    still : str, optional
+    fixed_point : str, optional
         Point of application, if it is fixed.
     """
     if not isinstance(value, dict):
-        faults.expected(path, "a table", value, say("For example: {}.", _PHASES))
+        faults.expected(path, "a table", value, translate("For example: {}.", _PHASES))
         return None
     before = len(faults)
     found = read_flat(faults, path, value, Phase, {"phi": _read_spans})
     if not value:
-        hint = say("For example: {}.", _PHASES)
+        hint = translate("For example: {}.", _PHASES)
         faults.add(path, "expected phi, moving or turning, got an empty table", hint)
     if "phi" in value and drive is not None and not drive.is_crank:
         hint = 'Say which way the point moves: phases = { moving = "down" }.'
-        faults.add(f"{path}.phi", say("link {} slides, it has no phi", drive.link), hint)
+        faults.add(f"{path}.phi", translate("link {} slides, it has no phi", drive.link), hint)
     if "moving" in value and couple:
         hint = 'A couple has no point; it may have turning = "ccw" or "cw".'
         faults.add(f"{path}.moving", "does not go with a couple", hint)
-    elif "moving" in value and still is not None:
-        faults.add(f"{path}.moving", say("point {} is fixed and does not move", still))
+    elif "moving" in value and fixed_point is not None:
+        faults.add(f"{path}.moving", translate("point {} is fixed and does not move", fixed_point))
     return None if len(faults) != before else Phase(**found)
 
 
@@ -468,7 +479,7 @@ def _read_spans(faults: Faults, path: str, value: object) -> Spans | None:
     if not isinstance(value, list) or not value:
         faults.expected(path, "[from, to] in degrees", value)
         return None
-    if faults.beyond(path, "{} phases, the limit is {}", len(value), keys.ROW_LIMIT):
+    if faults.exceeds(path, "{} phases, the limit is {}", len(value), keys.ROW_LIMIT):
         return None
     if any(isinstance(item, list) for item in value):
         read = [_read_span(faults, f"{path}[{i}]", item) for i, item in enumerate(value)]
@@ -487,7 +498,7 @@ def _read_span(faults: Faults, path: str, value: object) -> tuple[float, float] 
     if start is None or end is None:
         return None
     if start == end or abs(end - start) > TURN:
-        message = say("expected a phase within one turn, got {:g} to {:g}", start, end)
+        message = translate("expected a phase within one turn, got {:g} to {:g}", start, end)
         faults.add(path, message, "A load without phases always acts.")
         return None
     return start, end

@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping
 
 from msgspec import Struct
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields, keys
-from planmethod.problem.bodies import heading
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText, read_label
 from planmethod.problem.model import Body, Slide
 from planmethod.problem.names import looks_latin, segment, split_pair
+from planmethod.problem.placement import heading
 
 Guide = tuple[str | None, complex, float]
 """Name of the fixed point (or None), base in m, angle in degrees."""
@@ -33,7 +33,7 @@ def read_frame(faults: Faults, table: object) -> FrameText:
     before = len(faults)
     points: dict[str, complex] = {}
     entries = fields.read_table(faults, "frame", table, "[frame] A = [0, 0]") or {}
-    if faults.beyond("frame", "{} points, the limit is {}", len(entries), keys.POINT_LIMIT):
+    if faults.exceeds("frame", "{} points, the limit is {}", len(entries), keys.POINT_LIMIT):
         return FrameText({}, {}, sound=False)
     rest: object = {}
     number = FRAME
@@ -42,7 +42,7 @@ def read_frame(faults: Faults, table: object) -> FrameText:
             rest = value
             continue
         if key == "number":
-            whole = fields.read_whole(faults, "frame.number", value, 0, 99)
+            whole = fields.read_integer(faults, "frame.number", value, 0, 99)
             number = FRAME if whole is None else str(whole)
             continue
         path = f"frame.{segment(key)}"
@@ -52,7 +52,7 @@ def read_frame(faults: Faults, table: object) -> FrameText:
         name = fields.read_point_name(faults, path, key)
         place = fields.read_place(faults, path, value)
         if name is not None and name in points:
-            faults.add(path, say("point '{}' is given twice", name))
+            faults.add(path, translate("point '{}' is given twice", name))
         elif name is not None:
             # a point with a faulty place is still a point: others may name it
             points[name] = 0j if place is None else place
@@ -64,7 +64,7 @@ def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -
     example = 'guides.x-x = { through = "A", angle = 0 }'
     entries = fields.read_table(faults, "frame.guides", table, example) or {}
     guides: dict[str, Guide] = {}
-    if faults.beyond("frame.guides", "{} guides, the limit is {}", len(entries), keys.POINT_LIMIT):
+    if faults.exceeds("frame.guides", "{} guides, the limit is {}", len(entries), keys.POINT_LIMIT):
         return guides
     for key, value in entries.items():
         path = f"frame.guides.{segment(key)}"
@@ -77,7 +77,7 @@ def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -
             continue
         given = fields.read_keys(faults, path, body, keys.GUIDE)
         for missing in (key for key in keys.GUIDE if key not in given):
-            faults.add(f"{path}.{missing}", "missing", say("For example: {}", example))
+            faults.add(f"{path}.{missing}", "missing", translate("For example: {}", example))
         through: str | None = None
         base: complex | None = 0j
         if isinstance(given.get("through"), str):
@@ -108,7 +108,7 @@ def find_host(
         return None
     value = link.slides["on"]
     if not isinstance(value, str):
-        hint = say('Write on = "{}".', value) if isinstance(value, int) else ""
+        hint = translate('Write on = "{}".', value) if isinstance(value, int) else ""
         faults.expected(f"{path}.on", "the name of a guide or link", value, hint)
         return None
     name = value if value in known else fields.unmask(faults, f"{path}.on", value)
@@ -117,10 +117,12 @@ def find_host(
     if name == FRAME:
         return FRAME, None
     if name == link.name:
-        faults.add(f"{path}.on", say("link {} cannot slide on itself", name))
+        faults.add(f"{path}.on", translate("link {} cannot slide on itself", name))
         return None
     if name not in links:
-        fields.report_unknown(faults, f"{path}.on", name, known, said="unknown guide or link '{}'")
+        fields.report_unknown(
+            faults, f"{path}.on", name, known, message="unknown guide or link '{}'"
+        )
         return None
     return name, None
 
@@ -140,10 +142,10 @@ def order_hosts(faults: Faults, hosts: Mapping[str, str]) -> list[str]:
         if link in chain:
             circle = chain[chain.index(link) :]
             if start == min(circle, key=list(hosts).index):
-                names = say(" on ").join([*circle, circle[0]])
+                names = translate(" on ").join([*circle, circle[0]])
                 faults.add(
                     f"links.{segment(start)}.slides.on",
-                    say("links slide on each other in a circle: {}", names),
+                    translate("links slide on each other in a circle: {}", names),
                     "One of them must carry the line without sliding itself.",
                 )
             continue
@@ -160,7 +162,7 @@ def read_slide(
     frame: FrameText,
     *,
     turn: float | None,
-    bare: bool,
+    angle_optional: bool,
 ) -> Slide | None:
     """Read one prismatic pair: its line, and its length of contact where one is given.
 
@@ -170,7 +172,7 @@ def read_slide(
         The host's points (the fixed points when the host is the frame).
     turn : float or None, degrees
         Direction of the host's own axis from +x when the host only translates, else None.
-    bare : bool
+    angle_optional : bool
         Whether this line is itself the host's own axis, unless a mark and an angle are given.
     """
     assert link.slides is not None
@@ -185,15 +187,17 @@ def read_slide(
     if guide is not None:
         for key in ("along", "through", "angle"):
             if key in given:
-                hint = say("The line is given in frame.guides.{}.", guide)
-                faults.add(f"{path}.{key}", say("does not go with the guide '{}'", guide), hint)
+                hint = translate("The line is given in frame.guides.{}.", guide)
+                faults.add(
+                    f"{path}.{key}", translate("does not go with the guide '{}'", guide), hint
+                )
         if len(faults) != before:
             return None
         fixed, base, direction = frame.guides[guide]
         return Slide(link.name, FRAME, pin, base, direction, offset, guide, fixed, length=length)
 
     def owner() -> str:
-        return "the frame" if host == FRAME else say("link {}", host)
+        return "the frame" if host == FRAME else translate("link {}", host)
 
     if "along" in given:
         for key in ("through", "angle"):
@@ -205,7 +209,7 @@ def read_slide(
             return None
         start, end = body.points[line[0]], body.points[line[1]]
         if start == end:
-            faults.add(f"{path}.along", say("{} and {} are one place", line[0], line[1]))
+            faults.add(f"{path}.along", translate("{} and {} are one place", line[0], line[1]))
             return None
         along = heading(end - start)
         label = "".join(line)
@@ -214,7 +218,9 @@ def read_slide(
     if "through" not in given:
         return None
     marked = body.axis is not None
-    angle = _read_slide_angle(faults, path, given, host, turn=turn, bare=bare, marked=marked)
+    angle = _read_slide_angle(
+        faults, path, given, host, turn=turn, angle_optional=angle_optional, marked=marked
+    )
     if through is None or angle is None or len(faults) != before:
         return None
     base = body.points[through]
@@ -237,8 +243,8 @@ def _read_along(
     start = next((point for point in pair if point in points), points[0])
     faults.add(
         path,
-        say("{} is the pin of the stone, no point of {}", pin, owner()),
-        say(
+        translate("{} is the pin of the stone, no point of {}", pin, owner()),
+        translate(
             'A line needs no second point: through = "{0}", angle = 0 is a slot along {1}, angle = '
             "90 one across it.",
             start,
@@ -249,49 +255,49 @@ def _read_along(
 
 
 def _read_through(
-    faults: Faults, path: str, given: Table, body: Body, owner: Callable[[], str]
+    faults: Faults, path: str, table: Table, body: Body, owner: Callable[[], str]
 ) -> str | None:
-    if "through" not in given:
+    if "through" not in table:
         points = list(body.points)
         pair = "".join(points[:2]) if len(points) > 1 else ""
         ways = [f'along = "{pair}"'] if pair else []
         ways += [f'through = "{points[0]}", angle = 0'] if points else []
         faults.add(
             path,
-            say("no line of {} is named", owner()),
-            say("Add {}.", say(" or ").join(ways)) if ways else "",
+            translate("no line of {} is named", owner()),
+            translate("Add {}.", translate(" or ").join(ways)) if ways else "",
         )
         return None
     return fields.read_known_point(
-        faults, f"{path}.through", given["through"], body.points, of=owner
+        faults, f"{path}.through", table["through"], body.points, of=owner
     )
 
 
 def _read_slide_angle(
     faults: Faults,
     path: str,
-    given: Table,
+    table: Table,
     host: str,
     *,
     turn: float | None,
-    bare: bool,
+    angle_optional: bool,
     marked: bool,
 ) -> float | None:
     """Angle of the line from the host's own axis, degrees."""
-    if "angle" not in given:
-        if bare:
+    if "angle" not in table:
+        if angle_optional:
             return 0.0
-        axis = "+x" if turn is not None else say("the own axis of link {}", host)
-        faults.add(f"{path}.angle", "missing", say("Give it in degrees from {}.", axis))
+        axis = "+x" if turn is not None else translate("the own axis of link {}", host)
+        faults.add(f"{path}.angle", "missing", translate("Give it in degrees from {}.", axis))
         return None
-    angle = fields.read_angle(faults, f"{path}.angle", given["angle"])
+    angle = fields.read_angle(faults, f"{path}.angle", table["angle"])
     if angle is None:
         return None
-    if bare and not marked and angle != 0:
+    if angle_optional and not marked and angle != 0:
         faults.add(
             f"{path}.angle",
-            say("expected 0 or nothing, got {:g}", angle),
-            say("Link {} has no axis other than the line it carries.", host),
+            translate("expected 0 or nothing, got {:g}", angle),
+            translate("Link {} has no axis other than the line it carries.", host),
         )
         return None
     # the file counts from +x where the host cannot turn: that is what the figure shows

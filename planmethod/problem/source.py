@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
-from planmethod.problem.mistyped import line_hint
-from planmethod.problem.names import listed, near
+from planmethod.languages import translate
+from planmethod.problem.names import listed, nearest_name
+from planmethod.problem.typos import line_hint
 
 SIZE_LIMIT = 256 * 1024
 TABLE_LIMIT = 1024 * 1024
@@ -70,14 +70,16 @@ def read_source(path: Path) -> str:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise _fail(
-            name, say("the file cannot be read: {}", reason), "Check the path and the permissions."
+            name,
+            translate("the file cannot be read: {}", reason),
+            "Check the path and the permissions.",
         ) from None
     if len(data) > SIZE_LIMIT:
         raise _too_large(name)
     for mark, encoding in _BOMS:
         if data.startswith(mark):
             raise _fail(
-                name, say("the file is in {}, expected UTF-8", encoding), "Save it as UTF-8."
+                name, translate("the file is in {}, expected UTF-8", encoding), "Save it as UTF-8."
             )
     try:
         text = data.decode("utf-8-sig")  # Notepad's mark at the start is skipped
@@ -85,7 +87,7 @@ def read_source(path: Path) -> str:
         line = data.count(b"\n", 0, error.start) + 1
         raise _fail(
             name,
-            say("line {}: byte 0x{:02X} is not UTF-8", line, data[error.start]),
+            translate("line {}: byte 0x{:02X} is not UTF-8", line, data[error.start]),
             "Save the file as UTF-8; Russian text is often saved as Windows-1251 by mistake.",
         ) from None
     _bounded(text, name)
@@ -124,9 +126,11 @@ def parse(text: str, *, name: str) -> Mapping[str, Any]:
         raise _fail(name, "lists or tables are nested too deeply", _DEPTH_HINT) from None
     except ValueError as error:
         # Python bounds the digits of an integer, and dates are checked late
-        raise _fail(name, say("a value cannot be read: {}", str(error)[:180])) from None
+        raise _fail(name, translate("a value cannot be read: {}", str(error)[:180])) from None
     if _depth_exceeds(table, DEPTH_LIMIT):
-        raise _fail(name, say("tables are nested deeper than {} levels", DEPTH_LIMIT), _DEPTH_HINT)
+        raise _fail(
+            name, translate("tables are nested deeper than {} levels", DEPTH_LIMIT), _DEPTH_HINT
+        )
     return table
 
 
@@ -136,13 +140,17 @@ def _bounded(text: str, name: str) -> None:
         if len(line) > LINE_LIMIT and not re.fullmatch(_NUMBERS_RE, line):
             raise _fail(
                 name,
-                say("line {} has {} characters, the limit is {}", number, len(line), LINE_LIMIT),
+                translate(
+                    "line {} has {} characters, the limit is {}", number, len(line), LINE_LIMIT
+                ),
                 "Break it up; lists may span several lines.",
             )
     bare = re.sub(_STRINGS_RE, lambda one: "x" + "\n" * one[0].count("\n"), text)
     if deep := re.search(_KEY_RE, bare):
         number = bare.count("\n", 0, deep.start()) + 1
-        raise _fail(name, say("line {}: a key has over {} parts", number, DEPTH_LIMIT), _DEPTH_HINT)
+        raise _fail(
+            name, translate("line {}: a key has over {} parts", number, DEPTH_LIMIT), _DEPTH_HINT
+        )
 
 
 _VARIANT_HEADER = r"(?m)^([ \t]*\[[ \t]*variants[ \t]*\.[ \t]*)([^\W\d_][\w-]*)"
@@ -164,7 +172,7 @@ def _fail(name: str, message: str, hint: str = "") -> ProblemError:
 def _too_large(name: str) -> ProblemError:
     return _fail(
         name,
-        say("the file is larger than {} bytes ({} KiB)", SIZE_LIMIT, SIZE_LIMIT // 1024),
+        translate("the file is larger than {} bytes ({} KiB)", SIZE_LIMIT, SIZE_LIMIT // 1024),
         "A few kilobytes are enough; is this the right file?",
     )
 
@@ -173,18 +181,18 @@ def _nearby(path: Path) -> str:
     """Hint for a missing file: the nearest names in its folder, or those that are there."""
     try:
         if not path.parent.is_dir():
-            return say("The folder '{}' does not exist either. Check the path.", path.parent)
+            return translate("The folder '{}' does not exist either. Check the path.", path.parent)
         found = zip(range(1000), path.parent.glob("*.toml"), strict=False)
         names = sorted(p.name for _, p in found if p.is_file())  # no link that leads nowhere
     except (OSError, ValueError):
         names = []
     # The typed name may lack the extension, and a common extension would make all names similar.
     of_stem = {Path(name).stem: name for name in names}
-    guess = of_stem.get(path.name) or of_stem.get(near(path.stem, of_stem) or "")
+    guess = of_stem.get(path.name) or of_stem.get(nearest_name(path.stem, of_stem) or "")
     if guess:
-        return say("Did you mean '{}'?", path.with_name(guess))
+        return translate("Did you mean '{}'?", path.with_name(guess))
     if names:
-        return say("In '{}' there are {}.", path.parent, listed(names, limit=6))
+        return translate("In '{}' there are {}.", path.parent, listed(names, limit=6))
     return "Check the path."
 
 
@@ -206,18 +214,20 @@ def _depth_exceeds(table: Mapping[str, Any], limit: int) -> bool:
 def _syntax_fault(message: str, lines: list[str]) -> Fault:
     match = re.match(_WHERE_RE, message)
     if match is None:
-        return Fault("", say("this is not TOML: {}", message))
+        return Fault("", translate("this is not TOML: {}", message))
     told, where = match["what"], match["where"]
     what = told
     if quoted := re.fullmatch(r"(.*?) ([('\"].*[)'\"])(.*)", told):
-        what = say(f"{quoted[1]} {{}}{quoted[3]}", quoted[2])
+        what = translate(f"{quoted[1]} {{}}{quoted[3]}", quoted[2])
     if where == "end of document":
-        return Fault("", say("{} at the end of the file", what), "Is a bracket or quote left open?")
+        return Fault(
+            "", translate("{} at the end of the file", what), "Is a bracket or quote left open?"
+        )
     number, column = map(int, re.findall(r"\d+", where))
     hint = line_hint(told, lines, number, column)
-    where = say("line {}, column {}", number, column)
-    return Fault(where, say("this is not TOML: {}", _lower(what)), hint)
+    where = translate("line {}, column {}", number, column)
+    return Fault(where, translate("this is not TOML: {}", _lower(what)), hint)
 
 
-def _lower(what: str) -> str:
-    return what[:1].lower() + what[1:] if what[1:2].islower() else what
+def _lower(message: str) -> str:
+    return message[:1].lower() + message[1:] if message[1:2].islower() else message

@@ -8,12 +8,12 @@ from typing import Annotated
 
 from msgspec import Struct
 
-from planmethod.problem.declared import (
+from planmethod.problem.key_types import (
     ChoiceKey,
+    CustomKey,
     FlagKey,
+    IntegerKey,
     NumberKey,
-    OwnKey,
-    WholeKey,
 )
 
 
@@ -22,11 +22,11 @@ class HigherPairTable(Struct, frozen=True):
 
     name: Annotated[
         str,
-        OwnKey("letter of the contact", required=True, missing='Name the contact: name = "K".'),
+        CustomKey("letter of the contact", required=True, missing='Name the contact: name = "K".'),
     ]
     links: Annotated[
         tuple[str, ...],
-        OwnKey(
+        CustomKey(
             'the two links that touch, `["1", "2"]`; `"0"` is the frame',
             required=True,
             missing='Name the links that touch: links = ["1", "2"].',
@@ -34,7 +34,7 @@ class HigherPairTable(Struct, frozen=True):
     ]
     centres: Annotated[
         tuple[str, ...],
-        OwnKey(
+        CustomKey(
             "centres of curvature of both profiles, a point of each link; one point, of the first "
             "link, where the profile of the second is straight",
             required=True,
@@ -43,24 +43,24 @@ class HigherPairTable(Struct, frozen=True):
     ]
     distance: Annotated[
         float | None,
-        OwnKey("distance of both centres, m: the sum of the radii, or their difference"),
+        CustomKey("distance of both centres, m: the sum of the radii, or their difference"),
     ] = None
     slides: Annotated[
         dict[str, object] | None,
-        OwnKey(
+        CustomKey(
             "straight profile of the second link: `along`, `through`, `angle`, `offset` as in "
             "`slides` of a link; the offset of the centre is the radius of the first profile"
         ),
     ] = None
     roller: Annotated[
         str,
-        OwnKey(
+        CustomKey(
             "number of the roller that turns on the second link about its centre: it counts among "
             "the links and their mobilities"
         ),
     ] = ""
     by: Annotated[
-        str, OwnKey("number of the link that replaces the pair; default: the next free one")
+        str, CustomKey("number of the link that replaces the pair; default: the next free one")
     ] = ""
 
 
@@ -73,7 +73,7 @@ class MeshingTable(Struct, frozen=True, kw_only=True):
 
     z: Annotated[
         tuple[int, int],
-        OwnKey("teeth of the driving wheel 1 and of wheel 2, 5 to 1000", required=True),
+        CustomKey("teeth of the driving wheel 1 and of wheel 2, 5 to 1000", required=True),
     ]
     m: Annotated[
         float,
@@ -87,7 +87,7 @@ class MeshingTable(Struct, frozen=True, kw_only=True):
     ] = False
     cutter: Annotated[
         int | None,
-        WholeKey(
+        IntegerKey(
             "teeth of the pinion cutter (долбяк) of an internal wheel 2, fewer than the wheel's",
             8,
             200,
@@ -131,7 +131,7 @@ class MeshingTable(Struct, frozen=True, kw_only=True):
     ] = 0.25  # fmt: skip
     x: Annotated[
         tuple[float, float] | None,
-        OwnKey(
+        CustomKey(
             "shifts of the rack in modules, `[0.5, 0.3]`; or how they are chosen within the "
             'blocking limits: `"blocking"`, `"equal-sliding"`, `"contact-ratio"`'
         ),
@@ -254,7 +254,7 @@ class CamTable(Struct, frozen=True, kw_only=True):
     ] = None  # fmt: skip
     law: Annotated[
         object,
-        OwnKey(
+        CustomKey(
             "law of motion, of both or `{ rise = .., return = .. }`: "
             + ", ".join(f'`"{law}"`' for law in CAM_LAWS)
             + ', or a table: `{ law = "table", values = [..] }`',
@@ -263,7 +263,7 @@ class CamTable(Struct, frozen=True, kw_only=True):
     ] = None
     pressure: Annotated[
         object,
-        OwnKey(
+        CustomKey(
             "allowed pressure angle, degrees, or `{ rise = 30, return = 45 }`",
             absent="30 of the rise, 45 of an oscillating follower; of the return any, in a groove "
             "that of the rise",
@@ -271,19 +271,21 @@ class CamTable(Struct, frozen=True, kw_only=True):
     ] = None
     offset: Annotated[
         CamSize,
-        OwnKey('offset e of the line of a translating follower, m, or `"choose"`; 0 under a plate'),
+        CustomKey(
+            'offset e of the line of a translating follower, m, or `"choose"`; 0 under a plate'
+        ),
     ] = None
     centre: Annotated[
         CamSize,
-        OwnKey('from the axis of the cam to the pivot of an oscillating one, m, or `"choose"`'),
+        CustomKey('from the axis of the cam to the pivot of an oscillating one, m, or `"choose"`'),
     ] = None
     r_min: Annotated[
         CamSize,
-        OwnKey('least radius of the theoretical profile, m, or `"choose"`'),
+        CustomKey('least radius of the theoretical profile, m, or `"choose"`'),
     ] = None
     roller: Annotated[
         CamSize,
-        OwnKey(
+        CustomKey(
             'radius of the roller, m, or `"choose"`: at most 0.4 of `r_min` and 0.8 of the least '
             "radius of curvature"
         ),
@@ -295,9 +297,11 @@ class CamTable(Struct, frozen=True, kw_only=True):
             "a length", "m", 0.0, 10.0,
         ),
     ] = 0.0  # fmt: skip
-    count: Annotated[int, WholeKey("positions of JSON from the rise to the next rise", 3, 720)] = 24
+    count: Annotated[
+        int, IntegerKey("positions of JSON from the rise to the next rise", 3, 720)
+    ] = 24
     parts: Annotated[
-        int, WholeKey("parts of rise and of return in the diagrams that are constructed", 4, 30)
+        int, IntegerKey("parts of rise and of return in the diagrams that are constructed", 4, 30)
     ] = 12
     n: Annotated[
         float | None,
@@ -351,21 +355,21 @@ class PlanetaryTask(Struct, frozen=True, kw_only=True):
             "allowed share of U, both ways", "a share", low=0.0, high=0.5, hint="2 % are 0.02."
         ),
     ] = 0.02
-    z_min: Annotated[int, WholeKey("least number of teeth", 6, 400)] = 17
-    z_max: Annotated[int, WholeKey("most teeth of wheels with external teeth", 6, 400)] = 120
-    ring_max: Annotated[int, WholeKey("most teeth of wheels with internal teeth", 6, 400)] = 250
-    k_min: Annotated[int, WholeKey("least number of satellites that is compared", 1, 24)] = 3
-    k_max: Annotated[int, WholeKey("most satellites that are compared", 1, 24)] = 6
-    count: Annotated[int, WholeKey("how many variants of each number are shown", 1, 10)] = 3
+    z_min: Annotated[int, IntegerKey("least number of teeth", 6, 400)] = 17
+    z_max: Annotated[int, IntegerKey("most teeth of wheels with external teeth", 6, 400)] = 120
+    ring_max: Annotated[int, IntegerKey("most teeth of wheels with internal teeth", 6, 400)] = 250
+    k_min: Annotated[int, IntegerKey("least number of satellites that is compared", 1, 24)] = 3
+    k_max: Annotated[int, IntegerKey("most satellites that are compared", 1, 24)] = 6
+    count: Annotated[int, IntegerKey("how many variants of each number are shown", 1, 10)] = 3
 
 
 class GearWheelTable(Struct, frozen=True):
     """A wheel of ``[gears]`` that is a table (колесо)."""
 
-    z: Annotated[int | None, WholeKey("number of teeth (of a worm: starts)", 1, 10_000)] = None
+    z: Annotated[int | None, IntegerKey("number of teeth (of a worm: starts)", 1, 10_000)] = None
     r: Annotated[
         float | None,
-        OwnKey(
+        CustomKey(
             "pitch radius, m, in place of teeth; beside wheels with teeth it needs "
             "`module`, except for a pulley. For a carrier: the distance of the axes of its "
             "planets from its own"
@@ -381,5 +385,7 @@ class GearWheelTable(Struct, frozen=True):
     x: Annotated[float, NumberKey("shift, in modules", "a shift", low=-5.0, high=5.0)] = 0.0
     axis: Annotated[
         tuple[float, float, float] | None,
-        OwnKey("of a bevel wheel: `[x, y, z]` from the apex towards the wheel; z is the main axis"),
+        CustomKey(
+            "of a bevel wheel: `[x, y, z]` from the apex towards the wheel; z is the main axis"
+        ),
     ] = None

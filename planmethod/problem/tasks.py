@@ -64,11 +64,11 @@ class ShippedTask(Struct, frozen=True):
         """The problem file as it is shipped."""
         return (home() / self.file).read_text(encoding="utf-8")
 
-    def says(self, words: str) -> bool:
+    def matches(self, words: str) -> bool:
         """Return whether every word is in the name, the title, the source or a comment."""
         comments = re.findall(r"#(.*)", self.text)
-        said = _folded(" ".join((self.name, self.title, self.source, *comments)))
-        return all(word in said for word in _folded(words).split())
+        phrase = _folded(" ".join((self.name, self.title, self.source, *comments)))
+        return all(word in phrase for word in _folded(words).split())
 
     def has(self, groups: tuple[str, ...]) -> bool:
         """Return whether the linkage has these groups one after the other."""
@@ -121,7 +121,7 @@ def text_for(task: ShippedTask, variant: str | None) -> str:
         left_out.add("published")
     tables = [t for t in _tables(text) if t.name.split(".")[0] not in left_out]
     for path, value in overrides.items():
-        _put(tables, path, value)
+        _set_value(tables, path, value)
     return "\n".join(line for t in tables for line in (*t.before, *t.lines)).rstrip() + "\n"
 
 
@@ -161,7 +161,7 @@ def _tables(text: str) -> list[_Table]:
     return found
 
 
-def _put(tables: list[_Table], path: tuple[str, ...], value: object) -> None:
+def _set_value(tables: list[_Table], path: tuple[str, ...], value: object) -> None:
     """Write a value at a path: over the existing one, or as a new line of its table."""
     whole = ".".join(path)
     tables[:] = [t for t in tables if not f"{t.name}.".startswith(f"{whole}.")]

@@ -12,8 +12,8 @@ from functools import lru_cache
 
 from msgspec import Struct
 
-from planmethod.languages import say
-from planmethod.problem.formula import FormulaError, work_out
+from planmethod.languages import translate
+from planmethod.problem.formula import FormulaError, evaluate_arithmetic
 
 TEXT_LIMIT = 32
 
@@ -74,14 +74,14 @@ _LOOKALIKES = str.maketrans("авекмнорстухº", "abekmhopctyx°")
 _SIGNS = str.maketrans({"⋅": "*", "·": "*", "∙": "*", "•": "*", "×": "*", "−": "-", "–": "-"})
 
 
-def _plain(text: str) -> str:
+def _normalized(text: str) -> str:
     """Return the normalized spelling of a unit."""
     text = unicodedata.normalize("NFKC", text.casefold().replace("º", "°")).replace("**", "")
     text = re.sub(r"[\s^{}]", "", text.translate(_SIGNS))
     return re.sub(r"\.(?=\W|$)", "", text).replace(".", "*").translate(_LOOKALIKES)
 
 
-_KNOWN = {_plain(name): unit for name, unit in _SYMBOLS.items()}
+_KNOWN = {_normalized(name): unit for name, unit in _SYMBOLS.items()}
 _TOKEN = r"([^\W\d_]+|°)(-?\d)?|([*/()])|(1)(?=/)"
 
 
@@ -98,7 +98,7 @@ def read_unit(text: str) -> MeasurementUnit | None:
     >>> read_unit("мм/с")
     MeasurementUnit(factor=0.001, dimension=(1, -1, 0, 0))
     """
-    plain = _plain(text) if len(text) <= TEXT_LIMIT else ""
+    plain = _normalized(text) if len(text) <= TEXT_LIMIT else ""
     try:
         factor, dimension = _KNOWN.get(plain) or _product(_tokens(plain), inside=False)
     except _NoUnitError:
@@ -110,12 +110,12 @@ def read_unit(text: str) -> MeasurementUnit | None:
     return MeasurementUnit(factor, dimension)
 
 
-def _tokens(plain: str) -> Iterator[tuple[str, int]]:
+def _tokens(text: str) -> Iterator[tuple[str, int]]:
     """Yield the names of a unit with their powers, and the signs between them."""
     pattern = re.compile(_TOKEN)
     at = 0
-    while at < len(plain):
-        match = pattern.match(plain, at)
+    while at < len(text):
+        match = pattern.match(text, at)
         if match is None:
             raise _NoUnitError
         at = match.end()
@@ -149,9 +149,9 @@ def _product(tokens: Iterator[tuple[str, int]], *, inside: bool) -> tuple[float,
     return factor, dimension
 
 
-def ratio_of(unit: str, other: str) -> float | None:
+def ratio_of(unit: str, target: str) -> float | None:
     """Return the ratio of a unit to another one; None if their quantities differ."""
-    one, two = read_unit(unit), read_unit(other)
+    one, two = read_unit(unit), read_unit(target)
     if one is None or two is None or one.dimension != two.dimension:
         return None
     return one.factor / two.factor
@@ -211,7 +211,7 @@ class MeasuredNumber(Struct, frozen=True):
     @property
     def quantity(self) -> str:
         """Name of its quantity."""
-        return say(DIMENSIONS.get(self.of.dimension, "another quantity"))
+        return translate(DIMENSIONS.get(self.of.dimension, "another quantity"))
 
     def in_unit(self, unit: str) -> float | None:
         """Return the number in another unit; None if it is of another quantity.
@@ -222,9 +222,9 @@ class MeasuredNumber(Struct, frozen=True):
         mine = self.of
         if wanted is None or wanted.dimension != mine.dimension:
             return None
-        if unit == "rpm" and _is_bare(self.unit):
+        if unit == "rpm" and _is_per_second(self.unit):
             return None
-        value = work_out(self.number)
+        value = evaluate_arithmetic(self.number)
         return (
             value if mine.factor == wanted.factor else _rounded(value * mine.factor / wanted.factor)
         )
@@ -236,10 +236,10 @@ def _rounded(value: float) -> float:
     return short if abs(short - value) <= 1e-15 * abs(value) else value
 
 
-def _is_bare(unit: str) -> bool:
+def _is_per_second(unit: str) -> bool:
     """Return whether a unit is one per second: ``1/s``, ``с⁻¹``."""
     try:
-        return _product(_tokens(_plain(unit)), inside=False)[:2] == (1.0, (0, -1, 0, 0))
+        return _product(_tokens(_normalized(unit)), inside=False)[:2] == (1.0, (0, -1, 0, 0))
     except _NoUnitError:
         return False
 
@@ -263,7 +263,7 @@ def measured(text: str) -> MeasuredNumber | None:
         if read_unit(unit) is None:
             continue
         try:
-            work_out(text[:at])
+            evaluate_arithmetic(text[:at])
         except FormulaError:
             continue
         return MeasuredNumber(text[:at].strip(), unit)
@@ -273,7 +273,7 @@ def measured(text: str) -> MeasuredNumber | None:
 _MEASURED_LIMIT = 80
 
 
-def expected_unit(what: str) -> str:
+def expected_unit(sentence: str) -> str:
     """Return the unit at the end of a sentence on an expected value; empty if none.
 
     Examples
@@ -281,6 +281,6 @@ def expected_unit(what: str) -> str:
     >>> expected_unit("a length in metres"), expected_unit("a share of the stroke")
     ('m', '')
     """
-    named = what.rpartition(" in ")[2] if " in " in what else ""
+    named = sentence.rpartition(" in ")[2] if " in " in sentence else ""
     named = _EXPECTED.get(named, named)
     return named if named and read_unit(named) is not None else ""

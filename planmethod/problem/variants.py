@@ -15,11 +15,11 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem import keys
+from planmethod.problem.common import TITLE_BLOCK, TITLE_BLOCK_IN
 from planmethod.problem.fields import FAULT_LIMIT, Faults, is_number, read_table
 from planmethod.problem.formula import read_decimal
-from planmethod.problem.head import TITLE_BLOCK, TITLE_BLOCK_IN
 from planmethod.problem.links import read_label
 from planmethod.problem.names import (
     UNITS,
@@ -27,14 +27,14 @@ from planmethod.problem.names import (
     is_point_name,
     joined,
     listed,
-    near,
-    near_hint,
+    nearest_name,
+    nearest_name_hint,
     segment,
     short,
     split_names,
     split_pair,
 )
-from planmethod.problem.posed import is_place, is_posed
+from planmethod.problem.output_positions import is_place, is_posed
 from planmethod.problem.selector import SelectorError, is_force, parse_selector
 from planmethod.problem.source import TABLE_LIMIT, table_text
 
@@ -60,7 +60,7 @@ def read_variants(faults: Faults, table: Mapping[str, Any]) -> dict[str, dict[Ke
     """Return the overrides of every variant, by path; unknown paths are faults."""
     entries = read_table(faults, "variants", table.get("variants", {})) or {}
     found: dict[str, dict[KeyPath, Any]] = {}
-    if faults.beyond("variants", "{} variants, the limit is {}", len(entries), keys.VARIANT_LIMIT):
+    if faults.exceeds("variants", "{} variants, the limit is {}", len(entries), keys.VARIANT_LIMIT):
         return found
     for name, body in entries.items():
         path = f"variants.{segment(name)}"
@@ -182,24 +182,24 @@ def _names_in(table: object) -> list[str]:
     return list(table) if isinstance(table, Mapping) else []
 
 
-def _check_path(faults: Faults, path: str, base: Mapping[str, Any], where: KeyPath) -> bool:
-    shown = joined(path, *map(segment, where))
-    if where[0] == "variants":
+def _check_path(faults: Faults, path: str, base: Mapping[str, Any], key_path: KeyPath) -> bool:
+    shown = joined(path, *map(segment, key_path))
+    if key_path[0] == "variants":
         faults.add(shown, "a variant cannot hold variants")
         return False
-    if where[0] in keys.OF_KINDS:
+    if key_path[0] in keys.OF_KINDS:
         return True
-    for depth in range(1, len(where) + 1):
-        part, parent = where[:depth], where[: depth - 1]
+    for depth in range(1, len(key_path) + 1):
+        part, parent = key_path[:depth], key_path[: depth - 1]
         known = _known_under(parent)
         if _get(base, part) is not None or part[-1] in known or _may_add(part):
             continue
         table = _get(base, parent)
         names = [*_names_in(table), *known]
-        guess = near(part[-1], names) if faults.count < FAULT_LIMIT else None
-        dotted = ".".join(where[:depth])
-        hint = say("Did you mean '{}'?", ".".join((*parent, guess))) if guess else ""
-        faults.add(shown, say("the file has no '{}' to override", dotted), hint)
+        guess = nearest_name(part[-1], names) if faults.count < FAULT_LIMIT else None
+        dotted = ".".join(key_path[:depth])
+        hint = translate("Did you mean '{}'?", ".".join((*parent, guess))) if guess else ""
+        faults.add(shown, translate("the file has no '{}' to override", dotted), hint)
         return False
     return True
 
@@ -223,17 +223,17 @@ def apply_variant(table: Mapping[str, Any], overrides: Mapping[KeyPath, Any]) ->
             level = _opened(level, part, after)
         level[_key(level, path[-1])] = value
         if path[:-1] == ("driver",):
-            for other in [key for key in level if _instead(path[-1], key)]:
+            for other in [key for key in level if _replaces(path[-1], key)]:
                 if (*path[:-1], other) not in overrides:
                     del level[other]
     return result
 
 
-def _instead(one: str, other: str) -> bool:
+def _replaces(one: str, second: str) -> bool:
     """Return whether a key of the driver replaces another one, of its speed or position."""
     if one in TURNING:
-        return other in TURNING
-    return is_place(one) and (is_place(other) or other == "root")
+        return second in TURNING
+    return is_place(one) and (is_place(second) or second == "root")
 
 
 def _of_forces(entry: object) -> bool:
@@ -290,20 +290,20 @@ def with_table(faults: Faults, table: Mapping[str, Any], folder: Path | None) ->
     example = 'For example: variants = "variants.csv", beside the problem file.'
     if path is None or Path(name).name != name or not name.lower().endswith((".csv", ".txt")):
         faults.add(
-            "variants", say("expected the name of a CSV file, got '{}'", short(name)), example
+            "variants", translate("expected the name of a CSV file, got '{}'", short(name)), example
         )
         return {**table, "variants": {}}
     data = b""
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            faults.add("variants", say("{} is not an ordinary file", name), example)
+            faults.add("variants", translate("{} is not an ordinary file", name), example)
         else:
             with path.open("rb") as stream:
                 data = stream.read(TABLE_LIMIT + 1)
     except OSError as error:
-        faults.add("variants", say("{} cannot be read: {}", name, error.strerror), example)
+        faults.add("variants", translate("{} cannot be read: {}", name, error.strerror), example)
     if len(data) > TABLE_LIMIT:
-        faults.add("variants", say("{} is larger than {} bytes", name, TABLE_LIMIT))
+        faults.add("variants", translate("{} is larger than {} bytes", name, TABLE_LIMIT))
         data = b""
     return {**table, "variants": _variants(faults, table, table_text(data), name) if data else {}}
 
@@ -322,10 +322,12 @@ def _variants(
             if any(cell.strip() for cell in row)
         ]
     except csv.Error as error:
-        faults.add("variants", say("{} is no CSV: {}", name, error), "Is a quote left open?")
+        faults.add("variants", translate("{} is no CSV: {}", name, error), "Is a quote left open?")
         return {}
     if not rows:
-        faults.add("variants", say("{} has no rows", name), "The first row names the columns.")
+        faults.add(
+            "variants", translate("{} has no rows", name), "The first row names the columns."
+        )
         return {}
     columns = [_column(faults, table, head, name) for head in rows[0][1:]]
     found: dict[str, dict[str, Any]] = {}
@@ -334,23 +336,23 @@ def _variants(
         if variant in found or not variant:
             what = "the variant has no name"
             if variant:
-                what = say("variant '{}' is there twice", variant)
-            said = say("{}, row {}: {}", name, number, what)
-            faults.add("variants", said, "Its name is the first cell.")
+                what = translate("variant '{}' is there twice", variant)
+            phrase = translate("{}, row {}: {}", name, number, what)
+            faults.add("variants", phrase, "Its name is the first cell.")
             continue
         if len(row) > len(columns) + 1:
-            cells = say("{} cells, {} columns", len(row), len(columns) + 1)
-            said = say("{}, row {}: {}", name, number, cells)
-            faults.add("variants", said, "Is a decimal comma read as a separator? Use ';'.")
+            cells = translate("{} cells, {} columns", len(row), len(columns) + 1)
+            phrase = translate("{}, row {}: {}", name, number, cells)
+            faults.add("variants", phrase, "Is a decimal comma read as a separator? Use ';'.")
             continue
         found[variant] = {}
         for column, cell in zip(columns, row[1:], strict=False):
             if column is not None and cell:
-                _put(found[variant], table, *column, cell)
+                _set_override(found[variant], table, *column, cell)
     return found
 
 
-def _put(
+def _set_override(
     overrides: dict[str, Any], table: Mapping[str, Any], key: str, per: float, cell: str
 ) -> None:
     value: Any = cell
@@ -378,7 +380,7 @@ def key_of(table: Mapping[str, Any], written: str) -> tuple[str | None, Mapping[
     first = fold(written).split(".")[0]
     if "." in written and (first in table or first in keys.TOP):
         return written, names
-    return names.get(_plain(written)) or names.get(_plain(written).removeprefix("l")), names
+    return names.get(_folded(written)) or names.get(_folded(written).removeprefix("l")), names
 
 
 def _column(
@@ -389,14 +391,18 @@ def _column(
     written = match["name"].rstrip() if match else head
     key, names = key_of(table, written)
     if key is None:
-        hint = near_hint(_plain(written), names, say("Known: {}, and dotted keys.", listed(names)))
-        faults.add("variants", say("{}: no column is called '{}'", name, short(head)), hint)
+        hint = nearest_name_hint(
+            _folded(written), names, translate("Known: {}, and dotted keys.", listed(names))
+        )
+        faults.add("variants", translate("{}: no column is called '{}'", name, short(head)), hint)
         return None
     unit = (match["unit"] or "").strip() if match else ""
     if not unit or re.match(_SI, unit):
         return key, 1.0
     if unit not in _UNITS or not _is_length(key):
-        faults.add("variants", say("{}: '{}' is not in the unit of the file", name, short(head)))
+        faults.add(
+            "variants", translate("{}: '{}' is not in the unit of the file", name, short(head))
+        )
         return None
     own = UNITS.get(str(table.get("units", "m")), 1.0)
     return key, own / UNITS[_UNITS[unit]]
@@ -408,7 +414,7 @@ def _is_length(key: str) -> bool:
     return parts[0] == "frame" or (parts[0] == "links" and "angle" not in parts) or parts[-1] == "s"
 
 
-def _plain(name: str) -> str:
+def _folded(name: str) -> str:
     """Return a name of the "Дано" in normal form: ``φ_{1}`` and ``phi1`` are equal."""
     return fold(name.replace(" ", "").translate(_GREEK))
 
@@ -421,7 +427,7 @@ def _names(table: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         for key in ("phi", "omega", "n", "epsilon", "s", "v", "a"):
             yield key, f"driver.{key}"
             yield f"{key}{link}", f"driver.{key}"
-        yield from ((_plain(key), f"driver.{key}") for key in driver)
+        yield from ((_folded(key), f"driver.{key}") for key in driver)
     for point, place in _tables(table, "frame"):
         if isinstance(place, list):
             yield f"x{point}", f"frame.{point}[0]"
@@ -429,9 +435,9 @@ def _names(table: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     for link, body in _tables(table, "links"):
         for key, value in _tables({"": body}, ""):
             if len(split_names(key)) == 2:
-                yield _plain(key), f"links.{link}.{key}"
+                yield _folded(key), f"links.{link}.{key}"
             elif key == "angle":
-                yield from ((_plain(k), f"links.{link}.angle.{k}") for k, _ in _tables(body, key))
+                yield from ((_folded(k), f"links.{link}.angle.{k}") for k, _ in _tables(body, key))
             elif key == "slides" and isinstance(value, Mapping) and "offset" in value:
                 yield f"e{body.get('points', [''])[0]}", f"links.{link}.slides.offset"
         yield f"m{link}", f"dynamics.links.{link}.mass"
@@ -441,7 +447,7 @@ def _names(table: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     for load in loads if isinstance(loads, list) else ():
         if isinstance(load, Mapping) and isinstance(load.get("name"), str):
             size = "couple" if "couple" in load else "force"
-            yield _plain(load["name"]), f"loads.{load['name']}.{size}"
+            yield _folded(load["name"]), f"loads.{load['name']}.{size}"
 
 
 def _tables(table: Mapping[str, Any], key: str) -> Iterator[tuple[str, Any]]:

@@ -7,11 +7,11 @@ import numpy as np
 from planmethod.construct.scale import choose_scale
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.load_records import SizeTable
-from planmethod.solved.clearest import clearest_position, is_clear
 from planmethod.solved.forces.loads import external
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Flags
-from planmethod.solved.room import Box
+from planmethod.solved.representative_position import clearest_position, is_clear
+from planmethod.solved.sheet_estimate import Box
 from planmethod.solved.solution import Solution
 
 FORCES_BOX: Box = (170.0, 130.0)
@@ -33,11 +33,11 @@ def calculated_position(solution: Solution) -> int:
     return next((number for number in chosen if is_clear(solution)[number]), chosen[0])
 
 
-def loaded_positions(solution: Solution, share: float = CONSIDERABLE) -> tuple[int, ...]:
+def loaded_positions(solution: Solution, fraction: float = CONSIDERABLE) -> tuple[int, ...]:
     """Return the positions in which a varying load is considerable; all where none varies.
 
-    A load is considerable from a ``share`` of its largest size on: in other positions weights and
-    inertia would hide it.
+    A load is considerable from a ``fraction`` of its largest size on: in other positions weights
+    and inertia would hide it.
     """
     count, dynamics = len(solution.positions), solution.problem.dynamics
     acts: Flags = np.zeros(count, dtype=bool)
@@ -48,7 +48,7 @@ def loaded_positions(solution: Solution, share: float = CONSIDERABLE) -> tuple[i
             for one in external(solution, dynamics, link):
                 size = np.abs(np.broadcast_to(one.force if one.point else one.couple, acts.shape))
                 largest = max(float(size.max()), *map(abs, tables.get(one.name, ())), 1e-300)
-                large = size >= share * largest
+                large = size >= fraction * largest
                 acts |= large & (not large.all())  # one that is there always says nothing
     return tuple(np.flatnonzero(acts).tolist()) if acts.any() else tuple(range(count))
 

@@ -10,7 +10,7 @@ from msgspec import Struct
 
 from planmethod.kind import ProblemKind
 from planmethod.paper import Format
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 from planmethod.problem.model import Problem, Scales
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.strokes import Strokes
@@ -119,4 +119,4 @@ class Project(Struct, frozen=True, dict=True):
     @cached_property
     def loaded(self) -> Solution:
         """The linkage in the calculated position alone, at the same scales."""
-        return self.solution.moved([self.positions[self.calculated]])
+        return self.solution.with_positions([self.positions[self.calculated]])

@@ -8,7 +8,7 @@ from pathlib import Path
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.note.writers.pdfnote import pdf_note
 from planmethod.note.writers.word import word_document
 from planmethod.note.writers.wordframe import fields_of_note
@@ -44,7 +44,7 @@ class NoteOptions(Struct, frozen=True):
 
 def note_files(
     project: Project,
-    stem: str,
+    basename: str,
     options: NoteOptions,
     formats: Sequence[str] = FORMATS,
     sheets: Sequence[SheetEntry] = (),
@@ -61,18 +61,18 @@ def note_files(
     OutputError
         The template cannot be read.
     """
-    words = language(project.language)
+    language = get_language(project.language)
     problem = project.problem
     stamp = merged(problem.title_block, options.fields)
     title = problem.stamp_in.get(project.language, {}).get("title", problem.title)
     stamped = replace(project, problem=replace(problem, title=title, stamp=stamp, stamp_in={}))
-    written, author = note_document(stamped, words, sheets), stamp.get("author", "")
+    written, author = note_document(stamped, language, sheets), stamp.get("author", "")
     files: dict[str, bytes] = {}
     for fmt in formats:
         if fmt == "docx":
-            files[f"{stem}.{fmt}"] = word_document(
+            files[f"{basename}.{fmt}"] = word_document(
                 written,
-                words,
+                language,
                 author=author,
                 template=options.template,
                 frame=options.frame,
@@ -81,7 +81,7 @@ def note_files(
         else:
             fields = fields_of_note(stamp, written)
             forms = _FormsOfText(fields, project.language) if options.frame else None
-            files[f"{stem}.{fmt}"] = pdf_note(written, words, author=author, forms=forms)
+            files[f"{basename}.{fmt}"] = pdf_note(written, language, author=author, forms=forms)
     return files
 
 

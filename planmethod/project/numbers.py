@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from planmethod.note.narrate.given import solution_peak, told
+from planmethod.note.narrate.statement import reported_quantities, solution_peak
 from planmethod.note.plaintext import plain_text
 from planmethod.note.records.spreadsheet import csv_columns, driver_of
-from planmethod.note.wording import Words, language
+from planmethod.note.wording import MessageTable, get_language
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 from planmethod.plans.legend import MOTION_KINDS
 from planmethod.project.model import Project
@@ -65,22 +65,22 @@ def numbers_workbook(project: Project) -> bytes:
     Its first sheet has the quantities of the motion by their letters, the second one every column
     of ``solve --csv``, those of the forces among them, by names of the language.
     """
-    solution, words = project.solution, language(project.language)
-    said, coordinate = words.project, project.problem.drive.coordinate
+    solution, language = project.solution, get_language(project.language)
+    texts, coordinate = language.project, project.problem.drive.coordinate
     book = new_workbook()
-    units = words.say.units
-    header = [said.number, _headed(coordinate.symbol, units[coordinate.unit])]
+    units = language.notation.units
+    header = [texts.number, _headed(coordinate.symbol, units[coordinate.unit])]
     columns: list[list[Any]] = [
         list(range(len(project.positions))),
         list(project.places),
     ]
-    for quantity in told(solution, *MOTION_KINDS):
+    for quantity in reported_quantities(solution, *MOTION_KINDS):
         unit, peak = units[quantity.kind.unit], solution_peak(solution, quantity.kind)
         header.append(_headed(quantity.symbol, unit))
-        header.append(said.measured.format(what=header[-1]))
+        header.append(texts.measured.format(what=header[-1]))
         for values in (solution.exact(quantity), solution.read_off(quantity.label)):
             columns.append(_without_noise(values, peak).tolist())
-    add_sheet(book, said.positions, header, list(zip(*columns, strict=True)), frozen=2)
+    add_sheet(book, texts.positions, header, list(zip(*columns, strict=True)), frozen=2)
     every = csv_columns(solution)
     every[driver_of(project.problem)] = np.array(columns[1])
     kinds = {name: _kind(name)[0] for name in every}
@@ -90,7 +90,7 @@ def numbers_workbook(project: Project) -> bytes:
         peaks[kinds[name]] = max(largest, peaks.get(kinds[name], 0.0))
     cleaned = [_without_noise(each, peaks[kinds[name]]).tolist() for name, each in every.items()]
     rows = list(zip(range(len(project.positions)), *cleaned, strict=True))
-    add_sheet(book, said.columns, [_head(name, said) for name in ("position", *every)], rows,
+    add_sheet(book, texts.columns, [_head(name, texts) for name in ("position", *every)], rows,
               frozen=2)  # fmt: skip
     return saved(book)
 
@@ -108,10 +108,10 @@ def _kind(name: str) -> tuple[str, tuple[str, ...]]:
     return "", (name,)
 
 
-def _head(name: str, said: Words) -> str:
+def _head(name: str, texts: MessageTable) -> str:
     """Return the name of a column of ``solve --csv`` in the language of the project."""
     kind, names = _kind(name)
-    return str(said["heads"][kind]).format(*names) if kind else name
+    return str(texts["heads"][kind]).format(*names) if kind else name
 
 
 def _headed(symbol: str, unit: str) -> str:

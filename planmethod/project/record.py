@@ -23,26 +23,26 @@ class PartFiles(Struct, frozen=True):
     sheets: int
 
 
-def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> dict[str, Any]:
+def project_record(project: Project, parts: Sequence[PartFiles], basename: str) -> dict[str, Any]:
     """Return the decisions of a project and its files.
 
     Parameters
     ----------
     parts : sequence of PartFiles
         Those that were made.
-    stem : str
+    basename : str
         Base name of its files.
     """
     column, scales = project.problem.drive.coordinate.column, project.scales
     strokes = project.strokes
     return {
         "schema": SCHEMA,
-        "problem": stem,
+        "problem": basename,
         "positions": [{"number": number, column: at} for number, at in enumerate(project.places)],
         "calculated": project.calculated,
         "strokes": None
         if strokes is None
-        else {key: _plain(getattr(strokes, key)) for key in STROKES},
+        else {key: _to_json_value(getattr(strokes, key)) for key in STROKES},
         "scales": {
             "mu_l": scales.mu_l,
             "mu_v": scales.mu_v,
@@ -59,6 +59,6 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
     }
 
 
-def _plain(value: float | str | None) -> float | str | None:
+def _to_json_value(value: float | str | None) -> float | str | None:
     """Return a number without its last bits, a text without markup."""
     return plain_text(value) if isinstance(value, str) else value and round(value, 9)

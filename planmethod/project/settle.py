@@ -18,7 +18,7 @@ from planmethod.arguments import of_type
 from planmethod.cams.model import CamProblem
 from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import KINDS
-from planmethod.languages import LANGUAGES, say
+from planmethod.languages import LANGUAGES, translate
 from planmethod.problem.cycle_records import CycleTask, ProjectTask
 from planmethod.problem.load_records import TurningSense
 from planmethod.problem.model import SAME_DEG, Problem
@@ -32,13 +32,13 @@ from planmethod.project.model import PartName, Project, ProjectPart
 from planmethod.project.train import in_mesh
 from planmethod.render.frame.titleblock import merged
 from planmethod.solved.forces.loads import only_in_positions
-from planmethod.solved.scaling import MOST_DRAWN
+from planmethod.solved.scaling import MAX_DRAWN
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import TURN
 from planmethod.solved.turn.numbering import number, strokes_of
-from planmethod.solved.turn.turn import TURN
 
-MOST_COUNT = 72
+MAX_COUNT = 72
 """Most positions of the construction of a flywheel."""
 
 
@@ -70,15 +70,15 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     """
     of_type("problem", problem, Problem, "planmethod.load()")
     path = None if path is None else Path(of_type("path", path, str | Path))
-    if problem.drive.followed is not None:
-        told = "the driving link is moved by a cam's follower, a course project is that of a crank"
+    if problem.drive.cam_drive is not None:
+        text = "the driving link is moved by a cam's follower, a course project is that of a crank"
         hint = "Draw it with planmethod sheet; its cam is a project's with a crank in [driver]."
-        raise ProblemError(problem.name, [Fault("driver.cam", told, hint)])
+        raise ProblemError(problem.name, [Fault("driver.cam", text, hint)])
     if problem.drive.actuator is not None:
         key = "".join(problem.drive.actuator)
-        told = "an actuator moves the driving link, a course project is that of a crank"
+        text = "an actuator moves the driving link, a course project is that of a crank"
         hint = "Draw it with planmethod sheet, and write it up with planmethod note."
-        raise ProblemError(problem.name, [Fault(f"driver.{key}", told, hint)])
+        raise ProblemError(problem.name, [Fault(f"driver.{key}", text, hint)])
     asked = problem.drive.positions
     problem = in_positions(problem)
     verify(Solution(problem))
@@ -107,7 +107,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     )
 
 
-def settled(problem: Problem) -> Problem:
+def with_decisions(problem: Problem) -> Problem:
     """Return a problem with the decisions of its project, or unchanged without ``[project]``."""
     if problem.project is None or problem.calculated is not None:
         return problem
@@ -125,13 +125,15 @@ def in_positions(problem: Problem) -> Problem:
     positions, drive, machine = problem.numbered, problem.drive, problem.machine
     if not positions:
         return problem
-    if len(positions) > MOST_DRAWN:
-        told = say("{} positions, a project is drawn of at most {}", len(positions), MOST_DRAWN)
-        raise ProblemError(problem.name, [Fault("cycle.count", told, "Request fewer: count = 12.")])
-    if machine is not None and len(positions) <= MOST_COUNT:
+    if len(positions) > MAX_DRAWN:
+        text = translate(
+            "{} positions, a project is drawn of at most {}", len(positions), MAX_DRAWN
+        )
+        raise ProblemError(problem.name, [Fault("cycle.count", text, "Request fewer: count = 12.")])
+    if machine is not None and len(positions) <= MAX_COUNT:
         machine = replace(machine, start_deg=positions[0], count=len(positions))
-    judged = drive.judged or drive.positions  # the way in which it is assembled stays
-    drive = replace(drive, positions=positions, judged=judged, posed=None)
+    judged = drive.assembly_positions or drive.positions  # the way in which it is assembled stays
+    drive = replace(drive, positions=positions, assembly_positions=judged, posed=None)
     return replace(problem, drive=drive, machine=machine)
 
 
@@ -159,7 +161,7 @@ def _default_cycle(problem: Problem) -> CycleTask | None:
     )
 
 
-def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) -> int:
+def _calculated(problem: Problem, solution: Solution, requested: tuple[float, ...]) -> int:
     """Return the number of the calculated position: requested, by phi, or the clearest."""
     count, task = len(solution.positions), problem.project or ProjectTask()
     if task.calculated is not None:
@@ -169,15 +171,15 @@ def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) 
                 [
                     Fault(
                         "project.calculated",
-                        say("position {} does not exist", task.calculated),
-                        say("Of {} positions the last is {}.", count, count - 1),
+                        translate("position {} does not exist", task.calculated),
+                        translate("Of {} positions the last is {}.", count, count - 1),
                     )
                 ],
             )
         return task.calculated
-    if len(asked) == 1:
-        apart = problem.drive.coordinate.apart
-        off = [apart(p, asked[0]) for p in problem.drive.positions]
+    if len(requested) == 1:
+        apart = problem.drive.coordinate.distance
+        off = [apart(p, requested[0]) for p in problem.drive.positions]
         if count == 1 or min(off) < SAME_DEG:
             return int(np.argmin(off))
     return calculated_position(solution)
@@ -199,9 +201,9 @@ def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
     asked = [PartName(name) for name in task.parts] or [*PartName]
     missing = [name.value for name in asked if not there[name]] if task.parts else []
     if missing and path is not None:
-        told = say("the file has no part {!r}", missing[0])
-        hint = say("It has {}.", ", ".join(name.value for name in PartName if there[name]))
-        raise ProblemError(problem.name, [Fault("project.parts", told, hint)])
+        text = translate("the file has no part {!r}", missing[0])
+        hint = translate("It has {}.", ", ".join(name.value for name in PartName if there[name]))
+        raise ProblemError(problem.name, [Fault("project.parts", text, hint)])
     for name in PartName:
         if name is PartName.NOTE or name not in asked or not there[name]:
             continue
@@ -228,33 +230,33 @@ def _has(problem: Problem, task: ProjectTask, name: PartName) -> bool:
             assert_never(name)
 
 
-def _of_kind(problem: Problem, name: PartName, path: Path, beside: str) -> ProjectPart:
+def _of_kind(problem: Problem, name: PartName, path: Path, file_name: str) -> ProjectPart:
     """Return the part of another kind of problem, of this file or of the file that it names."""
     kind = next(kind for kind in KINDS if kind.table == name.value)
-    file, variant = (path.with_name(beside), None) if beside else (path, problem.variant)
-    if beside:
-        _check_beside(problem, kind.table, file)
+    file, variant = (path.with_name(file_name), None) if file_name else (path, problem.variant)
+    if file_name:
+        _check_other_file(problem, kind.table, file)
     found = kind.load(file, variant)
     turns = problem.drive.pivot is not None and problem.drive.rate
     if isinstance(found, CamProblem) and found.n is None and turns:
         found = replace(found, n=turns * 30 / pi)  # on the shaft of the crank
     found = replace(found, sheet=problem.sheet.over(found.sheet))
     stamp = dict(problem.title_block)
-    if beside:
+    if file_name:
         stamp = merged(stamp, found.title_block)
     stamp.pop("title", None)
-    title = found.title if beside else ""
+    title = found.title if file_name else ""
     return ProjectPart(name, replace(found, stamp=stamp, stamp_in={}, title=title), kind)
 
 
-def _check_beside(problem: Problem, table: str, file: Path) -> None:
+def _check_other_file(problem: Problem, table: str, file: Path) -> None:
     """Reject a file that is missing or has a problem of another kind."""
     if not file.is_file():
-        told = say("{} is not in the folder of this file", file.name)
-        hint = say("Write its name, or put the table [{}] into this file.", table)
+        text = translate("{} is not in the folder of this file", file.name)
+        hint = translate("Write its name, or put the table [{}] into this file.", table)
     elif table not in parse(read_source(file), name=str(file)):
-        told = say("{} has no table [{}]", file.name, table)
+        text = translate("{} has no table [{}]", file.name, table)
         hint = "Name a file that has it."
     else:
         return
-    raise ProblemError(problem.name, [Fault(f"project.{table}", told, hint)])
+    raise ProblemError(problem.name, [Fault(f"project.{table}", text, hint)])

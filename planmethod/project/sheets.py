@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.tables.forces import rubbed
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import Language, get_language
 from planmethod.paper import FORMATS
 from planmethod.project.first import PAPER, first_sheet
 from planmethod.project.model import PartName, Project, ProjectPart, SheetEntry
@@ -34,7 +34,7 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
     LayoutError
         The content does not fit.
     """
-    problem, words = project.problem, language(project.language)
+    problem, language = project.problem, get_language(project.language)
     # Which form of the title block a sheet has depends on whether it is the first of the set.
     before = 0 if part is project.parts[0] else 1
     around = Furniture.of(problem.sheet, before=before)
@@ -46,7 +46,7 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
             for name in ("project-forces", *(["friction"] if rubbed(problem) else [])):
                 found += kinematics_sheets(
                     problem,
-                    layout=_of_position(composition(name, words.lang), project, words),
+                    layout=_of_position(composition(name, language.lang), project, language),
                     paper=project.paper or PAPER,
                     fields=fields,
                     furniture=around,
@@ -72,7 +72,7 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
             return kinematics_sheets(problem, layout="balancing", fields=fields, furniture=around)
         case PartName.GEARS | PartName.MESHING | PartName.CAM:
             assert part.kind is not None
-            titled = replace(part.problem, title=words.project["titles"][part.name.value])
+            titled = replace(part.problem, title=language.project["titles"][part.name.value])
             drawn: list[Drawing] = part.kind.drawings(
                 part.problem if part.problem.title else titled,
                 fields=fields,
@@ -86,17 +86,17 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
             assert_never(part.name)
 
 
-def _of_position(layout: Composition, project: Project, words: Language) -> Composition:
+def _of_position(layout: Composition, project: Project, language: Language) -> Composition:
     """Return a composition whose views name their position."""
     if len(project.positions) == 1:
         return layout
 
     def titled(title: str) -> str:
-        return words.sheets.of_position.format(title=title, number=project.calculated)
+        return language.sheets.of_position.format(title=title, number=project.calculated)
 
-    views = words.sheets["views"]
-    names = {"loads": words.sheets.loads, "lever": words.sheets.lever}
-    names["friction-text"] = words.friction.title
+    views = language.sheets["views"]
+    names = {"loads": language.sheets.loads, "lever": language.sheets.lever}
+    names["friction-text"] = language.friction.title
     blocks = []
     for entry in layout.blocks:
         name = names.get(entry.kind)

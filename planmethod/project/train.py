@@ -11,12 +11,12 @@ from msgspec.structs import replace
 from planmethod.construct.scale import series_near
 from planmethod.errors import Fault, ProblemError
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.gears.model import HALF_MODULES, GearProblem, MeshKind, PictureSettings, Train
+from planmethod.gears.model import HALF_MODULES, DiagramSettings, GearProblem, MeshKind, Train
 from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.project.model import PartName, Project, ProjectPart
 
-ALIKE = 5e-3
+SPEED_TOLERANCE = 5e-3
 """Relative difference from the crank's speed within which a link of the train turns with it."""
 
 RPM = 30.0 / pi
@@ -71,7 +71,7 @@ def _cut(problem: GearProblem, pair: MeshingProblem) -> GearProblem:
     for label in ends:
         told = wheels[label].module
         if told is not None and told != module:
-            what = say(
+            what = translate(
                 "wheels {} and {} have the module {:g} mm, and {:g} mm in [meshing]",
                 *ends, float(told * 1000), pair.m,
             )  # fmt: skip
@@ -80,9 +80,9 @@ def _cut(problem: GearProblem, pair: MeshingProblem) -> GearProblem:
         if train.module is not None:
             wheels[label] = replace(wheels[label], module=module)
     train = replace(train, wheels=wheels)
-    if train.module is None and not any(wheel.plain for wheel in wheels.values()):
+    if train.module is None and not any(wheel.is_pulley for wheel in wheels.values()):
         picture = train.picture
-        if picture.mu_l == PictureSettings().mu_l:
+        if picture.mu_l == DiagramSettings().mu_l:
             wanted = float(picture.mu_l * module * HALF_MODULES / 2)
             mu_l = series_near(wanted, up=False)
             picture = replace(picture, mu_l=Fraction(repr(mu_l)))
@@ -93,12 +93,12 @@ def _cut(problem: GearProblem, pair: MeshingProblem) -> GearProblem:
 def output_of(motion: TrainMotion) -> str | None:
     """Return the output of a train with one input: the last moving body except planets."""
     train = motion.train
-    others = {*train.inputs, *(x for some in motion.roles.satellites.values() for x in some)}
+    others = {*train.inputs, *(x for some in motion.roles.planets.values() for x in some)}
     moving = [body for body in train.bodies if motion.speeds.get(body) and body not in others]
     return train.output or (moving[-1] if moving else None)
 
 
-def _beside_crank(project: Project) -> tuple[TrainMotion, Mapping[str, float], bool] | None:
+def _driving_speeds(project: Project) -> tuple[TrainMotion, Mapping[str, float], bool] | None:
     """Return the train of a project, the speeds of its bodies, 1/s, whether one is the crank's.
 
     None where the project has no train, or no crank that turns.
@@ -112,7 +112,7 @@ def _beside_crank(project: Project) -> tuple[TrainMotion, Mapping[str, float], b
     train, crank = motion.train, abs(drive.rate)
     turning = [body for body in train.bodies if body not in train.racks]
     speeds = {body: abs(float(motion.speeds.get(body, 0)) * train.rate) for body in turning}
-    return motion, speeds, any(abs(x - crank) <= ALIKE * crank for x in speeds.values())
+    return motion, speeds, any(abs(x - crank) <= SPEED_TOLERANCE * crank for x in speeds.values())
 
 
 def quick_shaft(project: Project) -> tuple[str, float] | None:
@@ -120,7 +120,7 @@ def quick_shaft(project: Project) -> tuple[str, float] | None:
 
     The crank turns with a link of the train; of several inputs the quickest one is meant.
     """
-    found = _beside_crank(project)
+    found = _driving_speeds(project)
     if found is None:
         return None
     motion, speeds, turns_crank = found
@@ -129,19 +129,19 @@ def quick_shaft(project: Project) -> tuple[str, float] | None:
         return None
     quickest = max(inputs, key=speeds.__getitem__)
     ratio = speeds[quickest] / abs(project.problem.drive.rate)
-    return (quickest, ratio) if ratio > 1.0 + ALIKE else None
+    return (quickest, ratio) if ratio > 1.0 + SPEED_TOLERANCE else None
 
 
-def train_apart(project: Project) -> str | None:
+def warn_of_separate_train(project: Project) -> str | None:
     """Return a warning of a train without a link as fast as the crank; else None."""
-    found = _beside_crank(project)
+    found = _driving_speeds(project)
     if found is None:
         return None
     motion, speeds, turns_crank = found
     output = output_of(motion)
     if output is None or output not in speeds or turns_crank:
         return None
-    return say(
+    return translate(
         "the crank makes {:.4g} rev/min, link {} of the train {:.4g} rev/min, and no other link of "
         'it turns with the crank. Change n or the train, or write train = "{}" in [driver].',
         RPM * abs(project.problem.drive.rate),

@@ -13,14 +13,20 @@ from planmethod.construct.steps import PointName
 from planmethod.errors import ProblemError
 from planmethod.mechanism.model import FRAME
 from planmethod.note.formula import escape
-from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.cycle import degrees, range_fact
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.narrate.turn import degrees, range_fact
+from planmethod.note.narrate.statement import point_name
 from planmethod.note.wording import Language
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
-from planmethod.render.forces.arrows import Acting, CoupleArc, couple_items, force_items, lay_forces
+from planmethod.render.forces.arrows import (
+    Acting,
+    CoupleArc,
+    couple_items,
+    force_items,
+    place_force_arrows,
+)
 from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
@@ -32,26 +38,26 @@ from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.symbols import fixed_pivot, unit
 from planmethod.solved.failures import Cause, Failure
 from planmethod.solved.forces.loads import external
-from planmethod.solved.part import MechanismPart
+from planmethod.solved.partial_mechanism import MechanismPart
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import Turn, turn_of
+from planmethod.solved.turn.cycle import CrankCycle, crank_cycle_of
 
 BOX = (180.0, 130.0)
 """Size of the scheme, mm."""
 
-VIEWS = Views.alone(BOX)
+VIEWS = Views.for_scheme(BOX)
 """Size of the scheme as views, for the choice of the scale."""
 
-WAYS_BOX = (110.0, 85.0)
+ASSEMBLY_BOX = (110.0, 85.0)
 """Size of one of several assemblies, mm."""
 
-WAYS = Views.alone(WAYS_BOX)
+ASSEMBLY_VIEWS = Views.for_scheme(ASSEMBLY_BOX)
 
 HEIGHT, SMALL, WIDTH, EDGE = 5.0, 3.5, 190.0, 6.0
 """Heights of letters, width of the text and white round all, mm."""
 
-_MOST_TIMES = 6.0
+_MAX_TIMES = 6.0
 """Largest ratio of a scheme at the scale of the file to its box."""
 
 _MISSING = 3
@@ -69,49 +75,49 @@ class _Marks(Struct):
     labels: list[Label] = field(default_factory=list)
 
 
-def sketch(part: MechanismPart, title: str, words: Language, said: Sequence[str]) -> Drawing:
+def sketch(part: MechanismPart, title: str, language: Language, notes: Sequence[str]) -> Drawing:
     """Return the sketch of a part of a mechanism, as large as its contents.
 
     Parameters
     ----------
     title : str
         Title of the problem.
-    said : sequence of str
+    notes : sequence of str
         Text about the file under the scheme, plain text, a paragraph each.
     """
-    if part.solution is not None and not _fits(part.solution):
+    if part.solution is not None and not _is_viewable(part.solution):
         scales = replace(part.solution.problem.scales, mu_l=None)
         part = replace(part, solution=part.solution.filling(VIEWS, scales))
     ways = part.assemblies if len(part.assemblies) > 1 else ()
     if ways:
-        picture, facts = _ways(part, words)
+        picture, facts = _show_assemblies(part, language)
     else:
-        picture, facts = _scheme(part, words) if part.solution else _pivots(part, words)
+        picture, facts = _scheme(part, language) if part.solution else _pivots(part, language)
     if part.links:
-        facts.append(words.sheets.not_drawn.format(links=", ".join(part.links)))
-    texts = [escape(line) for line in said]
+        facts.append(language.sheets.not_drawn.format(links=", ".join(part.links)))
+    texts = [escape(line) for line in notes]
     blocks: list[Block] = [picture] if not isinstance(picture, Picture) or picture.items else []
     return _set(title, [*blocks, *(paragraph(text, SMALL, WIDTH) for text in (*facts, *texts))])
 
 
-def _fits(solution: Solution) -> bool:
+def _is_viewable(solution: Solution) -> bool:
     """Return whether a sketch at the scale of the file is small enough to view."""
     left, low, right, high = extent(solution, range(len(solution.positions)))
-    return max(right - left, high - low) <= _MOST_TIMES * BOX[0]
+    return max(right - left, high - low) <= _MAX_TIMES * BOX[0]
 
 
 def assigned(solution: Solution) -> Drawing:
     """Return the scheme of an assignment: with its loads, without the requested results."""
     marks = _Marks()
     _mark_loads(marks, solution)
-    return _set("", [_marked(solution, marks, given=True)])
+    return _set("", [_marked(solution, marks, driver_only=True)])
 
 
-def _marked(solution: Solution, marks: _Marks, *, given: bool = False) -> Picture:
+def _marked(solution: Solution, marks: _Marks, *, driver_only: bool = False) -> Picture:
     """Return the scheme and the items over it, all letters placed together."""
     added, several = (tuple(marks.items), tuple(marks.labels)), range(len(solution.positions))
     if len(several) == 1:
-        return scheme_picture(solution, 0, given=given, added=added)
+        return scheme_picture(solution, 0, driver_only=driver_only, added=added)
     return series_picture(solution, 0, tuple(several), added=added)
 
 
@@ -128,11 +134,13 @@ def _set(title: str, blocks: list[Block]) -> Drawing:
     return drawing
 
 
-def _scheme(part: MechanismPart, words: Language) -> tuple[Picture, list[str]]:
+def _scheme(part: MechanismPart, language: Language) -> tuple[Picture, list[str]]:
     solution = part.solution
     assert solution is not None
     marks = _Marks()
-    facts = [_scale(solution.scales[PlanKind.POSITION], solution.problem.scales.convention, words)]
+    facts = [
+        _scale(solution.scales[PlanKind.POSITION], solution.problem.scales.convention, language)
+    ]
     places = {name: _at(solution, name) for name in _points(solution)}
     joined = {joint.point for joint in solution.problem.mechanism.revolutes}
     own = {point for points in (part.links or {}).values() for point in points}
@@ -144,32 +152,34 @@ def _scheme(part: MechanismPart, words: Language) -> tuple[Picture, list[str]]:
     _mark_loads(marks, solution)
     turn = _turn(solution)
     if turn is not None:
-        fact = range_fact(turn, words)
+        fact = range_fact(turn, language)
         facts.append(fact[:1].upper() + fact[1:])
-        _mark_range(marks, turn, words)
+        _mark_range(marks, turn, language)
     return _marked(solution, marks), facts
 
 
-def _ways(part: MechanismPart, words: Language) -> tuple[Block, list[str]]:
+def _show_assemblies(part: MechanismPart, language: Language) -> tuple[Block, list[str]]:
     """Return the assemblies side by side, each under the rules that choose it."""
     shown: list[Block] = []
     facts: list[str] = []
     for way in part.assemblies:
-        scales = None if _fits(way.solution) else replace(way.solution.problem.scales, mu_l=None)
-        one = replace(part, solution=way.solution.filling(WAYS, scales), unsure=())
-        picture, facts = _scheme(one, words)
+        scales = (
+            None if _is_viewable(way.solution) else replace(way.solution.problem.scales, mu_l=None)
+        )
+        one = replace(part, solution=way.solution.filling(ASSEMBLY_VIEWS, scales), unsure=())
+        picture, facts = _scheme(one, language)
         rules = (f'{point} = "{rule}"' for point, rule in way.rules.items())
-        told = words.sheets.assembled.format(rules="; ".join(map(escape, rules)))
-        shown.append(Column([paragraph(told, HEIGHT, WAYS_BOX[0]), picture], gap=3.0))
+        text = language.sheets.assembled.format(rules="; ".join(map(escape, rules)))
+        shown.append(Column([paragraph(text, HEIGHT, ASSEMBLY_BOX[0]), picture], gap=3.0))
     rows = [Row(shown[k : k + 2], gap=10.0) for k in range(0, len(shown), 2)]
     return Column(rows, gap=8.0), facts
 
 
-def _scale(scale: Scale, convention: Convention, words: Language) -> str:
-    return scale_inscription(scale, convention, words.say)
+def _scale(scale: Scale, convention: Convention, language: Language) -> str:
+    return scale_inscription(scale, convention, language.notation)
 
 
-def _pivots(part: MechanismPart, words: Language) -> tuple[Picture, list[str]]:
+def _pivots(part: MechanismPart, language: Language) -> tuple[Picture, list[str]]:
     """Return the fixed points alone."""
     places = part.fixed or {}
     if not places:
@@ -182,7 +192,7 @@ def _pivots(part: MechanismPart, words: Language) -> tuple[Picture, list[str]]:
     _mark_pivots(marks, at)
     _mark_missing(marks, part, at)
     scale = Scale("mu_l", per_mm, "m")
-    facts = [_scale(scale, Convention.UNIT_PER_MM, words)] if max(size) else []
+    facts = [_scale(scale, Convention.UNIT_PER_MM, language)] if max(size) else []
     return lettered(marks.items, marks.labels), facts
 
 
@@ -258,7 +268,7 @@ def _mark_loads(marks: _Marks, solution: Solution) -> None:
             middle = sum(points) / len(points)
             couples.append(CoupleArc(one.name, middle, 1 if one.couple[0] > 0 else -1))
     bars = [(_at(solution, one), _at(solution, two)) for one, two in _bars(solution)]
-    arrows, letters = force_items(lay_forces(forces, bars), SMALL, "sketch")
+    arrows, letters = force_items(place_force_arrows(forces, bars), SMALL, "sketch")
     turns, more = couple_items(couples, [Stroke(bar) for bar in bars], SMALL, "sketch")
     marks.items += [*arrows, *turns]
     marks.labels += [*letters, *more]
@@ -271,17 +281,17 @@ def _bars(solution: Solution) -> Iterator[tuple[str, str]]:
             yield from ((names[0], other) for other in names[1:])
 
 
-def _turn(solution: Solution) -> Turn | None:
+def _turn(solution: Solution) -> CrankCycle | None:
     """Return the turn of a crank that moves other links."""
     if not solution.problem.drive.is_crank or not solution.structure.groups:
         return None
     try:
-        return turn_of(solution)
+        return crank_cycle_of(solution)
     except ProblemError:  # none of its links can be an output
         return None
 
 
-def _mark_range(marks: _Marks, turn: Turn, words: Language) -> None:
+def _mark_range(marks: _Marks, turn: CrankCycle, language: Language) -> None:
     """Draw the arc of the positions in which the mechanism can be assembled."""
     solution, limits = turn.solution, turn.range
     drive = solution.problem.drive
@@ -297,4 +307,4 @@ def _mark_range(marks: _Marks, turn: Turn, words: Language) -> None:
         way = cis(value)
         end = centre + (radius + 3.0) * way
         marks.items.append(Stroke((end - _OUT * way, end), Pen.THIN, tag="range"))
-        marks.labels.append(Label(typeset(degrees(value, words), SMALL), end, prefer=way))
+        marks.labels.append(Label(typeset(degrees(value, language), SMALL), end, prefer=way))

@@ -11,12 +11,12 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.condition import UNIT_ROUNDOFF, measured_reach, plain, reach
+from planmethod.construct.condition import UNIT_ROUNDOFF, as_scalar, measured_reach, reach
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.referee import DIGITS, Precise
+from planmethod.construct.multiprecision import DIGITS, Precise
 from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.plans.forces.board import SCALE
 from planmethod.plans.forces.loads import DOWN, numbers_of
 from planmethod.plans.legend import Quantity, QuantityKind
@@ -26,7 +26,7 @@ from planmethod.solved.quantities import Quantities, natural_size, quantities_of
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import SCALES, error_bound
 
-ZERO_SHARE = 1e-14
+ZERO_FRACTION = 1e-14
 """Share of the largest result of its kind below which one is zero by nature, and not measured in
 units of its own reach."""
 
@@ -136,14 +136,15 @@ def examine(
         else:
             read = evaluate(program, {n: referee.lift(v) for n, v in here.items()}, referee)
             right = {
-                name: (plain(value), _entry(spans[name], i)) for name, value in read.value.items()
+                name: (as_scalar(value), _entry(spans[name], i))
+                for name, value in read.value.items()
             }
-        verdicts, agreed = _judge(results.all, trace, right, i)
+        verdicts, agreed = _evaluate_results(results.all, trace, right, i)
         reason, warned, forces = "", 0.0, None
         if closely:
-            reason, warned, forces = _told(problem, position)
+            reason, warned, forces = _reported_bounds(problem, position)
         elif fails[i] >= 0:
-            reason = say("step {} is impossible", program.steps[int(fails[i])].out)
+            reason = translate("step {} is impossible", program.steps[int(fails[i])].out)
         margin = min(float(_entry(value, i)) for value in trace.margin.values())
         lost = 0 if fails[i] >= 0 else len(results.all) - len(verdicts)
         found.append(Refereed(position, margin, reason, warned, agreed, verdicts, lost, forces))
@@ -178,7 +179,7 @@ def _moves(solution: Solution) -> bool:
     return True
 
 
-def _told(problem: Problem, position: float) -> tuple[str, float, float | None]:
+def _reported_bounds(problem: Problem, position: float) -> tuple[str, float, float | None]:
     """Return why a position is impossible, or the reported bounds of its errors."""
     solution = Solution(problem, positions=[position])
     try:
@@ -197,7 +198,7 @@ def _entry(value: Number, i: int) -> Number:
     return flat[i if flat.size > 1 else 0]
 
 
-def _judge(
+def _evaluate_results(
     results: Sequence[Quantity], trace: Trace, right: Mapping[Name, tuple[Number, Number]], i: int
 ) -> tuple[tuple[AccuracyVerdict, ...], bool]:
     """Return verdicts on the results that exist, and whether both checks agree on which exist."""
@@ -205,7 +206,7 @@ def _judge(
     agreed = True
     for result in results:
         value, span = right[result.name]
-        found = complex(_entry(plain(trace.value[result.name]), i))
+        found = complex(_entry(as_scalar(trace.value[result.name]), i))
         if cmath.isnan(found) or value != value or cmath.isnan(complex(value)):
             agreed = agreed and cmath.isnan(found) == cmath.isnan(complex(value))
             continue
@@ -235,7 +236,7 @@ def _verdict(
 ) -> AccuracyVerdict:
     size = float(abs(value))
     # Zero by nature: neither it nor its slopes are anything, but for rounding of the slopes.
-    nothing = span <= ZERO_SHARE * largest or (
+    nothing = span <= ZERO_FRACTION * largest or (
         size <= VANISHED * largest and span <= NOISE * largest
     )
     unit = largest if nothing else span

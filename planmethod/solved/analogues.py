@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from planmethod.solved.reading import Reals, remembered
+from planmethod.solved.reading import Reals, memoized
 from planmethod.solved.solution import PointMotion, Solution
 
 
-@remembered
+@memoized
 def analogues(solution: Solution) -> tuple[dict[str, PointMotion], dict[str, tuple[Reals, Reals]]]:
     """Return first and second transfer functions in the positions of a solution (аналоги).
 

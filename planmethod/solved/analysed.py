@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from planmethod.errors import StructureError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.problem.model import Problem
 
@@ -25,10 +25,10 @@ def structure_of(problem: Problem) -> Structure:
         named = [name for name in problem.mechanism.links if name in (wheels or {})]
         if not isinstance(wheels, Mapping) or len(named) < 2:
             raise
-        told = say(
+        text = translate(
             "Wheels {} of [gears] have the names of links: a mesh of two wheels on links of "
             "a linkage is not supported as a pair yet and is not counted. Give the linkage "
             "one crank, and give other names to a train that turns it.",
             ", ".join(named),
         )
-        raise StructureError(f"{error} {told}") from error
+        raise StructureError(f"{error} {text}") from error

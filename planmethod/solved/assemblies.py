@@ -16,22 +16,22 @@ from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Single
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.holding import held, place
 from planmethod.construct.program import Program
-from planmethod.construct.steps import Hold, Leg, PointName
+from planmethod.construct.steps import Leg, PointName, TriadPose
+from planmethod.construct.triad_pose import place, solve_pose
 from planmethod.errors import Fault
-from planmethod.languages import say
-from planmethod.mechanism.groups import AssurGroup, Legs
-from planmethod.plans.closing import Closing, Followed
+from planmethod.languages import translate
+from planmethod.mechanism.groups import AssurGroup, Triad
+from planmethod.plans.assembly_mode import AssemblyMode, TrackedAssembly
 from planmethod.plans.draft import Draft
 from planmethod.plans.motion.position import axis_of_link, base_points
-from planmethod.problem.model import Rule, Where
-from planmethod.problem.names import told_place
+from planmethod.problem.model import AssemblyRelation, Rule
+from planmethod.problem.names import format_place
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.reading import Complexes, Reading, Reals
 from planmethod.solved.rules import rule_text, score_of
 
-LOOKS = 1440
+SAMPLES = 1440
 """Number of samples of the virtual crank over a full turn."""
 
 DEAD = 1e-7
@@ -54,7 +54,7 @@ class Assembly(Struct, frozen=True):
     margin: float
 
 
-def env_of(step: Hold, trace: Trace, index: int) -> Env:
+def env_of(step: TriadPose, trace: Trace, index: int) -> Env:
     """Return the operands of a step in one position of a reading, in Python's own numbers."""
     one = Single()
     found: Env = {}
@@ -70,7 +70,7 @@ def env_of(step: Hold, trace: Trace, index: int) -> Env:
     return found
 
 
-def assemblies(step: Hold, env: Env) -> list[Assembly]:
+def assemblies(step: TriadPose, env: Env) -> list[Assembly]:
     """Return every pose in which three legs hold a base link in one position, except dead ones.
 
     Parameters
@@ -79,8 +79,8 @@ def assemblies(step: Hold, env: Env) -> list[Assembly]:
         Of `env_of`.
     """
     with np.errstate(all="ignore"):
-        starts = _starts([_ask(leg, env) for leg in step.legs])
-        pose, margin, _ = _settled(step, env, *starts)
+        starts = _starts([_leg_condition(leg, env) for leg in step.legs])
+        pose, margin, _ = _refine(step, env, *starts)
     size = sum(abs(place(leg.at, env)) for leg in step.legs)
     found: list[Assembly] = []
     for b, w, room in zip(*pose, margin, strict=True):
@@ -94,15 +94,15 @@ def assemblies(step: Hold, env: Env) -> list[Assembly]:
     return sorted(found, key=lambda pose: pose.turn)
 
 
-def _settled(step: Hold, env: Env, b: Complexes, turn: Reals) -> tuple[Any, Any, Any]:
+def _refine(step: TriadPose, env: Env, b: Complexes, turn: Reals) -> tuple[Any, Any, Any]:
     x, y, angle = step.start
     data = {name: np.asarray(value) for name, value in env.items() if not isinstance(value, tuple)}
     lines = {name: tuple(map(np.asarray, v)) for name, v in env.items() if isinstance(v, tuple)}
     whole = {**data, **lines, x: b.real, y: b.imag, angle: np.degrees(turn)}
-    return held(step, whole, Float64(), _ROUNDS)
+    return solve_pose(step, whole, Float64(), _ROUNDS)
 
 
-def _ask(leg: Leg, env: Env) -> Callable[[Reals], tuple[Any, Any, Any, Any]]:
+def _leg_condition(leg: Leg, env: Env) -> Callable[[Reals], tuple[Any, Any, Any, Any]]:
     """Return the constraint of a leg on the origin at a given angle of the link.
 
     Either a distance from a centre (centre, radius), or a coordinate along a normal (normal,
@@ -110,7 +110,7 @@ def _ask(leg: Leg, env: Env) -> Callable[[Reals], tuple[Any, Any, Any, Any]]:
     """
     z = place(leg.at, env)
 
-    def asked(turn: Reals) -> tuple[Any, Any, Any, Any]:
+    def condition(turn: Reals) -> tuple[Any, Any, Any, Any]:
         w = np.exp(1j * turn)
         if leg.line is not None:
             p, u = env[leg.line]
@@ -123,10 +123,10 @@ def _ask(leg: Leg, env: Env) -> Callable[[Reals], tuple[Any, Any, Any, Any]]:
         normal = w * (1j * np.exp(1j * np.radians(angle)))
         return None, None, normal, (normal.conjugate() * centre).real
 
-    return asked
+    return condition
 
 
-class _Turned(Struct, frozen=True):
+class _CrankTrial(Struct, frozen=True):
     """Residuals and places at some angles of the virtual crank.
 
     ``off``: residual of the third leg; ``places``: possible places of the origin.
@@ -136,11 +136,13 @@ class _Turned(Struct, frozen=True):
     places: list[Complexes]
 
 
-def _turned(asks: list[Callable[[Reals], tuple[Any, Any, Any, Any]]], turn: Reals) -> _Turned:
+def _try_crank(
+    conditions: list[Callable[[Reals], tuple[Any, Any, Any, Any]]], turn: Reals
+) -> _CrankTrial:
     """Turn the virtual crank: two circles have a straight line in common, and all is linear."""
     circle: tuple[Any, Any] | None = None
     rows: list[tuple[Any, Any]] = []
-    for ask in asks:
+    for ask in conditions:
         centre, radius, normal, along = ask(turn)
         if normal is not None:
             rows.append((normal, along))
@@ -155,7 +157,7 @@ def _turned(asks: list[Callable[[Reals], tuple[Any, Any, Any, Any]]], turn: Real
     point = -1j * (f * n - g * m)  # by the determinant
     if circle is None:
         o, h = rows[2]
-        return _Turned(
+        return _CrankTrial(
             np.asarray((o.conjugate() * point).real - h * det), [np.asarray(point / det)]
         )
     centre, radius = circle
@@ -165,20 +167,20 @@ def _turned(asks: list[Callable[[Reals], tuple[Any, Any, Any, Any]]], turn: Real
         leg = (along - (normal.conjugate() * centre).real) / long
         half = np.sqrt(np.maximum(radius**2 - leg**2, 0.0))
         places += [centre + normal / long * (leg + side * 1j * half) for side in (1, -1)]
-    return _Turned(np.asarray(abs(point - centre * det) ** 2 - (radius * det) ** 2), places)
+    return _CrankTrial(np.asarray(abs(point - centre * det) ** 2 - (radius * det) ** 2), places)
 
 
-def _starts(asks: list[Any]) -> tuple[Complexes, Reals]:
+def _starts(conditions: list[Any]) -> tuple[Complexes, Reals]:
     """Return places and angles near every assembly, also near those that nearly are one."""
-    looks = 0.3 + np.linspace(0.0, 2 * np.pi, LOOKS + 1)
-    off = _turned(asks, looks).off
+    looks = 0.3 + np.linspace(0.0, 2 * np.pi, SAMPLES + 1)
+    off = _try_crank(conditions, looks).off
     size = np.abs(off)
     crossed = np.flatnonzero(np.sign(off[:-1]) != np.sign(off[1:]))
     low, high = looks[crossed], looks[crossed + 1]
     sign = np.sign(off[crossed])
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        before = np.sign(_turned(asks, middle).off) == sign
+        before = np.sign(_try_crank(conditions, middle).off) == sign
         low, high = np.where(before, middle, low), np.where(before, high, middle)
     # A double zero is a minimum that touches zero, or crosses it twice between two samples.
     around = np.concatenate([size[-2:-1], size, size[1:2]])
@@ -186,7 +188,7 @@ def _starts(asks: list[Any]) -> tuple[Complexes, Reals]:
     step = looks[1] - looks[0]
     fine = (looks[least][:, None] + np.linspace(-step, step, 33)).ravel()
     turns = np.concatenate([(low + high) / 2, fine])
-    places = _turned(asks, turns).places
+    places = _try_crank(conditions, turns).places
     everywhere = [np.broadcast_to(p, turns.shape) for p in places]
     return np.concatenate(everywhere), np.tile(turns, len(everywhere))
 
@@ -209,7 +211,7 @@ class Assembled(Struct, frozen=True):
     program: Program
     data: Callable[[Reals], dict[str, Any]]
     group: AssurGroup
-    triad: Legs
+    triad: Triad
 
     @property
     def point(self) -> str:
@@ -217,9 +219,9 @@ class Assembled(Struct, frozen=True):
         return base_points(self.draft.problem, self.triad)[0]
 
     @property
-    def step(self) -> Hold:
+    def step(self) -> TriadPose:
         """The step that holds the base link."""
-        steps = (step for step in self.program.steps if isinstance(step, Hold))
+        steps = (step for step in self.program.steps if isinstance(step, TriadPose))
         return next(step for step in steps if step.out == axis_of_link(self.triad.base))
 
     def read(self, positions: Reals) -> Trace:
@@ -235,7 +237,9 @@ class Assembled(Struct, frozen=True):
         return Reading(evaluate(self.program, data, Float64()), 1)
 
 
-def choose(made: Assembled, rules: list[Rule], positions: Reals) -> tuple[Closing, list[Fault]]:
+def choose(
+    assembled: Assembled, rules: list[Rule], positions: Reals
+) -> tuple[AssemblyMode, list[Fault]]:
     """Return the tracked assembly of a triad that its rules select, and the faults of the rules.
 
     Raises
@@ -243,55 +247,68 @@ def choose(made: Assembled, rules: list[Rule], positions: Reals) -> tuple[Closin
     PositionError
         The triad cannot be assembled in any requested position.
     """
-    problem, trace = made.draft.problem, made.read(positions)
-    found = (assemblies(made.step, env_of(made.step, trace, k)) for k in range(len(positions)))
+    problem, trace = assembled.draft.problem, assembled.read(positions)
+    found = (
+        assemblies(assembled.step, env_of(assembled.step, trace, k)) for k in range(len(positions))
+    )
     index, poses = next(((k, poses) for k, poses in enumerate(found) if poses), (-1, []))
     if not poses:
         place = Place.of(problem, positions, 0)
-        links, count = ", ".join(made.group.links), len(positions)
-        raise PositionError(Failure(Cause.NO_ASSEMBLY, place, links, alike=count - 1, count=count))
+        links, count = ", ".join(assembled.group.links), len(positions)
+        raise PositionError(
+            Failure(Cause.NO_ASSEMBLY, place, links, same_count=count - 1, count=count)
+        )
     start = float(positions[index])
-    readings = [made.posed(start, pose) for pose in poses]
+    readings = [assembled.posed(start, pose) for pose in poses]
     left = list(range(len(poses)))
-    for rule in (rule for rule in rules if rule.where is not Where.NEAR):
-        left = [k for k in left if score_of(rule, made.draft, readings[k])[0] > 0]
-    for rule in (rule for rule in rules if rule.where is Where.NEAR and left):
-        left = [max(left, key=lambda k: float(score_of(rule, made.draft, readings[k])[0]))]
-    point = rules[0].point if rules else made.point
-    places = [complex(one.point(PointName(point))[0]) + made.draft.origin for one in readings]
+    for rule in (rule for rule in rules if rule.relation is not AssemblyRelation.NEAR):
+        left = [k for k in left if score_of(rule, assembled.draft, readings[k])[0] > 0]
+    for rule in (rule for rule in rules if rule.relation is AssemblyRelation.NEAR and left):
+        left = [max(left, key=lambda k: float(score_of(rule, assembled.draft, readings[k])[0]))]
+    point = rules[0].point if rules else assembled.point
+    places = [complex(one.point(PointName(point))[0]) + assembled.draft.origin for one in readings]
     if len(left) != 1:
         at = Place.of(problem, positions, index).driver
-        return Closing(), [_untold(made, rules, point, [places[k] for k in left] or places, at)]
+        return AssemblyMode(), [
+            _ambiguity_fault(assembled, rules, point, [places[k] for k in left] or places, at)
+        ]
     (k,) = left
     sizes = [abs(length) for _, _, length in problem.lengths]
     reach = (min(positions) - sum(sizes), max(positions) + sum(sizes))
     turn = problem.drive.coordinate.turn
-    path = follow(made.step, made.read, start, poses[k], reach, turn)
+    path = track_assembly(assembled.step, assembled.read, start, poses[k], reach, turn)
     others = tuple(place for number, place in enumerate(places) if number != k)
-    return Closing(start=start, followed=path, others=others, point=point), []
+    return AssemblyMode(start=start, tracked=path, other_places=others, point=point), []
 
 
-def _untold(
-    made: Assembled, rules: list[Rule], point: str, places: list[complex], at: str
+def _ambiguity_fault(
+    assembled: Assembled, rules: list[Rule], point: str, places: list[complex], at: str
 ) -> Fault:
     """Return the fault of rules that do not select one of several assemblies."""
-    unit = made.draft.problem.unit
-    told = [f"({told_place(place, unit)})" for place in places]
-    facts = ", ".join(made.group.links), len(told), at, point, say(" or ").join(told), say(unit)
+    unit = assembled.draft.problem.unit
+    told = [f"({format_place(place, unit)})" for place in places]
+    facts = (
+        ", ".join(assembled.group.links),
+        len(told),
+        at,
+        point,
+        translate(" or ").join(told),
+        translate(unit),
+    )
     if rules:
-        said = say(" and ").join(rule_text(rule, unit) for rule in rules)
-        text = say(
+        phrase = translate(" and ").join(rule_text(rule, unit) for rule in rules)
+        text = translate(
             "'{}' does not distinguish the assemblies of links {}, of which there are {} at "
             "{}: with {} at {} {}",
-            said,
+            phrase,
             *facts,
         )
     else:
-        text = say(
+        text = translate(
             "links {} can be assembled in {} ways at {}, with {} at {} {}, and no rule selects one",
             *facts,
         )
-    hint = say(
+    hint = translate(
         "Add {} = {{ near = [{}] }} to [assembly], or another of these places",
         point,
         told[0].strip("()"),
@@ -299,14 +316,14 @@ def _untold(
     return Fault(f"assembly.{point}", text, hint)
 
 
-def best_third(made: Assembled, positions: Reals) -> int:
+def best_third(assembled: Assembled, positions: Reals) -> int:
     """Return the leg to leave out: the special point of the other two stays nearest to the link.
 
-    ``made`` has its assembly chosen.
+    ``assembled`` has its assembly chosen.
     """
-    trace = made.read(positions)
-    lines = made.draft.special[made.triad.base].lines
-    about = trace.value[PointName(made.point)]
+    trace = assembled.read(positions)
+    lines = assembled.draft.special[assembled.triad.base].lines
+    about = trace.value[PointName(assembled.point)]
     far = []
     with np.errstate(all="ignore"):
         for third in range(3):
@@ -328,10 +345,10 @@ _LONGEST = 1.0
 _SHORTEST = 1e-7
 """Fraction of that step at which the motion is considered to have ended."""
 
-_AHEAD = 0.02
+_MAX_DEVIATION = 0.02
 """Greatest deviation of Newton's method from the extrapolated motion, radians and sizes."""
 
-_FAR = 1e3
+_MAX_DISTANCE = 1e3
 """Greatest distance that a base link may move away, in its sizes: a guide is not endless."""
 
 _TURNS = 6
@@ -341,7 +358,7 @@ _TURNS = 6
 class _Path(Struct):
     """Poses of a motion so far, and its continuation (путь сборки)."""
 
-    step: Hold
+    step: TriadPose
     read: Read
     size: float
     places: list[float]
@@ -354,7 +371,7 @@ class _Path(Struct):
         trace = self.read(positions)
         return [env_of(self.step, trace, k) for k in range(len(positions))]
 
-    def goes_on(self, goal: float, env: Env) -> bool:
+    def step_to(self, goal: float, env: Env) -> bool:
         """Step to a position where the same assembly is near the extrapolated motion."""
         b, angle, patience = self.origins[-1], self.turns[-1], 5.0
         if len(self.places) > 1:
@@ -363,7 +380,7 @@ class _Path(Struct):
             angle, patience = angle + (angle - self.turns[-2]) * share, 1.0
         x, y, t = self.step.start
         try:
-            (found, w), room, det = held(
+            (found, w), room, det = solve_pose(
                 self.step, {**env, x: b.real, y: b.imag, t: angle}, Single(), 4
             )
         except (ZeroDivisionError, OverflowError):
@@ -371,7 +388,7 @@ class _Path(Struct):
         turned = float(np.degrees(np.angle(w * np.exp(-1j * np.radians(angle)))))
         away = abs(found - self.origins[0])
         off = abs(found - b) / (self.size + away) + abs(np.radians(turned))
-        near = away < _FAR * self.size and off < patience * _AHEAD
+        near = away < _MAX_DISTANCE * self.size and off < patience * _MAX_DEVIATION
         if not (room > 0 and near and det * (self.det or det) > 0):
             return False
         self.places.append(goal)
@@ -380,16 +397,16 @@ class _Path(Struct):
         self.det = float(det)
         return True
 
-    def comes_to(self, goal: float, env: Env) -> bool:
+    def advance_to(self, goal: float, env: Env) -> bool:
         """Come to a position by as many steps as that needs; stop where the motion ends."""
-        if self.goes_on(goal, env):
+        if self.step_to(goal, env):
             return True
         whole = goal - self.places[-1]
         stride = whole / 4
         while self.places[-1] != goal:
             here = self.places[-1]
             middle = goal if abs(goal - here) <= 1.5 * abs(stride) else here + stride
-            if self.goes_on(middle, self.envs(np.array([middle]))[0]):
+            if self.step_to(middle, self.envs(np.array([middle]))[0]):
                 stride *= 2
                 continue
             stride /= 4
@@ -397,15 +414,20 @@ class _Path(Struct):
                 return False
         return True
 
-    def has_come_again(self) -> bool:
+    def is_closed(self) -> bool:
         """Return whether the pose is the first one again."""
         turned = (self.turns[-1] - self.turns[0] + 180.0) % 360.0 - 180.0
         return abs(self.origins[-1] - self.origins[0]) < 1e-6 * self.size and abs(turned) < 1e-4
 
 
-def follow(
-    step: Hold, read: Read, start: float, pose: Assembly, limits: tuple[float, float], turn: float
-) -> Followed:
+def track_assembly(
+    step: TriadPose,
+    read: Read,
+    start: float,
+    pose: Assembly,
+    limits: tuple[float, float],
+    turn: float,
+) -> TrackedAssembly:
     """Track an assembly from a position to both sides, until it ends or repeats.
 
     Parameters
@@ -419,7 +441,7 @@ def follow(
     """
     crank = bool(np.isfinite(turn))
     low, high = (start - _TURNS * turn, start + _TURNS * turn) if crank else limits
-    looks = round(turn / _LONGEST) if crank else LOOKS
+    looks = round(turn / _LONGEST) if crank else SAMPLES
     pace = turn / looks if crank else (high - low) / looks
     (env,) = [env_of(step, read(np.array([start])), 0)]
     size = sum(abs(place(leg.at, env)) for leg in step.legs)
@@ -427,16 +449,16 @@ def follow(
     with np.errstate(all="ignore"):
         for sense, limit in ((1, high), (-1, low)):
             path = _Path(step, read, size, [start], [pose.origin], [pose.turn])
-            path.goes_on(start, env)  # which sign its determinant has
+            path.step_to(start, env)  # which sign its determinant has
             del path.places[1:], path.origins[1:], path.turns[1:]
             count = int(abs(limit - start) / pace + 1e-9)
             goals = [start + sense * pace * k for k in range(1, 1 + count)]
             for number, goal in enumerate(goals):
                 if number % _CHUNK == 0:
                     ready = path.envs(np.array(goals[number : number + _CHUNK]))
-                if not path.comes_to(goal, ready[number % _CHUNK]):
+                if not path.advance_to(goal, ready[number % _CHUNK]):
                     break
-                if crank and (number + 1) % looks == 0 and path.has_come_again():
+                if crank and (number + 1) % looks == 0 and path.is_closed():
                     closed = path.places[-1] - start
                     return _table(path, _Path(step, read, size, [start], [0j], [0.0]), closed)
             ways.append(path)
@@ -447,14 +469,14 @@ def follow(
 _CHUNK = 60  # positions that are read at once
 
 
-def _table(ahead: _Path, back: _Path, period: float = 0.0) -> Followed:
+def _table(forward: _Path, back: _Path, period: float = 0.0) -> TrackedAssembly:
     def joined(forth: list[float], before: list[float]) -> tuple[float, ...]:
         return (*before[:0:-1], *forth)
 
-    return Followed(
-        joined(ahead.places, back.places),
-        joined([b.real for b in ahead.origins], [b.real for b in back.origins]),
-        joined([b.imag for b in ahead.origins], [b.imag for b in back.origins]),
-        joined(ahead.turns, back.turns),
+    return TrackedAssembly(
+        joined(forward.places, back.places),
+        joined([b.real for b in forward.origins], [b.real for b in back.origins]),
+        joined([b.imag for b in forward.origins], [b.imag for b in back.origins]),
+        joined(forward.turns, back.turns),
         period,
     )

@@ -18,7 +18,7 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import PointName, Touch
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.plans.draft import Draft
-from planmethod.plans.motion.position import inner_point, lead_point, rpr_parts
+from planmethod.plans.motion.position import inner_point, outer_point, rpr_parts
 
 Reals = npt.NDArray[np.float64]
 Data = Callable[[Reals], dict[str, complex | float | Reals]]
@@ -26,7 +26,7 @@ Data = Callable[[Reals], dict[str, complex | float | Reals]]
 TOUCHING = 1e-9
 """Squared distance of two modes, relative to the group's size, at which they coincide."""
 
-LOOKS = 721
+SAMPLES = 721
 """Number of samples of the driver's range: every half degree of a turn."""
 
 _ROUNDS, _PARTS = 8, 32  # the interval between two samples is subdivided again and again
@@ -56,20 +56,20 @@ def changes(
         The driver goes round: every turn is sampled equally.
     """
 
-    def apart(positions: Reals) -> Reals:
+    def mode_distance(positions: Reals) -> Reals:
         with np.errstate(all="ignore"):
-            return _apart(draft, program, data(positions), group, positions)
+            return _mode_distance(draft, program, data(positions), group, positions)
 
-    count = (LOOKS - 1) * max(round((high - low) / 360.0), 1) + 1 if around else LOOKS
+    count = (SAMPLES - 1) * max(round((high - low) / 360.0), 1) + 1 if around else SAMPLES
     looks = np.linspace(low, high, count)
-    there = np.array([np.inf, *apart(looks), np.inf])
+    there = np.array([np.inf, *mode_distance(looks), np.inf])
     least = (there[1:-1] <= there[:-2]) & (there[1:-1] < there[2:])
     found = []
     for i in map(int, np.flatnonzero(least & (np.abs(there[1:-1]) < 0.1))):
         one, two = looks[max(i - 1, 0)], looks[min(i + 1, count - 1)]
         for _ in range(_ROUNDS):
             fine = np.linspace(one, two, _PARTS + 1)
-            here = apart(fine)
+            here = mode_distance(fine)
             k = int(np.nanargmin(here))
             one, two = fine[max(k - 1, 0)], fine[min(k + 1, _PARTS)]
         if abs(here[k]) <= TOUCHING:
@@ -77,7 +77,7 @@ def changes(
     return tuple(found)
 
 
-def _apart(
+def _mode_distance(
     draft: Draft,
     program: Program,
     data: dict[str, complex | float | Reals],
@@ -93,7 +93,7 @@ def _apart(
 
     if group.signature == "RPR":
         _, host, slider = rpr_parts(draft, group)
-        p, q = lead_point(host), lead_point(slider)
+        p, q = outer_point(host), outer_point(slider)
         feet = [step.out for step in program.steps if isinstance(step, Touch) and step.source == q]
         span = gap(p, q)
         found = trace.margin[feet[0]] if feet else (span / np.max(span)) ** 2
@@ -102,7 +102,7 @@ def _apart(
         found = trace.margin[PointName(c)]
         if group.signature == "RRR":
             # Of two equal arcs about one place it is the line of centres that has no direction.
-            p, q = (lead_point(lead) for lead in group.leads)
+            p, q = (outer_point(lead) for lead in group.legs)
             span = gap(p, q)
             found = np.where(span == 0, 0.0, found * (span / gap(p, c)) ** 2)
     return np.broadcast_to(np.asarray(found, dtype=float), positions.shape)

@@ -14,15 +14,15 @@ import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.errors import Fault, LayoutError, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
+from planmethod.solved.driver_path import DriverPath, without_corners
 from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.forces.loads import only_in_positions
-from planmethod.solved.forces.reading import FAINT_SHARE, require_dynamics
+from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION, require_dynamics
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.positions import impossible_steps
-from planmethod.solved.reading import Complexes, Reals, Remembering, remembered
+from planmethod.solved.reading import Complexes, Memoizing, Reals, memoized
 from planmethod.solved.solution import Solution
-from planmethod.solved.travel import Travel, without_corners
 
 STEP, LEAST = 1.0, 120
 """Step of the crank, degrees, and minimum number of steps: corners are invisible on the paper."""
@@ -61,7 +61,7 @@ class ReactionPeak(Struct, frozen=True):
     is_limit: bool
 
 
-class Cycle(Remembering):
+class Cycle(Memoizing):
     """Reactions and the balance over the driver's cycle (реакции за цикл).
 
     Parameters
@@ -83,7 +83,7 @@ class Cycle(Remembering):
         super().__init__()
         self.solution = solution
         turns = solution.turns
-        self.course = Travel(solution, step=STEP, least=LEAST, turns=turns)
+        self.course = DriverPath(solution, step=STEP, min_steps=LEAST, turns=turns)
         self.joints: list[JointForce] = statics_of(solution).reactions
         assert solution.problem.dynamics is not None
         self.smooth = not only_in_positions(solution.problem.dynamics)
@@ -91,11 +91,15 @@ class Cycle(Remembering):
             positions, rows, jumps = self._with_jumps(self.course.positions)
             found = without_corners(positions, rows, self._read, jumps)
         else:
-            found = self.course.drawn, self._asked(), np.zeros(len(self.course.drawn) - 1, bool)
+            found = (
+                self.course.drawn,
+                self._position_values(),
+                np.zeros(len(self.course.drawn) - 1, bool),
+            )
         self.positions, self._rows, self._jumps = found
 
-    def _asked(self) -> Rows:
-        """Return the values of the requested positions, in the order of `Travel.drawn`."""
+    def _position_values(self) -> Rows:
+        """Return the values of the requested positions, in the order of `DriverPath.drawn`."""
         s = self.solution
         order = np.unique(s.positions, return_index=True)[1]
         if self.course.closed:
@@ -106,7 +110,7 @@ class Cycle(Remembering):
 
     def _read(self, positions: Reals) -> Rows:
         """Return `_computed`, once for the solution at all scales: sheets try several of them."""
-        known = self.solution.origin.once(_rows)
+        known = self.solution.origin.compute_once(_rows)
         key = positions.tobytes()
         if key not in known:
             known[key] = self._computed(positions)
@@ -132,7 +136,7 @@ class Cycle(Remembering):
 
     def _solved(self, positions: Reals) -> Solution:
         s = self.solution
-        return s.moved(positions.tolist()).drawn_at(s.scales)
+        return s.with_positions(positions.tolist()).drawn_at(s.scales)
 
     # Jumps -----------------------------------------------------------------------------------
 
@@ -195,10 +199,10 @@ class Cycle(Remembering):
         near = self._jumps[max(k - 1, 0) : k + 1]
         return ReactionPeak(float(sizes[k]), float(self.positions[k]), bool(near.any()))
 
-    def is_nothing(self, number: int) -> bool:
+    def is_negligible(self, number: int) -> bool:
         """Return whether a reaction is negligible beside the largest one in all positions."""
         largest = float(self._peaks[0, 0])
-        return self.peak(number).size <= FAINT_SHARE * largest
+        return self.peak(number).size <= NEGLIGIBLE_FRACTION * largest
 
     def _pieces(self, row: Complexes) -> Iterator[Piece]:
         ends = np.flatnonzero(self._jumps) + 1
@@ -224,7 +228,7 @@ def _around(steps: Reals) -> Reals:
     return np.asarray(np.median(windows, axis=1), dtype=float)
 
 
-@remembered
+@memoized
 def cycle(solution: Solution) -> Cycle:
     """Return the forces over the cycle of a solution; cached, since several views show them.
 
@@ -243,7 +247,7 @@ def cycle(solution: Solution) -> Cycle:
         hint = (
             "Request single positions: --phi 40,50, or variants with other lengths of the actuator."
         )
-        fault = Fault("driver", say(what, "".join(ends), solution.problem.drive.link), hint)
+        fault = Fault("driver", translate(what, "".join(ends), solution.problem.drive.link), hint)
         raise ProblemError(solution.problem.name, [fault])
     if len(solution.positions) < 2:
         raise LayoutError(

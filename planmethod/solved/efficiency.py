@@ -7,18 +7,18 @@ from math import inf
 import numpy as np
 from msgspec import Struct
 
-from planmethod.solved.forces.friction import NOTHING, friction_of
+from planmethod.solved.forces.friction import ZERO_POWER_FRACTION, friction_of
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.positions import impossible_steps
-from planmethod.solved.reading import remembered
+from planmethod.solved.reading import memoized
 from planmethod.solved.solution import Solution
 
 COUNT = 360
 """Positions of a turn."""
 
 
-class TurnEfficiency(Struct, frozen=True):
+class CycleEfficiency(Struct, frozen=True):
     """Efficiency of a whole cycle (КПД за цикл), or why it has none.
 
     Attributes
@@ -36,8 +36,8 @@ class TurnEfficiency(Struct, frozen=True):
     locked: tuple[float, ...] = ()
 
 
-@remembered
-def turn_efficiency(solution: Solution, count: int = COUNT) -> TurnEfficiency | None:
+@memoized
+def cycle_efficiency(solution: Solution, count: int = COUNT) -> CycleEfficiency | None:
     """Return the efficiency of the cycle of a crank; None where it cannot be moved through one.
 
     Parameters
@@ -56,7 +56,7 @@ def turn_efficiency(solution: Solution, count: int = COUNT) -> TurnEfficiency | 
     turned = 360.0 * solution.turns
     whole = count * solution.turns
     grid = float(solution.positions[0]) + turned * (np.arange(whole) + 0.5) / whole
-    moved = solution.moved(grid.tolist())
+    moved = solution.with_positions(grid.tolist())
     if (impossible_steps(moved) >= 0).any() or not statics_of(moved).closes.all():
         return None
     found = friction_of(moved)
@@ -64,8 +64,8 @@ def turn_efficiency(solution: Solution, count: int = COUNT) -> TurnEfficiency | 
     ideal = float(found.without.power.sum() * step)
     if found.jammed.any():
         at = grid[found.jammed]
-        return TurnEfficiency(None, ideal, inf, (float(at[0]), float(at[-1])))
+        return CycleEfficiency(None, ideal, inf, (float(at[0]), float(at[-1])))
     real = float(found.converged.power.sum() * step)
-    if abs(ideal) <= NOTHING * float(found.scale.sum() * step):
-        return TurnEfficiency(None, ideal, real)
-    return TurnEfficiency(ideal / real if ideal > 0 else real / ideal, ideal, real)
+    if abs(ideal) <= ZERO_POWER_FRACTION * float(found.scale.sum() * step):
+        return CycleEfficiency(None, ideal, real)
+    return CycleEfficiency(ideal / real if ideal > 0 else real / ideal, ideal, real)

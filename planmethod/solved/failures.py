@@ -12,10 +12,10 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import AssemblyError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Coordinate, Problem
-from planmethod.problem.names import told_length
+from planmethod.problem.names import format_length
 from planmethod.solved.reading import Reals
 
 
@@ -31,7 +31,7 @@ class Place(Struct, frozen=True):
     coordinate : Coordinate
     unit : str
         Unit of the file's lengths.
-    alone : bool
+    is_only : bool
         No other position was requested: its number is not informative.
     """
 
@@ -39,7 +39,7 @@ class Place(Struct, frozen=True):
     value: float
     coordinate: Coordinate
     unit: str
-    alone: bool
+    is_only: bool
 
     @classmethod
     def of(cls, problem: Problem, positions: Reals, index: int) -> Place:
@@ -49,24 +49,24 @@ class Place(Struct, frozen=True):
 
     def numbered(self, number: int, count: int) -> Place:
         """Return the place with its index, from 0, among ``count`` positions."""
-        return replace(self, number=number, alone=count == 1)
+        return replace(self, number=number, is_only=count == 1)
 
     @property
     def driver(self) -> str:
         """Driver position as text: ``phi = 30 deg``."""
-        return self.coordinate.told(self.value, self.unit)
+        return self.coordinate.format_value(self.value, self.unit)
 
     def __str__(self) -> str:
-        if self.alone:
-            return say("the position {}", self.driver)
-        return say("position {} ({})", self.number, self.driver)
+        if self.is_only:
+            return translate("the position {}", self.driver)
+        return translate("position {} ({})", self.number, self.driver)
 
     @property
     def at(self) -> str:
         """Place as text for the end of a clause."""
-        if self.alone:
-            return say(" at {}", self.driver)
-        return say(" at position {} ({})", self.number, self.driver)
+        if self.is_only:
+            return translate(" at {}", self.driver)
+        return translate(" at position {} ({})", self.number, self.driver)
 
 
 class Cause(Enum):
@@ -152,7 +152,7 @@ class Cause(Enum):
         "Choose another position.",
         "",
     )
-    TOGETHER = (
+    COINCIDENT = (
         "{problem}: at {driver} both assemblies place {out} at one point: the mechanism is "
         "in a dead position, from which it may continue either way. Choose another "
         "position.",
@@ -216,11 +216,13 @@ class Evenly(Struct, frozen=True):
     turns: int
 
     def __str__(self) -> str:
-        told = (
+        text = (
             " With [cycle] zero = {0:g}, count = {1}, or with --phi {0:g}:{2:g}:{3:g}, no "
             "position is a dead position."
         )
-        return say(told, self.zero, self.count, self.zero + TURN * self.turns, TURN / self.count)
+        return translate(
+            text, self.zero, self.count, self.zero + TURN * self.turns, TURN / self.count
+        )
 
 
 class Failure(Struct, frozen=True):
@@ -234,7 +236,7 @@ class Failure(Struct, frozen=True):
         Points from which it should have been found.
     lengths : tuple of float
         Lengths in the sentence, m: radii, the distance of the centres, the missing length.
-    over_turn : tuple of float
+    over_cycle : tuple of float
         Largest missing length over a turn, m, and the crank's position there, degrees.
     reach : tuple of float
         Position in which an assembly was chosen, and its first and last position, degrees or m.
@@ -243,7 +245,7 @@ class Failure(Struct, frozen=True):
         Margin of the failed step.
     problem : str
         Name of the problem.
-    alike, others, count : int
+    same_count, other_count, count : int
         Numbers of other positions that fail for the same cause and for others, and of all
         positions.
     instead : Evenly or None
@@ -255,13 +257,13 @@ class Failure(Struct, frozen=True):
     out: str = ""
     points: tuple[str, ...] = ()
     lengths: tuple[float, ...] = ()
-    over_turn: tuple[float, ...] = ()
+    over_cycle: tuple[float, ...] = ()
     reach: tuple[float, ...] = ()
     plan: PlanKind = PlanKind.POSITION
     margin: float = 1.0
     problem: str = ""
-    alike: int = 0
-    others: int = 0
+    same_count: int = 0
+    other_count: int = 0
     count: int = 1
     instead: Evenly | None = None
 
@@ -272,18 +274,18 @@ class Failure(Struct, frozen=True):
     @property
     def general(self) -> str:
         """Sentence that holds for every position with this failure."""
-        return self._sentence("", say("this position"), whole=False)
+        return self._sentence("", translate("this position"), detailed=False)
 
     def __str__(self) -> str:
         more = "" if self.cause in _SPOILT else self._more()
         more += "" if self.instead is None else str(self.instead)
-        return self._sentence(self.place.at, str(self.place), whole=True) + more
+        return self._sentence(self.place.at, str(self.place), detailed=True) + more
 
     def _more(self) -> str:
-        text = same_at(self.alike, self.count)
-        return text + others_fail(self.others)
+        text = same_at(self.same_count, self.count)
+        return text + other_failures(self.other_count)
 
-    def _sentence(self, at: str, this: str, *, whole: bool) -> str:
+    def _sentence(self, at: str, this: str, *, detailed: bool) -> str:
         sentence, own = self.cause.value
         facts = {
             "at": at,
@@ -292,34 +294,36 @@ class Failure(Struct, frozen=True):
             "driver": self.place.driver,
             "out": self.out,
             "p": self.points,
-            "l": [told_length(length, self.place.unit) for length in self.lengths],
-            "plan": say(self.plan.value),
+            "l": [format_length(length, self.place.unit) for length in self.lengths],
+            "plan": translate(self.plan.value),
             "margin": self.margin,
             "problem": self.problem,
-            "turn": self._over_turn(),
-            "reach": [self.place.coordinate.told(at, self.place.unit, 6) for at in self.reach],
-            "more": say(" The same holds for {} other positions.", self.alike)
-            if whole and self.alike
+            "turn": self._over_cycle(),
+            "reach": [
+                self.place.coordinate.format_value(at, self.place.unit, 6) for at in self.reach
+            ],
+            "more": translate(" The same holds for {} other positions.", self.same_count)
+            if detailed and self.same_count
             else "",
         }
-        return say(sentence, **facts, own=say(own, **facts) if whole else "")
+        return translate(sentence, **facts, own=translate(own, **facts) if detailed else "")
 
-    def _over_turn(self) -> str:
-        if not self.over_turn:
+    def _over_cycle(self) -> str:
+        if not self.over_cycle:
             return ""
-        at = self.place.coordinate.told(self.over_turn[1], self.place.unit)
-        most = told_length(self.over_turn[0], self.place.unit)
-        return say(", by {} at most over a turn (at {})", most, at)
+        at = self.place.coordinate.format_value(self.over_cycle[1], self.place.unit)
+        most = format_length(self.over_cycle[0], self.place.unit)
+        return translate(", by {} at most over a turn (at {})", most, at)
 
 
-def others_fail(count: int) -> str:
+def other_failures(count: int) -> str:
     """Return that other positions fail for other causes, if any do."""
-    return say(" Other steps fail at {} positions.", count) if count else ""
+    return translate(" Other steps fail at {} positions.", count) if count else ""
 
 
-def same_at(alike: int, count: int) -> str:
+def same_at(same: int, count: int) -> str:
     """Return a sentence on the other positions with the same failure; empty if there are none."""
-    return say(" The same holds at {} more of {} positions.", alike, count) if alike else ""
+    return translate(" The same holds at {} more of {} positions.", same, count) if same else ""
 
 
 class PositionError(AssemblyError):
@@ -353,27 +357,29 @@ class Doubt(Struct, frozen=True):
 
     def __str__(self) -> str:
         nature = (
-            say("next to a dead position (margin {:.1e})", self.margin)
+            translate("next to a dead position (margin {:.1e})", self.margin)
             if self.near
-            else say("badly conditioned (its results depend on small differences of large values)")
+            else translate(
+                "badly conditioned (its results depend on small differences of large values)"
+            )
         )
-        told = "{} is {}: its results are accurate to about {:.0e} of the largest of their kind."
+        text = "{} is {}: its results are accurate to about {:.0e} of the largest of their kind."
         if self.forces:
-            told = (
+            text = (
                 "{} is {}: its reactions and the balancing force or moment are accurate to "
                 "about {:.0e} of the largest of their kind."
             )
-        return say(told, self.place, nature, self.bound)
+        return translate(text, self.place, nature, self.bound)
 
 
-class MoreDoubts(Struct, frozen=True):
+class OmittedWarnings(Struct, frozen=True):
     """Number of further doubtful positions, among all."""
 
     more: int
     count: int
 
     def __str__(self) -> str:
-        return say("{} more of {} positions are affected, less badly.", self.more, self.count)
+        return translate("{} more of {} positions are affected, less badly.", self.more, self.count)
 
 
 class Passed(Struct, frozen=True):
@@ -399,12 +405,13 @@ class Passed(Struct, frozen=True):
     parallel: bool = False
 
     def __str__(self) -> str:
-        places = say(" and ").join(
+        places = translate(" and ").join(
             dict.fromkeys(
-                self.coordinate.told(round(at, 4) + 0.0, self.unit, 10) for at in self.places
+                self.coordinate.format_value(round(at, 4) + 0.0, self.unit, 10)
+                for at in self.places
             )
         )
-        text = say(
+        text = translate(
             "links {} pass a change point at {}, from which the mechanism may continue "
             "either way: the side that was chosen in the first position is kept, so that "
             "one branch of the motion passes into another there.",
@@ -412,12 +419,12 @@ class Passed(Struct, frozen=True):
             places,
         )
         c = self.point
-        ways = [say('{} = {{ keep = "parallel" }} for the parallelogram', c)] * self.parallel
+        ways = [translate('{} = {{ keep = "parallel" }} for the parallelogram', c)] * self.parallel
         smooth = (
             '{} = {{ near = [x, y], keep = "continuous" }} for the motion that continues smoothly'
         )
-        ways += [say(smooth, c)]
-        return say("{} In [assembly] give {}.", text, ", ".join(ways)) if c else text
+        ways += [translate(smooth, c)]
+        return translate("{} In [assembly] give {}.", text, ", ".join(ways)) if c else text
 
 
 class Contradiction(Struct, frozen=True):
@@ -447,9 +454,9 @@ class Contradiction(Struct, frozen=True):
         return replace(self, place=self.place.numbered(number, count))
 
     def __str__(self) -> str:
-        told = (
+        text = (
             "{}: the {} of {} about {} on link {} is off by {:.3g} (largest value "
             "{:.3g}){}. This is an internal error of planmethod: please report it."
         )
-        facts = (self.problem, say(self.quantity), self.point, self.about, self.link)
-        return say(told, *facts, self.error, self.size, self.place.at)
+        facts = (self.problem, translate(self.quantity), self.point, self.about, self.link)
+        return translate(text, *facts, self.error, self.size, self.place.at)

@@ -12,7 +12,7 @@ from planmethod.construct import steps
 from planmethod.construct.evaluate import Trace, limit_of
 from planmethod.construct.program import Program
 from planmethod.construct.steps import LineName, NumberName, PointName, Step, operands
-from planmethod.plans.closing import Start
+from planmethod.plans.assembly_mode import Start
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import PlanKind
 from planmethod.solved.failures import Cause, Failure, Place
@@ -82,8 +82,8 @@ def explain(
             over_turn = np.nan_to_num(_misses(step, read_at(_TURN)), nan=-np.inf)
             k = int(np.argmax(over_turn))
             if over_turn[k] >= miss:  # or all of it lies between the degrees
-                found = replace(found, over_turn=(float(over_turn[k]), float(_TURN[k])))
-    return replace(found, alike=alike, others=bad.size - 1 - alike, count=len(positions))
+                found = replace(found, over_cycle=(float(over_turn[k]), float(_TURN[k])))
+    return replace(found, same_count=alike, other_count=bad.size - 1 - alike, count=len(positions))
 
 
 _TURN = np.arange(0.0, 360.0)  # where arcs are measured that do not meet, degrees
@@ -95,12 +95,12 @@ def _misses(step: Step, reading: Reading) -> Reals:
     NaN where a line has no direction or an earlier step found no point.
     """
     with np.errstate(invalid="ignore"):
-        if isinstance(step, steps.MeetLineCircle):
+        if isinstance(step, steps.IntersectLineCircle):
             start, along = reading.value[step.line]
             away = reading.point(step.centre) - start
             distance = np.abs((np.conj(along / np.abs(along)) * away).imag)
             return np.asarray(distance - reading.number(step.radius))
-        assert isinstance(step, steps.MeetCircles)
+        assert isinstance(step, steps.IntersectCircles)
         one, two = reading.number(step.radius1), reading.number(step.radius2)
         gap = np.abs(reading.point(step.centre2) - reading.point(step.centre1))
         return np.asarray(np.maximum(gap - one - two, np.abs(one - two) - gap))
@@ -139,27 +139,25 @@ def _failure(
         return Failure(Cause.FORCES, place)
     letter = draft.letters.get(PointName(step.out), str(step.out))
     match step:
-        case steps.MeetCircles(out, a, r, b, q, _):
+        case steps.IntersectCircles(out, a, r, b, q, _):
             gap, one, two = abs(point(b) - point(a)), real(r), real(q)
             cause = Cause.SAME_ARCS if gap == 0 and one == two else Cause.ARCS
             return Failure(cause, place, out, (a, b), (one, two, gap))
-        case steps.MeetLineCircle(out, _, a, r, _):
+        case steps.IntersectLineCircle(out, _, a, r, _):
             return Failure(Cause.ARC, place, out, (a,), (real(r),))
         case steps.Touch(_, a, r, b, _):
             return Failure(Cause.TANGENT, place, "", (a, b), (real(r), abs(point(b) - point(a))))
-        case steps.Hold():
+        case steps.TriadPose():
             start = draft.branches[step.start[2]]
             assert isinstance(start, Start)
             links, closing = next(
-                (links, one)
-                for links, one in draft.choice.items()
-                if one.followed is start.followed
+                (links, one) for links, one in draft.choice.items() if one.tracked is start.tracked
             )
-            reach = (closing.start, *(start.followed.places[k] for k in (0, -1)))
+            reach = (closing.start, *(start.tracked.places[k] for k in (0, -1)))
             return Failure(Cause.NOT_HELD, place, ", ".join(links), reach=reach)
-        case steps.MeetLines(out) if any(one.point == out for one in draft.special.values()):
+        case steps.IntersectLines(out) if any(one.point == out for one in draft.special.values()):
             return Failure(Cause.LEGS, place, out)
-        case steps.MeetLines():
+        case steps.IntersectLines():
             cause = Cause.GUIDES if plan is PlanKind.POSITION else Cause.RAYS
             return Failure(cause, place, letter, plan=plan)
         case steps.Similar(_, _, _, _, one, two):

@@ -11,7 +11,7 @@ from msgspec import Struct
 from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName
 from planmethod.errors import PlanMethodError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.plans.build import Construction
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import TRANSFERS, Quantity, QuantityKind
@@ -70,8 +70,8 @@ class Quantities(Struct, frozen=True):
 
     def find(self, label: str) -> Sequence[Quantity]:
         """Return the results of a label or a column name; none if it is unknown."""
-        if label in WHOLE:
-            return [result for result in self.all if result.kind in WHOLE[label]]
+        if label in QUANTITY_GROUPS:
+            return [result for result in self.all if result.kind in QUANTITY_GROUPS[label]]
         found = [result for result in self.all if result.label == label]
         return found or [result for result in self.all if label in result.columns]
 
@@ -79,13 +79,13 @@ class Quantities(Struct, frozen=True):
         found = self.find(label)
         if not found:
             known = [result.label for result in self.all]
-            known += [word for word in WHOLE if self.find(word)]
+            known += [word for word in QUANTITY_GROUPS if self.find(word)]
             # For a reaction, the opposite one is meant before any other with the same spelling.
             near = [result.label for result in self.all if result.opposite == label]
             from difflib import get_close_matches
 
             near = near or get_close_matches(label, known, 1)
-            hint = say("; did you mean {!r}?", near[0]) if near else "."
+            hint = translate("; did you mean {!r}?", near[0]) if near else "."
             raise UnknownQuantityError("no result {!r}{} Known: {}.", label, hint, ", ".join(known))
         return found
 
@@ -106,7 +106,7 @@ def natural_size(kind: QuantityKind, largest: Mapping[QuantityKind, Any]) -> Any
     return largest[kind]
 
 
-WHOLE = {
+QUANTITY_GROUPS = {
     "positions": (QuantityKind.PLACE, QuantityKind.DIRECTION),
     "velocities": (QuantityKind.VELOCITY, QuantityKind.OMEGA, QuantityKind.SLIDING),
     "accelerations": (QuantityKind.ACCELERATION, QuantityKind.EPSILON),

@@ -11,15 +11,15 @@ import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Arithmetic, Number
-from planmethod.construct.evaluate import Trace, go_on
+from planmethod.construct.evaluate import Trace, extend_trace
 from planmethod.construct.steps import LineName, Name, PointName, Step
 
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
-Made = TypeVar("Made")
-Asked = ParamSpec("Asked")
-Memory = TypeVar("Memory", bound="Remembering")
+Result = TypeVar("Result")
+Arguments = ParamSpec("Arguments")
+Memory = TypeVar("Memory", bound="Memoizing")
 
 
 Column = TypeVar("Column", bound=npt.NDArray[Any])
@@ -68,7 +68,7 @@ class Reading(Struct, frozen=True):
         """Return a segment as a vector, ndarray of shape (n,)."""
         return np.asarray(self.point(head) - self.point(tail), dtype=complex)
 
-    def course(self, line: LineName) -> Complexes:
+    def line_vector(self, line: LineName) -> Complexes:
         """Return a vector along a line, ndarray of shape (n,)."""
         along = np.asarray(self.value[line][1], dtype=complex)
         return np.broadcast_to(along, (self.count,))
@@ -91,18 +91,18 @@ class Reading(Struct, frozen=True):
         value, margin = _Part(trace.value, chosen), _Part(trace.margin, chosen)
         return Reading(Trace(value, margin), len(range(self.count)[chosen]))
 
-    def go_on(
+    def extend(
         self, steps: Iterable[Step], data: Mapping[str, Number], arithmetic: Arithmetic
     ) -> Reading:
         """Return a reading with further steps, read in the same arithmetic."""
-        return Reading(go_on(self.trace, steps, data, arithmetic), self.count)
+        return Reading(extend_trace(self.trace, steps, data, arithmetic), self.count)
 
 
 class _Part(Mapping[Name, Number]):
     """Values of some of the positions, cut out on request."""
 
-    def __init__(self, whole: Mapping[Name, Number], chosen: slice) -> None:
-        self._whole, self._chosen = whole, chosen
+    def __init__(self, values: Mapping[Name, Number], chosen: slice) -> None:
+        self._whole, self._chosen = values, chosen
         self._known: dict[Name, Number] = {}
 
     def __getitem__(self, name: Name) -> Number:
@@ -124,7 +124,7 @@ def _part(value: Number, chosen: slice) -> Number:
     return value[chosen] if np.ndim(value) else value
 
 
-class Remembering:
+class Memoizing:
     """Mixin that memoizes derived results for each instance (память результатов)."""
 
     def __init__(self) -> None:
@@ -134,22 +134,24 @@ class Remembering:
         """Return the state for another process: memoized results are computed again there."""
         return vars(self) | {"_worked_out": {}}
 
-    def once(self, work_out: Callable[..., Made], *arguments: Any, **named: Any) -> Made:
+    def compute_once(
+        self, function: Callable[..., Result], *arguments: Any, **named: Any
+    ) -> Result:
         """Return the result of a function of this object, computed at the first call."""
-        key = (work_out, arguments, *named.items())
+        key = (function, arguments, *named.items())
         if key not in self._worked_out:
-            self._worked_out[key] = work_out(self, *arguments, **named)
-        made: Made = self._worked_out[key]
+            self._worked_out[key] = function(self, *arguments, **named)
+        made: Result = self._worked_out[key]
         return made
 
 
-def remembered(
-    work_out: Callable[Concatenate[Memory, Asked], Made],
-) -> Callable[Concatenate[Memory, Asked], Made]:
+def memoized(
+    function: Callable[Concatenate[Memory, Arguments], Result],
+) -> Callable[Concatenate[Memory, Arguments], Result]:
     """Memoize a function's result on its first argument, for the lifetime of that object."""
 
-    @wraps(work_out)
-    def remember(of: Memory, /, *arguments: Asked.args, **named: Asked.kwargs) -> Made:
-        return of.once(work_out, *arguments, **named)
+    @wraps(function)
+    def remember(of: Memory, /, *arguments: Arguments.args, **named: Arguments.kwargs) -> Result:
+        return of.compute_once(function, *arguments, **named)
 
     return remember

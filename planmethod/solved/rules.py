@@ -14,16 +14,16 @@ from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import Prismatic, Revolute
 from planmethod.plans.draft import Draft, cis
 from planmethod.plans.motion.position import (
-    lead_point,
+    outer_point,
     parallelogram,
 )
-from planmethod.problem.model import Problem, Rule, Where
-from planmethod.problem.names import told_length, told_place
+from planmethod.problem.model import AssemblyRelation, Problem, Rule
+from planmethod.problem.names import format_length, format_place
 from planmethod.solved.reading import Complexes, Reading, Reals
 
 Tried: TypeAlias = tuple[Draft, Reading]
@@ -40,9 +40,9 @@ def late_fault(rule: Rule, draft: Draft) -> Fault | None:
         return None
     return Fault(
         f"assembly.{rule.point}",
-        say(
+        translate(
             "{} is placed after {}, so it cannot determine its place",
-            say(" and ").join(missing),
+            translate(" and ").join(missing),
             rule.point,
         ),
         "Compare with a fixed point or with one that an earlier group places",
@@ -55,33 +55,33 @@ def unkept_fault(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | Non
     if rule.continuous and group.signature == "RPR":
         return Fault(
             path,
-            say("links {} close by a slotted link, which keeps its side", links),
+            translate("links {} close by a slotted link, which keeps its side", links),
             'Leave keep = "continuous" out',
         )
-    if rule.where is not Where.PARALLEL:
+    if rule.relation is not AssemblyRelation.PARALLEL:
         return None
     found = parallelogram(problem, group) if group.signature == "RRR" else None
     if found is None:
         return Fault(
             path,
-            say("links {} are not two sides of a quadrilateral of four joints", links),
+            translate("links {} are not two sides of a quadrilateral of four joints", links),
             'Leave keep = "parallel" out, and give a rule for the assembly that is meant',
         )
     if found.is_one:
         return None
-    said = "; ".join(
-        say(
+    phrase = "; ".join(
+        translate(
             "{} = {} and {} = {}",
             one,
-            told_length(a, problem.unit, 10),
+            format_length(a, problem.unit, 10),
             two,
-            told_length(b, problem.unit, 10),
+            format_length(b, problem.unit, 10),
         )
         for (one, a), (two, b) in (found.sides[:2], found.sides[2:])
     )
     return Fault(
         path,
-        say("the opposite sides of a parallelogram are equal, but here {}", said),
+        translate("the opposite sides of a parallelogram are equal, but here {}", phrase),
         'Correct the lengths, or give keep = "continuous" with a rule for the '
         "assembly that is meant",
     )
@@ -94,26 +94,26 @@ def score_of(rule: Rule, draft: Draft, reading: Reading) -> Reals:
         return reading.point(PointName(name))
 
     p = at(rule.point)
-    match rule.where:
-        case Where.RIGHT:
+    match rule.relation:
+        case AssemblyRelation.RIGHT:
             return np.asarray((p - at(rule.refs[0])).real)
-        case Where.LEFT:
+        case AssemblyRelation.LEFT:
             return np.asarray((at(rule.refs[0]) - p).real)
-        case Where.ABOVE:
+        case AssemblyRelation.ABOVE:
             return np.asarray((p - at(rule.refs[0])).imag)
-        case Where.BELOW:
+        case AssemblyRelation.BELOW:
             return np.asarray((at(rule.refs[0]) - p).imag)
-        case Where.LEFT_OF | Where.RIGHT_OF:
+        case AssemblyRelation.LEFT_OF | AssemblyRelation.RIGHT_OF:
             start, end = at(rule.refs[0]), at(rule.refs[1])
             left = ((end - start).conjugate() * (p - start)).imag / abs(end - start)
-            return np.asarray(left if rule.where is Where.LEFT_OF else -left)
-        case Where.TOWARDS | Where.AWAY:
+            return np.asarray(left if rule.relation is AssemblyRelation.LEFT_OF else -left)
+        case AssemblyRelation.TOWARDS | AssemblyRelation.AWAY:
             end, start = at(rule.refs[0]), at(rule.refs[1])
             ahead = ((end - start).conjugate() * (p - start)).real / abs(end - start)
-            return np.asarray(ahead if rule.where is Where.TOWARDS else -ahead)
-        case Where.NEAR:
+            return np.asarray(ahead if rule.relation is AssemblyRelation.TOWARDS else -ahead)
+        case AssemblyRelation.NEAR:
             return np.asarray(-abs(p - (rule.at - draft.origin)))
-        case Where.PARALLEL:
+        case AssemblyRelation.PARALLEL:
             return np.full(np.shape(p), np.nan)  # which of the sides it is changes with the crank
         case _:
             assert_never(rule.where)
@@ -121,46 +121,46 @@ def score_of(rule: Rule, draft: Draft, reading: Reading) -> Reals:
 
 def rule_text(rule: Rule, unit: str) -> str:
     """Return a rule in the words of the file: ``C right of B``, ``C left of AD``."""
-    match rule.where:
-        case Where.NEAR:
-            return say("{} near [{}]", rule.point, told_place(rule.at, unit))
-        case Where.PARALLEL:
-            return say("{} keep parallel", rule.point)
-        case Where.TOWARDS | Where.AWAY:
-            return f"{rule.point} {rule.where.value} {rule.refs[0]}"
-        case Where.ABOVE | Where.BELOW:
-            words = rule.where.value
+    match rule.relation:
+        case AssemblyRelation.NEAR:
+            return translate("{} near [{}]", rule.point, format_place(rule.at, unit))
+        case AssemblyRelation.PARALLEL:
+            return translate("{} keep parallel", rule.point)
+        case AssemblyRelation.TOWARDS | AssemblyRelation.AWAY:
+            return f"{rule.point} {rule.relation.value} {rule.refs[0]}"
+        case AssemblyRelation.ABOVE | AssemblyRelation.BELOW:
+            words = rule.relation.value
         case _:
-            words = f"{rule.where.value.removesuffix(' of')} of"
+            words = f"{rule.relation.value.removesuffix(' of')} of"
     return f"{rule.point} {words} {''.join(rule.refs)}"
 
 
-def ambiguous_fault(rule: Rule, both: list[Tried], index: int, where: str) -> Fault:
+def ambiguous_fault(rule: Rule, both: list[Tried], index: int, location: str) -> Fault:
     """Return the fault of a rule that both modes satisfy, with rules that distinguish them."""
     draft = both[0][0]
     unit = draft.problem.unit
     places = [
-        told_place(complex(reading.point(PointName(rule.point))[index]) + draft.origin, unit)
+        format_place(complex(reading.point(PointName(rule.point))[index]) + draft.origin, unit)
         for _, reading in both
     ]
-    told = telling_rules(rule.point, both, slice(index, index + 1))
+    told = distinguishing_rules(rule.point, both, slice(index, index + 1))
     words = told or [f"{{ near = [{place}] }}" for place in places]
     return Fault(
         f"assembly.{rule.point}",
-        say(
+        translate(
             "'{}' holds for both assemblies at {}: with {} at ({}) and at ({}) {}",
             rule_text(rule, unit),
-            where,
+            location,
             rule.point,
             *places,
-            say(unit),
+            translate(unit),
         ),
-        say("Give '{}' for the first or '{}' for the second", words[0], words[1]),
+        translate("Give '{}' for the first or '{}' for the second", words[0], words[1]),
         tuple(told),
     )
 
 
-def telling_rules(point: str, both: list[Tried], asked: slice) -> list[str]:
+def distinguishing_rules(point: str, both: list[Tried], rows: slice) -> list[str]:
     """Return the rules, one for each mode, that separate them most in the given positions.
 
     Empty if there is none, with a point that does not depend on the mode or a line through two such
@@ -168,9 +168,9 @@ def telling_rules(point: str, both: list[Tried], asked: slice) -> list[str]:
     """
 
     def at(reading: Reading, name: str) -> Complexes:
-        return reading.point(PointName(name))[asked]
+        return reading.point(PointName(name))[rows]
 
-    def least(first: Complexes, second: Complexes) -> float:
+    def smallest(first: Complexes, second: Complexes) -> float:
         sides = np.minimum(first.real, second.real)
         return float(np.nanmin(sides)) if np.isfinite(sides).any() else 0.0
 
@@ -187,7 +187,7 @@ def telling_rules(point: str, both: list[Tried], asked: slice) -> list[str]:
         for p in still
         for first, second, turn in ways
         for more, less, sign in ((first, second, turn), (second, first, -turn))
-        if (width := least((c - at(one, p)) * sign, (at(one, p) - d) * sign)) > 0
+        if (width := smallest((c - at(one, p)) * sign, (at(one, p) - d) * sign)) > 0
     ]
     # No point is between them: a line through two points may be.
     told = told or [
@@ -195,14 +195,14 @@ def telling_rules(point: str, both: list[Tried], asked: slice) -> list[str]:
         for p in still
         for q in still
         if (along := at(one, q) - at(one, p)).all()
-        and (width := least((c - at(one, p)) / along / 1j, (at(one, p) - d) / along / 1j)) > 0
+        and (width := smallest((c - at(one, p)) / along / 1j, (at(one, p) - d) / along / 1j)) > 0
     ]
     return list(max(told, key=lambda pair: pair[0])[1:]) if told else []
 
 
 def _outer(problem: Problem, group: AssurGroup, point: str) -> str | None:
     """Return the outer joint of a group on the link that a point belongs to."""
-    for lead in group.leads:
+    for lead in group.legs:
         if isinstance(lead.joint, Revolute) and point in problem.bodies[lead.link].points:
             return lead.joint.point
     return None
@@ -210,13 +210,15 @@ def _outer(problem: Problem, group: AssurGroup, point: str) -> str | None:
 
 def from_joint(problem: Problem, group: AssurGroup, rule: Rule) -> Rule:
     """Return a rule of direction from a joint with that joint added after its points."""
-    if rule.where not in (Where.TOWARDS, Where.AWAY):
+    if rule.relation not in (AssemblyRelation.TOWARDS, AssemblyRelation.AWAY):
         return rule
     joint = _outer(problem, group, rule.point)
     if joint is None or joint in (rule.point, *rule.refs):
         hint = "Compare with another point: right of, left of, above, below"
-        said = rule_text(rule, problem.unit)
-        message = say("'{}': the direction from the joint {} is not defined", said, joint or "")
+        phrase = rule_text(rule, problem.unit)
+        message = translate(
+            "'{}': the direction from the joint {} is not defined", phrase, joint or ""
+        )
         raise ProblemError(problem.name, [Fault(f"assembly.{rule.point}", message, hint)])
     return replace(rule, refs=(*rule.refs, joint))
 
@@ -230,7 +232,7 @@ def slotted_rule(problem: Problem, group: AssurGroup) -> Rule | None:
     inner = group.inner[0]
     assert isinstance(inner, Prismatic)
     slide = problem.slides[inner.slider]
-    ends = {lead.link: lead_point(lead) for lead in group.leads}
+    ends = {lead.link: outer_point(lead) for lead in group.legs}
     host = problem.bodies[slide.host].points
     runs_on = ((slide.base - host[ends[slide.host]]) / cis(slide.angle)).real >= 0.0
     for link, other in ((slide.host, slide.slider), (slide.slider, slide.host)):
@@ -238,5 +240,5 @@ def slotted_rule(problem: Problem, group: AssurGroup) -> Rule | None:
         if runs_on and (link == slide.host or len(host) > 1):
             continue
         for point in (point for point, at in body.items() if at != body[joint]):
-            return Rule(point, Where.TOWARDS, (ends[other], joint))
+            return Rule(point, AssemblyRelation.TOWARDS, (ends[other], joint))
     return None

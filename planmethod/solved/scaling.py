@@ -13,14 +13,14 @@ from msgspec.structs import replace
 from planmethod.construct.scale import Scale, choose_scale, next_scale
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.paper import FORMATS, TRIED, paper_format
+from planmethod.paper import DEFAULT_SERIES, FORMATS, paper_format
 from planmethod.plans.build import Construction
 from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.problem.model import Problem, Scales
-from planmethod.solved.crowd import is_crowded
-from planmethod.solved.enlarging import AROUND, NAMED, times_beside
+from planmethod.solved.detail_views import AROUND, NAMED, enlargement_of
+from planmethod.solved.label_density import is_too_dense
 from planmethod.solved.reading import Reading, Reals
-from planmethod.solved.room import FEW, Box, Texts, Ways, has_room
+from planmethod.solved.sheet_estimate import FEW, BlockSizes, Box, Texts, fits_format
 
 
 class Views(Struct, frozen=True):
@@ -36,7 +36,7 @@ class Views(Struct, frozen=True):
         Box of each kind; for many positions the space of all its plans on a sheet, in rows.
     many : bool
         There are several positions.
-    kept : frozenset of PlanKind
+    fixed : frozenset of PlanKind
         Kinds whose box, given by a composition, is that of each single plan and is kept exactly.
     """
 
@@ -45,7 +45,7 @@ class Views(Struct, frozen=True):
     velocity: Box
     acceleration: Box
     many: bool = False
-    kept: frozenset[PlanKind] = frozenset()
+    fixed: frozenset[PlanKind] = frozenset()
 
     def box(self, kind: PlanKind) -> Box:
         """Return the space of a kind, mm."""
@@ -54,7 +54,7 @@ class Views(Struct, frozen=True):
 
     def in_rows(self, kind: PlanKind) -> bool:
         """Return whether the space of a kind is that of many plans."""
-        return self.many and kind is not PlanKind.POSITION and kind not in self.kept
+        return self.many and kind is not PlanKind.POSITION and kind not in self.fixed
 
     def plan_box(self, kind: PlanKind, count: int) -> Box:
         """Return the space of one of ``count`` plans, mm."""
@@ -65,9 +65,9 @@ class Views(Struct, frozen=True):
         return width / min(count, per_row(count)) - BESIDE, height / rows - UNDER
 
     @classmethod
-    def alone(cls, box: Box) -> Views:
+    def for_scheme(cls, box: Box) -> Views:
         """Return the space of a scheme that is drawn without a sheet around it."""
-        return cls("", box, box, box, kept=frozenset(MOTION))
+        return cls("", box, box, box, fixed=frozenset(MOTION))
 
     @classmethod
     def for_paper(cls, paper: str, positions: int) -> Views:
@@ -117,7 +117,7 @@ ROWS = 2
 BESIDE, UNDER = 24.0, 22.0
 """Space of a plan's letters beside it, and with its caption under it, mm."""
 
-SAID = 5.5
+SCALE_CAPTION = 5.5
 """Space of a plan's own scale under it, mm."""
 
 ALL = 10.0
@@ -140,10 +140,10 @@ SPARE = 0.93
 """Ratio of the estimate to the height of the paper allowed at a finer scale of many positions: the
 table of measured values is higher than the estimated one. For one and for few it may be 1."""
 
-WHOLE = 1.0
+MAX_SCHEME_FRACTION = 1.0
 """The same ratio for a scheme whose letters would otherwise be thinned out."""
 
-CROWDED = 1.5
+MANY_SCHEME_WIDTH = 1.5
 """Factor by which the scheme of many positions should be wider, for clarity."""
 
 PLAN = 60.0
@@ -163,14 +163,14 @@ DEAD = 40.0
 """Ratio of a plan to the median one above which it is nearly in a dead position: at a common scale
 all others would be negligible, enlarged or not."""
 
-LEAST = 9.0
+MIN_PLAN = 9.0
 """Minimum larger side of the median of many plans that must not be sacrificed for space, mm."""
 
 OUTLIER = 5.0
 """Ratio of a plan to the median one above which it is ignored in the choice of the paper: it is
 near a dead position. It still fits on the paper."""
 
-MOST_DRAWN = 120
+MAX_DRAWN = 120
 """Maximum number of positions drawn in one call: ten sheets of a dozen."""
 
 RAGGED = 1.15
@@ -185,7 +185,7 @@ def per_row(count: int) -> int:
     return count if count <= FEW else 6
 
 
-def even_columns(wide: Sequence[float] | Reals, step: int) -> list[float]:
+def column_widths(wide: Sequence[float] | Reals, step: int) -> list[float]:
     """Return the widths of columns for plans in rows of ``step``, mm.
 
     Empty if one large plan would widen the column of many small ones: then rows are not aligned.
@@ -196,7 +196,7 @@ def even_columns(wide: Sequence[float] | Reals, step: int) -> list[float]:
 
 def row_width(wide: Sequence[float] | Reals, step: int) -> float:
     """Return the width of rows of ``step`` plans, mm."""
-    return (sum(even_columns(wide, step)) or _widest_row(wide, step)) + BETWEEN * (step - 1)
+    return (sum(column_widths(wide, step)) or _widest_row(wide, step)) + BETWEEN * (step - 1)
 
 
 def _widest_row(wide: Sequence[float] | Reals, step: int) -> float:
@@ -242,7 +242,7 @@ def sizes(construction: Construction, si: Reading, kind: PlanKind) -> tuple[Real
     return _spread(si, ends) if ends else (np.zeros(si.count), np.zeros(si.count))
 
 
-def least_plan(construction: Construction, si: Reading, kind: PlanKind) -> float:
+def smallest_plan(construction: Construction, si: Reading, kind: PlanKind) -> float:
     """Return the larger side of the smallest plan of a kind in all positions, in its unit."""
     return float(np.maximum(*sizes(construction, si, kind)).min())
 
@@ -290,11 +290,11 @@ class Extents:
         self.construction, self.si = construction, si
         self._chosen: dict[tuple[Views, Scales], _Chosen] = {}
 
-    def part(self, construction: Construction, si: Reading, own: slice) -> Extents:
+    def part(self, construction: Construction, si: Reading, rows: slice) -> Extents:
         """Return how large one of many variants is, whose positions are some of these."""
         found = Extents(construction, si)
         whole = self.plans
-        found.plans = {kind: (wide[own], high[own]) for kind, (wide, high) in whole.items()}
+        found.plans = {kind: (wide[rows], high[rows]) for kind, (wide, high) in whole.items()}
         found.texts = self.texts
         return found
 
@@ -319,11 +319,11 @@ class Extents:
         """Contents of the texts of a sheet."""
         return Texts.of(self.construction)
 
-    def chosen(self, views: Views, asked: Scales) -> _Chosen:
+    def chosen(self, views: Views, scales: Scales) -> _Chosen:
         """Return the scales that fill the views."""
-        key = views, asked
+        key = views, scales
         if key not in self._chosen:
-            self._chosen[key] = _Chosen.of(self, views, asked)
+            self._chosen[key] = _Chosen.of(self, views, scales)
         return self._chosen[key]
 
 
@@ -342,15 +342,15 @@ def choose_views(extents: Extents, problem: Problem) -> Views:
     paper, count = problem.sheet.paper, extents.si.count
     if paper:
         return Views.for_paper(paper, count)
-    for name in TRIED[:-1] if count <= FEW else ():
+    for name in DEFAULT_SERIES[:-1] if count <= FEW else ():
         views = Views.for_paper(name, count)
         chosen = extents.chosen(views, problem.scales)
-        if chosen.has_room() and chosen.is_large():
+        if chosen.fits_paper() and chosen.is_large():
             return views
-    return Views.for_paper(TRIED[-1], count)
+    return Views.for_paper(DEFAULT_SERIES[-1], count)
 
 
-def decide(extents: Extents, problem: Problem, *, moved: bool) -> tuple[Views, Scales]:
+def decide(extents: Extents, problem: Problem, *, other_positions: bool) -> tuple[Views, Scales]:
     """Return the space and the given scales for all outputs of some positions.
 
     The file's scales hold for its own positions. For others a plan's scale may be too fine for the
@@ -358,21 +358,21 @@ def decide(extents: Extents, problem: Problem, *, moved: bool) -> tuple[Views, S
     """
     given, count = problem.scales, extents.si.count
     views = choose_views(extents, problem)
-    if moved and given != given.freed and count <= MOST_DRAWN:
+    if other_positions and given != given.freed and count <= MAX_DRAWN:
         over = CLOSE if count > FEW else 1.0
-        if not extents.chosen(views, given).has_room(over):
+        if not extents.chosen(views, given).fits_paper(over):
             problem = replace(problem, scales=given.freed)
             views = choose_views(extents, problem)
     return views, problem.scales
 
 
-def choose_scales(extents: Extents, views: Views, asked: Scales) -> dict[PlanKind, Scale]:
+def choose_scales(extents: Extents, views: Views, scales: Scales) -> dict[PlanKind, Scale]:
     """Return the scale of each plan: the given one, else one that fills the views.
 
     First each view fills its own space; then the scales become finer as long as all views fit on
     the paper. Space that one does not need another takes.
     """
-    chosen = extents.chosen(views, asked).per_mm
+    chosen = extents.chosen(views, scales).per_mm
     return {kind: Scale(FACTS[kind].scale, chosen[kind], FACTS[kind].unit) for kind in MOTION}
 
 
@@ -385,65 +385,65 @@ class _Chosen(Struct, frozen=True):
     free: tuple[PlanKind, ...]
 
     @classmethod
-    def of(cls, extents: Extents, views: Views, asked: Scales) -> _Chosen:
+    def of(cls, extents: Extents, views: Views, scales: Scales) -> _Chosen:
         """Choose the scales that are free."""
-        drawn = {kind: _Drawn(extents, views, asked, kind) for kind in MOTION}
-        given = {kind: getattr(asked, FACTS[kind].scale) for kind in MOTION}
+        drawn = {kind: _Drawn(extents, views, scales, kind) for kind in MOTION}
+        given = {kind: getattr(scales, FACTS[kind].scale) for kind in MOTION}
         free = [
             kind
             for kind in MOTION
-            if given[kind] is None and any(drawn[kind].size) and not drawn[kind].own_only
+            if given[kind] is None and any(drawn[kind].size) and not drawn[kind].has_plan_scales
         ]
-        per_mm = {kind: given[kind] or drawn[kind].alone for kind in MOTION}
-        own = cls(drawn, views, per_mm, tuple(kind for kind in free if kind not in views.kept))
-        return own._filled(asked) if views.paper else own
+        per_mm = {kind: given[kind] or drawn[kind].finest_scale for kind in MOTION}
+        own = cls(drawn, views, per_mm, tuple(kind for kind in free if kind not in views.fixed))
+        return own._filled(scales) if views.paper else own
 
-    def _filled(self, asked: Scales) -> _Chosen:
+    def _filled(self, scales: Scales) -> _Chosen:
         """Return coarser scales until all views fit, then finer ones as long as they fit."""
         found, free = replace(self, per_mm=dict(self.per_mm)), list(self.free)
         now, least = found.per_mm, {kind: COARSER * self.per_mm[kind] for kind in free}
 
-        def share(kind: PlanKind) -> float:
-            return self.drawn[kind].share(now[kind])
+        def fill_ratio(kind: PlanKind) -> float:
+            return self.drawn[kind].fill_ratio(now[kind])
 
         many = self.drawn[PlanKind.POSITION].si.count > FEW
         close, spare = (CLOSE, SPARE) if many else (1.0, 1.0)
-        while free and not found.has_room(close):
-            bears = [k for k in free if _next(now[k], asked, finer=False) <= least[k]]
+        while free and not found.fits_paper(close):
+            bears = [k for k in free if _next(now[k], scales, finer=False) <= least[k]]
             if not bears:
                 return self  # the sheet continues with texts, or takes a larger paper
-            coarser = {kind: _next(now[kind], asked, finer=False) for kind in bears}
+            coarser = {kind: _next(now[kind], scales, finer=False) for kind in bears}
             large = max(bears, key=lambda kind: self._large(kind, coarser[kind]))
             now[large] = coarser[large]
         while free:
-            small = min(free, key=share)
-            before, now[small] = now[small], _next(now[small], asked, finer=True)
-            if not (self.drawn[small].stretches(now[small]) and found.has_room(spare)):
+            small = min(free, key=fill_ratio)
+            before, now[small] = now[small], _next(now[small], scales, finer=True)
+            if not (self.drawn[small].stretches(now[small]) and found.fits_paper(spare)):
                 now[small] = before
                 free.remove(small)
-        return found._with_legible_scheme(asked) if many else found
+        return found._with_legible_scheme(scales) if many else found
 
-    def _with_legible_scheme(self, asked: Scales) -> _Chosen:
+    def _with_legible_scheme(self, scales: Scales) -> _Chosen:
         """Return a scheme of many positions finer while its letters are too many for its area.
 
         It takes the spare space; the texts get smaller letters for it.
         """
         kind, found = PlanKind.POSITION, self
         one = self.drawn[kind]
-        while kind in self.free and one.is_crowded(found.per_mm[kind]):
-            finer = _next(found.per_mm[kind], asked, finer=True)
+        while kind in self.free and one.is_too_dense(found.per_mm[kind]):
+            finer = _next(found.per_mm[kind], scales, finer=True)
             larger = replace(found, per_mm={**found.per_mm, kind: finer})
-            if not (one.stretches(finer) and larger.has_room(WHOLE)):
+            if not (one.stretches(finer) and larger.fits_paper(MAX_SCHEME_FRACTION)):
                 break
             found = larger
         return found
 
-    def has_room(self, over: float = 1.0) -> bool:
+    def fits_paper(self, over: float = 1.0) -> bool:
         """Return whether the views, with their texts, fit on the paper."""
         one = self.drawn[PlanKind.POSITION]
         texts = one.extents.texts.blocks(paper_format(self.views.paper), one.si.count)
-        boxes = [self.drawn[kind].ways(self.per_mm[kind]) for kind in MOTION]
-        return has_room(paper_format(self.views.paper), texts, boxes, one.si.count, over)
+        boxes = [self.drawn[kind].size_alternatives(self.per_mm[kind]) for kind in MOTION]
+        return fits_format(paper_format(self.views.paper), texts, boxes, one.si.count, over)
 
     def is_large(self) -> bool:
         """Return whether scheme and plans have their intended sizes on the paper.
@@ -469,7 +469,7 @@ class _Chosen(Struct, frozen=True):
         """Return the ratio of a view's size at a scale to its intended size."""
         scheme = SCHEME[AS_HIGH.get(self.views.paper, self.views.paper)]
         if self.drawn[kind].si.count > FEW:
-            scheme *= CROWDED
+            scheme *= MANY_SCHEME_WIDTH
         wanted = scheme if kind is PlanKind.POSITION else PLAN
         return max(self.drawn[kind].size) / (wanted * per_mm)
 
@@ -479,7 +479,7 @@ class _Drawn(Struct, frozen=True, dict=True):
 
     extents: Extents
     views: Views
-    asked: Scales
+    scales: Scales
     kind: PlanKind
 
     @property
@@ -500,7 +500,7 @@ class _Drawn(Struct, frozen=True, dict=True):
     @property
     def largest(self) -> Box:
         """Width and height of the largest at the common scale, outliers too."""
-        common = np.isnan(self.own) if self.kind is not PlanKind.POSITION else True
+        common = np.isnan(self.plan_scales) if self.kind is not PlanKind.POSITION else True
         width, height = (np.where(common, size, 0.0) for size in self.sizes)
         return float(width.max()), float(height.max())
 
@@ -515,33 +515,33 @@ class _Drawn(Struct, frozen=True, dict=True):
         return self.views.in_rows(self.kind)
 
     @cached_property
-    def alone(self) -> float:
+    def finest_scale(self) -> float:
         """The finest scale of the series at which it fits its own space."""
         wide, high = self.box
         stretched = self.box if self.rows else (COARSER * wide, COARSER * high)
-        usual = _fitting(self.asked, self.box, self.size)
-        found = per_mm = max(usual, _fitting(self.asked, stretched, self.largest))
+        usual = _fitting(self.scales, self.box, self.size)
+        found = per_mm = max(usual, _fitting(self.scales, stretched, self.largest))
         worst = inf
         middle = typical(np.maximum(*self.sizes))
-        while self.rows and (per_mm == found or LEAST * per_mm <= middle):
-            crowded = max(self.share(per_mm), self.on_paper(per_mm)[0] / self.box[0])
+        while self.rows and (per_mm == found or MIN_PLAN * per_mm <= middle):
+            crowded = max(self.fill_ratio(per_mm), self.on_paper(per_mm)[0] / self.box[0])
             if crowded < worst:  # smaller plans take more space, because they are shown enlarged
                 found, worst = per_mm, crowded
-            if crowded <= 1.0 or self.own_only:
+            if crowded <= 1.0 or self.has_plan_scales:
                 break
-            per_mm = _next(per_mm, self.asked, finer=False)
+            per_mm = _next(per_mm, self.scales, finer=False)
         return found
 
-    def share(self, per_mm: float) -> float:
+    def fill_ratio(self, per_mm: float) -> float:
         """Return the fraction of its space that it takes at a scale."""
-        return self.taken(per_mm) / self.room()
+        return self.used(per_mm) / self.available()
 
-    def room(self) -> float:
+    def available(self) -> float:
         """Return its available space: the height of plans in rows, mm, else the area, mm²."""
         width, height = self.box
         return height if self.rows else (width + BESIDE) * (height + UNDER)
 
-    def taken(self, per_mm: float) -> float:
+    def used(self, per_mm: float) -> float:
         """Return the space that it takes at a scale, in the unit of the available space."""
         if not self.rows:
             return (self.size[0] / per_mm + BESIDE) * (self.size[1] / per_mm + UNDER)
@@ -550,9 +550,9 @@ class _Drawn(Struct, frozen=True, dict=True):
         lines = [float(high[k : k + step].max()) for k in range(0, self.si.count, step)]
         return max(sum(lines[k : k + ROWS]) for k in range(0, len(lines), ROWS))
 
-    def is_crowded(self, per_mm: float) -> bool:
+    def is_too_dense(self, per_mm: float) -> bool:
         """Return whether a scheme has more letters at a scale than fit its area."""
-        return is_crowded(self.extents.construction, self.si, per_mm)
+        return is_too_dense(self.extents.construction, self.si, per_mm)
 
     def stretches(self, per_mm: float, times: float = STRETCH) -> bool:
         """Return whether it is neither too wide nor, as a single view, too high, at a scale."""
@@ -566,14 +566,14 @@ class _Drawn(Struct, frozen=True, dict=True):
         if self.rows:
             wide, _ = self._on_paper(per_mm)
             across = row_width(wide, min(per_row(self.si.count), self.si.count))
-            return across, self.taken(per_mm) + BETWEEN + name - BESIDE
+            return across, self.used(per_mm) + BETWEEN + name - BESIDE
         scheme = self.kind is PlanKind.POSITION
         several = ALL if self.si.count > 1 and scheme else 0.0
         stroke = STROKE if self.si.count > FEW and scheme else 0.0
         width, height = self.size[0] / per_mm, self.size[1] / per_mm
         return width + BESIDE + several, height + name + several + stroke
 
-    def ways(self, per_mm: float) -> Ways:
+    def size_alternatives(self, per_mm: float) -> BlockSizes:
         """Return the possible sizes of the view at a scale, mm: plans in rows of some lengths."""
         found, count = {self.on_paper(per_mm)}, self.si.count
         if self.rows and count <= ROWS * per_row(count):
@@ -598,20 +598,20 @@ class _Drawn(Struct, frozen=True, dict=True):
     def _lettered(self, per_mm: float) -> tuple[Reals, Reals]:
         each = self.each(per_mm)
         width, height = (size / each for size in self.sizes)
-        times = times_beside(np.maximum(width, height))
+        times = enlargement_of(np.maximum(width, height))
         beside = times > 1.0
-        said = np.where(np.isnan(self.own), 0.0, SAID)
+        said = np.where(np.isnan(self.plan_scales), 0.0, SCALE_CAPTION)
         high = np.where(beside, times * height + NAMED, height)
         return width + np.where(beside, times * width + AROUND, 0.0) + BESIDE, high + UNDER + said
 
     @property
-    def own_only(self) -> bool:
+    def has_plan_scales(self) -> bool:
         """True if the file requests own scales for all plans of several positions."""
         several = self.si.count > 1 and self.kind is not PlanKind.POSITION
-        return several and self.asked.own and not self.given
+        return several and self.scales.own and not self.has_file_scale
 
     @cached_property
-    def own(self) -> Reals:
+    def plan_scales(self) -> Reals:
         """Scales of plans that have their own, shape (n,); NaN where the common one holds.
 
         These are requested by the file, or belong to a plan so near a dead position that all others
@@ -621,29 +621,29 @@ class _Drawn(Struct, frozen=True, dict=True):
         size, own = np.maximum(width, height), np.full(self.si.count, np.nan)
         if self.kind is not PlanKind.POSITION:
             box = self.views.plan_box(self.kind, self.si.count)
-            alone = (size > 0.0) if self.own_only else size > DEAD * typical(size)
+            alone = (size > 0.0) if self.has_plan_scales else size > DEAD * typical(size)
             for k in np.flatnonzero(alone):
-                own[k] = _fitting(self.asked, box, (float(width[k]), float(height[k])))
+                own[k] = _fitting(self.scales, box, (float(width[k]), float(height[k])))
         return own
 
     def each(self, per_mm: float) -> Reals:
         """Return the scale of the plan in every position, shape (n,)."""
-        return np.where(np.isnan(self.own), per_mm, self.own)
+        return np.where(np.isnan(self.plan_scales), per_mm, self.plan_scales)
 
     @property
-    def given(self) -> bool:
+    def has_file_scale(self) -> bool:
         """True if the file gives the scale."""
-        return getattr(self.asked, FACTS[self.kind].scale) is not None
+        return getattr(self.scales, FACTS[self.kind].scale) is not None
 
 
-def _next(per_mm: float, asked: Scales, *, finer: bool) -> float:
-    return next_scale(per_mm, finer=finer, mm_per_unit=asked.in_mm_per_unit)
+def _next(per_mm: float, scales: Scales, *, finer: bool) -> float:
+    return next_scale(per_mm, finer=finer, mm_per_unit=scales.in_mm_per_unit)
 
 
-def _fitting(asked: Scales, box: Box, size: Box) -> float:
-    return choose_scale(size, box, mm_per_unit=asked.in_mm_per_unit)
+def _fitting(scales: Scales, box: Box, size: Box) -> float:
+    return choose_scale(size, box, mm_per_unit=scales.in_mm_per_unit)
 
 
-def own_scales(extents: Extents, views: Views, asked: Scales, kind: PlanKind) -> Reals:
+def per_plan_scales(extents: Extents, views: Views, scales: Scales, kind: PlanKind) -> Reals:
     """Return scales of plans that have their own, shape (n,); NaN where the common one holds."""
-    return extents.chosen(views, asked).drawn[kind].own
+    return extents.chosen(views, scales).drawn[kind].plan_scales

@@ -16,9 +16,9 @@ from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.motion.position import inner_point, parallelogram
 from planmethod.problem.model import SAME_DEG
-from planmethod.problem.unlikely import unlikely
+from planmethod.problem.plausibility import unlikely
+from planmethod.solved.assembly_modes import drive_data
 from planmethod.solved.changes import changes
-from planmethod.solved.closings import drive_data
 from planmethod.solved.failures import (
     NOT_REACHED,
     TURN,
@@ -27,7 +27,7 @@ from planmethod.solved.failures import (
     Doubt,
     Evenly,
     Failure,
-    MoreDoubts,
+    OmittedWarnings,
     Passed,
     Place,
     PositionError,
@@ -35,12 +35,12 @@ from planmethod.solved.failures import (
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.reading import Complexes, Flags, Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import DOUBTFUL, SPOILT, error_bound
+from planmethod.solved.trust.conditioning import SPOILT, WARN_RELATIVE_ERROR, error_bound
 
 if TYPE_CHECKING:
     from planmethod.solved.forces.statics import Statics
 
-MOST_NAMED = 5
+MAX_NAMED = 5
 """Maximum number of doubtful positions that are named, the worst of them."""
 
 NEAR = 1e-3
@@ -52,7 +52,7 @@ AT = 1e-7
 LEAST, FEW = 3, 72
 """Limits of the number of positions of a turn for which others without a dead one are suggested."""
 
-SHARES = (1 / 2, 1 / 3, 1 / 6, 1 / 12, 1 / 30)
+STEP_FRACTIONS = (1 / 2, 1 / 3, 1 / 6, 1 / 12, 1 / 30)
 """Parts of a step by which position 0 is moved to come past dead positions."""
 
 COUNTS = (8, 10, 16, 9, 15, 18)
@@ -65,29 +65,29 @@ LIMIT = 1e-7
 class SelfCheckError(PlanMethodError):
     """The plans of a solution contradict each other: an internal error (exit code 5)."""
 
-    def __init__(self, found: Contradiction) -> None:
-        self.found = found
-        super().__init__(str(found))
+    def __init__(self, contradiction: Contradiction) -> None:
+        self.contradiction = contradiction
+        super().__init__(str(contradiction))
 
 
-def warnings(solution: Solution, *, forces: bool = False) -> list[Doubt | MoreDoubts]:
+def warnings(solution: Solution, *, forces: bool = False) -> list[Doubt | OmittedWarnings]:
     """Return the accuracy warnings for a user: one for each doubtful position.
 
     Of many positions the worst few are named and the rest counted. With ``forces`` the forces of a
     problem with loads have warnings of their own.
     """
-    said: list[Doubt | MoreDoubts] = []
-    for found in (doubts(solution), force_doubts(solution) if forces else []):
-        worst = sorted(range(len(found)), key=lambda k: found[k].bound)[-MOST_NAMED:]
+    said: list[Doubt | OmittedWarnings] = []
+    for found in (motion_doubts(solution), force_doubts(solution) if forces else []):
+        worst = sorted(range(len(found)), key=lambda k: found[k].bound)[-MAX_NAMED:]
         said += [found[k] for k in sorted(worst)]
         if len(worst) < len(found):
-            said.append(MoreDoubts(len(found) - len(worst), len(solution.positions)))
+            said.append(OmittedWarnings(len(found) - len(worst), len(solution.positions)))
     return said
 
 
-def doubts(solution: Solution) -> list[Doubt]:
+def motion_doubts(solution: Solution) -> list[Doubt]:
     """Return all positions whose motion is doubtful."""
-    return _doubts(solution, error_bound(solution), solution.margin)
+    return _list_doubts(solution, error_bound(solution), solution.margin)
 
 
 def force_doubts(solution: Solution) -> list[Doubt]:
@@ -97,10 +97,10 @@ def force_doubts(solution: Solution) -> list[Doubt]:
     from planmethod.solved.forces.statics import statics_of  # few files have any
 
     statics = statics_of(solution)
-    return _doubts(solution, statics.bound, statics.margin, forces=True)
+    return _list_doubts(solution, statics.bound, statics.margin, forces=True)
 
 
-def _doubts(
+def _list_doubts(
     solution: Solution, estimate: Reals, margin: Reals, *, forces: bool = False
 ) -> list[Doubt]:
     return [
@@ -111,7 +111,7 @@ def _doubts(
             float(estimate[i]),
             forces,
         )
-        for i in map(int, np.flatnonzero((estimate > DOUBTFUL) & np.isfinite(estimate)))
+        for i in map(int, np.flatnonzero((estimate > WARN_RELATIVE_ERROR) & np.isfinite(estimate)))
     ]
 
 
@@ -122,7 +122,7 @@ def changed_branches(solution: Solution) -> list[Passed]:
     requested ones. A group that keeps a parallelogram or moves continuously needs no warning.
     """
     drive, draft = solution.problem.drive, solution.construction.draft
-    way = np.append(solution.positions, (drive.judged or drive.positions)[0])
+    way = np.append(solution.positions, (drive.assembly_positions or drive.positions)[0])
     low, high = float(way.min()), float(way.max())
     said = []
     for group in solution.structure.groups if high > low else ():
@@ -156,7 +156,7 @@ def _passed(solution: Solution, group: AssurGroup, places: tuple[float, ...]) ->
     return Passed(group.links, places, coordinate, problem.unit, inner_point(group), parallel)
 
 
-def _refuse_spoilt(solution: Solution) -> None:
+def _reject_spoilt(solution: Solution) -> None:
     spoilt = np.flatnonzero(~(error_bound(solution) <= SPOILT))
     if not spoilt.size:
         return
@@ -168,7 +168,7 @@ def _refuse_spoilt(solution: Solution) -> None:
             Place.of(solution.problem, solution.positions, i),
             margin=margin,
             problem=solution.problem.name,
-            alike=spoilt.size - 1,
+            same_count=spoilt.size - 1,
         )
     )
 
@@ -229,19 +229,19 @@ def without_dead(solution: Solution, failure: Failure, *, forces: bool) -> Evenl
         return None
     count, first = len(positions) // turns, float(positions[0])
     turns = max(turns, solution.turns)
-    ways = [(first + share * float(steps[0]), count) for share in SHARES]
+    ways = [(first + share * float(steps[0]), count) for share in STEP_FRACTIONS]
     ways += [(first, other) for other in COUNTS if other != count]
     for zero, other in ways:
         found = Evenly(round(zero % TURN, 9), other, turns)
         tried = found.zero + TURN / other * np.arange(other * turns)
         with suppress(PlanMethodError):
-            _verify(solution.moved(tried), forces=forces)
+            _verify(solution.with_positions(tried), forces=forces)
             return found
     return None
 
 
 def _verify(solution: Solution, *, forces: bool) -> None:
-    _refuse_spoilt(solution)
+    _reject_spoilt(solution)
     for what, error, size in _contradictions(solution):
         bad = np.flatnonzero(_is_too_large(solution, error, size))
         if bad.size:
@@ -257,7 +257,7 @@ def _verify(solution: Solution, *, forces: bool) -> None:
         statics_of(solution).si  # noqa: B018 - it refuses what does not exist or is spoilt
 
 
-def tell_doubts(solution: Solution) -> None:
+def warn_of_doubts(solution: Solution) -> None:
     """Check a solution as the commands do, and warn who called a function of the package.
 
     Raises
@@ -297,9 +297,9 @@ def judged_statics(solution: Solution) -> Statics:
     return statics
 
 
-def refused(solution: Solution) -> Flags:
+def flag_rejected(solution: Solution) -> Flags:
     """Return the positions that `verify` or `warnings` would report, as flags; shape (n,)."""
-    found = ~(error_bound(solution) <= DOUBTFUL)
+    found = ~(error_bound(solution) <= WARN_RELATIVE_ERROR)
     for _, error, size in _contradictions(solution):
         found |= _is_too_large(solution, error, size)
     return found
@@ -307,7 +307,7 @@ def refused(solution: Solution) -> Flags:
 
 def _contradictions(solution: Solution) -> Iterator[tuple[tuple[str, str, str, str], Reals, Reals]]:
     """Yield the compared values of a rigid link, their difference and the reference size."""
-    kin = solution.construction.kinematics
+    kinematics = solution.construction.kinematics
     for link, body in solution.problem.bodies.items():
         names = list(body.points)
         if link == FRAME or len(names) < 2:
@@ -317,8 +317,12 @@ def _contradictions(solution: Solution) -> Iterator[tuple[tuple[str, str, str, s
         for q in names[1:]:
             one, two = ((link, p), (link, q))
             place = _between(solution, p, q)
-            v = _difference(solution, kin.velocity.point[one], kin.velocity.point[two])
-            a = _difference(solution, kin.acceleration.point[one], kin.acceleration.point[two])
+            v = _difference(
+                solution, kinematics.velocity.point[one], kinematics.velocity.point[two]
+            )
+            a = _difference(
+                solution, kinematics.acceleration.point[one], kinematics.acceleration.point[two]
+            )
             length = solution.length(link, p, q)
             turn = 1j * motion.epsilon - motion.omega**2
             checks = (

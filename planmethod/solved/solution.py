@@ -26,31 +26,37 @@ from planmethod.arguments import (
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.hand import Hand
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import ArgumentError
 from planmethod.mechanism.structure import Structure
+from planmethod.plans.assembly_mode import assembly_period
 from planmethod.plans.build import Construction
-from planmethod.plans.closing import comes_again
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import RATES, PlanKind
-from planmethod.plans.motion.leads import Relative
+from planmethod.plans.motion.legs import Relative
 from planmethod.problem.model import Problem, Scales
-from planmethod.solved.closings import construct, drive_data, refuse_untold
+from planmethod.solved.assembly_modes import construct, drive_data, reject_ambiguous
+from planmethod.solved.detail_views import (
+    DetailView,
+    find_detail_views,
+    measured,
+    min_enlarged,
+    small_plans,
+)
 from planmethod.solved.driving import driven
-from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured, small_plans
 from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
-from planmethod.solved.reading import Complexes, Reading, Reals, Remembering, fixed
+from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, fixed
 from planmethod.solved.scaling import (
-    MOST_DRAWN,
+    MAX_DRAWN,
     Extents,
     Views,
     choose_scales,
     decide,
     median,
-    own_scales,
+    per_plan_scales,
 )
 
 UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
@@ -78,7 +84,7 @@ def filled(values: Mapping[str, Number], count: int) -> dict[str, Any]:
     return {name: np.full(count, value) for name, value in values.items()}
 
 
-def even(problem: Problem) -> Problem:
+def unit_rate_problem(problem: Problem) -> Problem:
     """Return a problem without loads, its driver at one radian (or metre) a second."""
     drive = replace(problem.drive, rate=1.0, acceleration=0.0)
     return replace(problem, drive=drive, dynamics=None)
@@ -119,7 +125,7 @@ class RelativeMotion(Struct, frozen=True):
     acceleration: Complexes
 
 
-class Solution(Remembering):
+class Solution(Memoizing):
     """Solved task (решённая задача).
 
     Parameters
@@ -189,7 +195,7 @@ class Solution(Remembering):
         if construction is None:
             construction = construct(problem)
         self.construction: Construction = of_type("construction", construction, Construction)
-        refuse_untold(problem, self.construction.draft, self.positions)
+        reject_ambiguous(problem, self.construction.draft, self.positions)
         self._views = None if views is None else of_type("views", views, Views)
         if scales is not None:
             of_type("scales", scales, Mapping)
@@ -207,9 +213,9 @@ class Solution(Remembering):
         shown: str = resolve_name("planmethod.note.tables.results:results_part")(self)
         return shown
 
-    def moved(self, positions: npt.ArrayLike) -> Solution:
+    def with_positions(self, positions: npt.ArrayLike) -> Solution:
         """Return the same mechanism, assembled in the same way, in other positions."""
-        return self._alike(positions=positions)
+        return self._with_changes(positions=positions)
 
     def filling(self, views: Views | None, scales: Scales | None = None) -> Solution:
         """Return the same mechanism in the same positions with plans that fill other views.
@@ -227,19 +233,21 @@ class Solution(Remembering):
 
     def at_unit_rate(self) -> Solution:
         """Return the same mechanism without loads, its driver at one radian (or metre) a second."""
-        problem = even(self.problem)
+        problem = unit_rate_problem(self.problem)
         # The plans of a crank that turns evenly have fewer steps.
         construction = None if self.problem.drive.acceleration else self.construction
-        return self._alike(problem=problem, views=None, scales=None, construction=construction)
+        return self._with_changes(
+            problem=problem, views=None, scales=None, construction=construction
+        )
 
     def _redrawn(self, **changed: Any) -> Solution:
-        other = self._alike(**changed)
+        other = self._with_changes(**changed)
         other.origin = self.origin
         if "si" in vars(self):
             other.si = self.si  # scales do not change the exact reading
         return other
 
-    def _alike(self, **changed: Any) -> Solution:
+    def _with_changes(self, **changed: Any) -> Solution:
         """Return another solution of the same construction."""
         same: dict[str, Any] = {
             "problem": self.problem,
@@ -262,7 +270,7 @@ class Solution(Remembering):
         return driven(self.problem.drive, self.positions)
 
     @property
-    def together(self) -> int:
+    def max_positions(self) -> int:
         """Largest number of positions of one mechanism."""
         return len(self.positions)
 
@@ -284,7 +292,7 @@ class Solution(Remembering):
         p, q = known("point", p, points), known("point", q, points)
         return abs(points[q] - points[p])
 
-    def alone_at(self, index: int) -> tuple[Solution, int]:
+    def variant_at(self, index: int) -> tuple[Solution, int]:
         """Return the solution of the mechanism that a position is of, and its number there."""
         return self, number_of("position", index, len(self.positions))
 
@@ -297,7 +305,7 @@ class Solution(Remembering):
     ) -> dict[str, Any]:
         """Return the data of the program at given scales (unit per mm), for some positions."""
         of_type("scales", scales, Mapping)
-        data: dict[str, Any] = {**self._given_at(chosen), **at_positions(scales, chosen)}
+        data: dict[str, Any] = {**self._inputs_at(chosen), **at_positions(scales, chosen)}
         count = len(self.positions[chosen])
         if count <= FEW_ROWS:
             data = filled(data, count)
@@ -305,7 +313,7 @@ class Solution(Remembering):
             data[name] = data[name] / data["mu_l"]
         return data
 
-    def _given_at(self, chosen: npt.NDArray[np.intp] | slice) -> Mapping[str, Any]:
+    def _inputs_at(self, chosen: npt.NDArray[np.intp] | slice) -> Mapping[str, Any]:
         """Return the given data of some positions, at unit scales."""
         return drive_data(self.problem, self.construction.draft, self.positions[chosen])
 
@@ -316,7 +324,7 @@ class Solution(Remembering):
 
     def read_at(self, positions: Reals) -> Reading:
         """Read the whole program at unit scales in other positions."""
-        return self.moved(positions).read(Float64())
+        return self.with_positions(positions).read(Float64())
 
     @cached_property
     def si(self) -> Reading:
@@ -331,7 +339,7 @@ class Solution(Remembering):
         if (failing(program, reading.trace, len(self.positions)) >= 0).any():
             draft = self.construction.draft
             raise PositionError(explain(draft, program, reading, self.positions, self.read_at))
-        refuse_untold(self.problem, self.construction.draft)
+        reject_ambiguous(self.problem, self.construction.draft)
         return reading
 
     @cached_property
@@ -351,34 +359,34 @@ class Solution(Remembering):
         if not len(self.positions):
             raise ArgumentError("positions: expected at least one, got [].")
         scales = choose_scales(self.extents, self.views, self.given_scales)
-        for kind, own in self._own_scales.items():
+        for kind, own in self._plan_scales.items():
             if not np.isnan(own).any():  # there is no common scale: one of them represents it
                 scales[kind] = replace(scales[kind], per_mm=float(median(own)))
         return scales
 
     @cached_property
-    def _own_scales(self) -> dict[PlanKind, Reals]:
+    def _plan_scales(self) -> dict[PlanKind, Reals]:
         """Scales of the plans that have their own, shape (n,), of the kinds that have such plans.
 
         NaN where the common one holds.
         """
         found: dict[PlanKind, Reals] = {}
-        for kind in RATES if self._scales is None and not self._too_many else ():
-            own = own_scales(self.extents, self.views, self.given_scales, kind)
+        for kind in RATES if self._scales is None and not self._is_undrawable else ():
+            own = per_plan_scales(self.extents, self.views, self.given_scales, kind)
             if not np.isnan(own).all():
                 found[kind] = own
         return found
 
     @property
-    def _too_many(self) -> bool:
+    def _is_undrawable(self) -> bool:
         """True if there are too many positions to draw."""
-        return len(self.positions) > MOST_DRAWN
+        return len(self.positions) > MAX_DRAWN
 
-    def own_scale(self, kind: PlanKind, index: int) -> Scale:
+    def plan_scale(self, kind: PlanKind, index: int) -> Scale:
         """Return the scale at which a plan is drawn in one position: mostly the common one."""
         kind = of_type("kind", kind, PlanKind)
         number_of("position", index, len(self.positions))
-        common, own = self.scales[kind], self._own_scales.get(kind)
+        common, own = self.scales[kind], self._plan_scales.get(kind)
         if own is None or np.isnan(own[index]):
             return common
         return replace(common, per_mm=float(own[index]))
@@ -386,7 +394,7 @@ class Solution(Remembering):
     def has_common(self, kind: PlanKind) -> bool:
         """Return whether plans of a kind have one scale."""
         of_type("kind", kind, PlanKind)
-        own = self._own_scales.get(kind)
+        own = self._plan_scales.get(kind)
         return own is None or bool(np.isnan(own).any())
 
     @cached_property
@@ -394,7 +402,7 @@ class Solution(Remembering):
         if self._views is not None:
             return self._views, self.problem.scales
         moved = tuple(self.positions.tolist()) != self.problem.drive.positions
-        return decide(self.extents, self.problem, moved=moved)
+        return decide(self.extents, self.problem, other_positions=moved)
 
     @property
     def views(self) -> Views:
@@ -408,7 +416,7 @@ class Solution(Remembering):
         A group that passes a change point continues in its other mode: then two turns.
         """
         turn = self.problem.drive.coordinate.turn
-        again = comes_again(self.construction.draft.choice, turn) if isfinite(turn) else turn
+        again = assembly_period(self.construction.draft.choice, turn) if isfinite(turn) else turn
         return again / turn if isfinite(again) else inf
 
     @property
@@ -435,7 +443,7 @@ class Solution(Remembering):
         Of several positions those of the plans of each, shape (n,), where one has its own.
         """
         found: dict[str, Number] = {s.symbol: s.per_mm for s in self.scales.values()}
-        for kind, own in self._own_scales.items():
+        for kind, own in self._plan_scales.items():
             common = self.scales[kind]
             found[common.symbol] = np.where(np.isnan(own), common.per_mm, own)
         return found
@@ -447,67 +455,71 @@ class Solution(Remembering):
         return self.read(Float64(), self.per_mm)
 
     @cached_property
-    def knots(self) -> dict[PlanKind, tuple[Knot, ...]]:
+    def detail_views(self) -> dict[PlanKind, tuple[DetailView, ...]]:
         """Short segments that are enlarged, by plans: of one position, which has plans alone."""
-        found: dict[PlanKind, tuple[Knot, ...]] = {}
+        found: dict[PlanKind, tuple[DetailView, ...]] = {}
         for kind in RATES:
             first = sum(map(len, found.values()))
             alone = len(self.positions) == 1
-            least = least_shown(self.profile.ruler)
+            least = min_enlarged(self.profile.ruler)
             found[kind] = (
-                find_knots(self.construction, self.paper, kind, least, first) if alone else ()
+                find_detail_views(self.construction, self.paper, kind, least, first)
+                if alone
+                else ()
             )
         return found
 
     @cached_property
-    def small_plans(self) -> dict[PlanKind, dict[int, Knot]]:
+    def small_plans(self) -> dict[PlanKind, dict[int, DetailView]]:
         """Plans of several positions that are shown enlarged beside themselves, by position."""
-        if len(self.positions) == 1 or self._too_many:
+        if len(self.positions) == 1 or self._is_undrawable:
             return {kind: {} for kind in RATES}
         return small_plans(self.construction, self.paper)
 
-    def knots_of(self, kind: PlanKind, index: int) -> tuple[Knot, ...]:
+    def detail_views_at(self, kind: PlanKind, index: int) -> tuple[DetailView, ...]:
         """Return the enlarged views of a plan in one position."""
         number_of("position", index, len(self.positions))
         small = self.small_plans[of_type("kind", kind, PlanKind)].get(index)
-        return self.knots[kind] if small is None else (small,)
+        return self.detail_views[kind] if small is None else (small,)
 
-    def read_on(self, index: int) -> dict[NumberName, Knot]:
+    def read_on(self, index: int) -> dict[NumberName, DetailView]:
         """Return the lengths that are read on an enlarged view in a position, and on which."""
         number_of("position", index, len(self.positions))
         return {
-            name: knot
+            name: detail_view
             for kind in RATES
-            for knot in self.knots_of(kind, index)
-            for name in measured(self.construction, kind, knot)
+            for detail_view in self.detail_views_at(kind, index)
+            for name in measured(self.construction, kind, detail_view)
         }
 
     @cached_property
-    def hand(self) -> Hand:
+    def ruler_arithmetic(self) -> RulerArithmetic:
         """Draughtsman with a ruler, who reads short segments where they are enlarged."""
         if len(self.positions) == 1:
-            alone: dict[str, Number] = {n: knot.times for n, knot in self.read_on(0).items()}
-            return Hand(self.profile.ruler, alone)
+            alone: dict[str, Number] = {
+                n: detail_view.times for n, detail_view in self.read_on(0).items()
+            }
+            return RulerArithmetic(self.profile.ruler, alone)
         enlarged: dict[str, Number] = {}
         for index in sorted({k for small in self.small_plans.values() for k in small}):
-            for name, knot in self.read_on(index).items():
+            for name, detail_view in self.read_on(index).items():
                 times = enlarged.setdefault(name, np.ones(len(self.positions)))
-                times[index] = knot.times
+                times[index] = detail_view.times
         calculated = self.problem.calculated
         if calculated is not None and self.positions.tolist() == list(self.problem.drive.positions):
             # The calculated position has a plan of its own: it is read there.
-            one = self.moved([float(self.positions[calculated])])
-            others: set[str] = {*enlarged, *one.hand.enlarged}
+            one = self.with_positions([float(self.positions[calculated])])
+            others: set[str] = {*enlarged, *one.ruler_arithmetic.enlarged}
             for other in sorted(others):
                 times = enlarged.setdefault(other, np.ones(len(self.positions)))
-                times[calculated] = one.hand.enlarged.get(other, 1.0)
-        return Hand(self.profile.ruler, enlarged)
+                times[calculated] = one.ruler_arithmetic.enlarged.get(other, 1.0)
+        return RulerArithmetic(self.profile.ruler, enlarged)
 
     @cached_property
-    def by_hand(self) -> Reading:
+    def ruler_reading(self) -> Reading:
         """Reading with a ruler, along the draughtsman's own chain."""
         self.si  # noqa: B018
-        return self.read(self.hand, self.per_mm)
+        return self.read(self.ruler_arithmetic, self.per_mm)
 
     def place(self, name: PointName) -> Complexes:
         """Return the place of a point in the file's coordinates, m, ndarray of shape (n,)."""
@@ -527,26 +539,26 @@ class Solution(Remembering):
     @cached_property
     def points(self) -> dict[str, PointMotion]:
         """Motion of every named point, and of the coincident points that move differently."""
-        kin = self.construction.kinematics
+        kinematics = self.construction.kinematics
         result: dict[str, PointMotion] = {}
-        for name, (link, place) in kin.velocity.named.items():
+        for name, (link, place) in kinematics.velocity.named.items():
             result[name] = PointMotion(
                 self.place(PointName(place)),
-                self.si.point(kin.velocity.point[link, place]),
-                self.si.point(kin.acceleration.point[link, place]),
+                self.si.point(kinematics.velocity.point[link, place]),
+                self.si.point(kinematics.acceleration.point[link, place]),
             )
         return Named(result, "point")
 
     @cached_property
     def links(self) -> dict[str, LinkMotion]:
         """Motion of every moving link."""
-        kin, draft = self.construction.kinematics, self.construction.draft
+        kinematics, draft = self.construction.kinematics, self.construction.draft
         zero = fixed(np.zeros(self.positions.shape))
         result: dict[str, LinkMotion] = {}
         for link in self.problem.mechanism.links:
-            direction = self.si.course(draft.axes[link])
+            direction = self.si.line_vector(draft.axes[link])
             angle: Reals = np.degrees(np.angle(direction))
-            omega, epsilon = kin.omega.get(link), kin.epsilon.get(link)
+            omega, epsilon = kinematics.omega.get(link), kinematics.epsilon.get(link)
             result[link] = LinkMotion(
                 fixed(np.where(angle <= -180.0, 180.0, angle)),
                 zero if omega is None else self.si.number(omega),
@@ -569,8 +581,8 @@ class Solution(Remembering):
             r.of,
             r.to,
             vector(r.start, r.head),
-            vector(r.a_start, r.a_turned),
-            vector(r.a_turned, r.a_head),
+            vector(r.a_start, r.a_coriolis),
+            vector(r.a_coriolis, r.a_head),
         )
 
     @cached_property
@@ -616,7 +628,7 @@ class Solution(Remembering):
         quantity = self.legend[label]
         if quantity.size is None:
             return fixed(np.zeros(self.positions.shape))
-        value = self.by_hand.number(quantity.size)
+        value = self.ruler_reading.number(quantity.size)
         return fixed(np.abs(value)) if quantity.kind.is_size else value
 
     def segments(self, kind: PlanKind) -> list[SegmentReading]:
@@ -626,7 +638,7 @@ class Solution(Remembering):
             SegmentReading(
                 segment.name,
                 fixed(np.abs(self.paper.number(segment.length))),
-                fixed(np.abs(self.by_hand.number(segment.length))),
+                fixed(np.abs(self.ruler_reading.number(segment.length))),
             )
             for segment in self.construction.segments
             if segment.kind is kind

@@ -41,12 +41,14 @@ class Transfers:
 
     def __init__(self, solution: Solution) -> None:
         self.solution, construction = solution, solution.construction
-        kin = construction.kinematics
+        kinematics = construction.kinematics
         self.draft, found = _planned(construction)
         self.numbers = solution.numbers_of(lambda made: _planned(made)[0].numbers)
         turning = {
-            QuantityKind.RATIO: {f"u_{link}" for link in kin.omega},
-            QuantityKind.RATIO_2: {f"epsilon_q_{link}" for link in (*kin.omega, *kin.epsilon)},
+            QuantityKind.RATIO: {f"u_{link}" for link in kinematics.omega},
+            QuantityKind.RATIO_2: {
+                f"epsilon_q_{link}" for link in (*kinematics.omega, *kinematics.epsilon)
+            },
         }
         self.quantities = tuple(q for q in found if str(q.name) in turning.get(q.kind, {q.name}))
         self.program = self.draft.b.program()
@@ -60,17 +62,19 @@ class Transfers:
     @cached_property
     def si(self) -> Reading:
         """Exact reading, SI."""
-        return self.solution.si.go_on(self.added, self.numbers, Float64())
+        return self.solution.si.extend(self.added, self.numbers, Float64())
 
     @cached_property
     def paper(self) -> Reading:
         """Exact reading in millimetres of the plans."""
-        return self.solution.paper.go_on(self.added, self.numbers, Float64())
+        return self.solution.paper.extend(self.added, self.numbers, Float64())
 
     @cached_property
-    def by_hand(self) -> Reading:
+    def ruler_reading(self) -> Reading:
         """Reading with the draughtsman's ruler."""
-        return self.solution.by_hand.go_on(self.added, self.numbers, self.solution.hand)
+        return self.solution.ruler_reading.extend(
+            self.added, self.numbers, self.solution.ruler_arithmetic
+        )
 
     def exact(self, quantity: Quantity) -> Reals:
         """Return a transfer function, m and radians of a radian of the crank, shape (n,)."""
@@ -78,7 +82,7 @@ class Transfers:
 
     def read_off(self, quantity: Quantity) -> Reals:
         """Return a transfer function as found by hand, shape (n,)."""
-        return self.by_hand.number(quantity.name)
+        return self.ruler_reading.number(quantity.name)
 
     def some(self, *kinds: QuantityKind) -> list[Quantity]:
         """Return the transfer functions of some kinds."""
@@ -96,4 +100,4 @@ def transfers_of(solution: Solution) -> Transfers | None:
     drive = solution.problem.drive
     if not drive.revolves or drive.rate == 0.0 or np.isnan(drive.rate):
         return None
-    return solution.once(Transfers)
+    return solution.compute_once(Transfers)

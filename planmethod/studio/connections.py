@@ -21,7 +21,7 @@ class PatientProtocol(H11Protocol):
     """HTTP with timeouts (соединение): a request in progress is never cut off."""
 
     _end: float | None = None
-    _looking: asyncio.TimerHandle | None = None
+    _timer: asyncio.TimerHandle | None = None
     _unread: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
@@ -31,7 +31,7 @@ class PatientProtocol(H11Protocol):
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Wait no more."""
-        self._be_content()
+        self._stop_waiting()
         self.resume_writing()
         super().connection_lost(exc)
 
@@ -41,12 +41,12 @@ class PatientProtocol(H11Protocol):
         if self.conn.their_state in (h11.IDLE, h11.SEND_BODY):
             self._wait(len(data))
         else:
-            self._be_content()
+            self._stop_waiting()
 
     def pause_writing(self) -> None:
         """Check whether the client reads."""
         super().pause_writing()
-        self._look_at_reader(self.transport.get_write_buffer_size())
+        self._check_reader(self.transport.get_write_buffer_size())
 
     def resume_writing(self) -> None:
         """Continue with a client that reads."""
@@ -55,29 +55,29 @@ class PatientProtocol(H11Protocol):
             self._unread.cancel()
             self._unread = None
 
-    def _wait(self, come: int) -> None:
+    def _wait(self, received: int) -> None:
         if self._end is None:
             self._end = self.loop.time() + SLOW
-            self._look()
+            self._check_deadline()
         else:
-            self._end += come / RATE
+            self._end += received / RATE
 
-    def _look(self) -> None:
+    def _check_deadline(self) -> None:
         assert self._end is not None
         if self.loop.time() < self._end:
-            self._looking = self.loop.call_at(self._end, self._look)
+            self._timer = self.loop.call_at(self._end, self._check_deadline)
         else:
             self.transport.abort()
 
-    def _look_at_reader(self, before: int) -> None:
+    def _check_reader(self, before: int) -> None:
         left = self.transport.get_write_buffer_size()
         if self._unread is not None and left >= before:
             self.transport.abort()
         else:
-            self._unread = self.loop.call_later(UNREAD, self._look_at_reader, left)
+            self._unread = self.loop.call_later(UNREAD, self._check_reader, left)
 
-    def _be_content(self) -> None:
+    def _stop_waiting(self) -> None:
         self._end = None
-        if self._looking is not None:
-            self._looking.cancel()
-            self._looking = None
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None

@@ -15,7 +15,7 @@ from importlib.resources import files
 from typing import Any
 
 from planmethod.languages import LANGUAGES
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; "
@@ -45,20 +45,20 @@ def assets_mark() -> str:
     return sha256(b"".join(one.read_bytes() for one in there)).hexdigest()[:16]
 
 
-def page_of(lang: str, told: Mapping[str, Any], static: str = "static") -> tuple[str, str]:
+def page_of(lang: str, page_data: Mapping[str, Any], static: str = "static") -> tuple[str, str]:
     """Return the page in a language, and the word by which its editor may set its style.
 
     Parameters
     ----------
-    told : mapping
+    page_data : mapping
         What its script reads, plain data.
     static : str
         Where its scripts and its style are, below it.
     """
-    words, nonce = language(lang).studio["page"], secrets.token_urlsafe(16)
+    words, nonce = get_language(lang).studio["page"], secrets.token_urlsafe(16)
     text = files("planmethod.studio").joinpath("page", "studio.html").read_text("utf-8")
     text = re.sub(r"\{\{(\w+)\}\}", lambda place: escape(words[place[1]]), text)
-    data = {**told, "lang": lang, "langs": LANGUAGES, "nonce": nonce, "words": words}
+    data = {**page_data, "lang": lang, "langs": LANGUAGES, "nonce": nonce, "words": words}
     whole = json.dumps(data, ensure_ascii=False).replace("<", "\\u003c")
     text = text.replace("[[static]]", static).replace("[[lang]]", lang)
     return text.replace("[[data]]", whole), nonce

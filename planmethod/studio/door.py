@@ -10,7 +10,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from planmethod.languages import LANGUAGES, say, speaking
+from planmethod.languages import LANGUAGES, speaking, translate
 
 OWN_HOSTS = ("127.0.0.1", "localhost", "::1")
 """Names of the local machine: no external page is served under one of them."""
@@ -20,7 +20,7 @@ PRINTED = (
 )
 INSTRUCTORS = "This is for the instructor only: open the link that was printed at the start."
 
-_SAID = {
+_STATUS_MESSAGES = {
     401: "This session has ended. Reload the page.",
     403: INSTRUCTORS,
     404: "This address does not exist.",
@@ -43,28 +43,28 @@ def lang_of(request: Request) -> str:
     return next((code for code in codes if code in LANGUAGES), LANGUAGES[0])
 
 
-def refused(request: Request, status: int, said: str, *facts: object) -> Response:
+def reject(request: Request, status: int, message: str, *facts: object) -> Response:
     """Return a rejection: one sentence, in the language of a request."""
     with speaking(lang_of(request)):
-        return PlainTextResponse(say(said, *facts), status, {"Cache-Control": "no-store"})
+        return PlainTextResponse(translate(message, *facts), status, {"Cache-Control": "no-store"})
 
 
 class StudioRefusal(HTTPException):
     """A rejected request (отказ): a sentence, and its facts; the status's own one by default."""
 
-    def __init__(self, status: int, said: str = "", *facts: object) -> None:
-        super().__init__(status, said or _SAID[status])
+    def __init__(self, status: int, message: str = "", *facts: object) -> None:
+        super().__init__(status, message or _STATUS_MESSAGES[status])
         self.facts = facts
 
 
-def refused_by(request: Request, error: Exception) -> Response:
+def reject_error(request: Request, error: Exception) -> Response:
     """Return the response to an error or rejection in a route."""
     if isinstance(error, StudioRefusal):
-        return refused(request, error.status_code, error.detail, *error.facts)
+        return reject(request, error.status_code, error.detail, *error.facts)
     if isinstance(error, HTTPException):  # where there is no such route
-        return refused(request, error.status_code, _SAID[error.status_code])
+        return reject(request, error.status_code, _STATUS_MESSAGES[error.status_code])
     why = error.strerror if isinstance(error, OSError) else None
-    return refused(request, 507, "The server cannot write its files: {}.", why or error)
+    return reject(request, 507, "The server cannot write its files: {}.", why or error)
 
 
 class Door:
@@ -96,35 +96,33 @@ class Door:
     def _answer(self, request: Request) -> Response | None:
         """Return the response that replaces the studio's own; None if there is none."""
         if self.token is not None:
-            if _own(request)[0] not in OWN_HOSTS:
-                return refused(request, 403, "This studio answers only at 127.0.0.1 and localhost.")
+            if _host_and_port(request)[0] not in OWN_HOSTS:
+                return reject(request, 403, "This studio answers only at 127.0.0.1 and localhost.")
             if request.scope["path"] == "/" and "token" in request.query_params:
-                return self._let_in(request)
+                return self._admit(request)
             if not self._is(request.cookies.get(_cookie(request), "")):
-                return refused(request, 403, PRINTED)
+                return reject(request, 403, PRINTED)
         if request.method not in ("GET", "HEAD"):
             if _is_foreign(request):
-                return refused(
+                return reject(
                     request, 403, "Another site made this request. Open the studio itself."
                 )
             kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
             if request.method == "POST" and kind != "application/json":
-                return refused(
-                    request, 415, "Requests to this address must be JSON (Content-Type)."
-                )
+                return reject(request, 415, "Requests to this address must be JSON (Content-Type).")
         return None
 
-    def _is(self, given: str) -> bool:
-        return bool(self.token) and hmac.compare_digest(given.encode(), str(self.token).encode())
+    def _is(self, token: str) -> bool:
+        return bool(self.token) and hmac.compare_digest(token.encode(), str(self.token).encode())
 
-    def _let_in(self, request: Request) -> Response:
+    def _admit(self, request: Request) -> Response:
         """Set the cookie, and have the browser continue without the token in its address.
 
         A redirect would not do: where a file or another site has led here, its next request has no
         strict cookie; one that this page makes has.
         """
         if not self._is(request.query_params["token"]):
-            return refused(request, 403, PRINTED)
+            return reject(request, 403, PRINTED)
         more = [(key, value) for key, value in request.query_params.multi_items() if key != "token"]
         onward = f"/?{urlencode(more)}" if more else "/"
         headers = {"Refresh": f"0; url={onward}", "Cache-Control": "no-store"}
@@ -135,10 +133,10 @@ class Door:
 
 def _cookie(request: Request) -> str:
     """Return the name of the cookie: browsers do not distinguish the ports of a host."""
-    return f"planmethod-{_own(request)[1] or 80}"
+    return f"planmethod-{_host_and_port(request)[1] or 80}"
 
 
-def _own(request: Request) -> tuple[str | None, int | None]:
+def _host_and_port(request: Request) -> tuple[str | None, int | None]:
     """Return the host and the port that the browser knows the studio by."""
     return _place(f"//{request.headers.get('host', '')}")
 
@@ -160,4 +158,4 @@ def _is_foreign(request: Request) -> bool:
     site, origin = (request.headers.get(name) for name in ("sec-fetch-site", "origin"))
     if site is not None:
         return site != "same-origin"
-    return origin is not None and _place(origin) != _own(request)
+    return origin is not None and _place(origin) != _host_and_port(request)

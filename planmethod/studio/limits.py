@@ -7,7 +7,7 @@ from msgspec import Struct
 MB = 1 << 20
 
 NO_MEMORY = "This takes more memory than is available. Request less."
-TOO_DEEP = "This is nested too deep to be computed. Request less."
+NESTING_TOO_DEEP = "This is nested too deep to be computed. Request less."
 """Reasons for a missing result, with a server or without."""
 
 
@@ -25,7 +25,7 @@ class StudioLimits(Struct, frozen=True, kw_only=True):
         Bytes of a problem file with its request, of one submission, of all those of a session.
     written : int
         Bytes of a file that a computation writes.
-    waiting, own : int
+    waiting, session_waiting : int
         Computations that wait, of all and of one session.
     works : int
         Maximum number of submissions of a session.
@@ -33,7 +33,7 @@ class StudioLimits(Struct, frozen=True, kw_only=True):
         Concurrent sessions: a new one replaces the oldest that has no computation.
     idle : float
         Seconds without a request after which a session is deleted.
-    kept : int
+    stored_results : int
         Computations of a session whose files are kept.
     rate, burst : float
         Computations a second that a session gets in the long run, and at once.
@@ -51,18 +51,18 @@ class StudioLimits(Struct, frozen=True, kw_only=True):
     works: int = 2000
     written: int = 64 * MB
     waiting: int = 200
-    own: int = 4
+    session_waiting: int = 4
     sessions: int = 500
     idle: float = 2 * 3600.0
-    kept: int = 6
+    stored_results: int = 6
     rate: float = 4.0
     burst: float = 40.0
     entries: float = 1.0
     entered: float = 120.0
 
 
-STRANGERS = StudioLimits()
-OWN = StudioLimits(
+PUBLIC_LIMITS = StudioLimits()
+LOCAL_LIMITS = StudioLimits(
     seconds=600.0, slow_seconds=600.0, trusted_seconds=600.0, memory=None, idle=24 * 3600.0,
     rate=50.0,
 )  # fmt: skip
@@ -75,7 +75,7 @@ class Bucket(Struct):
     level: float = 0.0
     then: float = 0.0
 
-    def takes(self, now: float, *, rate: float, burst: float) -> bool:
+    def admit(self, now: float, *, rate: float, burst: float) -> bool:
         """Take one more at a time, s, unless it is too soon."""
         self.level = max(0.0, self.level - (now - self.then) * rate)
         self.then = now

@@ -23,26 +23,26 @@ from starlette.responses import FileResponse, JSONResponse, Response, StreamingR
 from starlette.routing import Route
 
 from planmethod.errors import ArgumentError, OutputError
-from planmethod.languages import say, speaking
+from planmethod.languages import speaking, translate
 from planmethod.problem import schema_text
 from planmethod.problem.tasks import tasks
-from planmethod.studio.asking import (
+from planmethod.studio.document import POLICY, asset, assets_mark, page_of
+from planmethod.studio.door import Door, StudioRefusal, lang_of, reject_error
+from planmethod.studio.limits import StudioLimits
+from planmethod.studio.requests import (
     ACTS,
     QUICK,
     SLOW,
     TRUSTED,
-    TRUSTED_WHATS,
+    TRUSTED_COMMANDS,
     StudioRequest,
-    asked_of,
-    found_tasks,
-    named_work,
+    build_job,
+    find_tasks,
+    page_data,
     request_of,
     start_of,
-    told_of,
+    upload_name,
 )
-from planmethod.studio.document import POLICY, asset, assets_mark, page_of
-from planmethod.studio.door import Door, StudioRefusal, lang_of, refused_by
-from planmethod.studio.limits import StudioLimits
 from planmethod.studio.sessions import Desk, Sessions, StudioSession, mark_of
 from planmethod.studio.workers import Act, Pace, StudioQueue
 
@@ -107,28 +107,28 @@ def application(settings: StudioSettings, act: Act, root: Path) -> Starlette:
         Route("/api/tasks", studio.tasks),
         Route("/api/start/{name}", studio.start),
         Route("/api/file/{name}", studio.file, methods=["GET", "POST"]),
-        Route("/api/works/{name}", studio.take_work, methods=["PUT", "DELETE"]),
+        Route("/api/works/{name}", studio.take_upload, methods=["PUT", "DELETE"]),
         Route("/api/do/{do}", studio.do, methods=["POST"]),
-        Route("/files/{key}/{number}/{path:path}", studio.made),
+        Route("/files/{key}/{number}/{path:path}", studio.serve_result),
     ]
     middleware = [
         Middleware(Door, token=None if settings.served else settings.token),
         Middleware(GZipMiddleware, compresslevel=6, exclude_content_types=_PACKED),
     ]
-    refusing = {HTTPException: refused_by, OSError: refused_by}
+    refusing = {HTTPException: reject_error, OSError: reject_error}
     return Starlette(
         routes=routes, middleware=middleware, exception_handlers=refusing, lifespan=studio.living
     )
 
 
-async def _body(request: Request, most: int) -> bytes:
+async def _body(request: Request, limit: int) -> bytes:
     """Read a body within its bound."""
     parts, size = [], 0
     try:
         async for part in request.stream():
             size += len(part)
-            if size > most:
-                raise StudioRefusal(413, "This is larger than {} KiB. Send less.", most // 1024)
+            if size > limit:
+                raise StudioRefusal(413, "This is larger than {} KiB. Send less.", limit // 1024)
             parts.append(part)
     except ClientDisconnect:
         raise StudioRefusal(400, "The request is incomplete.") from None
@@ -167,7 +167,7 @@ class _Studio:
         names = [] if settings.desk is None else settings.desk.names
         one = settings.desk is not None and settings.desk.path.is_file()
         own = {"served": settings.served, "files": names, "one": one}
-        told = told_of(lang, settings.layouts, self.limits.uploads) | own
+        told = page_data(lang, settings.layouts, self.limits.uploads) | own
         text, nonce = page_of(lang, told, f"static/{assets_mark()}")
         return Response(
             text,
@@ -190,7 +190,7 @@ class _Studio:
         queue = self.queue
         return JSONResponse(
             {"ok": True, "sessions": len(self.sessions), "waiting": queue.waiting,
-             "busy": queue.busy, "done": queue.done, "refused": queue.refused}
+             "busy": queue.busy, "done": queue.done, "refused": queue.rejected}
         )  # fmt: skip
 
     # What there is to start from -----------------------------------------------------------------
@@ -201,7 +201,7 @@ class _Studio:
 
     async def tasks(self, request: Request) -> Response:
         """Give the shipped tasks; of a search, those that say its words."""
-        found = found_tasks(request.query_params.get("search", ""))
+        found = find_tasks(request.query_params.get("search", ""))
         return _marked(request, _json(found), "application/json")
 
     async def start(self, request: Request) -> Response:
@@ -238,11 +238,11 @@ class _Studio:
 
     async def enter(self, request: Request) -> Response:
         """Begin a session; with the token that is printed at the start, an instructor's."""
-        told, token = await self._asked(request, 4096), self.settings.token
+        told, token = await self._read_request(request, 4096), self.settings.token
         is_right = hmac.compare_digest(told.token.encode(), token.encode())
         trusted = not self.settings.served or is_right
         address = request.client.host if request.client else ""
-        session = self.sessions.enter(address, trusted=trusted, is_busy=self.queue.is_asked_by)
+        session = self.sessions.enter(address, trusted=trusted, is_busy=self.queue.is_busy_for)
         if session is None:
             raise StudioRefusal(503, "There are too many visitors. Try again in a minute.")
         return JSONResponse({"key": session.key, "trusted": trusted})
@@ -254,8 +254,8 @@ class _Studio:
             raise StudioRefusal(401)
         return session
 
-    async def _asked(self, request: Request, most: int) -> StudioRequest:
-        data = await _body(request, most)
+    async def _read_request(self, request: Request, limit: int) -> StudioRequest:
+        data = await _body(request, limit)
         try:
             with speaking(lang_of(request)):
                 return request_of(data)
@@ -271,7 +271,11 @@ class _Studio:
         path = None if desk is None else desk.at(name)
         if desk is None or path is None:
             raise StudioRefusal(404)
-        asked = await self._asked(request, self.limits.text) if request.method == "POST" else None
+        asked = (
+            await self._read_request(request, self.limits.text)
+            if request.method == "POST"
+            else None
+        )
         try:
             with speaking(lang_of(request)):
                 if asked is None:
@@ -293,7 +297,7 @@ class _Studio:
 
     # Works ---------------------------------------------------------------------------------------
 
-    async def take_work(self, request: Request) -> Response:
+    async def take_upload(self, request: Request) -> Response:
         """Accept a submission dropped on the page; or delete all of them."""
         session = self._session(request)
         self._trust(session)
@@ -302,10 +306,12 @@ class _Studio:
             session.works.mkdir()
             return JSONResponse([])
         given = request.path_params["name"]
-        name = named_work(given)
+        name = upload_name(given)
         if name is None:
-            said = "'{}': submissions are *.csv, *.xlsx, *.json, *.toml, or drawings *.dxf, *.svg."
-            raise StudioRefusal(415, said, " ".join(Path(given).name.split())[:120])
+            phrase = (
+                "'{}': submissions are *.csv, *.xlsx, *.json, *.toml, or drawings *.dxf, *.svg."
+            )
+            raise StudioRefusal(415, phrase, " ".join(Path(given).name.split())[:120])
         data, limits = await _body(request, self.limits.upload), self.limits
         path = session.works / name
         if session.uploaded() + len(data) > limits.uploads:
@@ -331,22 +337,22 @@ class _Studio:
         if do not in ACTS:
             raise StudioRefusal(404)
         lang, limits = lang_of(request), self.limits
-        told = await self._asked(request, limits.text)
-        if do in TRUSTED or told.what in TRUSTED_WHATS:
+        told = await self._read_request(request, limits.text)
+        if do in TRUSTED or told.what in TRUSTED_COMMANDS:
             self._trust(session)
-        if not session.bucket.takes(self.sessions.clock(), rate=limits.rate, burst=limits.burst):
+        if not session.bucket.admit(self.sessions.clock(), rate=limits.rate, burst=limits.burst):
             raise StudioRefusal(429, "Too many requests. Wait a little.")
         if self.queue.is_full_for(session.key):
             raise StudioRefusal(503, FULL)
         settings, works = self.settings, session.works
-        asked = asked_of(
+        asked = build_job(
             do, told, lang=lang, layouts=settings.layouts, works=works, served=settings.served
         )
         if asked is None:
             raise StudioRefusal(404)
-        number, folder = session.new_folder(limits.kept)
+        number, folder = session.new_folder(limits.stored_results)
         asked["folder"] = str(folder)
-        self._put_beside(asked["text"], told.file, folder)
+        self._copy_variant_table(asked["text"], told.file, folder)
         pace, seconds = Pace.QUICK if do in QUICK else Pace.USUAL, limits.seconds
         if do == "command" and told.what in SLOW:
             pace, seconds = Pace.SLOW, limits.slow_seconds
@@ -361,7 +367,7 @@ class _Studio:
             headers=headers,
         )
 
-    def _put_beside(self, text: str, name: str, folder: Path) -> None:
+    def _copy_variant_table(self, text: str, name: str, folder: Path) -> None:
         """Copy the table of variants that one's own file names to where it is read."""
         desk = self.settings.desk
         named = re.search(r'(?m)^\s*variants\s*=\s*"([^"/\\]+\.(?:csv|txt))"', text)
@@ -373,25 +379,25 @@ class _Studio:
     async def _lines(
         self,
         first: Mapping[str, Any],
-        told: AsyncIterator[Mapping[str, Any]],
+        events: AsyncIterator[Mapping[str, Any]],
         session: StudioSession,
         number: int,
         lang: str,
     ) -> AsyncIterator[bytes]:
         yield json.dumps(first).encode() + b"\n"
-        async for one in told:
+        async for one in events:
             line: dict[str, Any] = dict(one)
             if "found" in line:
                 found = line["found"] = dict(line["found"])
                 if "refused" in found:
                     with speaking(lang):
-                        found["refused"] = str(say(*found["refused"]))
+                        found["refused"] = str(translate(*found["refused"]))
                 found["files_at"] = f"/files/{session.key}/{number}/"
             yield json.dumps(line, ensure_ascii=False).encode() + b"\n"
 
     # What was made -------------------------------------------------------------------------------
 
-    async def made(self, request: Request) -> Response:
+    async def serve_result(self, request: Request) -> Response:
         """Give a file to whom it was made for; ``all.zip``: all of them."""
         key, number, name = (request.path_params[k] for k in ("key", "number", "path"))
         session = self.sessions.of(key)
@@ -418,14 +424,14 @@ class _Studio:
         )
 
 
-def _json(found: object) -> bytes:
-    return json.dumps(found, ensure_ascii=False, separators=(",", ":")).encode()
+def _json(data: object) -> bytes:
+    return json.dumps(data, ensure_ascii=False, separators=(",", ":")).encode()
 
 
-def _marked(request: Request, data: bytes, kind: str, kept: str = "no-cache") -> Response:
+def _marked(request: Request, data: bytes, kind: str, caching: str = "no-cache") -> Response:
     """Return a response that a browser caches, and revalidates by its mark."""
     mark = f'"{sha256(data).hexdigest()[:16]}"'
-    headers = {"ETag": mark, "Cache-Control": kept}
+    headers = {"ETag": mark, "Cache-Control": caching}
     if request.headers.get("if-none-match") == mark:
         return Response(status_code=304, headers=headers)
     return Response(data, media_type=kind, headers=headers)

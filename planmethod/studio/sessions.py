@@ -54,17 +54,17 @@ class StudioSession(Struct):
         """Folder of the uploaded submissions."""
         return self.folder / "works"
 
-    def new_folder(self, kept: int) -> tuple[int, Path]:
+    def new_folder(self, stored: int) -> tuple[int, Path]:
         """Return the number and the folder of one more computation; old ones go."""
         self.count += 1
         folder = self.folder / str(self.count)
         folder.mkdir()
-        shutil.rmtree(self.folder / str(self.count - kept), ignore_errors=True)
+        shutil.rmtree(self.folder / str(self.count - stored), ignore_errors=True)
         return self.count, folder
 
     def file(self, number: str, name: str) -> Path | None:
         """Return a file that computation of a number made; None of any other path."""
-        root = self._made(number)
+        root = self._output_folder(number)
         if root is None or "\0" in name:
             return None
         with contextlib.suppress(OSError):  # no system has so long a name
@@ -72,7 +72,7 @@ class StudioSession(Struct):
             return path if path.is_relative_to(root) and path.is_file() else None
         return None
 
-    def _made(self, number: str) -> Path | None:
+    def _output_folder(self, number: str) -> Path | None:
         """Return the output folder of a computation; None if it has none, or does not exist."""
         if re.fullmatch("[1-9][0-9]{0,8}", number) is None:
             return None
@@ -81,7 +81,7 @@ class StudioSession(Struct):
 
     def zipped(self, number: str) -> bytes | None:
         """Return the files of a computation as one archive; None where there are none."""
-        made, folder = io.BytesIO(), self._made(number)
+        made, folder = io.BytesIO(), self._output_folder(number)
         if folder is None:
             return None
         with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as book:
@@ -102,11 +102,11 @@ class Sessions:
         self, root: Path, limits: StudioLimits, clock: Callable[[], float] = time.monotonic
     ) -> None:
         self.root, self.limits, self.clock = root, limits, clock
-        self._found: dict[str, StudioSession] = {}
+        self._by_key: dict[str, StudioSession] = {}
         self._doors: dict[str, Bucket] = {}
 
     def __len__(self) -> int:
-        return len(self._found)
+        return len(self._by_key)
 
     def enter(
         self, address: str, *, trusted: bool, is_busy: Callable[[str], bool] = lambda key: False
@@ -124,10 +124,10 @@ class Sessions:
         limits, now = self.limits, self.clock()
         if not trusted:
             door = self._doors.setdefault(address, Bucket())
-            if not door.takes(now, rate=limits.entries, burst=limits.entered):
+            if not door.admit(now, rate=limits.entries, burst=limits.entered):
                 return None
         if len(self) >= limits.sessions:
-            idle = [one for one in self._found.values() if not is_busy(one.key)]
+            idle = [one for one in self._by_key.values() if not is_busy(one.key)]
             idle = [one for one in idle if trusted or not one.trusted]
             if idle:
                 self._end(min(idle, key=lambda one: one.used))
@@ -137,12 +137,12 @@ class Sessions:
         folder = self.root / sha256(key.encode()).hexdigest()[:32]
         (folder / "works").mkdir(parents=True)
         folder.chmod(0o700)
-        self._found[key] = StudioSession(key, folder, trusted, now)
-        return self._found[key]
+        self._by_key[key] = StudioSession(key, folder, trusted, now)
+        return self._by_key[key]
 
     def of(self, key: str) -> StudioSession | None:
         """Return the session of a key."""
-        session = self._found.get(key)
+        session = self._by_key.get(key)
         if session is not None:
             session.used = self.clock()
         return session
@@ -150,14 +150,14 @@ class Sessions:
     def clean(self) -> None:
         """Remove what was not used for long."""
         now = self.clock()
-        for session in [*self._found.values()]:
+        for session in [*self._by_key.values()]:
             if now - session.used > self.limits.idle:
                 self._end(session)
         full = self.limits.entered / self.limits.entries
         self._doors = {a: door for a, door in self._doors.items() if now - door.then < full}
 
     def _end(self, session: StudioSession) -> None:
-        del self._found[session.key]
+        del self._by_key[session.key]
         shutil.rmtree(session.folder, ignore_errors=True)
 
 
@@ -175,18 +175,18 @@ def served_folder() -> Iterator[Path]:
     """
     parent = Path(tempfile.gettempdir())
     for folder in parent.glob(f"{PREFIX}*"):
-        with contextlib.suppress(OSError), _held(folder / LOCK, new=False) as is_held:
+        with contextlib.suppress(OSError), _try_lock(folder / LOCK, new=False) as is_held:
             if is_held and not folder.is_symlink():
                 shutil.rmtree(folder, ignore_errors=True)
     with (
         tempfile.TemporaryDirectory(prefix=PREFIX) as name,
-        _held(Path(name) / LOCK, new=True),
+        _try_lock(Path(name) / LOCK, new=True),
     ):
         yield Path(name)
 
 
 @contextmanager
-def _held(path: Path, *, new: bool) -> Iterator[bool]:
+def _try_lock(path: Path, *, new: bool) -> Iterator[bool]:
     """Hold a lock if it is free; yield False if the system has no locks."""
     if sys.platform == "win32":
         yield False
@@ -243,10 +243,12 @@ class Desk(Struct, frozen=True):
         try:
             return data.decode("utf-8-sig"), mark_of(data)
         except UnicodeDecodeError:
-            said = "{}: the page edits files in UTF-8 of {} KiB at most, and leaves this one alone."
-            raise OutputError(said, path.name, SIZE_LIMIT // 1024) from None
+            phrase = (
+                "{}: the page edits files in UTF-8 of {} KiB at most, and leaves this one alone."
+            )
+            raise OutputError(phrase, path.name, SIZE_LIMIT // 1024) from None
 
-    def save(self, path: Path, text: str, seen: str, *, over: bool) -> tuple[str, str] | None:
+    def save(self, path: Path, text: str, known_mark: str, *, over: bool) -> tuple[str, str] | None:
         """Write a text; on a conflict, return the other editor's version instead.
 
         Raises
@@ -255,7 +257,7 @@ class Desk(Struct, frozen=True):
             It cannot be written, or the existing file is not such a text.
         """
         there = self.read(path)
-        if there is not None and there[1] != seen and not over:
+        if there is not None and there[1] != known_mark and not over:
             return there
         write(path, text.encode())
         return None

@@ -14,18 +14,18 @@ from enum import IntEnum
 from multiprocessing.connection import Connection
 from typing import Any, TypeAlias
 
-from planmethod.studio.limits import NO_MEMORY, TOO_DEEP, StudioLimits
+from planmethod.studio.limits import NESTING_TOO_DEEP, NO_MEMORY, StudioLimits
 
-Asked: TypeAlias = dict[str, Any]
+Job: TypeAlias = dict[str, Any]
 """Job for a process: plain data."""
 
-Found: TypeAlias = dict[str, Any]
+JobResult: TypeAlias = dict[str, Any]
 """Result of a job: plain data; ``refused``: the sentence with its facts, if it failed."""
 
-Tell: TypeAlias = Callable[[float], None]
+ProgressReporter: TypeAlias = Callable[[float], None]
 """Gets the share that is done, 0 to 1."""
 
-Act: TypeAlias = Callable[[Asked, Tell], Found]
+Act: TypeAlias = Callable[[Job, ProgressReporter], JobResult]
 """Computes a job in a process; a function of a module."""
 
 ENDING = 10.0
@@ -43,7 +43,7 @@ PRELOADED = (
 PAUSE = 0.5
 """Seconds between reports of the place in the queue."""
 
-WAITED = 20.0
+MAX_WAIT_FACTOR = 20.0
 """Maximum ratio of elapsed time to the limit of processor time, on a machine with other work:
 beyond it the process counts as hanging."""
 
@@ -69,7 +69,7 @@ class Pace(IntEnum):
 # In a process ------------------------------------------------------------------------------------
 
 
-def work(pipe: Connection, act: Act, memory: int | None, written: int) -> None:
+def run_jobs(pipe: Connection, act: Act, memory: int | None, written: int) -> None:
     """Run jobs until the pipe is closed; the first one is a warm-up."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform != "win32":
@@ -92,7 +92,7 @@ def work(pipe: Connection, act: Act, memory: int | None, written: int) -> None:
             except MemoryError:
                 spent = NO_MEMORY
             except RecursionError:
-                spent = TOO_DEEP
+                spent = NESTING_TOO_DEEP
             if spent:  # outside, where what the work had is gone
                 pipe.send(("spent", spent))
                 return
@@ -129,17 +129,17 @@ class StudioWorker:
         self._context: Any = multiprocessing.get_context(way)
         if way == "forkserver":
             self._context.set_forkserver_preload([act.__module__, *PRELOADED])
-        self._begin()
+        self._start_process()
 
-    def _begin(self) -> None:
+    def _start_process(self) -> None:
         self._pipe, other = self._context.Pipe()
         told = (other, self.act, self.limits.memory, self.limits.written)
-        self._process = self._context.Process(target=work, args=told, daemon=True)
+        self._process = self._context.Process(target=run_jobs, args=told, daemon=True)
         self._process.start()
         other.close()
         self._is_ready = False
 
-    def run(self, asked: Asked, seconds: float, tell: Tell) -> Found:
+    def run(self, job: Job, seconds: float, report: ProgressReporter) -> JobResult:
         """Have something done, and wait for it; called in a thread.
 
         What takes more seconds of a processor, or more memory, is refused, and the process is
@@ -149,36 +149,36 @@ class StudioWorker:
         try:
             if not self._is_ready:
                 if not self._pipe.poll(READY):
-                    return self._again("The computation did not start. Try again.")
+                    return self._restart("The computation did not start. Try again.")
                 self._pipe.recv()
                 self._is_ready = True
-            self._pipe.send((asked, seconds))
+            self._pipe.send((job, seconds))
             began = time.monotonic()
-            end = began + seconds * (1.0 if sys.platform == "win32" else WAITED)
+            end = began + seconds * (1.0 if sys.platform == "win32" else MAX_WAIT_FACTOR)
             while True:
                 if not self._pipe.poll(max(0.0, end - time.monotonic())):
                     if sys.platform == "win32":  # there elapsed time is counted
                         return self._again(TOO_LONG, seconds)
-                    return self._again(HANGS, end - began)
+                    return self._restart(HANGS, end - began)
                 kind, value = self._pipe.recv()
                 if kind == "share":
-                    tell(value)
+                    report(value)
                 elif kind == "done":
-                    found: Found = value
+                    found: JobResult = value
                     return found
                 else:
-                    return self._again(value)
+                    return self._restart(value)
         except (EOFError, OSError):  # it has ended
             pass
         self._process.join(ENDING)
         code = self._process.exitcode
         if code is not None and sys.platform != "win32" and code == -signal.SIGPROF:
-            return self._again(TOO_LONG, seconds)
-        return self._again(ENDED, time.monotonic() - began, _named(code))
+            return self._restart(TOO_LONG, seconds)
+        return self._restart(ENDED, time.monotonic() - began, _named(code))
 
-    def _again(self, *said: object) -> Found:
+    def _restart(self, *said: object) -> JobResult:
         self.stop()
-        self._begin()
+        self._start_process()
         return {"refused": said}
 
     def interrupt(self) -> None:
@@ -201,7 +201,7 @@ def _named(code: int | None) -> str:
 class _Ticket:
     def __init__(self, do: str, pace: Pace, session: str) -> None:
         self.do, self.pace, self.session = do, pace, session
-        self.given: asyncio.Future[StudioWorker] = asyncio.get_running_loop().create_future()
+        self.worker: asyncio.Future[StudioWorker] = asyncio.get_running_loop().create_future()
         self.began = time.monotonic()
 
 
@@ -212,7 +212,7 @@ class StudioQueue:
 
     Attributes
     ----------
-    busy, done, refused : int
+    busy, done, rejected : int
         Numbers of running, completed and rejected jobs.
     """
 
@@ -220,12 +220,12 @@ class StudioQueue:
         self.limits = limits
         self._idle = [StudioWorker(act, limits) for _ in range(count)]
         self._every = tuple(self._idle)
-        self._most_long = max(1, count - 1)
+        self._max_long = max(1, count - 1)
         self._long = 0
         self._slow: set[str] = set()
         self._waiting: list[_Ticket] = []
-        self._own: dict[str, int] = {}
-        self.busy = self.done = self.refused = 0
+        self._count_by_session: dict[str, int] = {}
+        self.busy = self.done = self.rejected = 0
 
     @property
     def waiting(self) -> int:
@@ -234,11 +234,13 @@ class StudioQueue:
 
     def is_full_for(self, session: str) -> bool:
         """Return whether one more of a session cannot wait."""
-        return self.waiting >= self.limits.waiting or (self._own.get(session, 0) >= self.limits.own)
+        return self.waiting >= self.limits.waiting or (
+            self._count_by_session.get(session, 0) >= self.limits.session_waiting
+        )
 
-    def is_asked_by(self, session: str) -> bool:
+    def is_busy_for(self, session: str) -> bool:
         """Return whether a session has a job running or waiting."""
-        return session in self._own
+        return session in self._count_by_session
 
     def stop(self) -> None:
         """End the processes."""
@@ -246,7 +248,7 @@ class StudioQueue:
             worker.stop()
 
     async def run(
-        self, asked: Asked, *, session: str, pace: Pace, seconds: float
+        self, job: Job, *, session: str, pace: Pace, seconds: float
     ) -> AsyncGenerator[Mapping[str, Any], None]:
         """Yield what becomes of it: ``place`` in the queue, ``share`` that is done, ``found``.
 
@@ -254,35 +256,35 @@ class StudioQueue:
         A quick job replaces an older waiting one of its session, which yields ``superseded``.
         With ``found`` come the seconds that it ``waited`` and ``worked``.
         """
-        ticket = _Ticket(asked["do"], pace, session)
-        self._own[session] = self._own.get(session, 0) + 1
+        ticket = _Ticket(job["do"], pace, session)
+        self._count_by_session[session] = self._count_by_session.get(session, 0) + 1
         self._queue(ticket)
         try:
-            while not ticket.given.done():
+            while not ticket.worker.done():
                 yield {"place": self._place(ticket)}
-                await asyncio.wait([ticket.given], timeout=PAUSE)
-            if ticket.given.cancelled():
+                await asyncio.wait([ticket.worker], timeout=PAUSE)
+            if ticket.worker.cancelled():
                 yield {"found": {"superseded": True}}
                 return
             yield {"place": 0}
         except BaseException:  # the client has gone
             self._leave(ticket)
             raise
-        async for told in self._at_work(ticket, asked, seconds):
+        async for told in self._run_on_worker(ticket, job, seconds):
             yield told
 
-    async def _at_work(
-        self, ticket: _Ticket, asked: Asked, seconds: float
+    async def _run_on_worker(
+        self, ticket: _Ticket, job: Job, seconds: float
     ) -> AsyncIterator[Mapping[str, Any]]:
-        loop, worker = asyncio.get_running_loop(), ticket.given.result()
+        loop, worker = asyncio.get_running_loop(), ticket.worker.result()
         began = time.monotonic()
         shares: asyncio.Queue[float | None] = asyncio.Queue()
 
-        def act() -> Found:
-            def tell(share: float) -> None:
-                loop.call_soon_threadsafe(shares.put_nowait, share)
+        def act() -> JobResult:
+            def report(fraction: float) -> None:
+                loop.call_soon_threadsafe(shares.put_nowait, fraction)
 
-            return worker.run(asked, seconds, tell)
+            return worker.run(job, seconds, report)
 
         future = asyncio.ensure_future(asyncio.to_thread(act))
 
@@ -300,7 +302,7 @@ class StudioQueue:
             raise
         found = future.result()
         self.done += 1
-        self.refused += "refused" in found
+        self.rejected += "refused" in found
         worked = time.monotonic() - began
         yield {"found": found, "waited": began - ticket.began, "worked": worked}
 
@@ -310,17 +312,17 @@ class StudioQueue:
             same = older.do == ticket.do and older.session == ticket.session
             if ticket.pace == older.pace == Pace.QUICK and same:
                 self._waiting[k] = ticket
-                older.given.cancel()
+                older.worker.cancel()
                 self._forget(older)
                 return
         self._waiting.append(ticket)
         self._waiting.sort(key=lambda one: one.pace)
-        self._give()
+        self._dispatch()
 
     def _place(self, ticket: _Ticket) -> int:
         return self._waiting.index(ticket) + 1 if ticket in self._waiting else 0
 
-    def _give(self) -> None:
+    def _dispatch(self) -> None:
         for ticket in [*self._waiting]:
             if self._idle and self._may(ticket):
                 self._waiting.remove(ticket)
@@ -328,12 +330,12 @@ class StudioQueue:
                 if ticket.pace == Pace.SLOW:
                     self._slow.add(ticket.session)
                 self.busy += 1
-                ticket.given.set_result(self._idle.pop())
+                ticket.worker.set_result(self._idle.pop())
 
     def _may(self, ticket: _Ticket) -> bool:
         if ticket.pace == Pace.SLOW and ticket.session in self._slow:
             return False
-        return ticket.pace == Pace.QUICK or self._long < self._most_long
+        return ticket.pace == Pace.QUICK or self._long < self._max_long
 
     def _free(self, ticket: _Ticket, worker: StudioWorker) -> None:
         self._idle.append(worker)
@@ -342,18 +344,18 @@ class StudioQueue:
             self._slow.discard(ticket.session)
         self.busy -= 1
         self._forget(ticket)
-        self._give()
+        self._dispatch()
 
     def _leave(self, ticket: _Ticket) -> None:
         if ticket in self._waiting:
             self._waiting.remove(ticket)
             self._forget(ticket)
-        elif ticket.given.done() and not ticket.given.cancelled():
-            self._free(ticket, ticket.given.result())
+        elif ticket.worker.done() and not ticket.worker.cancelled():
+            self._free(ticket, ticket.worker.result())
 
     def _forget(self, ticket: _Ticket) -> None:
-        left = self._own[ticket.session] - 1
+        left = self._count_by_session[ticket.session] - 1
         if left:
-            self._own[ticket.session] = left
+            self._count_by_session[ticket.session] = left
         else:
-            del self._own[ticket.session]
+            del self._count_by_session[ticket.session]

@@ -1,6 +1,6 @@
 """Synthesis of linkages by construction (синтез механизмов): one module for each kind.
 
-A kind lists its options (``TAKES``) and makes a `Synthesis` of their values (``synthesize``).
+A kind lists its options (``OPTIONS``) and makes a `Synthesis` of their values (``synthesize``).
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ class SynthesisModule(Protocol):
     """Interface of the module of a kind."""
 
     @property
-    def TAKES(self) -> tuple[str, ...]:  # noqa: N802
+    def OPTIONS(self) -> tuple[str, ...]:  # noqa: N802
         """Options that it accepts."""
 
-    def synthesize(self, asked: Mapping[str, Any]) -> Synthesis:
+    def synthesize(self, options: Mapping[str, Any]) -> Synthesis:
         """Find the mechanism."""
 
 
@@ -42,19 +42,19 @@ KINDS: Mapping[str, SynthesisModule] = MappingProxyType(
 """Kinds of synthesis, a module each."""
 
 
-def takes(kind: str) -> tuple[str, ...]:
+def options_of(kind: str) -> tuple[str, ...]:
     """Return the options that a kind accepts."""
-    return KINDS[kind].TAKES
+    return KINDS[kind].OPTIONS
 
 
-def synthesize(kind: str, asked: Mapping[str, Any]) -> Synthesis:
+def synthesize(kind: str, options: Mapping[str, Any]) -> Synthesis:
     """Find the mechanism of a kind (синтез).
 
     Parameters
     ----------
     kind : str
         One of `KINDS`.
-    asked : mapping
+    options : mapping
         Values of the options of the kind, SI and degrees; None for an option that is not given.
 
     Raises
@@ -64,4 +64,4 @@ def synthesize(kind: str, asked: Mapping[str, Any]) -> Synthesis:
     AssemblyError
         There is no such mechanism; the message has the limit.
     """
-    return KINDS[kind].synthesize(asked)
+    return KINDS[kind].synthesize(options)

@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from planmethod.construct.steps import Side, Way
+from planmethod.construct.steps import LineSense, Side
 from planmethod.errors import AssemblyError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.solved.turn.roots import top
 from planmethod.synthesis.model import (
     Board,
@@ -26,23 +26,23 @@ from planmethod.synthesis.model import (
     Pose,
     Synthesis,
     angle_of_ratio,
-    chosen,
+    choose_option_set,
     lengths_of,
     place,
     read,
 )
 
-TAKES = ("K_v", "swing", "rocker", "centres", "line", "beta")
+OPTIONS = ("K_v", "swing", "rocker", "centres", "line", "beta")
 
 LENGTHS = ("OA", "AB", "CB", "OC")
 
 
-def synthesize(asked: Mapping[str, Any]) -> Synthesis:
+def synthesize(options: Mapping[str, Any]) -> Synthesis:
     """Find crank, coupler and frame.
 
     Parameters
     ----------
-    asked : mapping
+    options : mapping
         ``K_v``, ``swing`` (degrees), ``rocker`` CB (m; default: 1), and at most one of ``beta``
         (degrees, negative for a pivot beyond the chord), ``line`` (x and y of a point and the
         direction, m and degrees from C, the rocker's middle position along +y), ``centres`` OC (m).
@@ -52,9 +52,11 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     InputError, AssemblyError
     """
     free = ("", " beta", " line", " centres")
-    chosen({**asked, "rocker": None}, "crank-rocker", *("K_v swing" + one for one in free))
-    asked = {**asked, "rocker": asked["rocker"] or 1.0}
-    theta, swing = angle_of_ratio(asked["K_v"]), asked["swing"]
+    choose_option_set(
+        {**options, "rocker": None}, "crank-rocker", *("K_v swing" + one for one in free)
+    )
+    options = {**options, "rocker": options["rocker"] or 1.0}
+    theta, swing = angle_of_ratio(options["K_v"]), options["swing"]
     if not 0.0 < swing < 180.0:
         raise AssemblyError(
             "swing = {:.10g} deg: a rocker swings by more than 0, less than 180 deg.", swing
@@ -64,21 +66,21 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         raise AssemblyError(
             "K_v = {:.10g} with the swing {:.10g} deg: theta = {:.10g} deg, less than 90 "
             "+ swing/2 = {:.10g} deg is possible, K_v < {:.10g}.",
-            asked["K_v"],
+            options["K_v"],
             swing,
             theta,
             90.0 + swing / 2,
             most,
         )
-    if theta == 0.0 and asked["line"] is None and asked["centres"] is None:
+    if theta == 0.0 and options["line"] is None and options["centres"] is None:
         raise InputError(
             "K_v = 1: O is anywhere on the line B'B''. Give --centres, more than the "
             "rocker's {:.10g} m, or --line.",
-            asked["rocker"],
+            options["rocker"],
         )
-    made = list(_candidates(asked, theta))
+    made = list(_candidates(options, theta))
     if not made:
-        raise AssemblyError(_limit(asked, theta))
+        raise AssemblyError(_limit(options, theta))
     return min(made, key=lambda pair: pair[0])[1]
 
 
@@ -87,22 +89,22 @@ def _limits(theta: float, swing: float) -> tuple[float, float, float]:
     return max(90.0 - swing / 2, 90.0 + swing / 2 - theta), 180.0 - theta, 90.0 + swing / 2
 
 
-def _limit(asked: Mapping[str, Any], theta: float) -> str:
+def _limit(options: Mapping[str, Any], theta: float) -> str:
     """Return the reason why a crank does not exist."""
     if theta == 0.0:
-        return say(
+        return translate(
             "K_v = 1: O is on the line B'B'' outside of the chord, so OC must be more "
             "than the rocker's {:.10g} m, and a line must meet it there.",
-            asked["rocker"],
+            options["rocker"],
         )
-    low, high, beyond = _limits(theta, asked["swing"])
-    told = say("{:.6g} < beta < {:.6g} deg", low, high)
+    low, high, beyond = _limits(theta, options["swing"])
+    told = translate("{:.6g} < beta < {:.6g} deg", low, high)
     if beyond < high:
         told += f" or {-high:.6g} < beta < {-beyond:.6g} deg"
     given = {"beta": "--beta", "line": "--line", "centres": "--centres"}
-    name = next((text for key, text in given.items() if asked[key] is not None), "this")
-    radius = asked["rocker"] * sin(radians(asked["swing"] / 2)) / (sin(radians(theta)))
-    return say(
+    name = next((text for key, text in given.items() if options[key] is not None), "this")
+    radius = options["rocker"] * sin(radians(options["swing"] / 2)) / (sin(radians(theta)))
+    return translate(
         "{}: no place for O from which B'B'' is seen at theta = {:.6g} deg with both "
         "dead positions on one side of OC. Possible are {} on the circle of the "
         "radius {:.6g} m over B'B''.",
@@ -113,24 +115,24 @@ def _limit(asked: Mapping[str, Any], theta: float) -> str:
     )
 
 
-def _candidates(asked: Mapping[str, Any], theta: float) -> Iterator[tuple[float, Synthesis]]:
+def _candidates(options: Mapping[str, Any], theta: float) -> Iterator[tuple[float, Synthesis]]:
     """Yield mechanisms whose crank rotates fully, with the negated transmission angle, degrees."""
-    if asked["line"] is None and asked["centres"] is None:
-        betas = [asked["beta"]] if asked["beta"] is not None else _best_angles(asked, theta)
-        tries = [(False, 1 if beta >= 0 else -1, Way.FORWARD, abs(beta)) for beta in betas]
+    if options["line"] is None and options["centres"] is None:
+        betas = [options["beta"]] if options["beta"] is not None else _best_angles(options, theta)
+        tries = [(False, 1 if beta >= 0 else -1, LineSense.FORWARD, abs(beta)) for beta in betas]
     else:
         sides = (1, -1) if theta > 0.0 else (1,)
-        tries = [(*one, 0.0) for one in product((False, True), sides, Way)]
+        tries = [(*one, 0.0) for one in product((False, True), sides, LineSense)]
     for mirrored, inner, way, beta in tries:
-        made = _built(asked, theta, mirrored, inner, way, beta)
+        made = _built(options, theta, mirrored, inner, way, beta)
         if made is not None:
             yield made
 
 
-def _best_angles(asked: Mapping[str, Any], theta: float) -> list[float]:
+def _best_angles(options: Mapping[str, Any], theta: float) -> list[float]:
     """Return the β of the best transmission angle, on C's side of the chord and beyond it."""
-    low, high, beyond = _limits(theta, asked["swing"])
-    rocker, half = asked["rocker"], radians(asked["swing"] / 2)
+    low, high, beyond = _limits(theta, options["swing"])
+    rocker, half = options["rocker"], radians(options["swing"] / 2)
 
     def worst(beta: float, sense: int) -> float:
         turn = radians(theta)
@@ -144,9 +146,9 @@ def _best_angles(asked: Mapping[str, Any], theta: float) -> list[float]:
         return transmission((far - near) / 2, (far + near) / 2, rocker, float(frame))
 
     least = np.vectorize(worst, otypes=[float])
-    found = [top(lambda beta: least(beta, 1), low, high, looks=400)[0]]
+    found = [top(lambda beta: least(beta, 1), low, high, samples=400)[0]]
     if beyond < high:
-        found.append(-top(lambda beta: least(beta, -1), beyond, high, looks=400)[0])
+        found.append(-top(lambda beta: least(beta, -1), beyond, high, samples=400)[0])
     return found
 
 
@@ -162,7 +164,12 @@ def transmission(crank: float, coupler: float, rocker: float, frame: float) -> f
 
 
 def _built(
-    asked: Mapping[str, Any], theta: float, mirrored: bool, inner: int, way: Way, beta: float
+    options: Mapping[str, Any],
+    theta: float,
+    mirrored: bool,
+    inner: int,
+    branch: LineSense,
+    beta: float,
 ) -> tuple[float, Synthesis] | None:
     """Draw one mechanism; return None where its crank cannot rotate fully.
 
@@ -172,44 +179,44 @@ def _built(
         O is nearer to the right end of the rocker.
     inner : int
         +1: O on C's side of the chord; -1: beyond it.
-    way : Way
+    branch : LineSense
         Which of the two intersections.
     """
-    b, half = Board(), (-1.0 if mirrored else 1.0) * asked["swing"] / 2
+    b, half = Board(), (-1.0 if mirrored else 1.0) * options["swing"] / 2
     c = b.fixed("C", 0j)
-    arm = b.length("CB", asked["rocker"])
+    arm = b.length("CB", options["rocker"])
     near, far = (
-        b.lay_off(name, c, b.ray(c, None, 90.0 + turn), arm)
+        b.lay_off_length(name, c, b.ray(c, None, 90.0 + turn), arm)
         for name, turn in (("B''", half), ("B'", -half))
     )
     chord = b.join(near, far)
     side = Side.RIGHT if (inner > 0) is not mirrored else Side.LEFT
     circle = b.inscribed("Z", (near, far), theta, side) if theta > 0.0 else None
-    if asked["line"] is not None:
-        x, y, angle = asked["line"]
+    if options["line"] is not None:
+        x, y, angle = options["line"]
         line = b.ray(b.fixed("N", complex(x, y)), None, angle)
         if circle is None:
-            pivot = b.meet_lines("O", line, chord)
+            pivot = b.intersect_lines("O", line, chord)
         else:
-            pivot = b.meet_line_circle("O", line, *circle, way)
-    elif asked["centres"] is not None:
-        frame = b.length("OC", asked["centres"])
+            pivot = b.intersect_line_circle("O", line, *circle, branch)
+    elif options["centres"] is not None:
+        frame = b.length("OC", options["centres"])
         if circle is None:
-            pivot = b.meet_line_circle("O", chord, c, frame, Way.BACKWARD)
+            pivot = b.intersect_line_circle("O", chord, c, frame, LineSense.BACKWARD)
         else:
-            pivot = b.meet_circles(
-                "O", c, frame, *circle, Side.LEFT if way is Way.FORWARD else Side.RIGHT
+            pivot = b.intersect_circles(
+                "O", c, frame, *circle, Side.LEFT if branch is LineSense.FORWARD else Side.RIGHT
             )
     else:
         assert circle is not None
-        pivot = b.second_meeting("O", near, b.ray(near, chord, side.value * beta), circle[0])
-        b.said[pivot] = ("again", {"tail": near, "head": far, "angle": beta, "point": pivot})
+        pivot = b.second_intersection("O", near, b.ray(near, chord, side.value * beta), circle[0])
+        b.phrases[pivot] = ("again", {"tail": near, "head": far, "angle": beta, "point": pivot})
     long, short = b.measure("O B'", pivot, far), b.measure("O B''", pivot, near)
     crank = b.half_sum(long, short, ("AB", "OA"))
-    if asked["centres"] is None:
-        b.found("OC", b.measure("O C", pivot, c))
-    out = b.opposite("A'", pivot, far, crank, Way.FORWARD)
-    back = b.opposite("A''", pivot, near, crank, Way.BACKWARD)
+    if options["centres"] is None:
+        b.length_from("OC", b.measure("O C", pivot, c))
+    out = b.opposite("A'", pivot, far, crank, LineSense.FORWARD)
+    back = b.opposite("A''", pivot, near, crank, LineSense.BACKWARD)
     b.circles.append((pivot, out, back))
     try:
         trace = read(b)
@@ -221,7 +228,7 @@ def _built(
     lengths = lengths_of(trace, LENGTHS)
     worst = transmission(*lengths.values())
     short_way, long_way = abs(two - o), abs(one - o)
-    tiny = 1e-9 * asked["rocker"]
+    tiny = 1e-9 * options["rocker"]
     on_arc = circle is None or seen > 0.0
     turns = sides[0] * sides[1] > 0.0 and worst > 1e-6
     if not (on_arc and turns and short_way > tiny and long_way - short_way > tiny):
@@ -236,14 +243,14 @@ def _built(
     poses = tuple(
         Pose((("O", pin, end), ("C", end)), (pin, end)) for pin, end in ((out, far), (back, near))
     )
-    facts = {} if asked["line"] or asked["centres"] else {"beta_deg": inner * beta}
+    facts = {} if options["line"] or options["centres"] else {"beta_deg": inner * beta}
     return -worst, Synthesis(
         "crank-rocker",
         b,
         LENGTHS,
         ("O", "C"),
         poses,
-        {"K_v": asked["K_v"], "swing": asked["swing"]},
+        {"K_v": options["K_v"], "swing": options["swing"]},
         "3",
         ("A", "B", "C"),
         LENGTHS,

@@ -12,10 +12,10 @@ from msgspec import Struct, field
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace, evaluate, limit_of
 from planmethod.construct.program import Builder, Program
-from planmethod.construct.steps import LineName, Name, NumberName, PointName, Side, Way
+from planmethod.construct.steps import LineName, LineSense, Name, NumberName, PointName, Side
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 
-Said: TypeAlias = tuple[str, Mapping[str, str | float]]
+StepPhrase: TypeAlias = tuple[str, Mapping[str, str | float]]
 """Key of a sentence in ``steps`` of the texts, and its arguments: points by name, and numbers."""
 
 MU = NumberName("mu_l")
@@ -32,7 +32,7 @@ class Board(Builder):
     ----------
     data : dict
         Given points (m) and numbers (m, degrees) by their names; without the scale.
-    said : dict
+    phrases : dict
         Sentence that replaces a step's own; None where another sentence covers the step.
     marks : set of PointName
         Auxiliary points, which have no letter.
@@ -43,7 +43,7 @@ class Board(Builder):
     """
 
     data: dict[str, complex | float] = field(default_factory=dict)
-    said: dict[Name, Said | None] = field(default_factory=dict)
+    phrases: dict[Name, StepPhrase | None] = field(default_factory=dict)
     marks: set[PointName] = field(default_factory=set)
     sizes: dict[NumberName, str] = field(default_factory=dict)
     circles: list[tuple[PointName, ...]] = field(default_factory=list)
@@ -51,7 +51,7 @@ class Board(Builder):
     def fixed(self, name: str, place: complex) -> PointName:
         """Mark a given point, m."""
         self.data[name] = place
-        return self.given(name)
+        return self.take_point(name)
 
     def _scale(self) -> NumberName:
         if not any(step.out == MU for step in self.steps):
@@ -75,7 +75,7 @@ class Board(Builder):
         """Draw a line at an angle, degrees from ``to`` or +x."""
         return self.at_angle(through, to, self.angle(f"{degrees!r} deg", degrees))
 
-    def found(
+    def length_from(
         self, name: str, *read: NumberName, factor: float = 1.0, size: bool = True
     ) -> NumberName:
         """Compute a length of the mechanism from readings: their sum times a factor, m."""
@@ -85,29 +85,29 @@ class Board(Builder):
         self.sizes[length] = name
         return length
 
-    def half_sum(self, one: NumberName, other: NumberName, names: tuple[str, str]) -> NumberName:
+    def half_sum(self, one: NumberName, second: NumberName, names: tuple[str, str]) -> NumberName:
         """Compute half the sum and half the difference of two readings; return the latter, mm.
 
         ``names`` are those of the lengths of the mechanism that they are.
         """
-        minus = self.compute(f"minus {other}", (other, 1), factor=-1.0)
-        self.found(names[0], one, other, factor=0.5)
+        minus = self.compute(f"minus {second}", (second, 1), factor=-1.0)
+        self.length_from(names[0], one, second, factor=0.5)
         less = self.total(f"less {names[1]}", one, minus)
         half = self.compute(f"half {names[1]}", (less, 1), factor=0.5)
-        self.found(names[1], half)
+        self.length_from(names[1], half)
         return half
 
     def bisector(self, tail: PointName, head: PointName) -> LineName:
         """Draw the perpendicular bisector of a segment with two pairs of arcs."""
         span = self.measure(f"{tail} {head}", tail, head)
         marks = [
-            self.meet_circles(f"mark {tail} {head} {side.value}", tail, span, head, span, side)
+            self.intersect_circles(f"mark {tail} {head} {side.value}", tail, span, head, span, side)
             for side in (Side.RIGHT, Side.LEFT)
         ]
         self.marks |= {*marks}
         line = self.join(*marks)
-        self.said |= dict.fromkeys((span, *marks))
-        self.said[line] = ("bisector", {"tail": tail, "head": head})
+        self.phrases |= dict.fromkeys((span, *marks))
+        self.phrases[line] = ("bisector", {"tail": tail, "head": head})
         return line
 
     def inscribed(self, centre: str, chord: tuple[PointName, PointName], angle: float,
@@ -129,21 +129,21 @@ class Board(Builder):
         """
         tail, head = chord
         ray = self.ray(tail, self.join(tail, head), side.value * (90.0 - angle))
-        at = self.meet_lines(centre, ray, self.bisector(tail, head))
+        at = self.intersect_lines(centre, ray, self.bisector(tail, head))
         radius = self.measure(f"{centre} {tail}", at, tail)
         self.circles.append((at, tail, head, PointName("O")))
-        self.said |= {radius: None, ray: None}
+        self.phrases |= {radius: None, ray: None}
         ends = {"tail": tail, "head": head, "centre": centre}
-        self.said[at] = ("inscribed", {**ends, "angle": angle, "rest": abs(90.0 - angle)})
+        self.phrases[at] = ("inscribed", {**ends, "angle": angle, "rest": abs(90.0 - angle)})
         return at, radius
 
-    def second_meeting(
+    def second_intersection(
         self, out: str, point: PointName, line: LineName, centre: PointName
     ) -> PointName:
         """Find the second intersection of a line and a circle from the first, without a reading."""
-        foot = self.meet_lines(f"mark {out}", line, self.perpendicular(centre, line))
+        foot = self.intersect_lines(f"mark {out}", line, self.perpendicular(centre, line))
         self.marks.add(foot)
-        self.said[foot] = None
+        self.phrases[foot] = None
         return self.carry(out, foot, point, foot)
 
     def circle_through(
@@ -151,16 +151,16 @@ class Board(Builder):
     ) -> PointName:
         """Find the centre of the circle through three points."""
         one, two, three = points
-        at = self.meet_lines(centre, self.bisector(one, two), self.bisector(two, three))
+        at = self.intersect_lines(centre, self.bisector(one, two), self.bisector(two, three))
         self.circles.append((at, *points))
-        self.said[at] = ("centre", {"centre": centre, "points": ", ".join(points)})
+        self.phrases[at] = ("centre", {"centre": centre, "points": ", ".join(points)})
         return at
 
     def opposite(
-        self, out: str, pivot: PointName, pin: PointName, arm: NumberName, way: Way
+        self, out: str, pivot: PointName, pin: PointName, arm: NumberName, direction: LineSense
     ) -> PointName:
         """Mark the end of a crank that is in one line with a coupler: towards its pin, or away."""
-        return self.meet_line_circle(out, self.join(pivot, pin), pivot, arm, way)
+        return self.intersect_line_circle(out, self.join(pivot, pin), pivot, arm, direction)
 
 
 class InputError(PlanMethodError):
@@ -206,10 +206,10 @@ class Synthesis(Struct, frozen=True):
     lengths : tuple of str
         Names of the lengths found or given, those of the problem file.
     pivots : tuple of str
-        Fixed points; the first one is the origin of the problem file where ``moved``.
+        Fixed points; the first one is the origin of the problem file where ``pivot_at_origin``.
     poses : tuple of Pose
         The first one is drawn with main lines.
-    asked : mapping
+    targets : mapping
         Targets for the verification: ``K_v``, ``stroke``, ``swing``.
     output : str
         Point on the guide or output link whose extreme positions are measured.
@@ -234,13 +234,13 @@ class Synthesis(Struct, frozen=True):
     lengths: tuple[str, ...]
     pivots: tuple[str, ...]
     poses: tuple[Pose, ...]
-    asked: Mapping[str, float]
+    targets: Mapping[str, float]
     output: str
     pressure: tuple[str, str, str]
     grashof: tuple[str, ...]
     tables: tuple[FileTable, ...]
     guide: tuple[str, ...] = ()
-    moved: bool = True
+    pivot_at_origin: bool = True
     driver: tuple[str, str] = ("O", "A")
     positions: tuple[float, ...] = ()
     facts: Mapping[str, Any] = field(default_factory=dict)
@@ -289,7 +289,7 @@ def read(board: Board, mu: float = 1.0) -> Trace:
     for step in board.steps:
         margin = trace.margin.get(step.out)
         if margin is not None and not margin > limit_of(step):
-            told = board.said.get(step.out)
+            told = board.phrases.get(step.out)
             raise AssemblyError(
                 "No such mechanism exists: the construction fails where {} is to be "
                 "found{}, margin {:.3g}. Change the given data.",
@@ -324,7 +324,7 @@ def angle_of_ratio(ratio: float) -> float:
     return 180.0 * (ratio - 1.0) / (ratio + 1.0)
 
 
-def chosen(asked: Mapping[str, Any], kind: str, *ways: str) -> str:
+def choose_option_set(options: Mapping[str, Any], kind: str, *ways: str) -> str:
     """Return the given one of several sets of options, each written as ``K_v centres``.
 
     Raises
@@ -332,13 +332,13 @@ def chosen(asked: Mapping[str, Any], kind: str, *ways: str) -> str:
     InputError
         None of them, or a mixture.
     """
-    given = {name for name, value in asked.items() if value is not None}
+    given = {name for name, value in options.items() if value is not None}
     for way in ways:
         if given == set(way.split()):
             return way
-    told = "; ".join(" ".join(f"--{name}" for name in way.split()) for way in ways)
+    text = "; ".join(" ".join(f"--{name}" for name in way.split()) for way in ways)
     have = " ".join(f"--{name}" for name in sorted(given)) or "none of them"
-    raise InputError("{} is synthesized from: {}. Given: {}.", kind, told, have)
+    raise InputError("{} is synthesized from: {}. Given: {}.", kind, text, have)
 
 
 def ray_angle(origin: complex, towards: complex) -> float:

@@ -11,12 +11,12 @@ from typing import Any
 from msgspec import Struct
 
 from planmethod.construct.scale import Scale
-from planmethod.construct.steps import LineName, MeetCircles, MeetLineCircle, PointName
+from planmethod.construct.steps import IntersectCircles, IntersectLineCircle, LineName, PointName
 from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES, say
-from planmethod.note.narrate.given import NBSP
+from planmethod.languages import LANGUAGES, translate
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.wording import Language, language
+from planmethod.note.narrate.statement import NBSP
+from planmethod.note.wording import Language, get_language
 from planmethod.problem.model import Convention, Problem
 from planmethod.render import symbols
 from planmethod.render.control.unused import largest_empty
@@ -24,7 +24,7 @@ from planmethod.render.frame.titleblock import rectangle
 from planmethod.render.ink.drawing import Arc, Bounds, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.labels.spots import shared_spots
+from planmethod.render.labels.merged_labels import merge_letters
 from planmethod.render.layout.block import (
     Block,
     Column,
@@ -33,22 +33,22 @@ from planmethod.render.layout.block import (
     heading,
     paragraph,
 )
-from planmethod.render.layout.cuttings import Group, Packed
+from planmethod.render.layout.cuttings import Group, LayoutItem
 from planmethod.render.layout.pack import Placed
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import (
-    Blank,
-    Laid,
-    LaidPage,
-    Misfit,
+    NoFitAdvice,
+    PageLayout,
+    SheetLayout,
     Sizes,
-    Viewed,
+    TrialPaper,
+    ViewBlock,
     compose,
-    packed,
+    pack_group,
 )
 from planmethod.render.symbols import arrowhead
-from planmethod.synthesis.drawn import Drawn, arc_over
+from planmethod.synthesis.drawing import Drawn, arc_over
 from planmethod.synthesis.model import place
 from planmethod.synthesis.text import (
     SynthesisNarrator,
@@ -61,17 +61,17 @@ from planmethod.synthesis.text import (
 SIZES = Sizes(5.0, 5.0, 3.5, 175.0, row=6.5)
 """Sizes of letters, and of the texts over the title block."""
 
-_BEYOND = 9.0  # mm: construction lines go on beyond their points
+_OVERSHOOT = 9.0  # mm: construction lines go on beyond their points
 _TICK = 5.0  # mm: half of an arc that marks a point
 _ANGLE = 0.6  # radius of the arc of an angle as a part of the shorter of its sides
-_MOST_ANGLE = 45.0  # mm: that radius at most
+_MAX_ANGLE_RADIUS = 45.0  # mm: that radius at most
 _SAME = 0.8  # mm: points so near have one label
 
 
 def synthesis_sheet(
     drawn: Drawn,
     problem: Problem,
-    asked: Mapping[str, Any],
+    options: Mapping[str, Any],
     checks: Mapping[str, Any],
     *,
     fields: Mapping[str, str] | None = None,
@@ -82,7 +82,7 @@ def synthesis_sheet(
     ----------
     problem : Problem
         Its settings of the sheet and its title block.
-    asked, checks : mapping
+    options, checks : mapping
         The options, and the values measured on the mechanism.
     fields : mapping, optional
         Texts of the title block that outrank the problem's.
@@ -92,13 +92,13 @@ def synthesis_sheet(
     LayoutError
         The content does not fit the paper.
     """
-    words = language(problem.sheet.lang or LANGUAGES[0])
-    strategy = _Synthesis(drawn, asked, checks, words)
-    misfit = Misfit(
+    language = get_language(problem.sheet.lang or LANGUAGES[0])
+    strategy = _Synthesis(drawn, options, checks, language)
+    misfit = NoFitAdvice(
         lambda paper, advice: LayoutError(
             "{}: the construction does not fit {}. {}", drawn.synthesis.kind, paper, advice
         ),
-        say("Take another --paper."),
+        translate("Take another --paper."),
     )
     (sheet,) = compose(problem, strategy, misfit, fields=fields)
     return sheet
@@ -108,21 +108,21 @@ class _Synthesis(Struct, frozen=True):
     """Search for the sheet of a synthesis, by smaller letters, then coarser scales."""
 
     drawn: Drawn
-    asked: Mapping[str, Any]
+    options: Mapping[str, Any]
     checks: Mapping[str, Any]
-    words: Language
+    language: Language
 
     formats = ("A3",)
 
-    def proposals(self, papers: Sequence[Blank]) -> Iterator[_Orders]:
+    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[_Orders]:
         """Yield the blocks at letters and scales; the steps are left out at last."""
-        drawn, words = self.drawn, self.words
-        title = words.synthesis["titles"][drawn.synthesis.kind]
+        drawn, language = self.drawn, self.language
+        title = language.synthesis["titles"][drawn.synthesis.kind]
         for paper in papers:
             for heights in ((SIZES.text, 2.5), (SIZES.text, 2.5), (SIZES.text, 2.5, 0.0)):
-                view = _view(drawn, words)
+                view = _view(drawn, language)
                 for height in heights:
-                    texts = _texts(drawn, self.asked, self.checks, words, height)
+                    texts = _texts(drawn, self.options, self.checks, language, height)
                     yield _Orders(paper, view, texts, title, is_cut_down=not height)
                 drawn = drawn.coarser()
 
@@ -130,23 +130,23 @@ class _Synthesis(Struct, frozen=True):
 class _Orders(Struct, frozen=True):
     """View and its texts in two reading orders (`Proposal`)."""
 
-    paper: Blank
-    view: Viewed
+    paper: TrialPaper
+    view: ViewBlock
     texts: Sequence[Block]
     title: str
     is_cut_down: bool
 
-    def laid(self) -> Laid | None:
+    def arrange(self) -> SheetLayout | None:
         """Return the sheet with the measurements after the steps, or beside the view.
 
         The one that leaves the smaller empty rectangle is chosen.
         """
-        view, room = self.view, self.paper.room()
+        view, room = self.view, self.paper.drawing_area()
         told, measured, sizes = self.texts
         made: list[tuple[float, int, list[Placed]]] = []
         for blocks in ((view, told, measured, sizes), (view, measured, told, sizes)):
-            whole = Group(tuple(Packed(block, block is not view) for block in blocks))
-            placed = packed(whole, room)
+            whole = Group(tuple(LayoutItem(block, block is not view) for block in blocks))
+            placed = pack_group(whole, room)
             if placed is not None:
                 items: list[Item] = [rectangle(room.stamp, Pen.FRAME, "")]
                 items += [item for block, corner in placed for item in block.place(corner)]
@@ -154,47 +154,51 @@ class _Orders(Struct, frozen=True):
                 made.append(((right - left) * (high - low), len(made), placed))
         if not made:
             return None
-        return Laid([LaidPage(min(made)[2], self.title, (self.is_cut_down, 0, 0))])
+        return SheetLayout([PageLayout(min(made)[2], self.title, (self.is_cut_down, 0, 0))])
 
 
-def _view(drawn: Drawn, words: Language) -> Viewed:
+def _view(drawn: Drawn, language: Language) -> ViewBlock:
     """Return the construction with its name and scale."""
     scale = Scale("mu_l", drawn.mu, "m")
-    said = scale_inscription(scale, Convention.UNIT_PER_MM, words.say)
-    name = Line(typeset(words.synthesis.construction, SIZES.title))
-    under = Column([name, Line(typeset(said, SIZES.text))], gap=2.5, align="centre")
-    return Viewed(
-        Column([_picture(drawn, words), under], gap=5.0, align="centre"), "position", scale
+    phrase = scale_inscription(scale, Convention.UNIT_PER_MM, language.notation)
+    name = Line(typeset(language.synthesis.construction, SIZES.title))
+    under = Column([name, Line(typeset(phrase, SIZES.text))], gap=2.5, align="centre")
+    return ViewBlock(
+        Column([_picture(drawn, language), under], gap=5.0, align="centre"), "position", scale
     )
 
 
 def _texts(
-    drawn: Drawn, asked: Mapping[str, Any], checks: Mapping[str, Any], words: Language, told: float
+    drawn: Drawn,
+    options: Mapping[str, Any],
+    checks: Mapping[str, Any],
+    language: Language,
+    height: float,
 ) -> list[Block]:
-    """Return the given data and the steps, ``told`` mm high (none at 0), measurements, sizes."""
-    said = words.synthesis
-    facts = words.note.given.format(given="; ".join(given_facts(asked, words)))
+    """Return the given data and the steps, ``height`` mm high (none at 0), measurements, sizes."""
+    texts = language.synthesis
+    facts = language.note.given.format(given="; ".join(given_facts(options, language)))
     first: list[Block] = [paragraph(facts, SIZES.text, SIZES.column)]
-    if told:
+    if height:
         steps = [
-            paragraph(f"{k}) {_kept(sentence)}", told, SIZES.column)
-            for k, sentence in enumerate(SynthesisNarrator(drawn, words).sentences(), 1)
+            paragraph(f"{k}) {_bind_last_word(sentence)}", height, SIZES.column)
+            for k, sentence in enumerate(SynthesisNarrator(drawn, language).sentences(), 1)
         ]
-        first.append(Column([heading(said.steps_title, SIZES.text), *steps], gap=0.6 * told))
+        first.append(Column([heading(texts.steps_title, SIZES.text), *steps], gap=0.6 * height))
     blocks: list[Block] = [Column(first, gap=6.0)]
-    rows = [f"{name}:{NBSP}{value}" for name, value in check_rows(checks, words)]
+    rows = [f"{name}:{NBSP}{value}" for name, value in check_rows(checks, language)]
     measured = paragraph(";\n".join(rows) + ".", SIZES.text, SIZES.column)
-    blocks.append(Column([heading(said.measured, SIZES.text), measured], gap=3.0))
-    columns = zip(said["columns"], zip(*size_rows(drawn, words), strict=True), strict=True)
+    blocks.append(Column([heading(texts.measured, SIZES.text), measured], gap=3.0))
+    columns = zip(texts["columns"], zip(*size_rows(drawn, language), strict=True), strict=True)
     sizes = table_block(
         [TableColumn(head, tuple(values)) for head, values in columns],
         SIZES.text, width=SIZES.column, units="none", row_height=SIZES.row,
     )  # fmt: skip
-    blocks.append(Column([heading(said.lengths, SIZES.text), sizes], gap=3.0))
+    blocks.append(Column([heading(texts.lengths, SIZES.text), sizes], gap=3.0))
     return blocks
 
 
-def _kept(sentence: str) -> str:
+def _bind_last_word(sentence: str) -> str:
     """Return a sentence whose last word is never alone on a line."""
     return NBSP.join(sentence.rsplit(" ", 1))
 
@@ -202,10 +206,10 @@ def _kept(sentence: str) -> str:
 # The construction --------------------------------------------------------------------------------
 
 
-def _picture(drawn: Drawn, words: Language) -> Picture:
+def _picture(drawn: Drawn, language: Language) -> Picture:
     """Return the construction with the mechanism in its positions."""
     ink = _Ink(drawn)
-    angle, letter = ink.angle(words)
+    angle, letter = ink.angle(language)
     items = symbols.before_links([*ink.construction(), *angle, *ink.mechanism()])
     return lettered(list(items), [*ink.labels(), *letter])
 
@@ -216,7 +220,7 @@ class _Ink:
     def __init__(self, drawn: Drawn) -> None:
         self.drawn = drawn
         left, low, right, high = self.drawn.extent(self.drawn.paper)
-        room = 1.5 * _BEYOND
+        room = 1.5 * _OVERSHOOT
         self.box: Bounds = (left - room, low - room, right + room, high + room)
 
     def at(self, name: str) -> complex:
@@ -229,14 +233,14 @@ class _Ink:
         circles = self.drawn.synthesis.board.circles
         for centre, *points in circles:
             middle, radius, start, sweep = arc_over(self.drawn.paper, centre, points)
-            beyond = _BEYOND / radius
+            beyond = _OVERSHOOT / radius
             sweep = min(tau, sweep + 2 * beyond)
             yield from self._arc(middle, radius, start - beyond, start - beyond + sweep)
         whole = {centre for centre, *_ in circles}
         for step in self.drawn.synthesis.board.steps:
-            if isinstance(step, MeetCircles):
+            if isinstance(step, IntersectCircles):
                 centres: tuple[PointName, ...] = (step.centre1, step.centre2)
-            elif isinstance(step, MeetLineCircle):
+            elif isinstance(step, IntersectLineCircle):
                 centres = (step.centre,)
             else:
                 continue
@@ -256,9 +260,12 @@ class _Ink:
     def _line(self, line: LineName, points: Iterable[PointName]) -> Iterator[Item]:
         start, course = (complex(value) for value in self.drawn.paper.value[line])
         along = course / abs(course)
-        ways = [self.drawn.way(line, p) for p in points]
+        ways = [self.drawn.distance_along(line, p) for p in points]
         if max(ways) - min(ways) > 1.0:
-            ends = (start + along * (min(ways) - _BEYOND), start + along * (max(ways) + _BEYOND))
+            ends = (
+                start + along * (min(ways) - _OVERSHOOT),
+                start + along * (max(ways) + _OVERSHOOT),
+            )
             yield from self._clipped(ends)
 
     def _arc(self, centre: complex, radius: float, start: float, end: float) -> Iterator[Item]:
@@ -266,13 +273,13 @@ class _Ink:
         turns = (start + (end - start) * k / count for k in range(count + 1))
         yield from self._clipped([centre + cmath.rect(radius, turn) for turn in turns])
 
-    def angle(self, words: Language) -> tuple[list[Item], list[Label]]:
+    def angle(self, language: Language) -> tuple[list[Item], list[Label]]:
         """Return the arc of the angle between the dead positions with arrowheads, its size."""
         if not self.drawn.synthesis.theta:
             return [], []
         vertex, *ends = (self.at(name) for name in self.drawn.synthesis.theta)
         sides = [end - vertex for end in ends]
-        radius = min(_MOST_ANGLE, _ANGLE * min(map(abs, sides)))
+        radius = min(_MAX_ANGLE_RADIUS, _ANGLE * min(map(abs, sides)))
         turned = cmath.phase(sides[1] / sides[0])
         first, last = (sides[0], sides[1]) if turned > 0.0 else (sides[1], sides[0])
         start = cmath.phase(first)
@@ -288,9 +295,9 @@ class _Ink:
             if radius * abs(turned) > 8.0
             else []
         )
-        size = words.say.given(round(degrees(abs(turned)), 2))
+        size = language.notation.as_input(round(degrees(abs(turned)), 2))
         letter = Label(typeset(f"θ = {size}°", SIZES.text), vertex + radius * middle,
-                       prefer=middle, gap=1.2, name="theta", manner=BUSY)  # fmt: skip
+                       prefer=middle, gap=1.2, name="theta", style=BUSY)  # fmt: skip
         return [arc, *heads], [letter]
 
     def _clipped(self, path: Iterable[complex]) -> Iterator[Item]:
@@ -317,7 +324,9 @@ class _Ink:
         for pose in made.poses:
             for pin, foot in pose.stones:
                 way = cmath.phase(self.at(pin) - self.at(foot))
-                yield from symbols.stone(self.at(pin), angle=way * 180.0 / cmath.pi, pin=False)
+                yield from symbols.sliding_block(
+                    self.at(pin), angle=way * 180.0 / cmath.pi, pin=False
+                )
         for pose in made.poses:
             for points in pose.links:
                 yield from symbols.link(*map(self.at, points))
@@ -342,7 +351,9 @@ class _Ink:
 
     def labels(self) -> list[Label]:
         """Return the letters of the points; points in one place have one label."""
-        groups = shared_spots([(self.at(name), [name]) for name in self.drawn.shown], near=_SAME)
+        groups = merge_letters(
+            [(self.at(name), [name]) for name in self.drawn.points_on_sheet], near=_SAME
+        )
         middle = complex(self.box[0] + self.box[2], self.box[1] + self.box[3]) / 2
         return [
             Label(
@@ -350,7 +361,7 @@ class _Ink:
                 at,
                 prefer=(at - middle) * cmath.exp(1j * radians(10.0)),
                 gap=2.6,
-                manner=BUSY,
+                style=BUSY,
             )
             for at, names in groups
         ]

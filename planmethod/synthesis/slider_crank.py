@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from planmethod.construct.steps import Side, Way
+from planmethod.construct.steps import LineSense, Side
 from planmethod.errors import AssemblyError
 from planmethod.solved.turn.roots import root, top
 from planmethod.synthesis.model import (
@@ -23,20 +23,20 @@ from planmethod.synthesis.model import (
     Pose,
     Synthesis,
     angle_of_ratio,
-    chosen,
+    choose_option_set,
     place,
     read,
 )
 
-TAKES = ("K_v", "stroke", "lambda", "offset", "pressure")
+OPTIONS = ("K_v", "stroke", "lambda", "offset", "pressure")
 
 
-def synthesize(asked: Mapping[str, Any]) -> Synthesis:
+def synthesize(options: Mapping[str, Any]) -> Synthesis:
     """Find crank and rod.
 
     Parameters
     ----------
-    asked : mapping
+    options : mapping
         ``stroke`` (m) with two of ``K_v``, ``lambda`` (r/l) and ``offset`` (m; 0 with ``lambda``
         alone); with ``K_v`` alone, for the smallest pressure angle; or with the maximum
         ``pressure`` angle (degrees) and ``offset``.
@@ -45,8 +45,8 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     ------
     InputError, AssemblyError
     """
-    way = chosen(
-        asked,
+    way = choose_option_set(
+        options,
         "slider-crank",
         "stroke K_v offset",
         "stroke K_v",
@@ -56,9 +56,9 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         "stroke pressure",
         "stroke pressure offset",
     )
-    stroke, ratio, offset = asked["stroke"], asked["lambda"], asked["offset"]
-    if asked["pressure"] is not None:
-        ratio = _ratio_of_pressure(stroke, abs(offset or 0.0), asked["pressure"])
+    stroke, ratio, offset = options["stroke"], options["lambda"], options["offset"]
+    if options["pressure"] is not None:
+        ratio = _ratio_of_pressure(stroke, abs(offset or 0.0), options["pressure"])
     if ratio is not None and not 0.0 < ratio < 1.0:
         raise AssemblyError(
             "lambda = r/l = {:.10g}: the crank turns fully only where it is shorter than "
@@ -66,17 +66,17 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
             ratio,
         )
     theta = 0.0
-    if asked["K_v"] is not None:
-        theta = angle_of_ratio(asked["K_v"])
+    if options["K_v"] is not None:
+        theta = angle_of_ratio(options["K_v"])
         if ratio is not None and theta == 0.0:
             way = "stroke lambda"  # a central mechanism
     if way.startswith("stroke K_v"):
-        _check_ratio(stroke, asked["K_v"], theta, ratio, offset)
+        _check_ratio(stroke, options["K_v"], theta, ratio, offset)
     if way == "stroke K_v":
         relief = np.vectorize(lambda e: -_pressure(stroke, theta, e), otypes=[float])
-        offset, _ = top(relief, 0.0, stroke / tan(radians(theta)), looks=400)
+        offset, _ = top(relief, 0.0, stroke / tan(radians(theta)), samples=400)
     given = None if way == "stroke K_v lambda" else offset or 0.0
-    return _built(asked, stroke, theta, ratio, given)
+    return _built(options, stroke, theta, ratio, given)
 
 
 def _check_ratio(
@@ -115,7 +115,7 @@ def _check_ratio(
 
 
 def _built(
-    asked: Mapping[str, Any],
+    options: Mapping[str, Any],
     stroke: float,
     theta: float,
     ratio: float | None,
@@ -125,7 +125,7 @@ def _built(
     b = Board()
     near = b.fixed("B''", 0j)
     guide = b.ray(near, None, 0.0)
-    far = b.lay_off("B'", near, guide, b.length("H", stroke))
+    far = b.lay_off_length("B'", near, guide, b.length("H", stroke))
     side = Side.RIGHT if offset is None or offset >= 0.0 else Side.LEFT
     circles = []
     if theta > 0.0:
@@ -142,27 +142,32 @@ def _built(
                 limit,
             )
         ends = [
-            b.lay_off(name, near, guide, b.length(f"B''{name}", length * stroke * (1.0 - ratio)))
+            b.lay_off_length(
+                name, near, guide, b.length(f"B''{name}", length * stroke * (1.0 - ratio))
+            )
             for name, length in (("P", 0.5), ("Q", -0.5 / ratio))
         ]
-        middle = b.meet_lines("G", guide, b.bisector(*ends))
+        middle = b.intersect_lines("G", guide, b.bisector(*ends))
         b.circles.append((middle, ends[0]))
-        b.said[middle] = ("apollonius", {"tail": "P", "head": "Q", "ratio": ratio, "centre": "G"})
+        b.phrases[middle] = (
+            "apollonius",
+            {"tail": "P", "head": "Q", "ratio": ratio, "centre": "G"},
+        )
         circles.append((middle, b.measure("G P", middle, ends[0])))
     if offset is None:
         (z, big), (g, small) = circles
-        pivot = b.meet_circles("O", z, big, g, small, Side.LEFT)
+        pivot = b.intersect_circles("O", z, big, g, small, Side.LEFT)
     else:
-        foot = b.lay_off("N", near, b.ray(near, guide, -90.0), b.length("e", offset))
+        foot = b.lay_off_length("N", near, b.ray(near, guide, -90.0), b.length("e", offset))
         line = b.parallel(foot, guide) if offset else guide
-        pivot = b.meet_line_circle("O", line, *circles[0], Way.BACKWARD)
+        pivot = b.intersect_line_circle("O", line, *circles[0], LineSense.BACKWARD)
     short, long = b.measure("O B''", pivot, near), b.measure("O B'", pivot, far)
     crank = b.half_sum(long, short, ("AB", "OA"))
     if offset is None:
-        foot = b.meet_lines("N", b.perpendicular(pivot, guide), guide)
-        b.found("e", b.measure("O N", pivot, foot))
-    out = b.opposite("A'", pivot, far, crank, Way.FORWARD)
-    back = b.opposite("A''", pivot, near, crank, Way.BACKWARD)
+        foot = b.intersect_lines("N", b.perpendicular(pivot, guide), guide)
+        b.length_from("e", b.measure("O N", pivot, foot))
+    out = b.opposite("A'", pivot, far, crank, LineSense.FORWARD)
+    back = b.opposite("A''", pivot, near, crank, LineSense.BACKWARD)
     b.circles.append((pivot, out, back))
     trace = read(b)
     if place(trace, "O").real >= 0.0:
@@ -171,7 +176,7 @@ def _built(
             "Take another ratio or offset."
         )
     asked_back = {"stroke": stroke}
-    asked_back |= {k: asked[k] for k in ("K_v",) if asked[k] is not None}
+    asked_back |= {k: options[k] for k in ("K_v",) if options[k] is not None}
     return Synthesis(
         "slider-crank",
         b,

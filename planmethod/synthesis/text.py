@@ -21,10 +21,10 @@ from planmethod.note.document import (
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.narrator import BoardNarrator
 from planmethod.note.numbers import with_unit
-from planmethod.note.plaintext import NO_BREAK, given
+from planmethod.note.plaintext import NO_BREAK, input_text
 from planmethod.note.wording import Language
-from planmethod.synthesis.drawn import Drawn
-from planmethod.synthesis.model import Said, place
+from planmethod.synthesis.drawing import Drawn
+from planmethod.synthesis.model import StepPhrase, place
 
 LEGS = range(60, 121)
 """Longer legs that an angle is laid off with, mm."""
@@ -33,28 +33,29 @@ PRICKED = 0.5
 """Step to which a leg is set at best, mm."""
 
 
-_LAID = frozenset({("inscribed", "rest"), ("again", "angle")})
+_LAID_OFF_ANGLES = frozenset({("inscribed", "rest"), ("again", "angle")})
 """Angles of sentences of a synthesis' own that are laid off, by key and place."""
 
 
 def synthesis_document(
-    drawn: Drawn, asked: Mapping[str, Any], checks: Mapping[str, Any], words: Language
+    drawn: Drawn, options: Mapping[str, Any], checks: Mapping[str, Any], language: Language
 ) -> Iterator[Node]:
     """Yield the given data, the construction, the sizes and the measurements."""
-    said = words.synthesis
-    yield Title(said["titles"][drawn.synthesis.kind])
-    yield Paragraph(words.note.given.format(given="; ".join(given_facts(asked, words))))
+    texts = language.synthesis
+    yield Title(texts["titles"][drawn.synthesis.kind])
+    yield Paragraph(language.note.given.format(given="; ".join(given_facts(options, language))))
     yield Paragraph(
-        said.ruler.format(
-            ruler=words.say.given(drawn.profile.ruler), scale=words.say.given(drawn.mu)
+        texts.ruler.format(
+            ruler=language.notation.as_input(drawn.profile.ruler),
+            scale=language.notation.as_input(drawn.mu),
         )
     )
-    yield Chapter(said.construction)
-    yield from steps_of(SynthesisNarrator(drawn, words).sentences())
-    yield Chapter(said.lengths)
-    yield table_of(said["columns"], size_rows(drawn, words))
-    yield Chapter(said.measured)
-    yield from (Item(f"{name}: {value}") for name, value in check_rows(checks, words))
+    yield Chapter(texts.construction)
+    yield from steps_of(SynthesisNarrator(drawn, language).sentences())
+    yield Chapter(texts.lengths)
+    yield table_of(texts["columns"], size_rows(drawn, language))
+    yield Chapter(texts.measured)
+    yield from (Item(f"{name}: {value}") for name, value in check_rows(checks, language))
 
 
 def point_name(name: str) -> Rich:
@@ -70,7 +71,7 @@ def size_symbol(name: str) -> Rich:
     return "e" if name == "e" else f"l_{{{name}}}"
 
 
-def set_angle(angle: float, ruler: float, words: Language) -> Rich:
+def set_angle(angle: float, ruler: float, language: Language) -> Rich:
     """Return an angle for laying off: if a protractor has no such mark, by two legs, mm.
 
     Parameters
@@ -81,9 +82,9 @@ def set_angle(angle: float, ruler: float, words: Language) -> Rich:
         Step to which the shorter leg is set; the longer one, in whole millimetres, is that by which
         the angle is met best.
     """
-    told = given(round(angle, 2), words.note)
+    text = input_text(round(angle, 2), language.note)
     if math.isclose(2.0 * angle, round(2.0 * angle), abs_tol=1e-6):
-        return f"{told}°"
+        return f"{text}°"
     sharp = min(angle, 180.0 - angle)
     tangent, step = math.tan(math.radians(min(sharp, 90.0 - sharp))), max(ruler, PRICKED)
 
@@ -92,17 +93,17 @@ def set_angle(angle: float, ruler: float, words: Language) -> Rich:
 
     long = min(LEGS, key=lambda long: abs(leg(long) / long - tangent))
     across, along = (leg(long), long) if sharp < 45.0 else (long, leg(long))
-    shown = (given(value, words.note) for value in (round(sharp, 2), across, along))
-    return words.synthesis.by_legs.format(
-        angle=told, **dict(zip(("sharp", "across", "along"), shown, strict=True))
+    shown = (input_text(value, language.note) for value in (round(sharp, 2), across, along))
+    return language.synthesis.by_legs.format(
+        angle=text, **dict(zip(("sharp", "across", "along"), shown, strict=True))
     )
 
 
 class SynthesisNaming:
     """Drawn elements of a synthesis, as a `planmethod.note.narrate.narrator.Naming`."""
 
-    def __init__(self, drawn: Drawn, words: Language) -> None:
-        self.drawn, self.words, self.note = drawn, words, words.note
+    def __init__(self, drawn: Drawn, language: Language) -> None:
+        self.drawn, self.language, self.note = drawn, language, language.note
         self.board = drawn.synthesis.board
         self.step = {step.out: step for step in self.board.steps}
         self._on = {
@@ -124,27 +125,27 @@ class SynthesisNaming:
 
     def number(self, name: NumberName) -> float:
         """Return the drafted value of a number; the exact one where the drawing fails."""
-        value = float(self.drawn.by_hand.value[name])
+        value = float(self.drawn.ruler_reading.value[name])
         return value if math.isfinite(value) else self.exact(name)
 
     def exact(self, name: NumberName) -> float:
         """Return a number without the error of reading."""
         return float(self.drawn.paper.value[name])
 
-    def course(self, name: LineName) -> complex:
+    def direction_vector(self, name: LineName) -> complex:
         """Return a vector along a line of the exact drawing."""
         return complex(self.drawn.paper.value[name][1])
 
     def length(self, name: NumberName) -> Rich:
         """Return a length as the hand has it."""
-        return f"{given(abs(self.number(name)), self.note, 5)} {self.note['units']['mm']}"
+        return f"{input_text(abs(self.number(name)), self.note, 5)} {self.note['units']['mm']}"
 
     def line(self, name: LineName) -> Rich:
         """Return a line in the genitive."""
         step, note = self.step[name], self.note
-        if (said := self.board.said.get(name)) is not None:
+        if (said := self.board.phrases.get(name)) is not None:
             base = self.segment(str(said[1]["tail"]), str(said[1]["head"]))
-            return self.words.synthesis.to_bisector.format(base=base)
+            return self.language.synthesis.to_bisector.format(base=base)
         if isinstance(step, steps.Join):
             return note.line_join.format(base=self.segment(step.tail, step.head))
         assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle)
@@ -167,13 +168,13 @@ class SynthesisNaming:
         side = (note.to_left if angle > 0 else note.to_right).format(base=base)
         if step.to is None:
             angle, side = angle % 360.0, ""
-        laid = set_angle(abs(angle), self.drawn.profile.ruler, self.words)
-        return self.words.synthesis.at_angle.format(angle=laid, base=base) + side
+        laid = set_angle(abs(angle), self.drawn.profile.ruler, self.language)
+        return self.language.synthesis.at_angle.format(angle=laid, base=base) + side
 
     def _base(self, line: LineName) -> Rich:
         """Return the name of a line: two of its points, in its sense; or the x axis."""
         points = self._on[line]
-        ways = {point: self.drawn.way(line, point) for point in points}
+        ways = {point: self.drawn.distance_along(line, point) for point in points}
         first = points[0]
         other = max(points[1:], key=lambda point: ways[point] - ways[first], default=None)
         if other is None:
@@ -187,72 +188,72 @@ class SynthesisNarrator(BoardNarrator):
 
     naming: SynthesisNaming
 
-    def __init__(self, drawn: Drawn, words: Language) -> None:
-        super().__init__(SynthesisNaming(drawn, words), words.note)
-        self.drawn, self.said, self.notation = drawn, words.synthesis, words.say
+    def __init__(self, drawn: Drawn, language: Language) -> None:
+        super().__init__(SynthesisNaming(drawn, language), language.note)
+        self.drawn, self.texts, self.notation = drawn, language.synthesis, language.notation
         self.board, self.step = self.naming.board, self.naming.step
 
     def sentences(self) -> Iterator[Rich]:
         """Yield the sentences; a direct consequence of a reading follows it."""
         waiting = ""
         made = self.drawn.synthesis
-        if made.theta and "K_v" in made.asked:
-            turned = (made.asked["K_v"] - 1.0) / (made.asked["K_v"] + 1.0)
-            yield self._own(("theta", {"angle": 180.0 * turned}))
+        if made.theta and "K_v" in made.targets:
+            turned = (made.targets["K_v"] - 1.0) / (made.targets["K_v"] + 1.0)
+            yield self._fill_phrase(("theta", {"angle": 180.0 * turned}))
         for step in self.board.steps:
-            for told in self.tell(step):
+            for text in self.narrate(step):
                 if waiting and isinstance(step, steps.Compute):
-                    yield f"{waiting[:-1]}; {told}"
+                    yield f"{waiting[:-1]}; {text}"
                     waiting = ""
                     continue
                 if waiting:
                     yield waiting
-                waiting = told if isinstance(step, steps.Measure) else ""
+                waiting = text if isinstance(step, steps.Measure) else ""
                 if not waiting:
-                    yield told
+                    yield text
         if waiting:
             yield waiting
 
-    def tell(self, step: Step) -> list[Rich]:
+    def narrate(self, step: Step) -> list[Rich]:
         """Return the sentence that replaces a step's own, or the step's own."""
-        if step.out in self.board.said:
-            said = self.board.said[step.out]
-            return [] if said is None else [self._own(said)]
-        return super().tell(step)
+        if step.out in self.board.phrases:
+            said = self.board.phrases[step.out]
+            return [] if said is None else [self._fill_phrase(said)]
+        return super().narrate(step)
 
-    def _own(self, said: Said) -> Rich:
-        key, facts = said
+    def _fill_phrase(self, phrase: StepPhrase) -> Rich:
+        key, facts = phrase
         shown = {
             name: ", ".join(map(point_name, value.split(", ")))
             if isinstance(value, str)
-            else given(value, self.words, 6)
+            else input_text(value, self.texts, 6)
             for name, value in facts.items()
         }
         for name, value in facts.items():
-            if (key, name) in _LAID:
+            if (key, name) in _LAID_OFF_ANGLES:
                 ruler = self.drawn.profile.ruler
-                shown[name] = set_angle(float(value), ruler, self.naming.words)
+                shown[name] = set_angle(float(value), ruler, self.naming.language)
             elif name == "angle":
-                shown[name] = given(round(float(value), 2), self.words)
-        sentence: str = self.said["steps"][key]
+                shown[name] = input_text(round(float(value), 2), self.texts)
+        sentence: str = self.texts["steps"][key]
         return sentence.format(**shown)
 
-    def given(self, step: steps.Given) -> list[Rich]:
+    def given_point(self, step: steps.GivenPoint) -> list[Rich]:
         """Describe a given point by its coordinates."""
         at = place(self.drawn.paper, step.out)
-        x, y = (given(value + 0.0, self.words, 5) for value in (at.real, at.imag))
-        return [self.said.point.format(point=point_name(step.out), x=x, y=y)]
+        x, y = (input_text(value + 0.0, self.texts, 5) for value in (at.real, at.imag))
+        return [self.texts.point.format(point=point_name(step.out), x=x, y=y)]
 
-    def lay_off(self, step: steps.LayOff) -> list[Rich]:
+    def lay_off(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a length that is laid off."""
         naming = self.naming
         length = f"{naming.segment(step.origin, step.out)} = {naming.length(step.length)}"
         return [
-            self.words.lay_off.format(
+            self.texts.lay_off.format(
                 of=naming.of(step.origin),
-                direction=naming.direction(step.along),
+                direction=naming.direction(step.line),
                 length=length,
-                sense=self.words.backwards if naming.number(step.length) < 0.0 else "",
+                sense=self.texts.backwards if naming.number(step.length) < 0.0 else "",
                 point=point_name(step.out),
             )
         ]
@@ -270,12 +271,12 @@ class SynthesisNarrator(BoardNarrator):
         unit = self.notation.units["m"]
         return [f"{size_symbol(name)} = μ_{{l}}·{self._sides(made)}{half} = {value} {unit}."]
 
-    def _sides(self, made: Step) -> Rich:
-        if isinstance(made, steps.Measure):
-            return self.naming.segment(made.tail, made.head)
-        assert isinstance(made, steps.Total)
+    def _sides(self, source: Step) -> Rich:
+        if isinstance(source, steps.Measure):
+            return self.naming.segment(source.tail, source.head)
+        assert isinstance(source, steps.Total)
         parts = []
-        for k, term in enumerate(made.terms):
+        for k, term in enumerate(source.terms):
             step = self.step[term]
             sign = " + "
             if isinstance(step, steps.Compute):
@@ -284,45 +285,47 @@ class SynthesisNarrator(BoardNarrator):
         return f"({''.join(parts)})"
 
 
-def given_facts(asked: Mapping[str, Any], words: Language) -> list[str]:
+def given_facts(options: Mapping[str, Any], language: Language) -> list[str]:
     """Return the given data, one ``symbol = value unit`` each, as rich text."""
     facts = []
-    for name, value in asked.items():
+    for name, value in options.items():
         if value is None:
             continue
-        symbol, unit = words.synthesis["given"][name]
+        symbol, unit = language.synthesis["given"][name]
         if isinstance(value, tuple):
             rows = value if isinstance(value[0], tuple) else (value,)
-            told = "; ".join(f"({f';{NO_BREAK}'.join(map(words.say.given, row))})" for row in rows)
-            facts.append(f"{symbol.replace(' ', NO_BREAK)}: {told}")
+            text = "; ".join(
+                f"({f';{NO_BREAK}'.join(map(language.notation.as_input, row))})" for row in rows
+            )
+            facts.append(f"{symbol.replace(' ', NO_BREAK)}: {text}")
         else:
-            number = words.say.given(value)
-            told = with_unit(number, words.say.units[unit]) if unit else number
-            facts.append(f"{symbol} = {told}".replace(" ", NO_BREAK))
+            number = language.notation.as_input(value)
+            text = with_unit(number, language.notation.units[unit]) if unit else number
+            facts.append(f"{symbol} = {text}".replace(" ", NO_BREAK))
     return facts
 
 
-def size_rows(drawn: Drawn, words: Language) -> list[tuple[str, str, str, str]]:
+def size_rows(drawn: Drawn, language: Language) -> list[tuple[str, str, str, str]]:
     """Return the rows of the table of sizes: symbol, exact, read, sigma, as rich text."""
-    say, rows = words.say, []
+    notation, rows = language.notation, []
     for name, value in drawn.synthesis.metres().items():
         rows.append(
-            (size_symbol(name), say.short(value, 6), say.short(drawn.read(name), 4),
-             say.short(drawn.sigma[name], 2))
+            (size_symbol(name), notation.short(value, 6), notation.short(drawn.read(name), 4),
+             notation.short(drawn.sigma[name], 2))
         )  # fmt: skip
     return rows
 
 
-def check_rows(checks: Mapping[str, Any], words: Language) -> list[tuple[str, str]]:
+def check_rows(checks: Mapping[str, Any], language: Language) -> list[tuple[str, str]]:
     """Return the measurements, one name and value each, as rich text."""
-    said, say = words.synthesis, words.say
+    texts, notation = language.synthesis, language.notation
     rows = []
 
     def row(name: str, value: float | None, unit: str) -> None:
         if value is not None:
-            number = say.short(round(value, 2) if unit == "deg" else value, 6)
+            number = notation.short(round(value, 2) if unit == "deg" else value, 6)
             rows.append(
-                (said["checks"][name], with_unit(number, say.units[unit]) if unit else number)
+                (texts["checks"][name], with_unit(number, notation.units[unit]) if unit else number)
             )
 
     row("K_v", checks["K_v"], "")
@@ -334,11 +337,11 @@ def check_rows(checks: Mapping[str, Any], words: Language) -> list[tuple[str, st
     row("pressure", checks["pressure_angle"]["max_deg"], "deg")
     row("transmission", checks["transmission_angle"]["min_deg"], "deg")
     grashof = checks["grashof"]
-    holds = said["holds"]["yes" if grashof["holds"] else "no"]
-    told = f"{holds}: {said['verdicts'][grashof['type']]}"
-    rows.append((said["checks"]["grashof"], told))
+    holds = texts["holds"]["yes" if grashof["holds"] else "no"]
+    text = f"{holds}: {texts['verdicts'][grashof['type']]}"
+    rows.append((texts["checks"]["grashof"], text))
     row("missed", checks.get("missed"), "m")
     for name in ("branch", "order"):
         if name in checks:
-            rows.append((said["checks"][name], said["holds"]["yes" if checks[name] else "no"]))
+            rows.append((texts["checks"][name], texts["holds"]["yes" if checks[name] else "no"]))
     return rows

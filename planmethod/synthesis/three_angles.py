@@ -14,28 +14,36 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.errors import AssemblyError
-from planmethod.synthesis.model import Board, InputError, Synthesis, chosen, lengths_of, place, read
+from planmethod.synthesis.model import (
+    Board,
+    InputError,
+    Synthesis,
+    choose_option_set,
+    lengths_of,
+    place,
+    read,
+)
 from planmethod.synthesis.three_positions import passage, synthesis_of
 
-TAKES = ("angles", "centres")
+OPTIONS = ("angles", "centres")
 
 LENGTHS = ("OA", "AB", "CB", "OC")
 
 
-def synthesize(asked: Mapping[str, Any]) -> Synthesis:
+def synthesize(options: Mapping[str, Any]) -> Synthesis:
     """Find the four-bar O A B C whose links OA and CB are in three pairs of directions.
 
     Parameters
     ----------
-    asked : mapping
+    options : mapping
         ``angles``: three of (φ of OA, ψ of CB), degrees from OC; ``centres`` OC, m, default: 1.
 
     Raises
     ------
     InputError, AssemblyError
     """
-    chosen(asked, "three-angles", "angles", "angles centres")
-    rows, frame = asked["angles"], asked["centres"] or 1.0
+    choose_option_set(options, "three-angles", "angles", "angles centres")
+    rows, frame = options["angles"], options["centres"] or 1.0
     if len(rows) != 3 or any(len(row) != 2 for row in rows):
         raise InputError('--angles takes three pairs a,b, for instance "40,60; 65,75; 90,95".')
     phi, psi = np.radians(np.array(rows, dtype=float)).T
@@ -61,13 +69,13 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     b = Board()
     o = b.fixed("O", 0j)
     axis = b.ray(o, None, 0.0)
-    c = b.lay_off("C", o, axis, b.length("OC", frame))
+    c = b.lay_off_length("C", o, axis, b.length("OC", frame))
     arm = b.length("OA", abs(crank))
     found = {"k1": float(k1), "k2": float(k2), "k3": float(k3)}
-    b.said[arm] = ("freudenstein", {**found, "tail": "O", "head": "A"})
+    b.phrases[arm] = ("freudenstein", {**found, "tail": "O", "head": "A"})
     half_turn = 0.0 if crank > 0.0 else 180.0
     ends = [
-        b.lay_off(f"A{k}", o, b.ray(o, axis, float(np.degrees(angle)) + half_turn), arm)
+        b.lay_off_length(f"A{k}", o, b.ray(o, axis, float(np.degrees(angle)) + half_turn), arm)
         for k, angle in enumerate(phi, 1)
     ]
     turned = [ends[0]]
@@ -76,14 +84,14 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         back = float(np.degrees(psi[0] - psi[k]))
         radius = b.measure(f"C A{k + 1}", c, ends[k])
         ray = b.ray(c, b.join(c, ends[k]), back)
-        turned.append(b.lay_off(f"A{k + 1}'", c, ray, radius))
+        turned.append(b.lay_off_length(f"A{k + 1}'", c, ray, radius))
     first = b.circle_through("B1", (turned[0], turned[1], turned[2]))
     output = b.measure("C B1", c, first)
-    b.found("CB", output)
-    b.found("AB", b.measure("A1 B1", ends[0], first))
+    b.length_from("CB", output)
+    b.length_from("AB", b.measure("A1 B1", ends[0], first))
     for k in (1, 2):
         turn = float(np.degrees(psi[k] - psi[0]))
-        b.lay_off(f"B{k + 1}", c, b.ray(c, b.join(c, first), turn), output)
+        b.lay_off_length(f"B{k + 1}", c, b.ray(c, b.join(c, first), turn), output)
     trace = read(b)
     lengths = lengths_of(trace, LENGTHS)
     if lengths["AB"] <= 1e-9 * frame:

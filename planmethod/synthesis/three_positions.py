@@ -22,13 +22,13 @@ from planmethod.synthesis.model import (
     InputError,
     Pose,
     Synthesis,
-    chosen,
+    choose_option_set,
     lengths_of,
     place,
     read,
 )
 
-TAKES = ("positions", "coupler")
+OPTIONS = ("positions", "coupler")
 
 LENGTHS = ("AB", "BC", "DC", "AD")
 
@@ -36,12 +36,12 @@ _RATIOS = tuple(0.1 * 1.1**k for k in range(48))
 """Lengths of a coupler that is not given, in spans of the positions, that are tried."""
 
 
-def synthesize(asked: Mapping[str, Any]) -> Synthesis:
+def synthesize(options: Mapping[str, Any]) -> Synthesis:
     """Find the pivots of the frame, and the links.
 
     Parameters
     ----------
-    asked : mapping
+    options : mapping
         ``positions``: three of (xB, yB, angle of BC), m and degrees, or of (xB, yB, xC, yC), m;
         ``coupler`` BC with the former (m). Default: the one with the best transmission angle on
         the path.
@@ -50,8 +50,8 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     ------
     InputError, AssemblyError
     """
-    chosen(asked, "three-positions", "positions", "positions coupler")
-    rows = asked["positions"]
+    choose_option_set(options, "three-positions", "positions", "positions coupler")
+    rows = options["positions"]
     if len(rows) != 3 or len({len(row) for row in rows}) != 1 or len(rows[0]) not in (3, 4):
         raise InputError(
             "--positions takes three of x,y,angle or of xB,yB,xC,yC, for instance "
@@ -59,18 +59,18 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         )
     b_points = [complex(row[0], row[1]) for row in rows]
     if len(rows[0]) == 4:
-        if asked["coupler"] is not None:
+        if options["coupler"] is not None:
             raise InputError("--coupler follows from B and C: leave it out, or give x,y,angle.")
         c_points = [complex(row[2], row[3]) for row in rows]
         spans = [abs(c - b) for b, c in zip(b_points, c_points, strict=True)]
         if max(spans) - min(spans) > 1e-9 * max(spans) or min(spans) == 0.0:
-            told = ", ".join(f"{span:.10g}" for span in spans)
-            raise InputError("The coupler is rigid, but B1C1, B2C2, B3C3 are {} m.", told)
+            text = ", ".join(f"{span:.10g}" for span in spans)
+            raise InputError("The coupler is rigid, but B1C1, B2C2, B3C3 are {} m.", text)
         return _built(b_points, c_points)[0]
     turns = [np.exp(1j * np.radians(row[2])) for row in rows]
-    if asked["coupler"] is not None:
-        return _built(b_points, _ends(b_points, turns, asked["coupler"]))[0]
-    made = list(_tried(b_points, turns))
+    if options["coupler"] is not None:
+        return _built(b_points, _ends(b_points, turns, options["coupler"]))[0]
+    made = list(_try_passage(b_points, turns))
     if not made:
         return _built(b_points, _ends(b_points, turns, 1.0))[0]
     return max(made, key=lambda one: one[1])[0]
@@ -80,7 +80,9 @@ def _ends(b_points: list[complex], turns: list[complex], coupler: float) -> list
     return [b + coupler * turn for b, turn in zip(b_points, turns, strict=True)]
 
 
-def _tried(b_points: list[complex], turns: list[complex]) -> Iterator[tuple[Synthesis, float]]:
+def _try_passage(
+    b_points: list[complex], turns: list[complex]
+) -> Iterator[tuple[Synthesis, float]]:
     span = max(abs(one - other) for one in b_points for other in b_points) or 1.0
     for ratio in _RATIOS:
         try:
@@ -119,10 +121,10 @@ def _built(b_points: list[complex], c_points: list[complex]) -> tuple[Synthesis,
     b = Board()
     a = _centre(b, "A", b_points, "B")
     d = _centre(b, "D", c_points, "C")
-    b.found("AB", b.measure("A B1", a, PointName("B1")))
-    b.found("BC", b.measure("B1 C1", PointName("B1"), PointName("C1")))
-    b.found("DC", b.measure("D C1", d, PointName("C1")))
-    b.found("AD", b.measure("A D", a, d))
+    b.length_from("AB", b.measure("A B1", a, PointName("B1")))
+    b.length_from("BC", b.measure("B1 C1", PointName("B1"), PointName("C1")))
+    b.length_from("DC", b.measure("D C1", d, PointName("C1")))
+    b.length_from("AD", b.measure("A D", a, d))
     trace = read(b)
     lengths = lengths_of(trace, LENGTHS)
     if lengths["AD"] <= 1e-9 * max(lengths.values()):
@@ -144,7 +146,7 @@ def synthesis_of(
     kind: str,
     b: Board,
     names: tuple[str, ...],
-    way: Passage,
+    passage: Passage,
     letters: tuple[tuple[str, str], tuple[str, str]],
     places: tuple[complex, complex],
 ) -> Synthesis:
@@ -154,7 +156,7 @@ def synthesis_of(
     ----------
     names : tuple of str
         Input, coupler, output, frame, as the problem file has them.
-    way : Passage
+    passage : Passage
     letters : pairs of str
         Pivot and end of the input, and of the output.
     places : (complex, complex), m
@@ -162,11 +164,11 @@ def synthesis_of(
     """
     (a, end), (d, other) = letters
     first, second = (a, end), (d, other)
-    if way.swapped:
+    if passage.swapped:
         first, second = second, first
     input_, output = (f"{p}{q}" for p, q in (first, second))
     coupler = names[1]
-    side = "left" if way.side > 0 else "right"
+    side = "left" if passage.side > 0 else "right"
     tables = (
         FileTable("links.1", "input", (f'points = ["{first[0]}", "{first[1]}"]',
                                    f"{input_} = {{{input_}!r}}")),
@@ -190,14 +192,14 @@ def synthesis_of(
         (first[1], second[1], second[0]),
         (input_, coupler, output, names[3]),
         tables,
-        moved=False,
+        pivot_at_origin=False,
         driver=first,
-        positions=way.positions,
+        positions=passage.positions,
         facts={
             "driver": input_,
-            "branch": way.branch,
-            "order": way.order,
-            "transmission_on_the_way_deg": finite_or_none(way.transmission),
+            "branch": passage.branch,
+            "order": passage.order,
+            "transmission_on_the_way_deg": finite_or_none(passage.transmission),
         },
     )
 
@@ -263,14 +265,14 @@ def _driven(
         steps = [(after - turns[0]) * way % 360.0 for after in turns]
         order = steps[1] < steps[2]
         reach = max(steps)
-        worst = _least(a, d, b, c, turns[0], way * reach, sides[0])
+        worst = _min_transmission_angle(a, d, b, c, turns[0], way * reach, sides[0])
         one_side = len(set(sides)) == 1 and bool(np.isfinite(worst))
         positions = tuple(turns[0] + way * step for step in steps)
         found.append(Passage(swapped, positions, sides[0], one_side, order, worst))
     return max(found, key=lambda p: (p.branch, p.order, np.nan_to_num(p.transmission)))
 
 
-def _least(a: complex, d: complex, b: Sequence[complex], c: Sequence[complex],
+def _min_transmission_angle(a: complex, d: complex, b: Sequence[complex], c: Sequence[complex],
            start: float, turn: float, side: int) -> float:  # fmt: skip
     """Return the minimum transmission angle on the path; NaN where the arcs do not intersect."""
     angles = np.radians(start + turn * np.linspace(0.0, 1.0, _PLACES))

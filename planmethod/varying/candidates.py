@@ -11,10 +11,10 @@ from typing import Any
 from planmethod.errors import PlanMethodError
 from planmethod.kind import ProblemKind
 from planmethod.kinds import load_each
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 from planmethod.problem.names import segment
 from planmethod.problem.source import parse, read_source
-from planmethod.varying.varied import VaryingError
+from planmethod.varying.parameters import VaryingError
 
 Overrides = Mapping[str, Any]
 """Overrides of the file in a variant, by dotted key."""
@@ -92,8 +92,8 @@ def toml_of(variants: Mapping[str, Overrides]) -> str:
     """Return the table ``[variants]`` of a problem file."""
     lines = ["[variants]"]
     for name, own in variants.items():
-        told = ", ".join(f'"{key}" = {_value(value)}' for key, value in own.items())
-        lines.append(f"{segment(name)} = {{ {told} }}")
+        text = ", ".join(f'"{key}" = {_value(value)}' for key, value in own.items())
+        lines.append(f"{segment(name)} = {{ {text} }}")
     return "\n".join(lines) + "\n"
 
 

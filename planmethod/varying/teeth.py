@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
-from planmethod.gears.conditions import coaxial_ways
+from planmethod.gears.conditions import coaxial_paths
 from planmethod.gears.motion import TrainMotion
-from planmethod.varying.varied import VariedKey
+from planmethod.varying.parameters import VariedKey
 
 WHEEL = "gears.wheels."
 
@@ -31,11 +31,11 @@ def coaxial_rows(motion: TrainMotion, varied: Sequence[str]) -> list[Solved]:
     """
     found: list[Row] = []
     sizes, unknown = motion.axes.sizes, set(motion.train.unknown)
-    for _, _, (one, other) in coaxial_ways(motion):
+    for _, _, (one, other) in coaxial_paths(motion):
         row: Row = {}
         for sign, terms in ((1, one), (-1, other)):
             for turn, label in terms:
-                share = motion.train.share(label)
+                share = motion.train.module_ratio(label)
                 row[label] = row.get(label, Fraction(0)) + sign * turn * share
         if sum(factor * sizes[label] for label, factor in row.items()):
             continue
@@ -60,18 +60,18 @@ def _solved(rows: list[Row], sizes: Mapping[str, Fraction]) -> list[Solved]:
     return done
 
 
-def _less(row: Row, other: Row, label: str) -> Row:
+def _less(row: Row, solved: Row, label: str) -> Row:
     """Return a row without a label that another one is solved for."""
     factor = row.get(label, Fraction(0))
-    every = dict.fromkeys((*row, *other))
-    return {x: row.get(x, Fraction(0)) - factor * other.get(x, Fraction(0)) for x in every}
+    every = dict.fromkeys((*row, *solved))
+    return {x: row.get(x, Fraction(0)) - factor * solved.get(x, Fraction(0)) for x in every}
 
 
-def coaxial(
-    found: Mapping[VariedKey, float], rows: Sequence[Solved], sizes: Mapping[str, Fraction]
+def make_coaxial(
+    values: Mapping[VariedKey, float], rows: Sequence[Solved], sizes: Mapping[str, Fraction]
 ) -> dict[VariedKey, float] | None:
     """Return values with coaxial wheels; None if a resulting wheel has no permitted size."""
-    made = dict(found)
+    made = dict(values)
     wheels = {label_of(one): one for one in made if one.name.startswith(WHEEL)}
     per = {label: _exact(one.base) / sizes[label] for label, one in wheels.items()}
     for main, row in rows:

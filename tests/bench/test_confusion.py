@@ -11,7 +11,7 @@ from planmethod.bench import confusion
 from planmethod.bench.checking import Detected, detection, tasks_of
 from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check
-from planmethod.check.model import CheckedWork, Work
+from planmethod.check.model import GradedSubmission, Submission
 from planmethod.check.task import Task
 from planmethod.cli import cli
 from planmethod.kinds import kind_of
@@ -31,11 +31,11 @@ def test_mistakes_in_trains_and_points_are_seen_and_named_among_few(name: str) -
     rows = confusion.computed_detection(task, 2)
     assert len(rows) > 3
     for row in rows:
-        assert row.works == row.seen == row.named + row.among, row
-    honest = confusion.computed_honest(task, 10)
+        assert row.works == row.noticed == row.named + row.among, row
+    honest = confusion.check_computed(task, 10)
     assert (honest.works, honest.faulted, honest.named) == (10, 0, 0)
     inherited = confusion.computed_inherited(task, 2)
-    assert inherited.answers > 0 == inherited.lost
+    assert inherited.answers > 0 == inherited.faulted
 
 
 def test_two_mistakes_are_counted_once(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -44,7 +44,7 @@ def test_two_mistakes_are_counted_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert row.works == row.named + row.among + row.unknown + row.misnamed > 5
     assert row.named > row.works / 3 and not row.misnamed
 
-    def dumb(task: Task, work: Work) -> CheckedWork:
+    def dumb(task: Task, work: Submission) -> GradedSubmission:
         return replace(check(task, work), diagnosis=())
 
     monkeypatch.setattr(confusion, "check", dumb)
@@ -59,16 +59,16 @@ def test_results_of_a_students_own_number_lose_no_points(
     """In example 3; before, 7 of 133 lost points, most of them after an unexplained a_B."""
     (task,) = tasks_of([problem_of("linkages/ex3")])
     for found in (confusion.by_plans(task, 1), confusion.by_routes(task, 1)):
-        assert found.answers > 30 and not found.lost, found
+        assert found.answers > 30 and not found.faulted, found
 
-    def unfair(task: Task, work: Work) -> CheckedWork:
+    def unfair(task: Task, work: Submission) -> GradedSubmission:
         found = check(task, work)
         return replace(found, answers=tuple(replace(a, points=0.0) for a in found.answers))
 
     monkeypatch.setattr(confusion, "check", unfair)
     (least,) = tasks_of([problem_of("linkages/ex1")])
     found = confusion.by_routes(least, 1)
-    assert found.lost == found.answers > 0
+    assert found.faulted == found.answers > 0
 
 
 def test_the_angle_of_another_variant_is_rightly_called_that_variant() -> None:

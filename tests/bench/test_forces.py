@@ -11,7 +11,7 @@ from worked import problem_of
 from benchmarks import at_once
 from benchmarks.scenes import loaded
 from planmethod.bench import forces
-from planmethod.bench.speed import Timing, turn
+from planmethod.bench.speed import Timing, crank_angles
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
@@ -39,7 +39,7 @@ def test_readings_are_as_good_as_their_digits() -> None:
 
 @pytest.mark.parametrize("name", ["press/press", "press/press-stone", "levers/task12"])
 def test_all_links_at_once_agree_with_the_force_plans(name: str) -> None:
-    statics = statics_of(Solution(problem_of(name), positions=(turn(12) + 5.0).tolist()))
+    statics = statics_of(Solution(problem_of(name), positions=(crank_angles(12) + 5.0).tolist()))
     wanted = [*(joint.force for joint in statics.reactions), statics.balance]
     largest = max(np.abs(row).max() for row in wanted)
     for row, right in zip(at_once.all_at_once(statics), wanted, strict=True):

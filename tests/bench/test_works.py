@@ -32,8 +32,8 @@ def detected() -> list[checking.Detected]:
 def test_every_diagnosis_is_counted_once() -> None:
     for row in detected():
         assert row.named + row.among + row.unknown + row.misnamed == row.works
-        assert row.seen <= row.works <= checking.PLACES
-        assert sum(row.taken_for.values()) >= row.misnamed
+        assert row.noticed <= row.works <= checking.PLACES
+        assert sum(row.named_as.values()) >= row.misnamed
 
 
 def test_variants_of_a_file_are_distinguished(monkeypatch: pytest.MonkeyPatch) -> None:

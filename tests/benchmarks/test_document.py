@@ -35,7 +35,7 @@ def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_all_peers_compute_the_same() -> None:
     sweep = Sweep(fourbar(), FOURBAR_ROWS)
     assert len(sweep.rows) == ROWS
-    angles = speed.turn(300)
+    angles = speed.crank_angles(300)
     mine = sweep.run(angles)
     for peer in peers():
         answer = peer.run(angles)
@@ -47,7 +47,7 @@ def test_all_peers_compute_the_same() -> None:
 def test_a_chain_of_dyads_turns_all_round(dyads: int) -> None:
     problem = chain(dyads)
     assert len(problem.mechanism.links) == 1 + 2 * dyads
-    assert np.isfinite(Sweep(problem, ["positions"]).run(speed.turn(72))).all()
+    assert np.isfinite(Sweep(problem, ["positions"]).run(speed.crank_angles(72))).all()
 
 
 def test_the_document_has_its_tables_and_figure() -> None:

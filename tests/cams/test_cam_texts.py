@@ -28,12 +28,12 @@ from planmethod.cams.text import positions
 from planmethod.check.checking import check
 from planmethod.check.group import Variants
 from planmethod.check.marks import DEFAULT
-from planmethod.check.model import CheckedWork, Work, WrittenAnswer
+from planmethod.check.model import GradedSubmission, Submission, WrittenAnswer
 from planmethod.cli import cli
 from planmethod.commands.problems import load_unsettled
 from planmethod.construct.drafting import PROFILES
 from planmethod.note import document
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem.families import template
 from planmethod.project.report.cams import cam_chapter
 from planmethod.project.report.context import Report
@@ -59,7 +59,7 @@ def drawn(path: Path) -> Drawing:
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_a_number_of_the_table_is_that_of_the_diagrams(path: Path) -> None:
     design = CamDesign(load(path))
-    table = positions(design, language("ru"))
+    table = positions(design, get_language("ru"))
     nodes = {node.number: node for node in nodes_of(design.problem)}
     assert [int(row[0]) for row in table.rows] == list(nodes)
     for number, phi, s, *_ in table.rows:
@@ -144,9 +144,9 @@ def test_the_profile_in_dxf_is_a_closed_polyline_in_the_scale_of_the_sheet(tmp_p
 # Checking ----------------------------------------------------------------------------------------
 
 
-def judged(told: dict[str, float], position: int = 0) -> CheckedWork:
+def judged(told: dict[str, float], position: int = 0) -> GradedSubmission:
     answers = tuple(WrittenAnswer(id=n, value=v, position=position) for n, v in told.items())
-    return check(Variants(BY_NAME["offset"], DEFAULT).task(None), Work("s", answers))
+    return check(Variants(BY_NAME["offset"], DEFAULT).task(None), Submission("s", answers))
 
 
 @pytest.mark.parametrize(
@@ -164,7 +164,7 @@ def test_a_mistake_is_known_by_its_numbers(
 ) -> None:
     figures = CamFigures(load(BY_NAME["offset"]))
     (mistake,) = (one for one in figures.mistaken() if one.code == code)
-    told = {name: mistake.take(name, position) or 0.0 for name in names}
+    told = {name: mistake.read(name, position) or 0.0 for name in names}
     ids = {name: f"{name}@{position}" if position else name for name in names}
     one = judged({ids[name]: value for name, value in told.items()}, position)
     assert [diagnosis.codes for diagnosis in one.diagnosis] == [(code,)]
@@ -196,7 +196,7 @@ def test_a_project_has_the_cam_as_a_part_of_its_own(tmp_path: Path) -> None:
     assert part.problem.oscillates
     assert part.problem.n == pytest.approx(80.0)  # as the train turns the crank
     for lang in ("ru", "en"):
-        nodes = list(cam_chapter(Report(project, language(lang)), part.problem))
+        nodes = list(cam_chapter(Report(project, get_language(lang)), part.problem))
         numbered = [one.key for one in nodes if isinstance(one, document.Figure | document.Table)]
         assert len(set(numbered)) == len(numbered) == 8
         texts = " ".join(one.text for one in nodes if isinstance(one, document.Paragraph))

@@ -12,12 +12,12 @@ from msgspec.structs import replace
 from planmethod.cams.construction import FREE, CamConstruction, construct
 from planmethod.cams.design import CamDesign
 from planmethod.cams.reader import load
-from planmethod.cams.text import given
+from planmethod.cams.text import given_facts
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.referee import Precise
+from planmethod.construct.multiprecision import Precise
 from planmethod.construct.steps import NumberName
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 
 BUILT = {path.stem: construct(CamDesign(load(path))) for path in SHIPPED}
 
@@ -89,7 +89,7 @@ def test_a_given_distance_of_a_plate_is_not_constructed(follower: str, tmp_path:
     design = designed(tmp_path, keys | {"r_min": 0.05, "curvature": 0.008})
     assert not construct(design).results
     # It is given, with the letter that it has in the table, and so is the allowed radius.
-    told = "; ".join(fact.text for fact in given(design.problem, language("ru")))
+    told = "; ".join(fact.text for fact in given_facts(design.problem, get_language("ru")))
     assert "r_{0} = 50 мм" in told and "[ρ] = 8 мм" in told and "r_{min}" not in told
 
 

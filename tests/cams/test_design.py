@@ -45,7 +45,7 @@ def told(path: Path) -> dict[str, Any]:
 def test_the_least_cam_is_that_of_brute_force(seed: int, tmp_path: Path) -> None:
     keys = random_cam(seed)
     design = designed(tmp_path, keys)
-    found = design.bare.r_min
+    found = design.pitch_geometry.r_min
     if keys["follower"] == "translating":
         assert found == pytest.approx(least_translating(keys), rel=1e-9)
         return
@@ -96,9 +96,9 @@ def test_a_clockwise_cam_is_the_mirror_image(tmp_path: Path) -> None:
 
 
 def test_an_offset_that_is_given_is_kept_and_the_depth_is_the_least(tmp_path: Path) -> None:
-    free = designed(tmp_path, WANTED).bare
+    free = designed(tmp_path, WANTED).pitch_geometry
     for e in (0.0, free.e, 0.02, -0.01):
-        bare = designed(tmp_path, WANTED | {"offset": e}).bare
+        bare = designed(tmp_path, WANTED | {"offset": e}).pitch_geometry
         assert bare.e == e
         assert bare.r_min >= free.r_min * (1 - 1e-12)
         assert bare.r_min == pytest.approx(least_translating(WANTED | {"offset": e}), rel=1e-9)
@@ -106,11 +106,11 @@ def test_an_offset_that_is_given_is_kept_and_the_depth_is_the_least(tmp_path: Pa
 
 def test_given_sizes_are_kept_and_the_limits_that_they_break_are_reported(tmp_path: Path) -> None:
     design = designed(tmp_path, WANTED | {"r_min": 0.02, "offset": 0.005})
-    assert (design.bare.r_min, design.bare.e) == (0.02, 0.005)
+    assert (design.pitch_geometry.r_min, design.pitch_geometry.e) == (0.02, 0.005)
     text = CliRunner().invoke(cli, ["solve", str(tmp_path / "cam.toml"), "--lang", "en"]).output
     assert "MORE than the allowed 30°" in text
     mild = designed(tmp_path, WANTED | {"r_min": 0.05})
-    assert mild.bare.r_min == pytest.approx(0.05)
+    assert mild.pitch_geometry.r_min == pytest.approx(0.05)
     assert mild.pressure(CamPhase.RISE).value < radians(30)
 
 
@@ -120,12 +120,12 @@ def test_the_centre_of_an_arm_that_is_given_is_kept(tmp_path: Path) -> None:
         "return": 90, "law": {"rise": "4-5-6-7", "return": "sine"}, "sense": "opposite",
         "pressure": {"rise": 40, "return": 50},
     }  # fmt: skip
-    free = designed(tmp_path, keys).bare
+    free = designed(tmp_path, keys).pitch_geometry
     own = designed(tmp_path, keys | {"centre": 0.15})
-    assert own.bare.centre == pytest.approx(0.15)
-    assert own.bare.r_min >= free.r_min
+    assert own.pitch_geometry.centre == pytest.approx(0.15)
+    assert own.pitch_geometry.r_min >= free.r_min
     assert abs(broken(keys, own.axis)) < 1e-12  # it touches a limit
-    at = designed(tmp_path, keys | {"centre": free.centre}).bare
+    at = designed(tmp_path, keys | {"centre": free.centre}).pitch_geometry
     assert at.r_min == pytest.approx(free.r_min, rel=1e-6)
 
 
@@ -136,7 +136,7 @@ def test_the_roller_is_chosen_by_both_limits(sharp: bool, tmp_path: Path) -> Non
         # With an offset no place of the axis is searched for: that is not meant here.
         keys |= {"law": {"law": "linear", "blend": 0.02}, "r_min": 0.06, "offset": 0.0}
     design = designed(tmp_path, keys)
-    by_size, by_bend = 0.4 * design.bare.r_min, 0.8 * design.rho_min.value
+    by_size, by_bend = 0.4 * design.pitch_geometry.r_min, 0.8 * design.rho_min.value
     assert (by_bend < by_size) is sharp
     assert min(by_size, by_bend) - 0.0005 < design.geometry.roller <= min(by_size, by_bend)
     assert design.undercut is None

@@ -16,22 +16,22 @@ from click.testing import CliRunner
 from rebuilt import rebuilt
 
 import planmethod
-from planmethod.cams.driving import lifted
+from planmethod.cams.driving import follower_drive
 from planmethod.cams.model import CamProblem
 from planmethod.cams.reader import read_cam
 from planmethod.cli import cli
 from planmethod.languages import LANGUAGES
-from planmethod.note.narrate.given import drawn, given
-from planmethod.note.wording import language
+from planmethod.note.narrate.statement import drawn, given_facts
+from planmethod.note.wording import get_language
 from planmethod.plans.model import PlanKind
 from planmethod.problem.fields import Faults
 from planmethod.problem.model import Problem
 from planmethod.render.live.page import live_page
-from planmethod.solved.driving import followed
+from planmethod.solved.driving import follower_motion
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import turn_of
+from planmethod.solved.turn.cycle import crank_cycle_of
 
 SLIDER = """
 [frame]
@@ -255,7 +255,7 @@ def test_the_law_as_data_is_the_law_of_the_cam(follower: str, law: str) -> None:
     degrees = np.concatenate([np.linspace(-400, 800, 1201), [110.0, 130.0, 225.0]])
     exact = cam.at(np.radians(degrees))
     size_of = cam.arm * (-1 if cam.oscillates else 0) or 1.0
-    found = followed(lifted(cam), degrees) * size_of
+    found = follower_motion(follower_drive(cam), degrees) * size_of
     scale = np.max(np.abs(exact), axis=1, keepdims=True)
     assert np.max(np.abs(found - exact) / scale) < 1e-12
 
@@ -340,7 +340,7 @@ def test_the_lever_is_right_where_the_follower_moves_and_absent_where_it_rests()
 
 def test_plans_of_a_mechanism_that_mostly_rests_have_a_scale_that_fills_them() -> None:
     resting = Solution(problem_of(filled(ROCKER, cam=TURN, n=60, sense="same")))
-    moving = resting.moved([30.0, 60.0, 120.0, 150.0])
+    moving = resting.with_positions([30.0, 60.0, 120.0, 150.0])
     for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
         share = resting.scales[kind].per_mm / moving.scales[kind].per_mm
         assert 0.2 < share < 5.0
@@ -350,7 +350,7 @@ def test_a_cycle_is_a_turn_of_the_cam(tmp_path: Path) -> None:
     body = filled(SLIDER, cam=0, n=120) + '\n[cycle]\noutput = "3"\ncount = 12\n'
     problem = problem_of(body)
     assert problem.numbered == pytest.approx([30.0 * k for k in range(12)], abs=1e-12)
-    turn = turn_of(Solution(problem))
+    turn = crank_cycle_of(Solution(problem))
     # The output turns back where the follower leaves its dwells: 150 and 360 degrees.
     assert sorted(end.phi % 360.0 for end in turn.extremes) == pytest.approx([0.0, 150.0], abs=1e-9)
     first, second = turn.transfers(np.array([60.0]))
@@ -407,9 +407,9 @@ def test_the_page_moves_by_the_law(name: str, tmp_path: Path) -> None:
                filled(ROCKER, cam=30, sense="same", n=-60)))  # fmt: skip
 def test_of_the_statement_with_the_law_the_mechanism_is_built_again(body: str) -> None:
     problem = planmethod.loads(body, name="driven")
-    for words in map(language, LANGUAGES):
-        again = rebuilt([drawn(problem, words), *given(problem, words)])
-        assert again.drive.followed == problem.drive.followed
+    for words in map(get_language, LANGUAGES):
+        again = rebuilt([drawn(problem, words), *given_facts(problem, words)])
+        assert again.drive.cam_drive == problem.drive.cam_drive
         one, two = Solution(problem), Solution(again)
         for name, point in one.points.items():
             assert two.points[name].place == pytest.approx(point.place, abs=1e-12)

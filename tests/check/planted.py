@@ -11,7 +11,7 @@ from worked import problem_of
 
 from planmethod.check.checking import check
 from planmethod.check.explain import Explanation
-from planmethod.check.model import CheckedWork, Sense, Verdict, Work, WrittenAnswer
+from planmethod.check.model import GradedSubmission, Sense, Submission, Verdict, WrittenAnswer
 from planmethod.check.questions import Sign
 from planmethod.check.task import Task
 from planmethod.solved.solution import Solution
@@ -26,9 +26,9 @@ def task_of(name: str) -> Task:
     return Task(Solution(problem_of(name)))
 
 
-def work_of(task: Task, values: Mapping[str, float], *, digits: int = 4) -> Work:
+def work_of(task: Task, values: Mapping[str, float], *, digits: int = 4) -> Submission:
     """Return a submission with certain values, rounded to some digits."""
-    return Work("s", tuple(_written(task, values, digits)))
+    return Submission("s", tuple(_written(task, values, digits)))
 
 
 def _written(task: Task, values: Mapping[str, float], digits: int) -> Iterator[WrittenAnswer]:
@@ -39,7 +39,7 @@ def _written(task: Task, values: Mapping[str, float], digits: int) -> Iterator[W
             sense = Sense.CCW if value > 0 else Sense.CW
         value = value if item.question.sign is Sign.STRICT else abs(value)
         step = 10.0 ** (math.floor(math.log10(value)) + 1 - digits) if value else 0.01
-        yield WrittenAnswer(id=item.id, value=value, step=step, sense=sense, where=item.id)
+        yield WrittenAnswer(id=item.id, value=value, step=step, sense=sense, location=item.id)
 
 
 def explanations(task: Task) -> list[Explanation]:
@@ -54,15 +54,15 @@ def exact(task: Task) -> Mapping[str, float]:
     return task.sheet(0).exact
 
 
-def verdicts(checked: CheckedWork) -> dict[str, Verdict]:
+def verdicts(checked: GradedSubmission) -> dict[str, Verdict]:
     return {answer.id: answer.verdict for answer in checked.answers}
 
 
-def checked(name: str, **values: float) -> CheckedWork:
+def checked(name: str, **values: float) -> GradedSubmission:
     """Return the check of a work that answers some quantities of a file."""
     task = task_of(name)
     answers = tuple(
-        WrittenAnswer(id=key, value=value, step=abs(value) * 1e-3, where=key)
+        WrittenAnswer(id=key, value=value, step=abs(value) * 1e-3, location=key)
         for key, value in values.items()
     )
-    return check(task, Work("s", answers))
+    return check(task, Submission("s", answers))

@@ -20,13 +20,13 @@ from planmethod.check.key import key_of, key_of_task
 from planmethod.check.marks import Settings
 from planmethod.check.mistakes.model import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
-from planmethod.check.model import Sense, Verdict, Work, WrittenAnswer
+from planmethod.check.model import Sense, Submission, Verdict, WrittenAnswer
 from planmethod.check.task import Task
 from planmethod.errors import ProblemError
 from planmethod.note.plaintext import NO_BREAK
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.model import PlanKind
-from planmethod.problem.head import AskedAnswer, AskedSense
+from planmethod.problem.common import DirectionMode, QuestionSpec
 from planmethod.solved.solution import Solution
 
 RANDOM = tuple(f"random-{seed}" for seed in range(some(60, 2)))
@@ -54,7 +54,7 @@ def test_a_planted_mistake_is_named_or_owned_to_be_doubtful(name: str) -> None:
         if any(explanation.code in diagnosis.codes for diagnosis in found.diagnosis):
             named += 1
         elif codes:
-            misnamed.append((explanation.code, explanation.where, codes))
+            misnamed.append((explanation.code, explanation.place, codes))
         for diagnosis in found.diagnosis:
             assert diagnosis.sure is False or len(diagnosis.codes) == 1
             for root in diagnosis.roots:
@@ -114,7 +114,7 @@ def test_the_sense_is_an_answer_of_its_own() -> None:
 
     def judged(sense: Sense | None, value: float = 15.5) -> tuple[Verdict, float, tuple[str, ...]]:
         written = WrittenAnswer(id="omega_3", value=value, step=0.1, sense=sense)
-        found = check(task, Work("s", (written,)))
+        found = check(task, Submission("s", (written,)))
         codes = tuple(code for diagnosis in found.diagnosis for code in diagnosis.codes)
         return found.answers[0].verdict, found.answers[0].points, codes
 
@@ -130,7 +130,7 @@ def test_millimetres_times_scale_that_are_not_the_value_are_a_slip() -> None:
 
     def codes(value: float, mm: float) -> list[tuple[str, ...]]:
         written = WrittenAnswer(id="v_E", value=value, step=0.01, mm=mm, mm_step=0.5)
-        found = check(task, Work("s", (written,), scales=scales)).diagnosis
+        found = check(task, Submission("s", (written,), scales=scales)).diagnosis
         return [d.codes if d.sure else () for d in found]
 
     assert codes(3.92, 78.5) == []
@@ -145,10 +145,10 @@ def test_the_students_scale_counts_and_millimetres_alone_are_an_answer() -> None
     task = task_of("linkages/ex3")
     exact_mm = 3.9156681586643276 / 0.04
     written = WrittenAnswer(what="v E", mm=round(exact_mm * 2) / 2, mm_step=0.5)
-    answer = check(task, Work("s", (written,), scales={"mu_v": 0.04})).answers[0]
+    answer = check(task, Submission("s", (written,), scales={"mu_v": 0.04})).answers[0]
     assert answer.verdict is Verdict.OK
     assert answer.value == pytest.approx(3.92, rel=0.01)
-    assert check(task, Work("s", (written,))).answers[0].verdict is Verdict.WRONG
+    assert check(task, Submission("s", (written,))).answers[0].verdict is Verdict.WRONG
 
 
 def test_a_segment_of_other_letters_is_recognised() -> None:
@@ -156,21 +156,21 @@ def test_a_segment_of_other_letters_is_recognised() -> None:
     task = task_of("linkages/ex3")
     scales = {"mu_v": 0.05}
     written = WrittenAnswer(what="v E", value=3.4, mm=68.0, segment="p d", step=0.01, mm_step=0.5)
-    (diagnosis,) = check(task, Work("s", (written,), scales=scales)).diagnosis
+    (diagnosis,) = check(task, Submission("s", (written,), scales=scales)).diagnosis
     assert diagnosis.codes == ("V6",)
     right = WrittenAnswer(what="v E", value=3.92, mm=78.5, segment="p e", step=0.01, mm_step=0.5)
-    assert check(task, Work("s", (right,), scales=scales)).answers[0].verdict is Verdict.OK
+    assert check(task, Submission("s", (right,), scales=scales)).answers[0].verdict is Verdict.OK
 
 
 def test_blank_is_not_zero_and_unknown_is_not_wrong() -> None:
     task = task_of("linkages/ex3")
-    work = Work(
+    work = Submission(
         "s",
         (
             WrittenAnswer(id="v_E"),
             WrittenAnswer(id="v_D", value=0.0),
             WrittenAnswer(id="v_Q", value=1.0),
-            WrittenAnswer(id="v_B", unreadable="what is '3,,2'?", where="A1"),
+            WrittenAnswer(id="v_B", unreadable="what is '3,,2'?", location="A1"),
         ),
     )
     told = verdicts(check(task, work))
@@ -184,7 +184,7 @@ def test_letters_of_the_department_find_the_quantity() -> None:
     task = task_of("levers/task12")
     for text in ("v_B3", "VB₃", "v B3", "В3"):
         written = WrittenAnswer(id=text, value=0.4536)
-        verdict = check(task, Work("s", (written,))).answers[0].verdict
+        verdict = check(task, Submission("s", (written,))).answers[0].verdict
         assert (verdict is Verdict.UNREADABLE) == (text == "В3"), text
     for text, value in (
         ("ω3", 2.36),
@@ -194,7 +194,7 @@ def test_letters_of_the_department_find_the_quantity() -> None:
         ("ε_3", 40.7),
     ):
         written = WrittenAnswer(id=text, value=value, step=abs(value) * 1e-3)
-        verdict = check(task, Work("s", (written,))).answers[0].verdict
+        verdict = check(task, Submission("s", (written,))).answers[0].verdict
         assert verdict in (Verdict.OK, Verdict.UNSEEN), text
 
 
@@ -204,14 +204,14 @@ def test_a_work_is_judged_independently_of_the_others() -> None:
         WrittenAnswer(id="v_D", value=0.59, step=0.01),
         WrittenAnswer(id="a_D", value=17.0, step=0.1),
     )
-    alone = check(task, Work("s", written))
+    alone = check(task, Submission("s", written))
     task.usual()
-    again = check(task, Work("s", written))
+    again = check(task, Submission("s", written))
     assert again.answers == alone.answers
     assert [replace(d, places={}) for d in again.diagnosis] == [
         replace(d, places={}) for d in alone.diagnosis
     ]
-    turned = check(task, Work("s", written[::-1])).answers
+    turned = check(task, Submission("s", written[::-1])).answers
     assert turned == (*alone.answers[1::-1], *alone.answers[2:])
     assert {answer.verdict for answer in alone.answers[2:]} == {Verdict.BLANK}
 
@@ -229,7 +229,7 @@ def test_the_policy_of_the_department(policy: str, verdict: Verdict) -> None:
     """a_E of the third example 9 % off: 2.5 σ are 12 %, the cap 10 %, the flat tolerance 5 %."""
     settings = Settings(policy=policy)
     task = Task(task_of("linkages/ex3").solution, settings)
-    found = check(task, Work("s", (WrittenAnswer(id="a_E", value=94.9, step=0.1),)))
+    found = check(task, Submission("s", (WrittenAnswer(id="a_E", value=94.9, step=0.1),)))
     assert found.answers[0].verdict is verdict
 
 
@@ -245,7 +245,9 @@ def test_positions_of_a_cycle_are_judged_separately() -> None:
         WrittenAnswer(id="v_D", value=speed, step=0.001, position=position)
         for position, speed in ((0, speeds[0]), (1, speeds[1]), (1, speeds[0]), (2, speeds[0]))
     )
-    found = [answer.verdict for answer in check(task, Work("s", written)).answers if answer.written]
+    found = [
+        answer.verdict for answer in check(task, Submission("s", written)).answers if answer.written
+    ]
     assert found == [Verdict.OK, Verdict.OK, Verdict.WRONG, Verdict.UNREADABLE]
 
 
@@ -263,7 +265,7 @@ def test_a_slip_in_one_number_does_not_affect_values_measured_beside_it() -> Non
 def test_mistakes_that_give_the_same_sheet_are_named_together() -> None:
     """Link 4 of the press barely turns: the other assembly and a misread sense look the same."""
     task = task_of("press/press")
-    (other,) = (e for e in explanations(task) if e.code == "P1" and e.where == "B")
+    (other,) = (e for e in explanations(task) if e.code == "P1" and e.place == "B")
     (diagnosis,) = check(task, work_of(task, other.values)).diagnosis
     assert set(diagnosis.codes) == {"P1", "sign"}
     assert not diagnosis.sure
@@ -271,7 +273,7 @@ def test_mistakes_that_give_the_same_sheet_are_named_together() -> None:
 
 def test_another_assembly_of_a_triad_is_named_each_of_three() -> None:
     task = task_of("linkages/triad")
-    others = [e for e in explanations(task) if e.code == "P1" and e.where == "3"]
+    others = [e for e in explanations(task) if e.code == "P1" and e.place == "3"]
     # Found elsewhere: v_B, omega_3, a_B, epsilon_3 of one of the others.
     known = {"v_B": 0.211776, "omega_3": -0.559066, "a_B": 8.30696, "epsilon_3": 23.33842}
     assert [e for e in others if all(
@@ -297,7 +299,7 @@ def test_another_scale_is_found_by_the_sharpest_answers() -> None:
 
 def test_the_direction_of_a_vector_is_an_answer_of_its_own() -> None:
     problem = task_of("linkages/ex3").solution.problem
-    asked = AskedAnswer("v_B3", "v B3", ("VB₃",), points=2.0, sense=AskedSense.ANGLE)
+    asked = QuestionSpec("v_B3", "v B3", ("VB₃",), points=2.0, sense=DirectionMode.ANGLE)
     task = Task(Solution(replace(problem, answers=(asked,))))
     size, turned = task.declared
     assert (size.points, turned.points, turned.question.unit) == (1.4, 0.6, "deg")
@@ -311,13 +313,16 @@ def test_the_direction_of_a_vector_is_an_answer_of_its_own() -> None:
         ("α(VB₃)", 360.0, Verdict.OK),
         ("angle_v_B3", 180.0, Verdict.WRONG),
     ):
-        found = check(task, Work("s", (WrittenAnswer(text, value=right + off, step=0.1),)))
+        found = check(task, Submission("s", (WrittenAnswer(text, value=right + off, step=0.1),)))
         assert found.answers[0].verdict is verdict, text
 
 
 def test_a_number_without_a_unit_has_the_required_one() -> None:
     problem = task_of("linkages/ex3").solution.problem
-    speed, turn = AskedAnswer("v", "v B3", unit="мм/с"), AskedAnswer("w", "omega 3", unit="об/мин")
+    speed, turn = (
+        QuestionSpec("v", "v B3", unit="мм/с"),
+        QuestionSpec("w", "omega 3", unit="об/мин"),
+    )
     task = Task(Solution(replace(problem, answers=(speed, turn))))
     key = key_of_task(task)
     mm_s, rpm = (abs(entry.exact) / entry.per for entry in key.entries)
@@ -331,10 +336,10 @@ def test_a_number_without_a_unit_has_the_required_one() -> None:
         WrittenAnswer(id="v", value=mm_s / 1e3, unit="м/с"),
         WrittenAnswer(id="w", value=exact[0]),
     )
-    right, wrong = (check(task, Work("s", answers)) for answers in (bare, si))
+    right, wrong = (check(task, Submission("s", answers)) for answers in (bare, si))
     assert set(verdicts(right).values()) == {Verdict.OK}
     assert list(verdicts(wrong).values()) == [Verdict.OK, Verdict.WRONG]  # 15.5 of 148 rev/min
-    words = language("ru")
+    words = get_language("ru")
     assert compared_text([right], words).count(f"{mm_s:.0f} мм/с") == 2
     assert f"{mm_s / 10:.0f}0 ± " in key_text([key], words).replace(NO_BREAK, " ")
     book = openpyxl.load_workbook(io.BytesIO(form_of(key.entries, problem="ex3")))
@@ -376,9 +381,9 @@ def test_the_numbers_of_another_variant_earn_no_points() -> None:
     tasks = {
         name: Task(Solution(problem_of("levers/task12-variants", name))) for name in ("А", "Б")
     }
-    task = Task(tasks["А"].solution, others=lambda: tasks.values())
+    task = Task(tasks["А"].solution, other_variants=lambda: tasks.values())
     found = check(task, work_of(task, exact(tasks["Б"])))
     assert [d.codes for d in found.diagnosis] == [("P2",)]
-    assert found.diagnosis[0].where == "Б"
+    assert found.diagnosis[0].place == "Б"
     assert {Verdict.INHERITED} & set(verdicts(found).values()) == set()
     assert found.points < 0.3 * found.of

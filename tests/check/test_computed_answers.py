@@ -14,7 +14,7 @@ from worked import PROBLEMS
 from planmethod.check.checking import check
 from planmethod.check.group import Variants
 from planmethod.check.marks import DEFAULT
-from planmethod.check.model import CheckedWork, Work, WrittenAnswer
+from planmethod.check.model import GradedSubmission, Submission, WrittenAnswer
 from planmethod.cli import cli
 
 TRAIN = PROBLEMS / "gears/gears-ex2.toml"
@@ -26,16 +26,16 @@ t = [0, 1]
 """
 
 
-def checked(path: Path, told: dict[str, float], position: int | None = None) -> CheckedWork:
+def checked(path: Path, told: dict[str, float], position: int | None = None) -> GradedSubmission:
     answers = tuple(WrittenAnswer(id=n, value=v, position=position) for n, v in told.items())
-    return check(Variants(path, DEFAULT).task(None), Work("s", answers))
+    return check(Variants(path, DEFAULT).task(None), Submission("s", answers))
 
 
-def verdicts(one: CheckedWork) -> dict[str, str]:
+def verdicts(one: GradedSubmission) -> dict[str, str]:
     return {a.id: a.verdict.value for a in one.answers if a.written is not None}
 
 
-def codes(one: CheckedWork) -> list[tuple[str, ...]]:
+def codes(one: GradedSubmission) -> list[tuple[str, ...]]:
     return [diagnosis.codes for diagnosis in one.diagnosis]
 
 

@@ -12,12 +12,12 @@ from worked import ROOT, problem_of
 from benchmarks import group
 from planmethod.bench import checking
 from planmethod.check.checking import check
-from planmethod.check.drawn import as_written, drawn_works, planted
 from planmethod.check.group import Variants, check_works
 from planmethod.check.key import key_of_task
-from planmethod.check.model import CheckedWork, Sense, Verdict
+from planmethod.check.model import GradedSubmission, Sense, Verdict
+from planmethod.check.simulation import as_written, planted, simulate_submissions
+from planmethod.check.submissions import read_works
 from planmethod.check.task import Task
-from planmethod.check.works import read_works
 from planmethod.solved.solution import Solution
 
 FILE = ROOT / group.TARGET
@@ -29,8 +29,12 @@ def ex3() -> Task:
 
 
 def test_the_same_seed_draws_the_same_works() -> None:
-    assert drawn_works(ex3(), count=3, seed=5) == drawn_works(ex3(), count=3, seed=5)
-    assert drawn_works(ex3(), count=3, seed=5) != drawn_works(ex3(), count=3, seed=6)
+    assert simulate_submissions(ex3(), count=3, seed=5) == simulate_submissions(
+        ex3(), count=3, seed=5
+    )
+    assert simulate_submissions(ex3(), count=3, seed=5) != simulate_submissions(
+        ex3(), count=3, seed=6
+    )
 
 
 def test_numbers_have_three_figures_and_four_behind_a_one() -> None:
@@ -40,7 +44,7 @@ def test_numbers_have_three_figures_and_four_behind_a_one() -> None:
 
 
 def test_drawn_values_err_as_much_as_the_tolerance_assumes() -> None:
-    works = drawn_works(ex3(), count=400, seed=1)
+    works = simulate_submissions(ex3(), count=400, seed=1)
     compared = 0
     for entry in key_of_task(ex3()).entries:
         if entry.sigma > 0.01 * abs(entry.exact):  # more than the rounding of written values
@@ -52,7 +56,7 @@ def test_drawn_values_err_as_much_as_the_tolerance_assumes() -> None:
 
 
 def test_lengths_are_on_the_ruler_and_give_the_values_at_the_students_scale() -> None:
-    (work,) = drawn_works(ex3(), scales={"mu_v": 0.04}, mm=True)
+    (work,) = simulate_submissions(ex3(), scales={"mu_v": 0.04}, mm=True)
     answer = next(a for a in work.answers if a.id == "v_B3")
     assert answer.mm is not None and answer.value is not None
     assert answer.mm * 2 == round(answer.mm * 2)
@@ -61,14 +65,14 @@ def test_lengths_are_on_the_ruler_and_give_the_values_at_the_students_scale() ->
 
 
 def test_senses_are_given_where_they_are_required() -> None:
-    (work,) = drawn_works(ex3())
+    (work,) = simulate_submissions(ex3())
     told = {answer.id: answer.sense for answer in work.answers if answer.sense}
     assert set(told.values()) == {Sense.CCW, Sense.CW}
     assert len(told) == sum(item.asks_sense for item in ex3().declared)
 
 
 def test_honest_works_are_rarely_faulted_or_called_mistaken() -> None:
-    found = checking.honest(ex3(), 60)
+    found = checking.check_faultless(ex3(), 60)
     assert found.works == 60
     assert found.answers == 60 * len(ex3().declared)
     assert found.faulted / found.answers <= 0.015
@@ -82,7 +86,7 @@ def test_planted_mistakes_are_found_and_rarely_named_wrongly(name: str) -> None:
     whole = {"V1", "V2", "A1", "A2", "A3", "N1", "N4", "P1", "true_mm"}
     works = sum(row.works for row in rows if row.code in whole)
     assert works >= 9
-    assert sum(row.seen for row in rows if row.code in whole) == works
+    assert sum(row.noticed for row in rows if row.code in whole) == works
     assert sum(row.named for row in rows if row.code in whole) >= 0.85 * works
     assert sum(row.misnamed for row in rows if row.code in whole) == 0
     assert sum(row.misnamed for row in rows) <= 0.05 * sum(row.works for row in rows)
@@ -97,14 +101,14 @@ def test_the_key_lists_mistakes_that_the_bench_does_not_plant() -> None:
             continue  # of one number: the key speaks of the plans
         values = [explanation.values[item.question.id] for item in ex3().declared]
         shown = any(map(checking.shows, key.entries, values))
-        assert shown or change.where in key.hidden[change.code], change
+        assert shown or change.place in key.hidden[change.code], change
 
 
 # The group of thirty -------------------------------------------------------------------------
 
 
 @cache
-def checked_group() -> tuple[CheckedWork, ...]:
+def checked_group() -> tuple[GradedSubmission, ...]:
     return tuple(check_works(Variants(ROOT / group.PROBLEM), read_works(FILE)))
 
 
@@ -154,4 +158,4 @@ def test_the_one_cell_that_cannot_be_read_is_named_and_is_open() -> None:
     ((student, answer),) = found
     assert (student, answer.points, answer.of) == ("Чернов Тимур", 0.0, 1.0)
     assert [one.work.student for one in checked_group() if one.is_provisional] == [student]
-    assert answer.where.startswith("ex3.csv:")
+    assert answer.location.startswith("ex3.csv:")

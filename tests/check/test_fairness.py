@@ -17,27 +17,34 @@ from planted import exact, task_of, verdicts, work_of
 from worked import ROOT
 
 from planmethod.check.checking import check
-from planmethod.check.copied import compared, copied, likeness
-from planmethod.check.drawn import drawn_works
-from planmethod.check.explain import Explanation, Fit
-from planmethod.check.following import passed_on
+from planmethod.check.copied import detect_copied_variant, mark_similar_submissions, match_chance
+from planmethod.check.explain import Explanation, ExplanationFit
+from planmethod.check.following import propagate_mistake
+from planmethod.check.grading import ExaminedAnswer, assign_verdicts, examine, replay
 from planmethod.check.group import Variants, check_works
-from planmethod.check.judge import Examined, decide, examine, replay
 from planmethod.check.key import key_of_task
-from planmethod.check.letters import called
-from planmethod.check.model import CheckedWork, KeyEntry, Sense, Verdict, Work, WrittenAnswer
+from planmethod.check.letters import name_and_symbol
+from planmethod.check.model import (
+    GradedSubmission,
+    KeyEntry,
+    Sense,
+    Submission,
+    Verdict,
+    WrittenAnswer,
+)
+from planmethod.check.pages.answer_format import AnswerFormatter
 from planmethod.check.pages.keypage import KeyPage
 from planmethod.check.pages.remarks import Remarks
-from planmethod.check.pages.speech import Speech
 from planmethod.check.questions import Sign
 from planmethod.check.routes import try_powers
+from planmethod.check.simulation import simulate_submissions
+from planmethod.check.submissions.csv_file import read_csv
+from planmethod.check.submissions.student import read_json
 from planmethod.check.task import Task
 from planmethod.check.tolerance import Tolerance
-from planmethod.check.works.csv_file import read_csv
-from planmethod.check.works.student import read_json
 from planmethod.construct.evaluate import Trace
-from planmethod.note.wording import language
-from planmethod.problem.head import AskedAnswer
+from planmethod.note.wording import get_language
+from planmethod.problem.common import QuestionSpec
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import Selector
 from planmethod.solved.solution import Solution
@@ -50,7 +57,7 @@ def variants(path: Path = TASK13) -> Variants:
     return Variants(path)
 
 
-def answered(name: str, **values: float | str | tuple[float | str, str]) -> CheckedWork:
+def answered(name: str, **values: float | str | tuple[float | str, str]) -> GradedSubmission:
     """Return the check of numbers as they are written, each with an optional sense."""
     told = []
     for key, value in values.items():
@@ -70,9 +77,9 @@ def test_a_copied_variant_is_named_and_earns_only_answers_right_for_ones_own(nam
     over = 0
     for mine, theirs in itertools.permutations(group.names, 2):
         task = group.task(mine)
-        (work,) = drawn_works(group.task(theirs), None, 1, 7)
+        (work,) = simulate_submissions(group.task(theirs), None, 1, 7)
         found = check(task, replace(work, variant=mine))
-        assert [(d.codes, d.sure, d.where) for d in found.diagnosis] == [(("P2",), True, theirs)]
+        assert [(d.codes, d.sure, d.place) for d in found.diagnosis] == [(("P2",), True, theirs)]
         over += found.points > found.of / 2
         for answer in found.answers:
             assert answer.verdict is not Verdict.INHERITED
@@ -97,10 +104,12 @@ def test_a_likeness_with_a_chance_above_1_in_200_is_not_called_copied(
     share: float, answers: int, others: int, named: bool
 ) -> None:
     found = [
-        Examined(
+        ExaminedAnswer(
             cast("Any", SimpleNamespace(id=n, question=SimpleNamespace(id=n, sign=Sign.SIZE))),
             WrittenAnswer(id=n),
-            Tolerance(1.0, share / 2.5, share, 0.01, share, seen=True, zero=False, per_mm=0.01),
+            Tolerance(
+                1.0, share / 2.5, share, 0.01, share, is_visible=True, zero=False, per_mm=0.01
+            ),
             2.0,
             signed=False,
             step=0.0,
@@ -112,7 +121,7 @@ def test_a_likeness_with_a_chance_above_1_in_200_is_not_called_copied(
         for n in range(others)
     ]
     task: Any = SimpleNamespace(named=lambda _: [], theirs=lambda _: theirs)
-    told = copied(task, cast("Any", None), found)
+    told = detect_copied_variant(task, cast("Any", None), found)
     wide = share * 2  # at twice the size it is drawn twice as wide
     chance = (2 * wide / 2 / math.log(9)) ** answers * others
     assert (told is not None) is (chance < 0.005) is named
@@ -123,7 +132,7 @@ def test_an_honest_or_mistaken_work_is_not_called_copied() -> None:
     for name in group.names[:3]:
         task = group.task(name)
         sheet = task.sheet(0)
-        for work in drawn_works(task, None, 4, 11):
+        for work in simulate_submissions(task, None, 4, 11):
             assert not check(task, work).diagnosis
         for made in task.named(sheet)[::7]:
             if made.code != "P1":
@@ -133,21 +142,24 @@ def test_an_honest_or_mistaken_work_is_not_called_copied() -> None:
 
 def test_two_works_by_one_pencil_are_a_finding_and_lose_no_points() -> None:
     task = task_of("linkages/ex3")
-    works = [replace(work, student=f"{n}") for n, work in enumerate(drawn_works(task, None, 20, 5))]
+    works = [
+        replace(work, student=f"{n}")
+        for n, work in enumerate(simulate_submissions(task, None, 20, 5))
+    ]
     honest = [check(task, work) for work in works]
-    assert not any(work.alike for work in compared(honest))
+    assert not any(work.similar_students for work in mark_similar_submissions(honest))
     again = check(task, replace(works[3], student="copy"))
-    found = compared([*honest, again])
-    assert [work.work.student for work in found if work.alike] == ["3", "copy"]
-    assert found[-1].alike == ("3",)
+    found = mark_similar_submissions([*honest, again])
+    assert [work.work.student for work in found if work.similar_students] == ["3", "copy"]
+    assert found[-1].similar_students == ("3",)
     assert [work.points for work in found] == [work.points for work in [*honest, again]]
 
 
 def test_the_chance_of_a_likeness_is_that_of_honest_works() -> None:
     """Honest pairs are no more often alike than the computed chance; measured, not fitted."""
     task = task_of("levers/task12")
-    checked = [check(task, work) for work in drawn_works(task, None, 30, 9)]
-    chances = np.array([likeness(*pair) for pair in itertools.combinations(checked, 2)])
+    checked = [check(task, work) for work in simulate_submissions(task, None, 30, 9)]
+    chances = np.array([match_chance(*pair) for pair in itertools.combinations(checked, 2)])
     for level in (0.5, 0.1, 0.02):
         assert (chances < level).mean() <= 1.5 * level
 
@@ -161,8 +173,8 @@ def test_a_mark_does_not_depend_on_a_neighbour() -> None:
     task = Variants(path).task(None)
     assert not task.declared
     values = exact(task_of("levers/six-link"))
-    one = Work("one", work_of(task, values).answers[:6], where="g")
-    two = Work("two", work_of(task, values).answers, where="g")
+    one = Submission("one", work_of(task, values).answers[:6], location="g")
+    two = Submission("two", work_of(task, values).answers, location="g")
     (alone,) = check_works(Variants(path), [one])
     beside, _ = check_works(Variants(path), [one, two])
     assert (alone.points, alone.of) == (beside.points, beside.of) == (6.0, len(task.usual()))
@@ -177,19 +189,19 @@ UNASKED = [
 """Coordinates that the task does not require, in another order in each submission."""
 
 
-def unasked(told: list[tuple[str, str, dict[str, float]]]) -> list[Work]:
+def unasked(told: list[tuple[str, str, dict[str, float]]]) -> list[Submission]:
     return [
-        Work(
+        Submission(
             student,
             tuple(WrittenAnswer(what=what, value=v, step=0.01) for what, v in values.items()),
             variant=variant,
-            where="g",
+            location="g",
         )
         for student, variant, values in told
     ]
 
 
-def told_of(checked: CheckedWork) -> tuple[object, ...]:
+def told_of(checked: GradedSubmission) -> tuple[object, ...]:
     """Return the reported parts of a check, without its strokes, whose last bit may differ."""
     return checked.answers, checked.diagnosis, checked.points, checked.of, checked.failure
 
@@ -237,22 +249,22 @@ def test_another_variant_is_named_despite_other_answers() -> None:
 def test_a_computed_answer_that_is_not_required_does_not_change_other_works(name: str) -> None:
     task = Variants(ROOT / f"problems/{name}.toml").task(None)
     wrong = [
-        WrittenAnswer(id=item.id, value=1.17 * item.question.take(Trace({}, {})), step=0.001)
+        WrittenAnswer(id=item.id, value=1.17 * item.question.evaluate(Trace({}, {})), step=0.001)
         for item in task.usual()
     ]
-    alone = check(task, Work("s", tuple(wrong)))
+    alone = check(task, Submission("s", tuple(wrong)))
     more = [WrittenAnswer(what=what, mm=9.0) for what in ("v", "n 4", "omega 5", "n 2", "a")]
-    check(task, Work("other", tuple(more)))
-    assert check(task, Work("s", tuple(wrong))) == alone
+    check(task, Submission("other", tuple(more)))
+    assert check(task, Submission("s", tuple(wrong))) == alone
 
 
 def test_answers_that_are_not_required_lose_no_points() -> None:
     task = task_of("linkages/ex3")
     right = work_of(task, exact(task))
     more = (WrittenAnswer(what="vx B3", value=9.9, step=0.1), *right.answers)
-    asked = task.sheet(0).asked
-    found, usual = check(task, Work("s", more)), check(task, right)
-    assert task.sheet(0).asked == asked
+    asked = task.sheet(0).requested
+    found, usual = check(task, Submission("s", more)), check(task, right)
+    assert task.sheet(0).requested == asked
     assert found.answers[0].verdict is Verdict.WRONG
     assert (found.points, found.of) == (usual.points, usual.of)
 
@@ -272,7 +284,7 @@ def test_names_that_pages_print_are_understood(name: str, value: float) -> None:
 
 def test_a_unit_of_another_quantity_is_reported_and_left_undecided() -> None:
     written = WrittenAnswer(id="v_B", value=3.2, unit="м/с²", step=0.1)
-    found = check(task_of("linkages/ex3"), Work("s", (written,))).answers[0]
+    found = check(task_of("linkages/ex3"), Submission("s", (written,))).answers[0]
     assert (found.verdict, found.points, found.of) == (Verdict.UNREADABLE, 0.0, 1.0)
     assert found.is_open
     assert found.written is not None and found.written.unit == "м/с²"
@@ -281,12 +293,12 @@ def test_a_unit_of_another_quantity_is_reported_and_left_undecided() -> None:
 def test_a_length_in_metres_is_reported_in_metres() -> None:
     """l_CB of example 3 is 0.145 m, 72.5 mm of the plan; the key said 0.0725 m."""
     problem = task_of("linkages/ex3").solution.problem
-    asked = AskedAnswer(id="l", what="length C B", unit="м")
+    asked = QuestionSpec(id="l", what="length C B", unit="м")
     task = Task(Solution(replace(problem, answers=(asked,))))
     (entry,) = key_of_task(task).entries
     assert entry.exact / entry.per == pytest.approx(0.14495, abs=1e-5)
     for scales in ({}, {"mu_l": 0.001}):
-        work = Work("s", (WrittenAnswer(id="l", value=0.145, step=0.001),), scales=scales)
+        work = Submission("s", (WrittenAnswer(id="l", value=0.145, step=0.001),), scales=scales)
         found = check(task, work).answers[0]
         assert found.verdict is Verdict.OK and found.key is not None
         assert (found.value or 0.0) / found.key.per == pytest.approx(0.145)
@@ -294,7 +306,7 @@ def test_a_length_in_metres_is_reported_in_metres() -> None:
 
 def test_senses_have_one_form_in_a_key() -> None:
     """ω, ε and moments that turn clockwise had a minus and an arrow, or an arrow alone."""
-    words = language("ru")
+    words = get_language("ru")
     for name in ("levers/task12", "linkages/ex3"):
         for line in map(KeyPage((key_of_task(task_of(name)),), words).line, entries(name)):
             assert not (line[5] in "↺↻" and line[5] and line[1].startswith("−")), line
@@ -305,7 +317,7 @@ def entries(name: str) -> tuple[KeyEntry, ...]:
 
 
 def test_letters_of_an_inertia_couple_have_no_underscore_of_their_own() -> None:
-    assert called(Selector("inertia couple", ("2",)))[1] == "M_{Φ2}"
+    assert name_and_symbol(Selector("inertia couple", ("2",)))[1] == "M_{Φ2}"
 
 
 # Routes --------------------------------------------------------------------------------------
@@ -359,10 +371,10 @@ def test_the_routes_of_example_3_are_those_of_an_independent_computation() -> No
 def test_a_route_from_right_numbers_is_not_one_and_one_wrong_number_is_enough() -> None:
     """A result of right numbers is right or wrong by itself, and keeps its own parents."""
 
-    def examined(name: str, value: float, *, right: bool) -> Examined:
+    def examined(name: str, value: float, *, right: bool) -> ExaminedAnswer:
         item: Any = SimpleNamespace(id=name, question=SimpleNamespace(id=name, sign=Sign.SIZE))
-        limit = Tolerance(1.0, 0.02, 0.05, 0.01, 0.1, seen=True, zero=False, per_mm=0.01)
-        one = Examined(item, WrittenAnswer(id=name), limit, value, signed=False, step=0.0)
+        limit = Tolerance(1.0, 0.02, 0.05, 0.01, 0.1, is_visible=True, zero=False, per_mm=0.01)
+        one = ExaminedAnswer(item, WrittenAnswer(id=name), limit, value, signed=False, step=0.0)
         one.right = right
         return one
 
@@ -404,10 +416,10 @@ def test_an_answer_that_a_mistake_leaves_alone_does_not_follow_from_it() -> None
         for answer in (replace(a, value=2.40) if a.id == "v_B3" else a for a in work.answers)
     ]
     replay(task, sheet, examined)
-    decide(sheet, examined, task.settings.near)
+    assign_verdicts(sheet, examined, task.settings.near)
     by_id = {one.item.id: one for one in examined}
     by_id["v_B3"].verdict = Verdict.WRONG
-    told = passed_on(task, sheet, examined, [Fit(made, 0.0, 0.0, len(examined))])
+    told = propagate_mistake(task, sheet, examined, [ExplanationFit(made, 0.0, 0.0, len(examined))])
     assert told.codes == ("A3",) and by_id["v_B3"].verdict is Verdict.WRONG
     inherited = {one.item.id for one in examined if one.verdict is Verdict.INHERITED}
     assert inherited and "v_B3" not in inherited and "v_B3" in told.roots
@@ -416,8 +428,8 @@ def test_an_answer_that_a_mistake_leaves_alone_does_not_follow_from_it() -> None
 # Pages ---------------------------------------------------------------------------------------
 
 
-def sentences(found: CheckedWork, hidden: tuple[str, ...] = ()) -> tuple[str, list[str]]:
-    told = Remarks(Speech(language("ru")), found, {"mu_v": 0.05, "mu_a": 1.0}, hidden)
+def sentences(found: GradedSubmission, hidden: tuple[str, ...] = ()) -> tuple[str, list[str]]:
+    told = Remarks(AnswerFormatter(get_language("ru")), found, {"mu_v": 0.05, "mu_a": 1.0}, hidden)
     return " ".join(told.sentences()), told.redraw()
 
 
@@ -450,12 +462,12 @@ def test_mistakes_that_no_answer_shows_are_listed_on_the_page() -> None:
     group = variants(ROOT / "problems/levers/task12-variants.toml")
     task = group.task("В")
     assert isinstance(task.problem, Problem)
-    lengths = tuple(AskedAnswer(id=w.replace(" ", "_"), what=w) for w in ("v B", "v D", "a B"))
+    lengths = tuple(QuestionSpec(id=w.replace(" ", "_"), what=w) for w in ("v B", "v D", "a B"))
     task = Task(Solution(replace(task.problem, answers=lengths)))
     key = key_of_task(task)
     assert "V2" in key.hidden
     told, _ = sentences(check(task, work_of(task, exact(task))), tuple(key.hidden))
-    assert language("ru").check["mistakes"]["V2"].name in told
+    assert get_language("ru").check["mistakes"]["V2"].name in told
 
 
 # Two at once ---------------------------------------------------------------------------------
@@ -478,7 +490,7 @@ def test_two_mistakes_at_once_are_both_named(name: str, codes: str) -> None:
         if both is None or not _differ(task, both, one, 3) or not _differ(task, both, two, 3):
             continue
         tried += 1
-        (work,) = drawn_works(task, both.change, 1, 4)
+        (work,) = simulate_submissions(task, both.change, 1, 4)
         found = check(task, work)
         assert {d.codes for d in found.diagnosis if d.sure} == {(c,) for c in codes.split()}
         assert len({d.roots[0] for d in found.diagnosis}) == 2

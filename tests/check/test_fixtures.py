@@ -15,11 +15,11 @@ from worked import ROOT, path_of
 from planmethod.check.checking import check
 from planmethod.check.group import Variants
 from planmethod.check.marks import DEFAULT, Settings
-from planmethod.check.model import CheckedWork, Verdict, WrittenAnswer
+from planmethod.check.model import GradedSubmission, Verdict, WrittenAnswer
 from planmethod.check.questions import Sign
+from planmethod.check.submissions.student import read_json
 from planmethod.check.task import Task, TaskItem
-from planmethod.check.works.student import read_json
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem import load
 from planmethod.solved.selectors.steps import NoValueError
 from planmethod.solved.solution import Solution
@@ -102,7 +102,7 @@ def answers(case: Case, task: Task) -> list[dict[str, str]]:
     return told
 
 
-def judged(case: Case) -> tuple[Task, CheckedWork]:
+def judged(case: Case) -> tuple[Task, GradedSubmission]:
     task, beside = asked(case)
     scales = {key: value for key, value in beside.items() if key.startswith("mu_")}
     work: dict[str, Any] = {"student": "s", "scales": scales, "answers": answers(case, task)}
@@ -151,7 +151,7 @@ def test_a_case_is_judged_as_in_the_document(case: Case) -> None:
 def test_the_document_lists_every_mistake() -> None:
     text = (ROOT / "docs" / "checking.md").read_text("utf-8")
     assert dict(re.findall(r"(?m)^\| `(\w+)` \| (.+) \|$", text)) == {
-        code: words.name for code, words in language("en").check["mistakes"].items()
+        code: words.name for code, words in get_language("en").check["mistakes"].items()
     }
 
 

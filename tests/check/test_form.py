@@ -20,13 +20,13 @@ from planmethod.check import form as form_module
 from planmethod.check.form import fingerprint_of, form_of
 from planmethod.check.group import Variants
 from planmethod.check.key import key_of_task
-from planmethod.check.model import KeyEntry, Sense, Unread, Work, WrittenAnswer
-from planmethod.check.works import read_works
-from planmethod.check.works.cells import HEADS, key, read_sense
+from planmethod.check.model import KeyEntry, Sense, Submission, Unread, WrittenAnswer
+from planmethod.check.submissions import read_works
+from planmethod.check.submissions.cells import HEADS, key, read_sense
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.problem import load
 from planmethod.problem.units import read_unit
 
@@ -67,7 +67,7 @@ def rows_of(sheet: Any) -> dict[str, int]:
 
 def filled(data: bytes, lang: str = "ru") -> bytes:
     """Fill a form in as a student does."""
-    words = language(lang).form
+    words = get_language(lang).form
     book = book_of(data)
     sheet = book.worksheets[0]
     rows = rows_of(sheet)
@@ -92,14 +92,14 @@ def filled(data: bytes, lang: str = "ru") -> bytes:
     return stream.getvalue()
 
 
-def read(path: Path, data: bytes | None = None) -> Work:
+def read(path: Path, data: bytes | None = None) -> Submission:
     if data is not None:
         path.write_bytes(data)
     (work,) = read_works(path)
     return work
 
 
-def check_filled(work: Work) -> None:
+def check_filled(work: Submission) -> None:
     """Compare a submission with the values that `filled` wrote."""
     assert (work.student, work.problem, work.ruler_mm) == ("Иванов И. И.", "ex3", 0.5)
     assert (work.variant, work.scales) == ("Б", {"mu_v": 0.05})
@@ -136,7 +136,7 @@ def test_a_missing_row_is_reported(tmp_path: Path) -> None:
     stream = io.BytesIO()
     book.save(stream)
     (remark,) = read(tmp_path / "form.xlsx", stream.getvalue()).remarks
-    assert (remark.why, remark.fault) == (Unread.ROW, "omega_3")
+    assert (remark.reason, remark.fault) == (Unread.ROW, "omega_3")
 
 
 def test_the_form_does_not_know_the_answers() -> None:
@@ -145,7 +145,9 @@ def test_the_form_does_not_know_the_answers() -> None:
     for number in (EXACT, SIGMA, 2.5 * SIGMA, LENGTH):
         assert f"{number:.4g}"[:-1] not in text
     other = tuple(
-        replace(one, exact=7.7, sigma=0.1, tolerance=0.2, sense=Sense.CCW, seen=False, zero=True)
+        replace(
+            one, exact=7.7, sigma=0.1, tolerance=0.2, sense=Sense.CCW, is_visible=False, zero=True
+        )
         for one in ENTRIES
     )
     assert form_of(other, problem="ex3", fingerprint="f" * 64) == made()
@@ -188,7 +190,7 @@ def test_units_and_senses_are_chosen_from_lists_that_can_be_read() -> None:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_words_of_the_form_can_be_read_back(lang: str) -> None:
-    words = language(lang).form
+    words = get_language(lang).form
     for head in (*words.columns, words.position, words.student, words.variant, words.problem):
         assert key(head) in HEADS or head in HEADS, head
     assert all(map(read_unit, words.units))
@@ -202,7 +204,7 @@ def test_letters_that_a_form_and_a_key_print_are_read_back(name: str, lang: str)
     """Also by hand into a table of one's own: v_B of a point that both links of a pair share."""
     group = Variants(path_of(name))
     task = group.task(group.names[0] if group.names else None)
-    say = language(lang).say
+    say = get_language(lang).notation
     for entry in key_of_task(task).entries:
         symbol = say.symbol(entry.symbol)
         label = say.symbol(entry.label)
@@ -268,7 +270,7 @@ def test_a_form_comes_back_from_libreoffice(tmp_path: Path) -> None:
     # The student sees this while typing: 45.5 mm at 0.05 are 2275 mm/s.
     computed = openpyxl.load_workbook(tmp_path / "out" / "form.xlsx", data_only=True).worksheets[0]
     rows = rows_of(computed)
-    assert computed[f"I{rows['VB₃']}"].value == language("ru").form.agrees
+    assert computed[f"I{rows['VB₃']}"].value == get_language("ru").form.agrees
     assert not computed[f"I{rows['ω3']}"].value
 
 

@@ -15,12 +15,12 @@ from click.testing import CliRunner
 
 from planmethod.check.checking import check
 from planmethod.check.group import Variants
-from planmethod.check.measured.asked import asked_of_drawing
+from planmethod.check.measured.drawing_questions import list_drawing_items
 from planmethod.check.measured.layers import plan_of_layer, read_layers
 from planmethod.check.measured.plan import read_drawing
-from planmethod.check.model import CheckedWork, Unread, Verdict
+from planmethod.check.model import GradedSubmission, Unread, Verdict
+from planmethod.check.submissions.faults import SubmissionError
 from planmethod.check.task import Task
-from planmethod.check.works.faults import WorksError
 from planmethod.cli import cli
 from planmethod.plans.model import PlanKind
 
@@ -46,15 +46,15 @@ FINE = (Verdict.OK, Verdict.UNSEEN)
 def task_of(problem: str) -> Task:
     variants = Variants(Path("problems") / f"{problem}.toml")
     task = variants.task(variants.names[0] if variants.names else None)
-    asked_of_drawing(task)
+    list_drawing_items(task)
     return task
 
 
-def judged(path: Path, task: Task, layers: tuple[str, ...] = ()) -> CheckedWork:
+def judged(path: Path, task: Task, layers: tuple[str, ...] = ()) -> GradedSubmission:
     return check(task, read_drawing(path, read_layers(layers), task))
 
 
-def off(checked: CheckedWork) -> dict[str, Verdict]:
+def off(checked: GradedSubmission) -> dict[str, Verdict]:
     return {one.id: one.verdict for one in checked.answers if one.verdict not in FINE}
 
 
@@ -109,7 +109,7 @@ def test_a_vector_of_our_own_sheet_that_is_moved_is_found(fmt: str, tmp_path: Pa
         document.saveas(tmp_path / "moved.dxf")
         lines[number].dxf.end = end
         checked = judged(tmp_path / "moved.dxf", task)
-        told = [remark for remark in checked.work.remarks if remark.why is Unread.OPEN]
+        told = [remark for remark in checked.work.remarks if remark.reason is Unread.OPEN]
         assert off(checked) or told, number
 
 
@@ -128,7 +128,7 @@ def test_layers_and_colours_are_named(tmp_path: Path) -> None:
     task = task_of("linkages/ex3")
     layers = {PlanKind.VELOCITY: "Слой 1", PlanKind.ACCELERATION: "Слой 2"}
     path = draw(task.sheet(task.first), tmp_path / "work.dxf", layers=layers)
-    with pytest.raises(WorksError, match="Слой 1"):
+    with pytest.raises(SubmissionError, match="Слой 1"):
         judged(path, task)
     assert not off(judged(path, task, ("Слой 1=velocity", "слой_2=ускорения")))
     told = read_layers(["red=velocity", "цвет 30=acceleration"])
@@ -137,7 +137,7 @@ def test_layers_and_colours_are_named(tmp_path: Path) -> None:
         "acceleration",
         "",
     ]
-    with pytest.raises(WorksError, match="--layer"):
+    with pytest.raises(SubmissionError, match="--layer"):
         read_layers(["red=green"])
 
 
@@ -145,7 +145,7 @@ def test_items_that_cannot_be_matched_are_reported_and_not_guessed(tmp_path: Pat
     task = task_of("linkages/ex3")
     sheet = task.sheet(task.first)
     checked = judged(draw(sheet, tmp_path / "d.dxf", without=("d",)), task)
-    whys = [(remark.why, remark.fault) for remark in checked.work.remarks]
+    whys = [(remark.reason, remark.fault) for remark in checked.work.remarks]
     assert (Unread.LETTER, "d") in whys
     blank = {one.id for one in checked.answers if one.verdict is Verdict.BLANK}
     assert {"v_D", "a_D", "v_E_D"} <= blank and "v_E" not in blank
@@ -163,7 +163,7 @@ def test_items_that_cannot_be_matched_are_reported_and_not_guessed(tmp_path: Pat
     checked = judged(tmp_path / "doubt.dxf", task)
     unread = {one.id for one in checked.answers if one.verdict is Verdict.UNREADABLE}
     assert {"v_D", "v_E"} <= unread
-    assert Unread.PLAN in {remark.why for remark in checked.work.remarks}
+    assert Unread.PLAN in {remark.reason for remark in checked.work.remarks}
 
 
 def test_the_scale_written_on_a_drawing_counts(tmp_path: Path) -> None:
@@ -224,7 +224,7 @@ def test_hostile_drawings_are_rejected_with_one_message(tmp_path: Path) -> None:
         many.modelspace().add_line((0, number), (9, number), dxfattribs={"layer": "velocity"})
     many.saveas(tmp_path / "many.dxf")
     for path in sorted(tmp_path.iterdir()):
-        with pytest.raises(WorksError) as error:
+        with pytest.raises(SubmissionError) as error:
             read_drawing(path, {}, task)
         assert str(path.name) in str(error.value)
 
@@ -232,7 +232,7 @@ def test_hostile_drawings_are_rejected_with_one_message(tmp_path: Path) -> None:
 def test_a_missing_library_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("planmethod.check.measured.dxf_file.find_spec", lambda _: None)
     (tmp_path / "work.dxf").write_text("0\nEOF\n")
-    with pytest.raises(WorksError, match="pip install ezdxf"):
+    with pytest.raises(SubmissionError, match="pip install ezdxf"):
         read_drawing(tmp_path / "work.dxf", {}, task_of("linkages/ex3"))
 
 
@@ -247,5 +247,5 @@ def test_a_damaged_drawing_gives_no_traceback(tmp_path: Path) -> None:
         (tmp_path / "damaged.dxf").write_bytes(b"\n".join(lines))
         try:
             judged(tmp_path / "damaged.dxf", task)
-        except WorksError as error:
+        except SubmissionError as error:
             assert "damaged.dxf" in str(error)

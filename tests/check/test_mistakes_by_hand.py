@@ -13,7 +13,7 @@ from planted import exact, explanations, task_of
 from worked import problem_of
 
 from planmethod.check.explain import Explanation
-from planmethod.check.judge import examine
+from planmethod.check.grading import examine
 from planmethod.check.model import WrittenAnswer
 from planmethod.check.slips import Slip, slips
 from planmethod.solved.solution import Solution
@@ -29,7 +29,7 @@ def sizes(name: str, code: str, key: str, where: str | None = None) -> list[floa
     return [
         abs(one.values[key])
         for one in every(name)
-        if one.code == code and where in (None, one.where)
+        if one.code == code and where in (None, one.place)
     ]
 
 
@@ -238,6 +238,6 @@ def test_a_slip_gives_the_number_that_was_written(
 ) -> None:
     raw = f"{value:g}"
     found = [abs(one.value) for one in slips_of(key, value, mm, raw) if one.code == code
-             and one.where == where]  # fmt: skip
+             and one.place == where]  # fmt: skip
     assert found
     assert min(abs(one / given - 1.0) for one in found) < near, (code, found)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from cases import each
 
-from planmethod.check.judge import Examined, decide
+from planmethod.check.grading import ExaminedAnswer, assign_verdicts
 from planmethod.check.marks import Settings
 from planmethod.check.model import Verdict, WrittenAnswer
 from planmethod.check.questions import Sign
@@ -66,8 +66,8 @@ def test_a_value_below_three_sigmas_is_too_short_to_be_measured(exact: float, ze
 def test_the_drawing_shows_values_whose_errors_are_below_the_cap() -> None:
     settings = Settings()
     at_cap = settings.cap / settings.k
-    assert limit(1.0, 0.99 * at_cap).seen
-    assert not limit(1.0, 1.01 * at_cap).seen
+    assert limit(1.0, 0.99 * at_cap).is_visible
+    assert not limit(1.0, 1.01 * at_cap).is_visible
 
 
 def test_a_policy_takes_the_wider_or_the_stricter_tolerance() -> None:
@@ -84,16 +84,18 @@ def test_a_policy_takes_the_wider_or_the_stricter_tolerance() -> None:
 
 # Verdicts on values that the drawing cannot show --------------------------------------------------
 
-UNSEEN = Tolerance(1.0, 0.2, 0.4, 0.02, 0.1, seen=False, zero=False, per_mm=0.01)
+UNSEEN = Tolerance(1.0, 0.2, 0.4, 0.02, 0.1, is_visible=False, zero=False, per_mm=0.01)
 """Tolerance of a value drawn to 0.4 at best, where a tolerance may be 0.1 at most."""
 
 
 def verdict(value: float, limit: Tolerance = UNSEEN, near: float = 1.5, **more: Any) -> Verdict:
     item: Any = SimpleNamespace(id="v_B", question=SimpleNamespace(sign=Sign.SIZE))
-    one = Examined(item, WrittenAnswer(id="v_B"), limit, value, signed=False, step=0.0, **more)
+    one = ExaminedAnswer(
+        item, WrittenAnswer(id="v_B"), limit, value, signed=False, step=0.0, **more
+    )
     one.right = limit.allows(one.off, abs(value))
     sheet: Any = SimpleNamespace(order={})
-    decide(sheet, [one], near)
+    assign_verdicts(sheet, [one], near)
     return one.verdict
 
 
@@ -114,40 +116,48 @@ def test_the_error_of_a_drawing_is_not_held_against_an_answer(off: float, due: V
 def test_a_value_within_the_errors_of_a_drawing_is_not_called_inherited() -> None:
     """The value follows from a wrong number, but the drawing cannot show that it is wrong."""
     item: Any = SimpleNamespace(id="omega_2", question=SimpleNamespace(sign=Sign.SIZE))
-    shown = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
+    shown = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, is_visible=True, zero=False, per_mm=0.01)
     for off, due in ((0.3, Verdict.UNSEEN), (0.45, Verdict.INHERITED)):
-        parent = Examined(item, WrittenAnswer(id="omega_2"), shown, 1.3, signed=False, step=0.0)
+        parent = ExaminedAnswer(
+            item, WrittenAnswer(id="omega_2"), shown, 1.3, signed=False, step=0.0
+        )
         own: Any = SimpleNamespace(id="v_B", question=SimpleNamespace(sign=Sign.SIZE))
-        child = Examined(own, WrittenAnswer(id="v_B"), UNSEEN, 1.0 + off, signed=False, step=0.0)
+        child = ExaminedAnswer(
+            own, WrittenAnswer(id="v_B"), UNSEEN, 1.0 + off, signed=False, step=0.0
+        )
         child.parents, child.follows = {"omega_2": 1.0}, True
         sheet: Any = SimpleNamespace(order={})
-        decide(sheet, [parent, child], 1.5)
+        assign_verdicts(sheet, [parent, child], 1.5)
         assert (parent.verdict, child.verdict) == (Verdict.WRONG, due)
 
 
 def test_a_result_of_a_value_that_the_drawing_cannot_show_is_inherited() -> None:
     """The parent is off by no more than the drafting error, so neither value counts as wrong."""
     item: Any = SimpleNamespace(id="a_B", question=SimpleNamespace(sign=Sign.SIZE))
-    shown = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
+    shown = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, is_visible=True, zero=False, per_mm=0.01)
     own: Any = SimpleNamespace(id="epsilon_2", question=SimpleNamespace(sign=Sign.SIZE))
     for value, follows, due in (
         (1.3, True, Verdict.INHERITED),
         (1.3, False, Verdict.WRONG),
         (1.0, True, Verdict.WRONG),  # a right parent gives no inherited mistake
     ):
-        parent = Examined(item, WrittenAnswer(id="a_B"), UNSEEN, value, signed=False, step=0.0)
+        parent = ExaminedAnswer(
+            item, WrittenAnswer(id="a_B"), UNSEEN, value, signed=False, step=0.0
+        )
         parent.right = value == 1.0
-        child = Examined(own, WrittenAnswer(id="epsilon_2"), shown, 1.3, signed=False, step=0.0)
+        child = ExaminedAnswer(
+            own, WrittenAnswer(id="epsilon_2"), shown, 1.3, signed=False, step=0.0
+        )
         child.parents, child.follows = {"a_B": 1.0}, follows
-        decide(SimpleNamespace(order={}), [child, parent], 1.5)  # type: ignore[arg-type]
+        assign_verdicts(SimpleNamespace(order={}), [child, parent], 1.5)  # type: ignore[arg-type]
         assert (parent.verdict, child.verdict) == (Verdict.UNSEEN, due)
 
 
 def test_a_tolerance_is_at_most_the_cap_except_for_zero() -> None:
-    assert limit(0.04, 0.001).least == pytest.approx(0.1 * 0.04)  # not the half millimetre, 0.005
-    assert limit(0.06, 0.001).least == pytest.approx(0.005)
+    assert limit(0.04, 0.001).minimum == pytest.approx(0.1 * 0.04)  # not the half millimetre, 0.005
+    assert limit(0.06, 0.001).minimum == pytest.approx(0.005)
     assert UNSEEN.tolerance() == pytest.approx(0.1) and UNSEEN.tolerance(1.0) == pytest.approx(0.1)
-    nothing = Tolerance(0.0, 0.2, 0.4, 0.02, 0.1, seen=True, zero=True, per_mm=0.01)
+    nothing = Tolerance(0.0, 0.2, 0.4, 0.02, 0.1, is_visible=True, zero=True, per_mm=0.01)
     assert nothing.tolerance() == pytest.approx(0.4)
 
 
@@ -158,6 +168,6 @@ def test_a_contradiction_of_ones_own_numbers_is_wrong_within_the_errors_too() ->
 
 
 def test_a_value_shown_by_the_drawing_is_judged_by_its_tolerance() -> None:
-    seen = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
+    seen = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, is_visible=True, zero=False, per_mm=0.01)
     assert verdict(1.03, seen) is Verdict.OK
     assert verdict(1.05, seen) is Verdict.WRONG

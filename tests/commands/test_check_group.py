@@ -18,7 +18,7 @@ from worked import path_of
 
 import planmethod.check.group
 import planmethod.check.pages.files
-import planmethod.check.works
+import planmethod.check.submissions
 from planmethod.check.checking import check
 from planmethod.check.pages.student import student_page, student_pdf
 from planmethod.cli import cli
@@ -186,7 +186,7 @@ def test_if_no_file_can_be_read_no_file_is_written(tmp_path: Path) -> None:
 def test_an_internal_error_in_a_file_stops_no_other(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    works = planmethod.check.works
+    works = planmethod.check.submissions
     read = works.read_works
 
     def faulty(path: Path) -> Any:

@@ -24,7 +24,7 @@ from benchmarks.generator import random_problem
 from planmethod.cli import cli
 from planmethod.compiled import symbolic
 from planmethod.construct import evaluate
-from planmethod.construct.steps import MeetLines, Step
+from planmethod.construct.steps import IntersectLines, Step
 from planmethod.problem import load
 from planmethod.solved import impossible
 from planmethod.solved.errors.forces import drawn_forces
@@ -305,7 +305,7 @@ def _steep(monkeypatch: pytest.MonkeyPatch) -> None:
     known = evaluate.limit_of
 
     def limit_of(step: Step) -> float:
-        is_force = isinstance(step, MeetLines) and step.out.startswith("f:")
+        is_force = isinstance(step, IntersectLines) and step.out.startswith("f:")
         return 0.866 if is_force else known(step)
 
     for module in (evaluate, symbolic, impossible):

@@ -18,7 +18,7 @@ from waiting import wait_until
 from worked import PROBLEMS, ROOT, path_of
 
 from planmethod.cli import cli
-from planmethod.commands.problems import Todo, through
+from planmethod.commands.problems import LoadedProblem, run_steps
 from planmethod.commands.processes import in_processes
 
 EX3 = path_of("linkages/ex3").read_text("utf-8")
@@ -139,11 +139,11 @@ def test_processes_end_with_the_one_that_gave_them_work(tmp_path: Path) -> None:
 def test_an_interrupt_is_reported_with_the_work_done(
     files: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def steps(todo: list[Todo]) -> Iterator[Callable[[], None]]:
+    def steps(todo: list[LoadedProblem]) -> Iterator[Callable[[], None]]:
         yield lambda: None
         raise KeyboardInterrupt
 
     with pytest.raises(SystemExit) as end:
-        through((Path(files[0]),), None, True, steps, kinds=True)
+        run_steps((Path(files[0]),), None, True, steps, kinds=True)
     assert end.value.code == 130
     assert "Stopped: 1 of 2 problems are done" in capsys.readouterr().err

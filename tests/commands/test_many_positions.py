@@ -166,7 +166,7 @@ def test_failed_arrays_leave_no_file(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_too_many_numbers_for_one_file(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("planmethod.commands.swept.MOST_NUMBERS", 1000)
+    monkeypatch.setattr("planmethod.commands.position_tables.MAX_NUMBERS", 1000)
     said = refused(2, "solve", EX3, "--phi", "0:360:1", "--npz", "a.npz")
     assert "at most 1000 are written" in said and "--ask" in said
     assert "phi_deg" in arrays(EX3, "--phi", "0:360:1", "--ask", "omega_3")
@@ -508,7 +508,7 @@ def test_gaps_are_listed_in_the_order_of_their_first_positions() -> None:
 
     def tell(index: int) -> Failure:
         asked.append(index)
-        return Failure(Cause.AT_LIMIT, Place(index + 1, 30.0 * index, TURN, "m", alone=False))
+        return Failure(Cause.AT_LIMIT, Place(index + 1, 30.0 * index, TURN, "m", is_only=False))
 
     gaps = Gaps.of(codes, tell)
     assert asked == [1, 2]
@@ -524,24 +524,24 @@ def test_gaps_are_listed_in_the_order_of_their_first_positions() -> None:
     other = Gaps.of(np.array([-1, 0], np.int16), tell)
     joined = gaps.joined(np.array([0, 4]), other)
     assert joined.reason.tolist() == [-1, 0, 1, 1, 2, 0, 0]
-    assert joined.told == (*gaps.told, *other.told)
+    assert joined.failures == (*gaps.failures, *other.failures)
     nothing = Gaps.of(np.full(3, -1, np.int16), tell)
-    assert nothing.count == 0 and not nothing.told and not nothing.sentences
+    assert nothing.count == 0 and not nothing.failures and not nothing.sentences
 
 
 @pytest.mark.parametrize("cause", Cause)
 def test_a_fact_shared_by_all_positions_of_a_cause_has_no_number_of_one(cause: Cause) -> None:
     """Radii hold for all; the place, the margin and distances between moving points do not."""
     facts = Failure(
-        cause, Place(7, 30.5, TURN, "m", alone=False), "C", ("A", "B"), (1.0, 2.0, 3.25, 4.5)
+        cause, Place(7, 30.5, TURN, "m", is_only=False), "C", ("A", "B"), (1.0, 2.0, 3.25, 4.5)
     )
     facts = replace(facts, margin=1e-9, problem="ex")
     if cause is Cause.NOT_HELD:
         facts = replace(facts, reach=(30.0, 10.0, 90.0))
-    other = replace(facts, place=Place(8, 60.5, TURN, "m", alone=False), margin=2e-9)
+    other = replace(facts, place=Place(8, 60.5, TURN, "m", is_only=False), margin=2e-9)
     moved = (1.0, 2.0, 6.25, 7.5) if cause is not Cause.TANGENT else (1.0, 5.0)
     other = replace(other, lengths=moved)
-    own = cause not in (Cause.NOT_FINITE, Cause.TOGETHER, Cause.NEITHER)
+    own = cause not in (Cause.NOT_FINITE, Cause.COINCIDENT, Cause.NEITHER)
     if own:
         assert "position 7 (phi = 30.5 deg)" in str(facts).replace("Position", "position")
         assert str(facts.numbered(8, 9)) == str(facts).replace("osition 7 (", "osition 8 (")

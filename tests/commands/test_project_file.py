@@ -13,9 +13,9 @@ from worked import ROOT
 
 from planmethod.cli import cli
 from planmethod.kinds import KINDS
-from planmethod.note.wording import language
-from planmethod.note.writers.plain import plain_document
-from planmethod.note.written import plain_of
+from planmethod.note.columnar import to_builtins
+from planmethod.note.wording import get_language
+from planmethod.note.writers.terminal import plain_document
 from planmethod.problem.model import Problem, Scales
 from planmethod.project.first import first_scales
 from planmethod.project.model import PartName, Project, ProjectPart
@@ -254,10 +254,10 @@ def test_solve_prints_the_numbers_of_all_parts(scaled: Path) -> None:
     for table, record in parts.items():
         alone = KINDS_BY_TABLE[table]
         part = next(one for one in shaper().parts if one.name.value == table)
-        assert record == json.loads(json.dumps(plain_of(alone.record(part.problem, "en"))))
+        assert record == json.loads(json.dumps(to_builtins(alone.record(part.problem, "en"))))
     assert set(parts) == {part.name.value for part in shaper().parts if part.kind is not None}
     told = run("solve", scaled).stdout
     for part in shaper().parts:
         if part.kind is not None:
-            document = part.kind.solved_document(part.problem, language("en"))
-            assert plain_document(document, language("en")) in told
+            document = part.kind.solved_document(part.problem, get_language("en"))
+            assert plain_document(document, get_language("en")) in told

@@ -16,11 +16,11 @@ from waiting import wait_until
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
 from planmethod.kinds import loads
-from planmethod.note.wording import language
-from planmethod.problem.unlikely import unlikely
+from planmethod.note.wording import get_language
+from planmethod.problem.plausibility import unlikely
 from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
 from planmethod.render.sketch import VIEWS, sketch
-from planmethod.solved.part import largest_part
+from planmethod.solved.partial_mechanism import largest_part
 
 EX3 = Path("problems/linkages/ex3.toml").read_text(encoding="utf-8")
 FOUR_BAR = """
@@ -49,7 +49,7 @@ def drawn(text: str) -> tuple[Drawing, set[str]]:
     """Return the sketch of a text and the links that it shows."""
     part = largest_part(tomllib.loads(text), source="x", name="x", views=VIEWS)
     links = set(part.solution.problem.mechanism.links) if part.solution else set()
-    return sketch(part, "", language("en"), [str(f) for f in part.faults]), links
+    return sketch(part, "", get_language("en"), [str(f) for f in part.faults]), links
 
 
 def written(drawing: Drawing) -> str:

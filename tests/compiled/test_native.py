@@ -54,7 +54,7 @@ def both(
 ) -> tuple[Any, Any]:
     """Run a tape compiled and in NumPy's blocks: results and first guards that do not hold."""
     found = []
-    made = Native(c_source(tape, results, guards, depends), make=True)
+    made = Native(c_source(tape, results, guards, depends), may_compile=True)
     for runner in (made, Blocks(tape, results, guards, depends)):
         out = np.empty((len(results), len(columns[0])))
         failed = np.empty(len(columns[0]), np.int16)
@@ -67,7 +67,10 @@ def test_a_compiled_tape_is_that_of_numpy() -> None:
     """With more guards than a word holds, and more positions than a block."""
     rng, tape = random.Random(1), Tape()
     made = [ref for _ in range(2) for ref, _ in drawn(rng, tape, 60)]
-    made += [tape.make("at_zero", tape.make("max", 0, 0.25), 1, 2), tape.make("div", 0, 1)]
+    made += [
+        tape.add_node("at_zero", tape.add_node("max", 0, 0.25), 1, 2),
+        tape.add_node("div", 0, 1),
+    ]
     results = [*made, made[-1], 7.5]
     nodes = [ref for ref in made if type(ref) is int][:-1]
     limits = [-1.99] * WORD + [0.5] * (len(nodes) - WORD)
@@ -88,8 +91,11 @@ def test_angles_are_good_to_the_last_place_and_exact_at_quadrants(
     monkeypatch.setattr(native_module, "FLAGS", AS_ALWAYS)
     tape = Tape()
     a, x, y = (tape.input(k) for k in range(3))
-    results = [tape.make("cosd", a), tape.make("sind", a)]
-    results += [tape.make("atan2", y, x), tape.make("degrees", tape.make("atan2", y, x))]
+    results = [tape.add_node("cosd", a), tape.add_node("sind", a)]
+    results += [
+        tape.add_node("atan2", y, x),
+        tape.add_node("degrees", tape.add_node("atan2", y, x)),
+    ]
     rng = np.random.default_rng(1)
     angles = np.concatenate([np.arange(-8, 9) * 90.0, rng.uniform(-720, 720, 4000), [3.6e8 + 90]])
     size = rng.uniform(0.1, 9, angles.shape)
@@ -111,7 +117,7 @@ def test_angles_of_equal_steps_are_turned_by_a_table() -> None:
     """Steps equal to rounding count as equal; a block with another one is turned one by one."""
     tape = Tape()
     a = tape.input(0)
-    results = [tape.make("cosd", a), tape.make("sind", a)]
+    results = [tape.add_node("cosd", a), tape.add_node("sind", a)]
     angles = np.linspace(-400.0, 700.0, 5 * BLOCK + 3)
     angles[3 * BLOCK + 7] += 0.01
     (out, _), _ = both(tape, results, [], [frozenset()] * 2, [angles])
@@ -231,13 +237,13 @@ def test_without_a_library_numpy_does_the_work(
 
 
 def test_a_file_that_others_may_write_is_not_loaded(cache: Path) -> None:
-    made = Native(small(), make=True)
+    made = Native(small(), may_compile=True)
     out = np.empty((1, 2))
     made.run([np.array([1.0, 2.0])], out)
     (path,) = (p for p in cache.glob("*.so") if p.stat().st_mtime == newest(cache))
     path.chmod(0o722)
     with pytest.raises(NotCompiledError, match="not a file of yours alone"):
-        Native(small(), make=True)
+        Native(small(), may_compile=True)
     path.chmod(0o700)
 
 
@@ -263,9 +269,11 @@ def test_the_cache_is_bounded(cache: Path, monkeypatch: pytest.MonkeyPatch) -> N
     old = cache / "old.so"
     old.write_bytes(b"x" * 1000)
     os.utime(old, (1, 1))
-    monkeypatch.setattr(native_module, "KEPT", sum(p.stat().st_size for p in cache.glob("*.so")))
+    monkeypatch.setattr(
+        native_module, "MAX_CACHE_BYTES", sum(p.stat().st_size for p in cache.glob("*.so"))
+    )
     tape = Tape()
-    Native(c_source(tape, [tape.add(tape.input(0), 9.0)], [], [frozenset()]), make=True)
+    Native(c_source(tape, [tape.add(tape.input(0), 9.0)], [], [frozenset()]), may_compile=True)
     assert not old.exists()
     assert list(cache.glob("*.so"))
 
@@ -274,7 +282,7 @@ def test_a_truncated_library_is_rebuilt(cache: Path) -> None:
     """To load one kills the process (SIGBUS)."""
     tape = Tape()
     source = c_source(tape, [tape.add(tape.input(0), 17.0)], [], [frozenset()])
-    Native(source, make=True)
+    Native(source, may_compile=True)
     (path,) = (p for p in cache.glob("*.so") if p.stat().st_mtime == newest(cache))
     whole = path.read_bytes()
     for spoilt in (whole[:5000], whole[:-1], b"", whole[:-1] + b"x"):
@@ -282,9 +290,9 @@ def test_a_truncated_library_is_rebuilt(cache: Path) -> None:
         path.write_bytes(spoilt)  # another file: the first one is at work
         path.chmod(0o700)
         with pytest.raises(NotCompiledError, match="not been compiled yet"):
-            Native(source, make=False)
+            Native(source, may_compile=False)
         assert not path.exists()
-        made, out = Native(source, make=True), np.empty((1, 2))
+        made, out = Native(source, may_compile=True), np.empty((1, 2))
         made.run([np.array([1.0, 2.0])], out)
         assert out.tolist() == [[18.0, 19.0]]
         (path,) = (p for p in cache.glob(f"{path.stem[:40]}*"))

@@ -11,9 +11,9 @@ import pytest
 
 from benchmarks.scenes import chain
 from planmethod.compiled import Runner, symbolic
-from planmethod.compiled.blocks import AT_HAND, BLOCK, LEAST_BLOCK, Blocks
+from planmethod.compiled.blocks import BLOCK, CACHE_BYTES, MIN_BLOCK, Blocks
 from planmethod.compiled.csource import c_source
-from planmethod.compiled.straight import used_by
+from planmethod.compiled.pysource import used_by
 from planmethod.compiled.symbolic import TapeProgram
 from planmethod.compiled.tape import Ref, Tape
 from planmethod.problem.model import Problem
@@ -68,7 +68,7 @@ def test_a_value_that_an_earlier_part_reads_is_made_there() -> None:
     tape = Tape()
     x = tape.input(0)
     tape.part = 2
-    late = tape.make("sqrt", x)
+    late = tape.add_node("sqrt", x)
     after = tape.add(late, 5.0)
     tape.part = 1
     early = tape.add(late, 1.0)
@@ -107,26 +107,26 @@ def test_a_block_is_shorter_where_more_numbers_are_at_hand() -> None:
         many: list[Ref] = [tape.mul(float(k) + 2.5, x) for k in range(count)]
         total = many[0]
         for one in many[1:]:
-            total = tape.make("max", total, one)
+            total = tape.add_node("max", total, one)
         for one in reversed(many):  # all are read again
-            total = tape.make("min", total, tape.make("sqrt", one))
+            total = tape.add_node("min", total, tape.add_node("sqrt", one))
         blocks = Blocks(tape, [total], [], [frozenset()])
         assert count <= blocks.live <= count + 3
         lengths.append(blocks.block)
-        assert blocks.block == LEAST_BLOCK or blocks.block * blocks.live * 8 <= max(
-            AT_HAND, BLOCK * blocks.live * 8 if blocks.block == BLOCK else 0
+        assert blocks.block == MIN_BLOCK or blocks.block * blocks.live * 8 <= max(
+            CACHE_BYTES, BLOCK * blocks.live * 8 if blocks.block == BLOCK else 0
         )
         positions = np.linspace(1.0, 2.0, 5000)
         out = np.empty((1, len(positions)))
         blocks.run([positions], out)
         assert np.array_equal(out[0], np.sqrt(2.5 * positions))
-    assert lengths[0] == BLOCK > lengths[1] > lengths[2] == LEAST_BLOCK
+    assert lengths[0] == BLOCK > lengths[1] > lengths[2] == MIN_BLOCK
 
 
 def test_buffers_of_turned_angles_are_given_back() -> None:
     tape = Tape()
     angle, total = tape.input(0), tape.input(1)
     for k in range(30):
-        turned = tape.make("mul", float(k) + 2.0, angle)
-        total = tape.make("max", total, tape.make("cosd", turned))  # no sine is wanted
+        turned = tape.add_node("mul", float(k) + 2.0, angle)
+        total = tape.add_node("max", total, tape.add_node("cosd", turned))  # no sine is wanted
     assert Blocks(tape, [total], [], [frozenset()]).live <= 4

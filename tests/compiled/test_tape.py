@@ -19,9 +19,9 @@ from worked import every_file
 
 from benchmarks.generator import random_problem
 from planmethod.compiled import blocks as blocks_module
-from planmethod.compiled import straight as straight_module
+from planmethod.compiled import pysource as straight_module
 from planmethod.compiled.blocks import Blocks
-from planmethod.compiled.straight import ImpossibleError, straight, used_by
+from planmethod.compiled.pysource import ImpossibleError, straight, used_by
 from planmethod.compiled.symbolic import Guard, Symbol, Symbolic, TapeProgram, write
 from planmethod.compiled.tape import Ref, Tape, same
 from planmethod.construct.evaluate import limit_of
@@ -52,21 +52,21 @@ def test_constants_are_folded(tape: Tape) -> None:
     assert tape.div(1.5, 3.0) == 0.5
     assert tape.neg(1.5) == -1.5
     assert tape.abs(-1.5) == 1.5
-    assert tape.make("sqrt", 2.25) == 1.5
-    assert tape.make("max", 1.0, 2.0) == 2.0
-    assert tape.make("min", 1.0, 2.0) == 1.0
-    assert tape.make("at_zero", 0.0, 4.0, 5.0) == 4.0
-    assert tape.make("at_zero", 1.0, 4.0, 5.0) == 5.0
-    assert tape.make("degrees", tape.make("atan2", -0.0, -1.0)) == 180.0
-    assert tape.make("degrees", tape.make("atan2", 1.0, 0.0)) == 90.0
+    assert tape.add_node("sqrt", 2.25) == 1.5
+    assert tape.add_node("max", 1.0, 2.0) == 2.0
+    assert tape.add_node("min", 1.0, 2.0) == 1.0
+    assert tape.add_node("at_zero", 0.0, 4.0, 5.0) == 4.0
+    assert tape.add_node("at_zero", 1.0, 4.0, 5.0) == 5.0
+    assert tape.add_node("degrees", tape.add_node("atan2", -0.0, -1.0)) == 180.0
+    assert tape.add_node("degrees", tape.add_node("atan2", 1.0, 0.0)) == 90.0
     assert math.isnan(float(tape.div(0.0, float("nan")))) or tape.div(0.0, 1.0) == 0.0
     assert len(tape.nodes) == before
 
 
 def test_division_by_zero_is_folded_without_an_error(tape: Tape) -> None:
-    assert tape.make("div", 1.0, 0.0) == math.inf
-    assert tape.make("div", -1.0, 0.0) == -math.inf
-    assert math.isnan(float(tape.make("div", 0.0, 0.0)))
+    assert tape.add_node("div", 1.0, 0.0) == math.inf
+    assert tape.add_node("div", -1.0, 0.0) == -math.inf
+    assert math.isnan(float(tape.add_node("div", 0.0, 0.0)))
 
 
 def test_operations_without_effect_are_not_made(tape: Tape) -> None:
@@ -111,10 +111,10 @@ def test_signs_go_outside(tape: Tape) -> None:
     assert tape.add(X, minus_y) == tape.sub(X, Y)
     assert tape.sub(X, minus_y) == tape.add(X, Y)
     assert tape.abs(minus_x) == tape.abs(X)
-    root = tape.make("sqrt", X)
+    root = tape.add_node("sqrt", X)
     assert tape.abs(root) == root
-    assert tape.bare(minus_x) == X
-    assert tape.bare(-2.0) == 2.0
+    assert tape.unsigned(minus_x) == X
+    assert tape.unsigned(-2.0) == 2.0
 
 
 def test_factors_are_gathered(tape: Tape) -> None:
@@ -171,7 +171,7 @@ def test_a_tape_equals_its_program(seed: int) -> None:
 def test_angles_are_exact_at_quadrants() -> None:
     tape = Tape()
     angle = tape.input(0)
-    cosine, sine = tape.make("cosd", angle), tape.make("sind", angle)
+    cosine, sine = tape.add_node("cosd", angle), tape.add_node("sind", angle)
     columns = [[0.0, 90.0, 180.0, 270.0, 360.0, -90.0, -180.0, 450.0, 3.6e8 + 90.0]]
     for found in both(tape, [cosine, sine], [], columns):
         assert found[0].tolist() == [1, 0, -1, 0, 1, 0, -1, 0, 0]
@@ -182,7 +182,7 @@ def test_only_a_sine_or_only_a_cosine() -> None:
     tape = Tape()
     angle = tape.input(0)
     for kind, function in (("sind", math.sin), ("cosd", math.cos)):
-        for found in both(tape, [tape.make(kind, angle)], [], [[20.0, 200.0]]):
+        for found in both(tape, [tape.add_node(kind, angle)], [], [[20.0, 200.0]]):
             wanted = [function(math.radians(a)) for a in (20.0, 200.0)]
             assert found[0] == pytest.approx(wanted, rel=1e-15)
 
@@ -190,7 +190,7 @@ def test_only_a_sine_or_only_a_cosine() -> None:
 def test_directions_at_the_half_turn() -> None:
     tape = Tape()
     x, y = tape.input(0), tape.input(1)
-    result = tape.make("degrees", tape.make("atan2", y, x))
+    result = tape.add_node("degrees", tape.add_node("atan2", y, x))
     columns = [[-1.0, -1.0, -1.0, 1.0, 0.0, -1.0], [0.0, -0.0, -1e-300, -0.0, -2.0, 1.0]]
     for found in both(tape, [result], [], columns):
         assert found[0].tolist() == [180.0, 180.0, 180.0, 0.0, -90.0, 135.0]
@@ -199,7 +199,7 @@ def test_directions_at_the_half_turn() -> None:
 def test_an_undefined_direction_does_not_hide_a_defined_one() -> None:
     tape = Tape()
     x, y = tape.input(0), tape.input(1)
-    result = tape.make("degrees", tape.make("atan2", y, x))
+    result = tape.add_node("degrees", tape.add_node("atan2", y, x))
     out = np.empty((1, 2))
     Blocks(tape, [result], [], [frozenset()]).run(
         [np.array([np.nan, -1.0]), np.array([0.0, -0.0])], out
@@ -211,7 +211,7 @@ def test_an_undefined_direction_does_not_hide_a_defined_one() -> None:
 def test_the_other_value_where_a_size_is_zero() -> None:
     tape = Tape()
     size, one = tape.input(0), tape.input(1)
-    result = tape.make("at_zero", size, one, tape.div(1.0, size))
+    result = tape.add_node("at_zero", size, one, tape.div(1.0, size))
     out = np.empty((1, 3))
     Blocks(tape, [result], [], [frozenset()]).run([np.array([0.0, 2.0, 4.0]), np.full(3, 7.0)], out)
     assert out[0].tolist() == [7.0, 0.5, 0.25]
@@ -223,7 +223,7 @@ def test_the_other_value_where_a_size_is_zero() -> None:
 def test_a_failing_guard_empties_the_dependent_values() -> None:
     tape = Tape()
     x = tape.input(0)
-    root = tape.make("sqrt", x)
+    root = tape.add_node("sqrt", x)
     guards = [Guard(NumberName("first"), x, 0.0), Guard(NumberName("second"), root, 1.0)]
     results: list[Ref] = [root, tape.mul(2.0, x), 5.0, x]
     depends = [frozenset({0, 1}), frozenset({0}), frozenset[int](), frozenset({1})]
@@ -249,9 +249,9 @@ def test_a_failing_guard_empties_the_dependent_values() -> None:
 def crank_and_arcs(*, reach: float) -> tuple[Program, dict[str, complex | float]]:
     """Return a point on two arcs about points 2 apart; only the second radius may be short."""
     b = Builder()
-    a, d = b.given("A"), b.given("D")
+    a, d = b.take_point("A"), b.take_point("D")
     r, q = b.known("r"), b.known("q")
-    b.meet_circles("C", a, r, d, q, Side.LEFT)
+    b.intersect_circles("C", a, r, d, q, Side.LEFT)
     return b.program(), {"A": 0j, "D": 2.0 + 0j, "r": 1.5, "q": reach}
 
 
@@ -309,8 +309,8 @@ def test_scaled_guards_are_looked_at_without_the_scale() -> None:
 def test_a_length_that_was_laid_off_is_not_measured() -> None:
     """The line from the centre of an arc to a point on it is as long as the radius: no root."""
     b = Builder()
-    a, d, r, q = b.given("A"), b.given("D"), b.known("r"), b.known("q")
-    c = b.meet_circles("C", a, r, d, q, Side.LEFT)
+    a, d, r, q = b.take_point("A"), b.take_point("D"), b.known("r"), b.known("q")
+    c = b.intersect_circles("C", a, r, d, q, Side.LEFT)
     lines = [b.join(a, c), b.join(c, a), b.join(d, c), b.join(a, d)]
     found = write(b.program(), {"A": 0j, "D": 2.0 + 1.0j, "r": 1.5}, ("q",))
     one, other, second, base = (found.value[line][1] for line in lines)
@@ -416,7 +416,7 @@ def test_no_name_of_a_problem_gets_into_the_source(
 @pytest.mark.parametrize("value", [1e-300, 1e300, -0.1, 1 / 3, 5e-324])
 def test_constants_are_written_to_the_last_bit(value: float) -> None:
     tape = Tape()
-    result = tape.make("mul", value, tape.input(0))
+    result = tape.add_node("mul", value, tape.input(0))
     for found in both(tape, [result], [], [[1.0, 3.0]]):
         assert found[0].tolist() == [value, 3.0 * value]
 

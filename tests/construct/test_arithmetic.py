@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from planmethod.construct.arithmetic import Float64, unit_vectors
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.steps import PointName
 
 
@@ -74,7 +74,7 @@ def test_float64() -> None:
     assert [float(x) for x in ar.ordered(0.3, 0.2)] == [0.2, 0.3]
     assert ar.solid(np.array([0.0, 1e-300, -2.0])).tolist() == [0.0, 1.0, 1.0]
     assert ar.read("l", 1.2345) == 1.2345
-    shares = ar.share(np.array([-30.0, 50.0, 2.0]), np.array([30 + 40j, 30 + 40j, 0j]))
+    shares = ar.length_ratio(np.array([-30.0, 50.0, 2.0]), np.array([30 + 40j, 30 + 40j, 0j]))
     assert shares.tolist() == [0.6, 1.0, 1.0]
     assert isinstance(ar.lift(3.0), np.ndarray)
 
@@ -100,7 +100,7 @@ def marks(length: float, ruler: str) -> Fraction:
 def test_a_ruler_rounds_to_the_nearest_mark_and_ties_away_from_zero(
     length: float, ruler: str
 ) -> None:
-    read = float(Hand(ruler=float(ruler)).ruled(length))
+    read = float(RulerArithmetic(ruler=float(ruler)).ruled(length))
     wanted = marks(length, ruler)
     if abs(abs(Fraction(length)) % Fraction(ruler) - Fraction(ruler) / 2) > Fraction(1, 10**12):
         assert Fraction(read) == wanted
@@ -109,17 +109,17 @@ def test_a_ruler_rounds_to_the_nearest_mark_and_ties_away_from_zero(
 
 
 def test_ties_and_signs() -> None:
-    hand = Hand(ruler=1.0)
+    hand = RulerArithmetic(ruler=1.0)
     lengths = np.array([0.5, 1.5, 2.5, -0.5, -1.5, -2.5, 0.49, -0.49, 0.0])
     assert hand.ruled(lengths).tolist() == [1.0, 2.0, 3.0, -1.0, -2.0, -3.0, 0.0, 0.0, 0.0]
-    assert Hand(ruler=0.5).ruled(np.array([72.25, -72.25])).tolist() == [72.5, -72.5]
-    assert Hand().ruler == 0.5
+    assert RulerArithmetic(ruler=0.5).ruled(np.array([72.25, -72.25])).tolist() == [72.5, -72.5]
+    assert RulerArithmetic().ruler == 0.5
 
 
 @pytest.mark.parametrize("ruler", [0.0, -1.0, math.nan, math.inf])
 def test_a_ruler_has_a_step(ruler: float) -> None:
     with pytest.raises(ValueError, match="ruler step must be positive"):
-        Hand(ruler=ruler)
+        RulerArithmetic(ruler=ruler)
 
 
 # Chains of the hand -------------------------------------------------------------------------------
@@ -130,7 +130,7 @@ PLACES = {"b": 0j, "c": 31.0668 + 0j, "B": 0j, "C": 47.3 + 0j, "S": -14.1 + 0j}
 def similar(hand: Float64, *, span: bool = False, arm: bool = False, sign: float = 1.0) -> complex:
     b = Builder()
     for name in PLACES:
-        b.given(name)
+        b.take_point(name)
     plan, link = (PointName("b"), PointName("c")), (PointName("B"), PointName("C"), PointName("S"))
     side = b.compute("side", (b.measure("bc", *plan), 1), factor=sign)
     at = b.similar(
@@ -147,12 +147,14 @@ def similar(hand: Float64, *, span: bool = False, arm: bool = False, sign: float
 def test_a_similar_point_is_computed_from_the_read_side() -> None:
     """bs = bc·BS/BC with bc as it was read, BS and BC as they were given."""
     assert similar(Float64()) == pytest.approx(31.0668 * -14.1 / 47.3)
-    assert similar(Hand(ruler=1.0)) == pytest.approx(31 * -14.1 / 47.3, rel=1e-14)
-    assert similar(Hand(ruler=1.0), sign=-1.0) == similar(Hand(ruler=1.0))  # read along a line
+    assert similar(RulerArithmetic(ruler=1.0)) == pytest.approx(31 * -14.1 / 47.3, rel=1e-14)
+    assert similar(RulerArithmetic(ruler=1.0), sign=-1.0) == similar(
+        RulerArithmetic(ruler=1.0)
+    )  # read along a line
 
 
 def test_lengths_of_the_link_without_a_given_number_are_read_too() -> None:
-    hand = Hand(ruler=1.0)
+    hand = RulerArithmetic(ruler=1.0)
     assert similar(hand, span=True) == pytest.approx(31 * -14.1 / 47, rel=1e-14)
     assert similar(hand, arm=True) == pytest.approx(31 * -14 / 47.3, rel=1e-14)
     assert similar(hand, span=True, arm=True) == pytest.approx(31 * -14 / 47, rel=1e-14)
@@ -164,9 +166,9 @@ def test_readings_of_exact_arithmetic_have_no_effect() -> None:
 
 def test_a_measured_length_is_rounded_and_stays_rounded() -> None:
     b = Builder()
-    p, q = b.given("P"), b.given("Q")
+    p, q = b.take_point("P"), b.take_point("Q")
     pq = b.measure("pq", p, q)
     omega = b.compute("omega", (pq, 1), factor=0.5)
     qp = b.measure_along("qp", q, p, b.join(p, q))
-    trace = evaluate(b.program(), {"P": 0j, "Q": 31.4 + 0j}, Hand(ruler=1.0))
+    trace = evaluate(b.program(), {"P": 0j, "Q": 31.4 + 0j}, RulerArithmetic(ruler=1.0))
     assert [float(trace.value[name]) for name in (pq, omega, qp)] == [31.0, 15.5, -31.0]

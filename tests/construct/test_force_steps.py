@@ -21,10 +21,10 @@ from planmethod.construct.condition import reach
 from planmethod.construct.drafting import Counted, Profile, Propagated, Sampled
 from planmethod.construct.dual import Dual, Duals, as_dual
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.jet import Jet
+from planmethod.construct.multiprecision import Precise
 from planmethod.construct.program import Builder, Program
-from planmethod.construct.referee import Precise
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.steps import Name, NumberName, PointName
 from planmethod.errors import ProgramError
 
@@ -51,7 +51,7 @@ DATA: dict[str, complex | float] = {
 def built(build: Callable[[Builder], Name]) -> Program:
     b = Builder()
     for name in LETTERS:
-        b.given(name)
+        b.take_point(name)
     b.known("k")
     out = build(b)
     return b.program().needed_for([out])
@@ -65,7 +65,7 @@ def moment(b: Builder, out: str, head: PointName = Q, at: PointName = B) -> Numb
 
 CARRIED = built(lambda b: b.carry("X", O, P, Q))
 TIMES = built(lambda b: b.carry("X", O, P, Q, times=K))
-TURNED = built(lambda b: b.carry("X", O, P, Q, times=K, turned=True))
+TURNED = built(lambda b: b.carry("X", O, P, Q, times=K, rotated=True))
 AGAIN = built(lambda b: b.carry("X", O, P, Q, b.measure("l", P, Q), times=K))
 ARM = built(lambda b: b.measure_arm("X", A, B, P, Q))
 TOLD = built(lambda b: b.compute("X", (b.measure_arm("h", A, B, P, Q), 1), (K, 1)))
@@ -118,7 +118,7 @@ def test_an_arm_and_a_moment_are_positive_counter_clockwise() -> None:
 
 
 def test_a_turned_segment_is_turned_to_the_left() -> None:
-    program = built(lambda b: b.carry("X", O, P, Q, turned=True))
+    program = built(lambda b: b.carry("X", O, P, Q, rotated=True))
     assert read(program, O=1 + 1j, P=5 + 0j, Q=8 + 0j) == 1 + 4j
 
 
@@ -145,7 +145,7 @@ def test_a_zero_vector_is_translated_and_has_no_moment() -> None:
 
 def test_a_result_of_an_impossible_point_is_not_a_number() -> None:
     def impossible(b: Builder) -> PointName:
-        return b.meet_lines("Z", b.join(P, Q), b.parallel(A, b.join(P, Q)))
+        return b.intersect_lines("Z", b.join(P, Q), b.parallel(A, b.join(P, Q)))
 
     assert np.isnan(read(built(lambda b: b.carry("X", O, P, impossible(b)))))
     assert np.isnan(read(built(lambda b: moment(b, "X", impossible(b)))))
@@ -155,7 +155,7 @@ def test_a_result_of_an_impossible_point_is_not_a_number() -> None:
 def test_operands_are_checked() -> None:
     b = Builder()
     for name in LETTERS:
-        b.given(name)
+        b.take_point(name)
     b.total("X", NumberName("P"))
     with pytest.raises(ProgramError, match="'P' is not a"):
         b.program()
@@ -175,28 +175,30 @@ def test_only_needed_steps_are_kept() -> None:
 def test_the_hand_reads_the_arm_and_knows_a_force_that_was_given() -> None:
     """The arm of 20.8 mm is read as 21, and multiplied by the given size of the force."""
     assert read(ARM) == pytest.approx(-20.8)
-    assert read(ARM, Hand(ruler=0.5)) == -21.0
-    assert read(TOLD, Hand(ruler=0.5)) == -21.0 * DATA["k"]
+    assert read(ARM, RulerArithmetic(ruler=0.5)) == -21.0
+    assert read(TOLD, RulerArithmetic(ruler=0.5)) == -21.0 * DATA["k"]
 
 
 @pytest.mark.parametrize("name", ["carried", "times", "turned"])
 def test_the_hand_carries_exactly(name: str) -> None:
-    assert read(EVERY[name], Hand(ruler=1.0)) == read(EVERY[name])
+    assert read(EVERY[name], RulerArithmetic(ruler=1.0)) == read(EVERY[name])
 
 
 def test_the_hand_lays_off_its_own_readings() -> None:
     """The vector of 50 mm is read in steps of 15 as 45, its arm of 20.8 as 15: each once."""
-    assert read(AGAIN, Hand(ruler=15.0)) == pytest.approx(5 - 2j - 1.5 * 0.9 * (30 + 40j))
-    assert read(MOMENT, Hand(ruler=15.0)) == pytest.approx(-15.0 * 45.0)
-    assert read(AGAIN, Hand(ruler=200.0)) == DATA["O"]
-    assert read(MOMENT, Hand(ruler=200.0)) == 0.0
+    assert read(AGAIN, RulerArithmetic(ruler=15.0)) == pytest.approx(
+        5 - 2j - 1.5 * 0.9 * (30 + 40j)
+    )
+    assert read(MOMENT, RulerArithmetic(ruler=15.0)) == pytest.approx(-15.0 * 45.0)
+    assert read(AGAIN, RulerArithmetic(ruler=200.0)) == DATA["O"]
+    assert read(MOMENT, RulerArithmetic(ruler=200.0)) == 0.0
 
 
 @given(place, place, place, place, st.sampled_from([0.5, 1.0, 15.0]))
 def test_a_moment_by_hand_is_the_read_arm_times_the_read_length(
     p: complex, q: complex, a: complex, b: complex, ruler: float
 ) -> None:
-    hand, data = Hand(ruler=ruler), {"P": p, "Q": q, "A": a, "B": b}
+    hand, data = RulerArithmetic(ruler=ruler), {"P": p, "Q": q, "A": a, "B": b}
     assert read(MOMENT, hand, **data) == hand.ruled(read(ARM, **data)) * hand.ruled(abs(q - p))
 
 
@@ -253,7 +255,7 @@ def test_zero_is_zero_on_every_sheet() -> None:
     assert np.all(read(TURNED, Sampled(PROFILE, FREE, 50, 7), **nothing) == DATA["O"])
     for program in (ARM, MOMENT):
         assert np.all(read(program, Sampled(PROFILE, FREE, 50, 7), **nothing) == 0.0)
-        assert read(program, Hand(ruler=0.5), **nothing) == 0.0
+        assert read(program, RulerArithmetic(ruler=0.5), **nothing) == 0.0
 
 
 # Slopes -------------------------------------------------------------------------------------------

@@ -10,24 +10,24 @@ from worked import problem_of
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.steps import (
     STEP_TYPES,
     Compute,
-    Given,
     GivenNumber,
+    GivenPoint,
+    IntersectLines,
     Join,
-    LayOff,
+    LayOffLength,
     Leg,
     LineName,
-    MeetLines,
+    LineSense,
     NumberName,
     PointName,
     Side,
-    Way,
-    makes,
     operands,
+    result_kind,
 )
 from planmethod.errors import ProgramError
 from planmethod.solved.solution import Solution
@@ -38,15 +38,15 @@ L = NumberName("l_AB")
 
 
 def test_a_program_is_checked_when_it_is_made() -> None:
-    Program((Given(A), Given(B), Join(AB, A, B)))
+    Program((GivenPoint(A), GivenPoint(B), Join(AB, A, B)))
     Program(())
 
 
 def test_every_name_is_made_once() -> None:
     with pytest.raises(ProgramError, match=r"^step 3: 'A' is already made$"):
-        Program((Given(A), Given(B), Given(A)))
+        Program((GivenPoint(A), GivenPoint(B), GivenPoint(A)))
     with pytest.raises(ProgramError, match=r"^step 2: 'A' is already made$"):
-        Program((Given(A), GivenNumber(NumberName("A"))))
+        Program((GivenPoint(A), GivenNumber(NumberName("A"))))
 
 
 def test_an_unknown_name_comes_with_the_nearest_one() -> None:
@@ -55,27 +55,27 @@ def test_an_unknown_name_comes_with_the_nearest_one() -> None:
         match=r"^step 3 \(AB\): no earlier step makes 'point_b1'; did you mean 'point_b'\?$",
     ):
         Program(
-            (Given(A), Given(PointName("point_b")), Join(AB, A, PointName("point_b1"))),
+            (GivenPoint(A), GivenPoint(PointName("point_b")), Join(AB, A, PointName("point_b1"))),
         )
     with pytest.raises(ProgramError, match=r"^step 2 \(AB\): no earlier step makes 'B'$"):
-        Program((Given(A), Join(AB, A, B)))
+        Program((GivenPoint(A), Join(AB, A, B)))
 
 
 def test_a_name_is_made_before_it_is_used() -> None:
     with pytest.raises(ProgramError, match=r"step 2 \(AB\): no earlier step makes 'B'"):
-        Program((Given(A), Join(AB, A, B), Given(B)))
+        Program((GivenPoint(A), Join(AB, A, B), GivenPoint(B)))
     with pytest.raises(ProgramError, match=r"no earlier step makes 'AB'"):
-        Program((Given(A), Given(B), MeetLines(C, AB, AB)))
+        Program((GivenPoint(A), GivenPoint(B), IntersectLines(C, AB, AB)))
 
 
 def test_a_line_is_not_a_point_and_a_number_is_not_a_line() -> None:
-    drawn = (Given(A), Given(B), Join(AB, A, B), GivenNumber(L))
+    drawn = (GivenPoint(A), GivenPoint(B), Join(AB, A, B), GivenNumber(L))
     with pytest.raises(ProgramError, match=r"^step 5 \(AC\): 'AB' is not a .*PointName$"):
         Program((*drawn, Join(AC, A, PointName("AB"))))
     with pytest.raises(ProgramError, match=r"^step 5 \(C\): 'l_AB' is not a .*LineName$"):
-        Program((*drawn, LayOff(C, A, LineName("l_AB"), L)))
+        Program((*drawn, LayOffLength(C, A, LineName("l_AB"), L)))
     with pytest.raises(ProgramError, match=r"^step 5 \(C\): 'A' is not a .*NumberName$"):
-        Program((*drawn, LayOff(C, A, AB, NumberName("A"))))
+        Program((*drawn, LayOffLength(C, A, AB, NumberName("A"))))
     with pytest.raises(ProgramError, match=r"^step 5 \(x\): 'A' is not a .*NumberName$"):
         Program((*drawn, Compute(NumberName("x"), 1.0, ((NumberName("A"), 1),))))
 
@@ -83,7 +83,7 @@ def test_a_line_is_not_a_point_and_a_number_is_not_a_line() -> None:
 def test_an_absent_line_is_no_operand() -> None:
     builder = Builder()
     turn = builder.known("angle")
-    builder.at_angle(builder.given("A"), None, turn)
+    builder.at_angle(builder.take_point("A"), None, turn)
     program = builder.program()
     assert [name for name, _ in operands(program.steps[-1])] == ["A", "angle"]
 
@@ -91,9 +91,9 @@ def test_an_absent_line_is_no_operand() -> None:
 def test_every_step_makes_something_of_a_known_kind() -> None:
     for step in STEP_TYPES:
         assert "out" in step.__struct_fields__
-    assert makes(Given(A)) is PointName
-    assert makes(Join(AB, A, B)) is LineName
-    assert makes(GivenNumber(L)) is NumberName
+    assert result_kind(GivenPoint(A)) is PointName
+    assert result_kind(Join(AB, A, B)) is LineName
+    assert result_kind(GivenNumber(L)) is NumberName
 
 
 # Only the needed steps ----------------------------------------------------------------------------
@@ -101,11 +101,11 @@ def test_every_step_makes_something_of_a_known_kind() -> None:
 
 def triangle() -> Program:
     b = Builder()
-    p, q, r = b.given("P"), b.given("Q"), b.given("R")
+    p, q, r = b.take_point("P"), b.take_point("Q"), b.take_point("R")
     pq, pr = b.join(p, q), b.join(p, r)
-    foot = b.meet_lines("F", pq, b.perpendicular(r, pq))
+    foot = b.intersect_lines("F", pq, b.perpendicular(r, pq))
     b.measure("height", r, foot)
-    b.lay_off("S", q, pr, b.known("l"))
+    b.lay_off_length("S", q, pr, b.known("l"))
     return b.program()
 
 
@@ -116,7 +116,7 @@ def test_only_the_steps_that_are_needed_are_kept() -> None:
         "Given", "Given", "Given", "Join", "Perpendicular", "MeetLines", "Measure",
     ]  # fmt: skip
     assert [s for s in program.steps if s in kept.steps] == list(kept.steps)
-    assert program.needed_for([PointName("P")]).steps == (Given(PointName("P")),)
+    assert program.needed_for([PointName("P")]).steps == (GivenPoint(PointName("P")),)
     assert program.needed_for([]).steps == ()
     assert program.needed_for([s.out for s in program.steps]) == program
 
@@ -154,7 +154,7 @@ def test_pruned_and_full_give_the_same(data: st.DataObject) -> None:
         "omega_1": solution.problem.drive.rate,
         "epsilon_1": solution.problem.drive.acceleration,
     }
-    for arithmetic in (Float64(), Hand(ruler=0.001)):
+    for arithmetic in (Float64(), RulerArithmetic(ruler=0.001)):
         full = evaluate(program, given_data, arithmetic)
         part = evaluate(kept, given_data, arithmetic)
         assert set(part.value) == {s.out for s in kept.steps}
@@ -177,7 +177,7 @@ def test_a_velocity_plan_needs_no_acceleration() -> None:
 
 def test_a_line_that_was_drawn_is_found_again() -> None:
     b = Builder()
-    p, q, angle, other = b.given("P"), b.given("Q"), b.known("angle"), b.known("other")
+    p, q, angle, other = b.take_point("P"), b.take_point("Q"), b.known("angle"), b.known("other")
     pq = b.join(p, q)
     once = [
         pq,
@@ -206,17 +206,17 @@ def test_a_line_that_was_drawn_is_found_again() -> None:
 
 def test_each_verb_makes_its_step_and_returns_its_name() -> None:
     b = Builder()
-    p, q, r = b.given("P"), b.given("Q"), b.given("R")
+    p, q, r = b.take_point("P"), b.take_point("Q"), b.take_point("R")
     one, two = b.known("one"), b.known("two")
     pq = b.join(p, q)
     leg = Leg((None, None), centre=p, radius=one)
     made = [
-        b.lay_off("a", p, pq, one),
-        b.meet_lines("b", pq, b.join(p, r)),
-        b.meet_line_circle("c", pq, r, one, Way.BACKWARD),
-        b.meet_circles("d", p, one, q, two, Side.RIGHT),
+        b.lay_off_length("a", p, pq, one),
+        b.intersect_lines("b", pq, b.join(p, r)),
+        b.intersect_line_circle("c", pq, r, one, LineSense.BACKWARD),
+        b.intersect_circles("d", p, one, q, two, Side.RIGHT),
         b.touch("e", p, one, q, Side.LEFT),
-        b.hold("m", (leg, leg, leg), (one, one, two)),
+        b.pose_triad("m", (leg, leg, leg), (one, one, two)),
         b.spot("n", LineName("m"), (one, two)),
         b.similar("f", (p, q), (q, r, p), one, span=two),
         b.measure("g", p, q),
@@ -240,6 +240,6 @@ def test_each_verb_makes_its_step_and_returns_its_name() -> None:
 
 def test_a_faulty_construction_of_the_builder_is_found() -> None:
     b = Builder()
-    b.lay_off("X", PointName("nowhere"), LineName("no line"), NumberName("no length"))
+    b.lay_off_length("X", PointName("nowhere"), LineName("no line"), NumberName("no length"))
     with pytest.raises(ProgramError, match="nowhere"):
         b.program()

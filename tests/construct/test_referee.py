@@ -17,10 +17,10 @@ from planmethod.construct.condition import UNIT_ROUNDOFF, measured_reach, reach
 from planmethod.construct.dual import Dual, Duals, as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.jet import Jet
+from planmethod.construct.multiprecision import Precise
 from planmethod.construct.program import Builder
-from planmethod.construct.referee import Precise
 from planmethod.plans.legend import QuantityKind
-from planmethod.solved.closings import drive_data
+from planmethod.solved.assembly_modes import drive_data
 from planmethod.solved.quantities import quantities_of
 from planmethod.solved.solution import Solution
 
@@ -69,11 +69,11 @@ def test_the_referee_knows_quadrants_exactly(turns: int) -> None:
 
 def test_an_impossible_result_is_nan_for_the_referee_too() -> None:
     b = Builder()
-    p, q = b.given("P"), b.given("Q")
+    p, q = b.take_point("P"), b.take_point("Q")
     r = b.known("r")
     from planmethod.construct.steps import Side
 
-    x = b.meet_circles("X", p, r, q, r, Side.LEFT)
+    x = b.intersect_circles("X", p, r, q, r, Side.LEFT)
     trace = adjudicate(b.program(), {"P": 0j, "Q": 5 + 0j, "r": 2.0})
     assert trace.margin[x] < 0
     assert math.isnan(complex(trace.value[x]).real)

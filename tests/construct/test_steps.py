@@ -14,17 +14,17 @@ from hypothesis import strategies as st
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.steps import (
     STEP_TYPES,
     Leg,
     LineName,
+    LineSense,
     Name,
     NumberName,
     PointName,
     Side,
-    Way,
 )
 
 REACH = 300.0
@@ -36,18 +36,20 @@ length = st.floats(0.01, REACH).map(lambda x: round(x, 6))
 signed = st.floats(-REACH, REACH).map(lambda x: round(x, 6))
 angles = st.floats(-1000, 1000)
 sides = st.sampled_from(Side)
-ways = st.sampled_from(Way)
+ways = st.sampled_from(LineSense)
 
 P, Q, R, S = (PointName(name) for name in "PQRS")
 SEEN: set[str] = set()
 
 
-def run(build: Callable[[Builder], Name], hand: Hand | None = None, **data: Any) -> tuple[Any, Any]:
+def run(
+    build: Callable[[Builder], Name], hand: RulerArithmetic | None = None, **data: Any
+) -> tuple[Any, Any]:
     """Value and margin of the last step of a construction on given points and numbers."""
     b = Builder()
     for name, value in data.items():
         if isinstance(value, complex) or np.iscomplexobj(value):
-            b.given(name)
+            b.take_point(name)
         else:
             b.known(name)
     out = build(b)
@@ -125,7 +127,7 @@ def test_a_length_is_laid_off_along_a_line(p: complex, q: complex, r: complex, x
     assume(apart(p, q))
 
     def build(b: Builder) -> PointName:
-        return b.lay_off("X", R, b.join(P, Q), NumberName("x"))
+        return b.lay_off_length("X", R, b.join(P, Q), NumberName("x"))
 
     at, margin = run(build, P=p, Q=q, R=r, x=x)
     laid = scalar(at) - r
@@ -137,7 +139,7 @@ def test_a_length_is_laid_off_along_a_line(p: complex, q: complex, r: complex, x
 
 def test_a_zero_length_needs_no_direction() -> None:
     def build(b: Builder) -> PointName:
-        return b.lay_off("X", R, b.join(P, Q), NumberName("x"))
+        return b.lay_off_length("X", R, b.join(P, Q), NumberName("x"))
 
     assert scalar(run(build, P=1 + 1j, Q=1 + 1j, R=2 + 3j, x=0.0)[0]) == 2 + 3j
     assert not np.isfinite(run(build, P=1 + 1j, Q=1 + 1j, R=2 + 3j, x=1.0)[0])
@@ -152,7 +154,7 @@ def test_a_zero_length_needs_no_direction() -> None:
 @example(0j, 0j, 5 + 0j, 7 + 0j)
 def test_lines_meet_on_both_or_are_parallel(p: complex, q: complex, r: complex, s: complex) -> None:
     def build(b: Builder) -> PointName:
-        return b.meet_lines("X", b.join(P, Q), b.join(R, S))
+        return b.intersect_lines("X", b.join(P, Q), b.join(R, S))
 
     value, margin = run(build, P=p, Q=q, R=r, S=s)
     u, v = q - p, s - r
@@ -173,14 +175,14 @@ def test_lines_meet_on_both_or_are_parallel(p: complex, q: complex, r: complex, 
 
 def test_parallel_lines_do_not_meet_in_any_sense() -> None:
     def build(b: Builder) -> PointName:
-        return b.meet_lines("X", b.join(P, Q), b.parallel(R, b.join(P, Q)))
+        return b.intersect_lines("X", b.join(P, Q), b.parallel(R, b.join(P, Q)))
 
     value, margin = run(build, P=1 + 2j, Q=17.3 - 4.4j, R=3 + 3j)
     assert not np.isfinite(value)
     assert margin == 0
 
     def back(b: Builder) -> PointName:
-        return b.meet_lines("X", b.join(P, Q), b.parallel(R, b.join(Q, P)))
+        return b.intersect_lines("X", b.join(P, Q), b.parallel(R, b.join(Q, P)))
 
     assert not np.isfinite(run(back, P=1 + 2j, Q=17.3 - 4.4j, R=3 + 3j)[0])
 
@@ -190,16 +192,16 @@ def nan_exactly_where_negative(value: Any, margin: Any) -> bool:
 
 
 @given(place, place, place, length, ways)
-@example(0j, 1 + 0j, 3j, 3.0, Way.FORWARD)
-@example(0j, 1 + 0j, 3j, 2.999999, Way.FORWARD)
-@example(0j, 1 + 0j, 5 + 3j, 5.0, Way.BACKWARD)
+@example(0j, 1 + 0j, 3j, 3.0, LineSense.FORWARD)
+@example(0j, 1 + 0j, 3j, 2.999999, LineSense.FORWARD)
+@example(0j, 1 + 0j, 5 + 3j, 5.0, LineSense.BACKWARD)
 def test_a_line_meets_an_arc_in_the_requested_direction(
-    p: complex, q: complex, c: complex, r: float, way: Way
+    p: complex, q: complex, c: complex, r: float, way: LineSense
 ) -> None:
     assume(apart(p, q))
 
     def build(b: Builder) -> PointName:
-        return b.meet_line_circle("X", b.join(P, Q), R, NumberName("r"), way)
+        return b.intersect_line_circle("X", b.join(P, Q), R, NumberName("r"), way)
 
     value, margin = run(build, P=p, Q=q, R=c, r=r)
     u = (q - p) / abs(q - p)
@@ -218,7 +220,7 @@ def test_a_line_meets_an_arc_in_the_requested_direction(
 
 def test_a_point_on_a_guide_stays_on_it_exactly() -> None:
     def build(b: Builder) -> PointName:
-        return b.meet_line_circle("X", b.join(P, Q), R, NumberName("r"), Way.FORWARD)
+        return b.intersect_line_circle("X", b.join(P, Q), R, NumberName("r"), LineSense.FORWARD)
 
     at, _ = run(build, P=0j, Q=7 + 0j, R=13.37 + 41.9j, r=100.0)
     assert scalar(at).imag == 0.0
@@ -235,7 +237,7 @@ def test_arcs_meet_on_the_requested_side(
     c1: complex, r1: float, c2: complex, r2: float, side: Side
 ) -> None:
     def build(b: Builder) -> PointName:
-        return b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), side)
+        return b.intersect_circles("X", P, NumberName("r1"), Q, NumberName("r2"), side)
 
     value, margin = run(build, P=c1, Q=c2, r1=r1, r2=r2)
     d = abs(c2 - c1)
@@ -259,7 +261,7 @@ def test_arcs_meet_on_the_requested_side(
 
 def test_arcs_that_touch_meet_on_the_line_of_centres() -> None:
     def build(b: Builder) -> PointName:
-        return b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
+        return b.intersect_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
 
     value, margin = run(build, P=0j, Q=5 + 0j, r1=3.0, r2=2.0)
     assert (scalar(value), float(margin)) == (3 + 0j, 0.0)
@@ -365,7 +367,7 @@ def test_compute_multiplies_powers() -> None:
 
 def test_one_impossible_position_does_not_spoil_the_others() -> None:
     def build(b: Builder) -> PointName:
-        return b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
+        return b.intersect_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
 
     centres = np.array([5 + 0j, 50 + 0j, 3 + 4j])
     value, margin = run(build, P=0j, Q=centres, r1=3.0, r2=4.0)
@@ -378,8 +380,8 @@ def test_one_impossible_position_does_not_spoil_the_others() -> None:
 
 def test_a_result_of_an_impossible_point_is_not_a_number() -> None:
     def build(b: Builder) -> NumberName:
-        x = b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
-        y = b.meet_lines("Y", b.join(P, x), b.perpendicular(Q, b.join(P, Q)))
+        x = b.intersect_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
+        y = b.intersect_lines("Y", b.join(P, x), b.perpendicular(Q, b.join(P, Q)))
         return b.measure("d", P, y)
 
     value, _ = run(build, P=0j, Q=50 + 0j, r1=3.0, r2=4.0)
@@ -388,10 +390,10 @@ def test_a_result_of_an_impossible_point_is_not_a_number() -> None:
 
 def test_margins_do_not_depend_on_the_hand() -> None:
     def build(b: Builder) -> PointName:
-        return b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
+        return b.intersect_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
 
     exact = run(build, P=0.3j, Q=5 + 0j, r1=3.3, r2=4.0)
-    by_hand = run(build, hand=Hand(ruler=1.0), P=0.3j, Q=5 + 0j, r1=3.3, r2=4.0)
+    by_hand = run(build, hand=RulerArithmetic(ruler=1.0), P=0.3j, Q=5 + 0j, r1=3.3, r2=4.0)
     assert exact == by_hand
 
 
@@ -409,7 +411,7 @@ def held(b: Builder, kinds: str) -> LineName:
         else:
             legs.append(Leg(at, centre=centre, angle=NumberName(f"t{i}")))
     one, two, three = legs
-    return b.hold("axis", (one, two, three), (x, y, turn))
+    return b.pose_triad("axis", (one, two, three), (x, y, turn))
 
 
 @pytest.mark.parametrize("kinds", ["rrr", "rrl", "rrt", "rlt", "rll", "llt", "ttr"])
@@ -461,18 +463,18 @@ def test_a_link_without_a_pose_has_no_positive_margin(bx: float) -> None:
 
 def test_every_kind_of_step_is_tested_here() -> None:
     b = Builder()
-    b.given("P"), b.given("Q"), b.given("R"), b.given("S"), b.known("x")
+    b.take_point("P"), b.take_point("Q"), b.take_point("R"), b.take_point("S"), b.known("x")
     pq = b.join(P, Q)
     x = NumberName("x")
-    b.meet_lines("1", pq, b.perpendicular(R, pq))
-    b.meet_lines("2", b.parallel(R, pq), b.at_angle(P, pq, x))
-    b.meet_line_circle("3", pq, R, x, Way.FORWARD)
-    b.meet_circles("4", P, x, Q, x, Side.LEFT)
+    b.intersect_lines("1", pq, b.perpendicular(R, pq))
+    b.intersect_lines("2", b.parallel(R, pq), b.at_angle(P, pq, x))
+    b.intersect_line_circle("3", pq, R, x, LineSense.FORWARD)
+    b.intersect_circles("4", P, x, Q, x, Side.LEFT)
     b.touch("5", P, x, R, Side.LEFT)
     leg = Leg((None, None), centre=P, radius=x)
-    b.spot("14", b.hold("axis", (leg, leg, leg), (x, x, x)), (x, None))
+    b.spot("14", b.pose_triad("axis", (leg, leg, leg), (x, x, x)), (x, None))
     b.similar("6", (P, Q), (P, Q, R), x)
-    b.lay_off("7", P, pq, x)
+    b.lay_off_length("7", P, pq, x)
     b.measure("8", P, Q)
     b.measure_along("9", P, Q, pq)
     b.compute("10", (x, 1))

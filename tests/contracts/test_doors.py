@@ -20,15 +20,15 @@ from worked import ROOT, path_of
 from benchmarks.attack.patterns import patterns, slow
 from planmethod.cams.design import CamDesign
 from planmethod.cli import cli
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem.names import is_label
 from planmethod.problem.reader import read_parsed
 from planmethod.render.ink.drawing import Drawing, Text
 from planmethod.render.sketch import VIEWS, sketch
-from planmethod.solved import part as part_module
-from planmethod.solved.part import largest_part
+from planmethod.solved import partial_mechanism as part_module
+from planmethod.solved.partial_mechanism import largest_part
 from planmethod.varying.candidates import _HEADER, without_variants
-from planmethod.varying.varied import _LITERAL
+from planmethod.varying.parameters import _LITERAL
 
 EX3 = path_of("linkages/ex3")
 FOUR_BAR = """
@@ -176,7 +176,7 @@ def test_a_layout_without_contents_is_reported(tmp_path: Path) -> None:
 
 def drawn(text: str) -> Drawing:
     part = largest_part(tomllib.loads(text), source="x", name="x", views=VIEWS)
-    return sketch(part, "", language("en"), [])
+    return sketch(part, "", get_language("en"), [])
 
 
 def four_bar(points: Sequence[str] = ("A", "B"), c: str = "[0.3, 0]", rod: str = "0.3") -> str:

@@ -17,7 +17,7 @@ from worked import path_of
 import planmethod
 from planmethod.arguments import UnknownNameError
 from planmethod.check.group import Variants, check_works
-from planmethod.check.works import read_works
+from planmethod.check.submissions import read_works
 from planmethod.errors import ArgumentError, AssemblyError, DoubtWarning, PlanMethodError
 from planmethod.languages import speaking
 from planmethod.plans.model import PlanKind

@@ -21,7 +21,7 @@ from worked import path_of
 import planmethod
 from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, PlanMethodError, ProblemError
-from planmethod.languages import say, speaking, spoken
+from planmethod.languages import current_language, speaking, translate
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
 from planmethod.render.backends import render
@@ -86,11 +86,11 @@ def test_two_threads_speak_two_languages() -> None:
     def ask(lang: str) -> list[str]:
         with speaking(lang):
             met.wait()
-            said = [say(sentence) for _ in range(50)]
+            said = [translate(sentence) for _ in range(50)]
             with pytest.raises(PlanMethodError) as refused:
                 planmethod.loads("[frame]", name="x")
             met.wait()
-            assert spoken() == lang
+            assert current_language() == lang
         return [*said, str(refused.value).splitlines()[0]]
 
     with ThreadPoolExecutor(2) as pool:
@@ -98,7 +98,7 @@ def test_two_threads_speak_two_languages() -> None:
     assert {*english[:-1]} == {sentence}
     assert len({*russian[:-1]}) == 1
     assert not {*russian} & {*english}
-    assert spoken() == "en"
+    assert current_language() == "en"
 
 
 # Errors ------------------------------------------------------------------------------------------

@@ -16,12 +16,12 @@ from click.testing import CliRunner
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
 from planmethod.gears.answers import answer
-from planmethod.gears.choice import choose
-from planmethod.gears.chosen import problem_text
 from planmethod.gears.conditions import conditions
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.reader import load
-from planmethod.gears.teeth import SCHEMES, TrainScheme, Wanted
+from planmethod.gears.teeth import SCHEMES, TeethSpecification, TrainScheme
+from planmethod.gears.teeth_report import problem_text
+from planmethod.gears.teeth_selection import choose
 
 F = Fraction
 ALPHA = math.radians(20)
@@ -54,11 +54,14 @@ def goes_in(z: tuple[int, ...], inner: list[bool], k: int) -> bool:
     )
 
 
-def loops(wanted: Wanted) -> set[tuple[tuple[int, ...], Fraction]]:
+def loops(wanted: TeethSpecification) -> set[tuple[tuple[int, ...], Fraction]]:
     """Every set, all four wheels run through."""
-    scheme, k, (p, q) = wanted.scheme, wanted.satellites, wanted.rows
+    scheme, k, (p, q) = wanted.scheme, wanted.planets, wanted.rows
     inner = [kind.value == "internal" for kind in scheme.kinds]
-    spur, ring = range(wanted.least, wanted.most + 1), range(wanted.least, wanted.ring_most + 1)
+    spur, ring = (
+        range(wanted.min_teeth, wanted.max_teeth + 1),
+        range(wanted.min_teeth, wanted.max_ring_teeth + 1),
+    )
     first, last = (ring if label in scheme.rings else spur for label in ("1", "3"))
     rims = [(b, b) for b in spur] if scheme.single else list(product(spur, spur))
     found = set()
@@ -69,15 +72,15 @@ def loops(wanted: Wanted) -> set[tuple[tuple[int, ...], Fraction]]:
         held = F(z_2, z_1) * (1 if inner[0] else -1)
         if len(inner) == 2:
             held *= F(z_3, rim) * (1 if inner[1] else -1)
-        u = 1 - held if scheme.carried else held
-        if scheme.asked == "U_H_1":
+        u = 1 - held if scheme.is_planetary else held
+        if scheme.ratio_name == "U_H_1":
             u = 1 / u if u else F(0)
         meshes = [(z_1, z_2), (z_3, rim)][: len(inner)]
         apart = k == 1 or math.sin(math.pi / k) > max(p * (z_2 + 2), q * (rim + 2)) / a
         if (
-            abs(u / wanted.ratio - 1) <= wanted.within
+            abs(u / wanted.ratio - 1) <= wanted.tolerance
             and all((clear if t else free)(*pair) for pair, t in zip(meshes, inner, strict=True))
-            and (not scheme.carried or (apart and goes_in((z_1, z_2, rim, z_3), inner, k)))
+            and (not scheme.is_planetary or (apart and goes_in((z_1, z_2, rim, z_3), inner, k)))
         ):
             by = {"1": z_1, "2": z_2, "2'": rim, "3": z_3}
             found.add((tuple(by[label] for label in scheme.wheels), u))
@@ -104,11 +107,11 @@ def test_a_search_finds_the_choices_of_nested_loops(
 ) -> None:
     most, seen = some(40, 28), 0
     for least, within in ((16, F(2, 100)), (18, F(0))):
-        wanted = Wanted(BY_NAME[name], ratio, within, count, least, most, 75, modules)
+        wanted = TeethSpecification(BY_NAME[name], ratio, within, count, least, most, 75, modules)
         chosen = choose(wanted)
         assert {(one.teeth, one.ratio) for one in chosen.sets} == loops(wanted)
-        assert chosen.found == len(chosen.sets)
-        seen += chosen.found
+        assert chosen.match_count == len(chosen.sets)
+        seen += chosen.match_count
         order = [(one.size, abs(one.error)) for one in chosen.sets]
         assert [size for size, _ in order] == sorted(size for size, _ in order)
         assert choose(wanted, first=2).sets == chosen.sets[:2]
@@ -123,12 +126,12 @@ def test_the_file_of_a_set_is_solved_to_its_ratio(
     ratio = next(case[1] for case in CASES if case[0] == scheme.name)
     if scheme.single and modules == TWO_FIVE:
         modules = None
-    chosen = choose(Wanted(scheme, ratio, F(1, 50), 2, modules=modules), first=3)
+    chosen = choose(TeethSpecification(scheme, ratio, F(1, 50), 2, modules=modules), first=3)
     path = tmp_path / "chosen.toml"
     path.write_text(problem_text(chosen, 2, "ru"), encoding="utf-8")
     motion = solve_motion(load(path))
-    assert answer(motion, scheme.asked).exact == chosen.sets[1].ratio
-    assert all(one.holds for one in conditions(motion))
+    assert answer(motion, scheme.ratio_name).exact == chosen.sets[1].ratio
+    assert all(one.is_met for one in conditions(motion))
 
 
 def run(*args: str) -> Any:
@@ -144,7 +147,7 @@ def test_the_command_lists_writes_and_prints_its_bounds(tmp_path: Path) -> None:
     done = run("--U", "13/2", "--within", "0", "--write", file, "1", "--lang", "en")
     assert done.exit_code == ExitCode.DONE, done.output
     assert "10816" in done.stdout
-    assert load(file).train.satellites == {"H": 3}
+    assert load(file).train.planets == {"H": 3}
 
 
 @each(

@@ -17,12 +17,12 @@ from cases import each, some
 from trains import closed, mesh, planetary, solved, told
 from worked import PROBLEMS
 
-from planmethod.gears.choice import _meshes
 from planmethod.gears.conditions import Condition, conditions, judgement, sentence
 from planmethod.gears.model import MeshKind
 from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.gears.reader import load
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.gears.teeth_selection import _mesh_properly
+from planmethod.note.wording import LANGUAGES, get_language
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 TERM = re.compile(r"([−+]?) ?[zr]_([\w']+)")
@@ -34,7 +34,7 @@ def found(motion: TrainMotion, name: str) -> list[Condition]:
 
 def sums(condition: Condition) -> list[list[tuple[int, str]]]:
     """Return the sums of a coaxiality as its sentence has them: signs and wheels."""
-    (_, told) = sentence(condition, language("en")).split(": ", 1)
+    (_, told) = sentence(condition, get_language("en")).split(": ", 1)
     return [
         [(-1 if sign == "−" else 1, wheel) for sign, wheel in TERM.findall(side)]
         for side in told.split(" = ")[:-1]
@@ -149,10 +149,10 @@ def test_assembly_and_neighbourhood_are_printed_with_true_numbers(
         (assembly,) = found(motion, "assembly")
         (apart,) = found(motion, "neighbourhood")
         (most,) = found(motion, "satellites")
-        assert assembly.holds == (whole % count == 0)
-        assert apart.holds == is_apart(wheels, count)
+        assert assembly.is_met == (whole % count == 0)
+        assert apart.is_met == is_apart(wheels, count)
         for lang in LANGUAGES:
-            words = language(lang)
+            words = get_language(lang)
             said = sentence(assembly, words).replace(",", ".").replace(". k", ", k")
             numbers = re.search(r"(\d+)/(\d+) = ([\d.]+)", said)
             assert numbers is not None, said
@@ -165,13 +165,13 @@ def test_assembly_and_neighbourhood_are_printed_with_true_numbers(
             assert right == pytest.approx((rim + 2) / (wheels["1"] + wheels["2"]), abs=6e-5)
             assert re.search(rf"k = {count}\b", said)
             if count > 1:  # the printed inequality is the one that is checked
-                assert (left > right) == apart.holds
+                assert (left > right) == apart.is_met
             assert re.search(rf" {held[-1]}\b", sentence(most, words))
 
 
 def test_the_inequality_requires_a_greater_first_number(tmp_path: Path) -> None:
     (apart,) = found(set_of(tmp_path, *SETS[0], 3), "neighbourhood")
-    english, russian = (sentence(apart, language(lang)) for lang in ("en", "ru"))
+    english, russian = (sentence(apart, get_language(lang)) for lang in ("en", "ru"))
     assert re.search(r"sin\(π/k\) = 0\.8660 must be greater than 0\.7000$", english)
     assert re.search(r"sin\(π/k\) = 0,8660 .*больше 0,7000$", russian)
 
@@ -183,8 +183,8 @@ def test_undercutting_names_the_teeth_there_are_and_those_that_are_needed(
     motion = solved(tmp_path, told({"1": z, "2": 40}, [mesh("1", "2")], "n = { 1 = 1 }"))
     (one,) = found(motion, "undercutting")
     said = f"No undercutting: z_1 = {z}, at least {least} needed"
-    assert sentence(one, language("en")) == said
-    assert judgement(one, language("en")) == f"{said} – not met"
+    assert sentence(one, get_language("en")) == said
+    assert judgement(one, get_language("en")) == f"{said} – not met"
     motion = solved(tmp_path, told({"1": 17, "2": 40}, [mesh("1", "2")], "n = { 1 = 1 }"))
     assert not found(motion, "undercutting")
 
@@ -194,11 +194,11 @@ def test_interference_is_judged_by_the_printed_numbers(tmp_path: Path) -> None:
     for ring, holds in ((47, False), (48, True), (60, True)):
         text = told({"1": 40, "3": ring}, [mesh("1", "3", "internal")], "n = { 1 = 1 }")
         (one,) = found(solved(tmp_path, text), "interference")
-        said = sentence(one, language("en"))
+        said = sentence(one, get_language("en"))
         numbers = re.search(r"z_3 − z_1 = (\d+), at least (\d+) needed", said)
         assert numbers is not None, said
         assert int(numbers[1]) == ring - 40
-        assert one.holds == holds == (int(numbers[1]) >= int(numbers[2]))
+        assert one.is_met == holds == (int(numbers[1]) >= int(numbers[2]))
 
 
 def ring_apart(z: tuple[int, int], x: tuple[float, float]) -> tuple[float, float]:
@@ -243,13 +243,16 @@ def test_inner_meshes_are_judged_by_the_reach_of_the_rings_tips(tmp_path: Path) 
         short, tips = ring_apart((z, ring), x)
         (one,) = found(solved(tmp_path, text), "interference")
         if number % 2:
-            assert one.holds == (short >= 0 and ring - z >= 8), (z, ring)
-            assert bool(_meshes(MeshKind.INTERNAL, np.array([z]), np.array([ring]))) == one.holds
+            assert one.is_met == (short >= 0 and ring - z >= 8), (z, ring)
+            assert (
+                bool(_mesh_properly(MeshKind.INTERNAL, np.array([z]), np.array([ring])))
+                == one.is_met
+            )
         else:
-            assert one.holds == (short >= 0 and tips >= 0), (z, ring, x)
+            assert one.is_met == (short >= 0 and tips >= 0), (z, ring, x)
             shown = (one.facts[x].replace("−", "-").replace("∞", "inf") for x in ("beyond", "tips"))
             assert [*map(float, shown)] == pytest.approx([short, tips], abs=6e-4)
-        judged.add((number % 2, one.holds))
+        judged.add((number % 2, one.is_met))
     assert len(judged) == 4
 
 
@@ -260,8 +263,8 @@ def test_no_standard_ring_fits_a_wheel_of_few_teeth(
     """√(r_a² − r_b²) − a_w·sin α of the ring is negative for every ring."""
     text = told({"1": wheel, "3": ring}, [mesh("1", "3", "internal")], "n = { 1 = 1 }")
     (one,) = found(solved(tmp_path, text), "interference")
-    assert not one.holds
-    said = judgement(one, language("en"))
+    assert not one.is_met
+    said = judgement(one, get_language("en"))
     assert f"z_1 = {wheel}" in said
     assert said.endswith("not met")
     assert value is None or f"{value}·m" in said

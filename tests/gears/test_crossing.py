@@ -18,7 +18,7 @@ from planmethod.gears.derivation import derivation
 from planmethod.gears.drawn.side import SideView
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.scheme import SchemeData
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.render.ink.drawing import Stroke
 
 SENTENCE = {"en": "is not defined: axes cross", "ru": "не определяется: на пути"}
@@ -103,7 +103,7 @@ def test_a_ratio_between_crossing_axes_is_a_size(name: str, tmp_path: Path) -> N
     *_, asked, size = TRAINS[name]
     assert answer(motion, asked).exact == size
     for lang in LANGUAGES:
-        lines = [line.text for line in derivation(motion, language(lang))]
+        lines = [line.text for line in derivation(motion, get_language(lang))]
         assert any(SENTENCE[lang] in line for line in lines)
         assert not any(sense in line for line in lines for sense in SENSES[lang])
 
@@ -114,7 +114,7 @@ def test_a_ratio_of_parallel_axes_keeps_its_sign(name: str, tmp_path: Path) -> N
     *_, asked, value = SIGNED[name]
     assert answer(motion, asked).exact == value
     symbol = asked.split("^")[0].replace("U_", "").replace("_", "")
-    lines = [line.text for line in derivation(motion, language("en"))]
+    lines = [line.text for line in derivation(motion, get_language("en"))]
     said = [line for line in lines if SENTENCE["en"] in line]
     assert not any(f"_{{{symbol}}}" in line for line in said)
 

@@ -29,7 +29,7 @@ from planmethod.gears.involute.generation import RackCutting
 from planmethod.gears.involute.meshpicture import CURVE
 from planmethod.gears.involute.profile import LineOfAction, Tooth
 from planmethod.gears.involute.sizes import Pair, Rack
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.render.ink.drawing import Disc, Stroke, Text
 
 FILE = PROBLEMS / "meshing" / "z12-30.toml"
@@ -60,7 +60,9 @@ def back(view: CuttingView, stroke: Stroke, number: int) -> np.ndarray:
 @each("x", SHIFTS)
 def test_drawn_flanks_are_the_involute_to_a_nanometre(x: float) -> None:
     view = view_of(x)
-    drawn = [i for i in cutting_picture(view, language("ru"), 5.0).items if isinstance(i, Stroke)]
+    drawn = [
+        i for i in cutting_picture(view, get_language("ru"), 5.0).items if isinstance(i, Stroke)
+    ]
     curves = [one for one in drawn if one.tag.startswith(CURVE)]
     assert len(curves) == 3 * 4
     base, d, s = 30 * cos(radians(20)), 60.0, 5 * (pi / 2 + 2 * x * tan(radians(20)))
@@ -140,7 +142,7 @@ def test_a_helical_rack_leaves_its_own_fillet(x: float, degrees: float) -> None:
 @each("x", SHIFTS)
 def test_positions_of_the_rack_touch_the_profile_and_do_not_cut_it(x: float) -> None:
     view = view_of(x)
-    items = cutting_picture(view, language("en"), 5.0).items
+    items = cutting_picture(view, get_language("en"), 5.0).items
     shown = [one for one in items if isinstance(one, Stroke) and one.tag == ENVELOPE]
     assert len(shown) == POSITIONS
     outline = view.cutting.tooth.outline(400)
@@ -178,7 +180,7 @@ def test_undercut_is_seen_where_a_swept_rack_leaves_the_involute() -> None:
         middle = (low + high) / 2
         low, high = (low, middle) if is_left(middle) else (middle, high)
     assert 2 * high == pytest.approx(diameter, abs=1e-3)
-    drawn = cutting_picture(view_of(0.0), language("ru"), 5.0).items
+    drawn = cutting_picture(view_of(0.0), get_language("ru"), 5.0).items
     letters = {one.text for one in drawn if isinstance(one, Text)}
     assert "U" in letters
     u = [
@@ -187,7 +189,7 @@ def test_undercut_is_seen_where_a_swept_rack_leaves_the_involute() -> None:
         if isinstance(one, Disc)
     ]
     assert any(abs(one - diameter) < NANOMETRE for one in u)
-    without = cutting_picture(view_of(0.59), language("ru"), 5.0).items
+    without = cutting_picture(view_of(0.59), get_language("ru"), 5.0).items
     assert "U" not in {one.text for one in without if isinstance(one, Text)}
 
 
@@ -195,7 +197,7 @@ def test_undercut_is_seen_where_a_swept_rack_leaves_the_involute() -> None:
 def test_undercut_begins_where_the_boundary_point_reaches_the_base_circle(
     z: int, alpha: float
 ) -> None:
-    least = cutting_of(0.0, z, alpha).least / 5.0
+    least = cutting_of(0.0, z, alpha).min_displacement / 5.0
     for off, is_cut in ((-1e-6, True), (1e-6, False)):
         assert (cutting_of(least + off, z, alpha).cut_diameter is not None) is is_cut
     there = cutting_of(least, z, alpha)

@@ -18,16 +18,16 @@ from worked import PROBLEMS
 from planmethod.cli import cli
 from planmethod.errors import PlanMethodError
 from planmethod.gears import derivation as module
-from planmethod.gears.asked import SoughtQuantity
 from planmethod.gears.derivation import DerivedLine, by_speeds, derivation
 from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.gears.reader import load
+from planmethod.gears.requested_quantities import RequestedQuantity
 from planmethod.gears.velocities import by_velocities
 from planmethod.languages import LANGUAGES
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 
 FILES = sorted([*(PROBLEMS / "gears").glob("*.toml"), *(PROBLEMS / "gears/tasks").glob("*.toml")])
-WORDS = language("ru")
+WORDS = get_language("ru")
 SIDE = re.compile(r"(U)(?:\^\{\((\w+)\)\})?_\{([^}]*)\}|([znωr])_\{([^}]*)\}")
 
 
@@ -86,7 +86,7 @@ def test_every_side_is_worth_its_result(path: Path) -> None:
     ratios = [name for name in motion.train.ask if name.startswith(("U", "n_", "omega_"))]
     assert check(motion) >= len(ratios) - len(motion.train.inputs)
     for lang in LANGUAGES:
-        assert len(derivation(motion, language(lang))) == len(told(motion))
+        assert len(derivation(motion, get_language(lang))) == len(told(motion))
 
 
 @pytest.mark.parametrize("maker", MAKERS, ids=lambda maker: maker.__name__)
@@ -102,16 +102,16 @@ def test_random_trains_are_derived_to_the_speeds_of_their_makers(
         made = maker(rng)
         motion = solved(tmp_path, made.text)
         moving = [b for b in motion.train.bodies if motion.speeds[b]]
-        moving = [b for b in moving if b not in motion.roles.across]
+        moving = [b for b in moving if b not in motion.roles.transverse]
         names = [f"U_{a}_{b}" for a in moving for b in moving if a != b]
         speeds = [f"{motion.train.unit}_{b}" for b in moving]
         asked = replace(motion, train=replace(motion.train, ask=(*names, *speeds)))
         assert check(asked) >= len(names) // 2
         lines = told(asked)
         if motion.structure.mobility == 1:
-            planets = {one for own in motion.roles.satellites.values() for one in own}
+            planets = {one for own in motion.roles.planets.values() for one in own}
             known = [b for b in moving if b not in planets]
-            by_itself = [by_speeds(asked, SoughtQuantity("U", (a, b)), WORDS)
+            by_itself = [by_speeds(asked, RequestedQuantity("U", (a, b)), WORDS)
                          for a in known for b in known if a != b]  # fmt: skip
             assert not set(by_itself) & set(lines)
         for body in moving:
@@ -201,4 +201,6 @@ def test_solve_protocol_and_sheet_show_the_derivation(lang: str, tmp_path: Path)
     for words in (["solve", path], ["protocol", path]):
         done = CliRunner().invoke(cli, [*words, "--lang", lang])
         assert "U_1H = U^(H)₁₃·(U_3'-5 − 1) + 1" in " ".join(done.output.split())
-    assert isinstance(derivation(solve_motion(load(Path(path))), language(lang))[0], DerivedLine)
+    assert isinstance(
+        derivation(solve_motion(load(Path(path))), get_language(lang))[0], DerivedLine
+    )

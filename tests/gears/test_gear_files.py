@@ -15,10 +15,10 @@ from worked import PROBLEMS, ROOT
 
 from planmethod.cli import cli
 from planmethod.errors import ExitCode, ProblemError
-from planmethod.gears.asked import SoughtQuantityError, parse
+from planmethod.gears.requested_quantities import RequestedQuantityError, parse
 from planmethod.kinds import KINDS, kind_of
 from planmethod.languages import speaking
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 SCHEMA = json.loads((ROOT / "planmethod/problem/schema.json").read_text("utf-8"))
@@ -254,7 +254,7 @@ def test_that_a_train_is_not_coaxial_has_numbers_in_every_language(
     kind = kind_of(path)
     assert kind is not None
     with speaking(lang), pytest.raises(ProblemError, match=said):
-        kind.solved_document(kind.load(path, None), language(lang))
+        kind.solved_document(kind.load(path, None), get_language(lang))
 
 
 def test_options_of_linkages_are_rejected() -> None:
@@ -275,5 +275,5 @@ def test_names_of_requested_quantities_are_parsed() -> None:
     assert parse("U_15", ("1", "5")).labels == ("1", "5")
     assert parse("U_1_2'^H", known).carrier == "H"
     for text, said in [("U_1555", "2 labels"), ("W_1", "unknown"), ("z_1^H", "not taken")]:
-        with pytest.raises(SoughtQuantityError, match=said):
+        with pytest.raises(RequestedQuantityError, match=said):
             parse(text, known)

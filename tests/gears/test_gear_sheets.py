@@ -20,20 +20,20 @@ from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ExitCode, LayoutError
 from planmethod.gears.arrangement import Arrangement, AxisPart, arrange
 from planmethod.gears.construction import construct, read
-from planmethod.gears.drawn.pictures import front
+from planmethod.gears.drawn.views import front
 from planmethod.gears.motion import solve_motion
-from planmethod.gears.picture import draw
 from planmethod.gears.reader import load
 from planmethod.gears.scheme import SchemeData
 from planmethod.gears.sheet import as_drawn, drawings
-from planmethod.gears.told import results
-from planmethod.note.compared import NONE
-from planmethod.note.wording import language
+from planmethod.gears.sheet_texts import results
+from planmethod.gears.velocity_diagrams import draw
+from planmethod.note.compared import DASH
+from planmethod.note.wording import get_language
 from planmethod.render.backends import render
 from planmethod.render.control.remarks import Severity
 from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
-from planmethod.render.pictures.enlarged import ENLARGED
-from planmethod.render.sheets.controlled import looked_over, paper_of
+from planmethod.render.pictures.detail_views import ENLARGED
+from planmethod.render.sheets.controlled import check_drawings, paper_of
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 TASKS = sorted((PROBLEMS / "gears").glob("*/*.toml"))
@@ -85,7 +85,7 @@ def written(folder: Path, text: str) -> Path:
 
 
 def faults(drawing: Drawing) -> list[str]:
-    (looked,) = looked_over([drawing])
+    (looked,) = check_drawings([drawing])
     return [f"{f.code} {f.message}" for f in looked.findings if f.severity is Severity.ERROR]
 
 
@@ -132,7 +132,7 @@ def test_segments_in_the_file_are_as_long_as_in_the_table(name: str) -> None:
     ends = [(complex(*e.dxf.start.xyz[:2]), complex(*e.dxf.end.xyz[:2])) for e in lines]
     assert sorted(abs(b - a) for a, b in ends) == pytest.approx(spans, abs=1e-6)
     shown = {item.text.lstrip("−") for item in drawing.items if isinstance(item, Text)}
-    lengths = [span.length / span.share for view in drawing.views for span in view.spans]
+    lengths = [span.length / span.magnification for view in drawing.views for span in view.spans]
     assert {f"{length:.2f}".replace(".", ",") for length in lengths} <= shown
 
 
@@ -154,9 +154,9 @@ def test_a_picture_is_read_once_for_sheet_protocol_and_note(tmp_path: Path) -> N
             continue
         drawn = construct(motion, picture)
         seen = read(drawn, PROFILES["board"])
-        rows = results(motion, drawn, seen, language("ru"))
+        rows = results(motion, drawn, seen, get_language("ru"))
         said = texts(sheet(path))
-        assert {row[3] for row in rows} - {NONE} <= {*said.split()}
+        assert {row[3] for row in rows} - {DASH} <= {*said.split()}
     assert as_drawn(load(paths[0]), PROFILES["board"]).train.picture.mu_l > Fraction(1, 1000)
     assert "12,00" in texts(sheet(paths[0]))
 
@@ -165,8 +165,8 @@ def test_short_rays_are_on_a_view_where_the_ruler_reads_them() -> None:
     """Example 3 of the source: a ray of 1.25 mm read as 1.0 mm gave U₁₇ = 48 for 38.54."""
     drawing = sheet(PROBLEMS / "gears/gears-ex3.toml")
     (rays,) = (view for view in drawing.views if any(s.name == "o7" for s in view.spans))
-    enlarged = {span.name: span for span in rays.spans if span.share > 1.0}
-    assert {name: span.share for name, span in enlarged.items()} == {"o6": 10.0, "o7": 10.0}
+    enlarged = {span.name: span for span in rays.spans if span.magnification > 1.0}
+    assert {name: span.magnification for name, span in enlarged.items()} == {"o6": 10.0, "o7": 10.0}
     (circle,) = (i for i in drawing.items if isinstance(i, Arc) and i.tag == f"{ENLARGED} 0")
     for span in enlarged.values():
         assert span.length > 10.0

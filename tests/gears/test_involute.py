@@ -22,7 +22,7 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.gears.angles import angle_of_involute
 from planmethod.gears.involute import diagrams
-from planmethod.gears.involute.blocking import LimitKind, choose, is_kept, limits
+from planmethod.gears.involute.blocking import LimitKind, choose, limits, meets_limits
 from planmethod.gears.involute.diagrams import Contour, contour_picture
 from planmethod.gears.involute.meshpicture import CURVE, SCALES, view_for
 from planmethod.gears.involute.profile import LineOfAction, Points, Tooth
@@ -30,7 +30,7 @@ from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.reader import load
 from planmethod.gears.involute.sheet import drawings
 from planmethod.gears.involute.sizes import Pair, Rack
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.render.backends import render
 from planmethod.render.control.sheet import inspect
 from planmethod.render.ink.drawing import Drawing, Stroke
@@ -272,14 +272,14 @@ def test_the_chosen_shifts_keep_all_limits_and_have_the_least_sliding_nearby() -
     for dx in np.arange(-20, 21) / 100:
         for dy in np.arange(-20, 21, some(1, few=5)) / 100:
             other = pair.shifted(pair.x + np.array([dx, dy]))
-            if is_kept(other, asked):
+            if meets_limits(other, asked):
                 assert float(np.max(np.abs(other.theta_p))) >= worst - 1e-12
 
 
 def test_curves_of_the_contour_are_where_their_limits_are_reached() -> None:
     solved = SolvedMeshing(load(FILE))
     found = contour().parts
-    shown = {(limit.kind, limit.wheel, limit.least) for limit, parts in found if parts}
+    shown = {(limit.kind, limit.wheel, limit.min_value) for limit, parts in found if parts}
     assert {
         (LimitKind.INTERFERENCE, 0, 0.0),
         (LimitKind.INTERFERENCE, 1, 0.0),
@@ -309,7 +309,7 @@ def test_between_the_numbers_of_an_axis_of_the_contour_there_is_white(
     """The gap is at least the height of a letter, in a picture of any size."""
     placed: list[Label] = []
     monkeypatch.setattr(diagrams, "lettered", lambda _, labels: placed.extend(labels))
-    contour_picture(contour(), language("ru"), size, size, letter)
+    contour_picture(contour(), get_language("ru"), size, size, letter)
     for axis in (1 + 0j, 1j):
         own = [one for one in placed if one.name.startswith(f"axis {axis} ")]
         assert len(own) >= 2

@@ -16,7 +16,7 @@ from planmethod.gears.involute.meshdimensions import mesh_dimensions
 from planmethod.gears.involute.meshpicture import MeshView, meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.reader import load
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.render.ink.drawing import Arc, Pen, Stroke, Text
 from planmethod.render.ink.style import sweep
 
@@ -47,7 +47,7 @@ def test_the_dimension_of_a_tooth_spans_metal_and_that_of_a_space_does_not(
     """The metal of wheel 1 is found by its drawn tips."""
     view = view_of(name)
     items, labels = mesh_dimensions(view, 5.0)
-    drawn = meshing_picture(view, language("en"), 5.0, items, labels).items
+    drawn = meshing_picture(view, get_language("en"), 5.0, items, labels).items
     centre, tooth = view.centre(0), view.solved.teeth[0]
     named = {label.name.removeprefix("size "): label for label in labels}
     tips = [one for one in drawn if isinstance(one, Arc) and abs(one.centre - centre) < 1e-9
@@ -137,10 +137,10 @@ def test_the_radius_of_the_rack_ends_on_its_tip(name: str) -> None:
     cutting = solved.cuttings[0]
     assert cutting is not None
     view = cutting_view(cutting, 400.0, 300.0)
-    picture = cutting_picture(view, language("ru"), 5.0)
+    picture = cutting_picture(view, get_language("ru"), 5.0)
     (text,) = {one.label for one in picture.items if isinstance(one, Text) and "ρ" in one.text}
     size = cutting.tooth.pair.rack.rho * cutting.m
-    assert text == f"ρ_{{f}} = {language('ru').say.number(f'{size:.3f}')}"
+    assert text == f"ρ_{{f}} = {get_language('ru').notation.number(f'{size:.3f}')}"
     (rack,) = (one for one in picture.items if isinstance(one, Stroke) and one.tag == "rack")
     outline = LineString([(z.real, z.imag) for z in rack.points])
     radii = [
@@ -163,7 +163,7 @@ def test_every_dimension_of_the_rack_is_as_long_as_its_letters_state(name: str) 
     cutting = SolvedMeshing(load(path_of(name))).cuttings[0]
     assert cutting is not None
     view = cutting_view(cutting, 400.0, 300.0)
-    items = cutting_picture(view, language("en"), 5.0).items
+    items = cutting_picture(view, get_language("en"), 5.0).items
     lines = [one.points for one in items if isinstance(one, Stroke) and one.tag == "dimension"]
     said = {}
     for text in (one for one in items if isinstance(one, Text) and " = " in one.label):
@@ -192,7 +192,7 @@ def test_a_base_radius_is_named_where_it_is_drawn(tmp_path: Path) -> None:
     for path in (path_of(FILES[0]), far):
         view = view_for(SolvedMeshing(load(path)), 360.0, 550.0)
         items, labels = mesh_dimensions(view, 5.0)
-        drawn = meshing_picture(view, language("en"), 5.0, items, labels).items
+        drawn = meshing_picture(view, get_language("en"), 5.0, items, labels).items
         lines = [one for one in drawn if isinstance(one, Stroke) and one.tag == "base radius"]
         named = [one.name for one in labels if " r_{b" in one.name]
         assert len(named) == len(lines)

@@ -18,8 +18,8 @@ from planmethod.gears.involute.text import solved_document
 from planmethod.note.document import Document
 from planmethod.note.formula import inlined
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import LANGUAGES, language
-from planmethod.note.writers.plain import plain_document
+from planmethod.note.wording import LANGUAGES, get_language
+from planmethod.note.writers.terminal import plain_document
 
 BODIES = {
     "shifted": "z = [12, 30]\nm = 5\nx = [0.59, 0.53]",
@@ -54,7 +54,7 @@ def value_of(text: str) -> float:
 def test_formulas_with_their_numbers_give_the_printed_results(name: str, tmp_path: Path) -> None:
     solved = solved_of(name, tmp_path)
     count = 0
-    for key, line in solved.formulas(language("en")):
+    for key, line in solved.formulas(get_language("en")):
         _, _, numbers, shown = line.split(" = ")
         if shown.startswith("—") or "nan" in shown:
             continue
@@ -76,7 +76,7 @@ LENGTHS = {
 def test_limits_are_printed_as_true_inequalities(name: str, tmp_path: Path) -> None:
     for lang in LANGUAGES:
         seen = set()
-        for limit, holds, text in solved_of(name, tmp_path).sentences(language(lang)):
+        for limit, holds, text in solved_of(name, tmp_path).sentences(get_language(lang)):
             said = plain_text(text).replace(",", ".").replace("−", "-")
             found = re.search(r"(-?\d+\.\d{3})[^-\d]*([≥≤<>])(?:.* )?(-?\d+\.\d{3})", said)
             assert found is not None, said
@@ -90,8 +90,8 @@ def test_limits_are_printed_as_true_inequalities(name: str, tmp_path: Path) -> N
 
 def test_wheel_1_comes_before_wheel_2(tmp_path: Path) -> None:
     solved = solved_of("cut", tmp_path)
-    assert any(not holds for _, holds, _ in solved.sentences(language("en")))
-    words = language("en")
+    assert any(not holds for _, holds, _ in solved.sentences(get_language("en")))
+    words = get_language("en")
     text = plain_document(Document.of(solved_document(solved.problem, words)), words)
     rows = dict(re.findall(r"\n([a-z ,]+?)  +z? *(?:d_a )? *(\S+ +\S+)(?=\n)", text))
     assert rows["number of teeth"].split() == ["9", "14"]
@@ -108,7 +108,7 @@ def test_sizes_that_grow_with_the_module_are_printed_in_mm(key: str, tmp_path: P
     large = SolvedMeshing(load(path))
     pairs = [
         (one.quantity, one.values, other.values)
-        for group, others in zip(small.told(), large.told(), strict=True)
+        for group, others in zip(small.sized_quantities(), large.sized_quantities(), strict=True)
         for one, other in zip(group, others, strict=True)
     ]
     assert key in {quantity.key for quantity, _, _ in pairs}

@@ -17,12 +17,12 @@ from worked import PROBLEMS
 
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
-from planmethod.construct.steps import LayOff
+from planmethod.construct.steps import LayOffLength
 from planmethod.errors import ExitCode
-from planmethod.gears.construction import GearDrawing, PictureError, construct, read
+from planmethod.gears.construction import GearDrawing, VelocityDiagramError, construct, read
 from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.gears.picture import draw
 from planmethod.gears.reader import load
+from planmethod.gears.velocity_diagrams import draw
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 PLANAR = [maker for maker in MAKERS if maker is not bevel]
@@ -52,29 +52,29 @@ def test_the_construction_gives_the_fractions_and_the_ruler_is_within_its_errors
 ) -> None:
     for motion in trains(tmp_path):
         drawn = drawn_of(motion)
-        seen, rays = read(drawn, BOARD), dict(drawn.picture.rays)
+        seen, rays = read(drawn, BOARD), dict(drawn.diagrams.rays)
         for spot in drawn.spots:
-            arrow = seen.point(spot.end) - seen.point(spot.foot)
+            arrow = seen.point(spot.end) - seen.point(spot.base)
             assert abs(arrow - float(spot.speed)) < 1e-12 * 60
-            assert seen.point(spot.foot).imag == pytest.approx(float(spot.height), abs=1e-12)
+            assert seen.point(spot.base).imag == pytest.approx(float(spot.height), abs=1e-12)
         for body, name in drawn.segments.items():
             label = drawn.label(body).split(", ")[0]
             assert float(seen.exact.value[name]) == pytest.approx(
                 float(rays[label]), rel=1e-12, abs=1e-10
             )
-        for one in drawn.found:
+        for one in drawn.quantities:
             exact = float(one.exact)
             assert float(seen.exact.value[one.read]) == pytest.approx(exact, rel=1e-11, abs=1e-9)
             off = abs(float(seen.read.value[one.read]) - exact)
             assert off <= 3 * seen.sigma[one.read] + 1e-9, one.name
-        read_on = drawn.read_on(seen.knots)
+        read_on = drawn.read_on(seen.detail_views)
         for body, name in drawn.segments.items():
             length, got = (abs(float(trace.value[name])) for trace in (seen.exact, seen.read))
             assert (body in read_on) == (0.25 <= length < 5.0), length
             times = read_on[body].times if body in read_on else 1.0
             assert abs(got - length) * times <= BOARD.ruler / 2 + 1e-9
             assert body not in read_on or length * times >= 10.0
-        for knot in seen.knots:
+        for knot in seen.detail_views:
             across = [seen.point(end).real * knot.times for pair in knot.ends for end in pair]
             assert max(across) - min(across) <= 60.0 + 1e-9
 
@@ -91,7 +91,7 @@ def test_fifty_digits_are_the_fractions(path: Path) -> None:
             for name, value in drawn.data.items()
         }
         trace = adjudicate(drawn.program, data)
-        for one in drawn.found:
+        for one in drawn.quantities:
             if isinstance(one.exact, Fraction):
                 due = mpmath.mpf(one.exact.numerator) / one.exact.denominator
                 assert abs(trace.value[one.read] - due) <= mpmath.mpf(10) ** -44 * (1 + abs(due))
@@ -107,7 +107,7 @@ def test_one_vector_is_laid_off_for_each_degree_of_freedom(
     """One vector for each degree of freedom; example 6 does not close from its input."""
     drawn = drawn_of(solve_motion(load(PROBLEMS / f"gears/{name}.toml")))
     assert (drawn.starts, drawn.calculated) == (starts, ())
-    laid = [s for s in drawn.program.steps if isinstance(s, LayOff) and "laid" in s.length]
+    laid = [s for s in drawn.program.steps if isinstance(s, LayOffLength) and "laid" in s.length]
     assert len(laid) == len(starts)
     assert ("input" in drawn.data) == (name == "gears-ex6")
 
@@ -136,7 +136,7 @@ def test_a_speed_that_does_not_follow_is_marked_as_calculated(tmp_path: Path) ->
 def test_a_wrong_construction_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = drawn_of(solve_motion(load(FILES[0])))
     monkeypatch.setitem(drawn.data, "mu", drawn.data["mu"] * 2)
-    with pytest.raises(PictureError, match="mesh equations"):
+    with pytest.raises(VelocityDiagramError, match="mesh equations"):
         read(drawn, BOARD)
 
 

@@ -14,14 +14,14 @@ from click.testing import CliRunner
 
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
-from planmethod.gears.choice import choose, set_of
 from planmethod.gears.reader import load
 from planmethod.gears.sheet import drawings
-from planmethod.gears.teeth import SCHEMES, Wanted
+from planmethod.gears.teeth import SCHEMES, TeethSpecification
+from planmethod.gears.teeth_selection import choose, set_of
 from planmethod.render.control.sheet import inspect
 from planmethod.render.ink.drawing import Stroke, Text
 
-CARRIED = [one for one in SCHEMES if one.carried]
+CARRIED = [one for one in SCHEMES if one.is_planetary]
 RATIOS = {"ring": "6.5", "external-internal": "12", "two-external": "-12", "two-internal": "-20"}
 
 RING = """
@@ -91,7 +91,9 @@ def test_variants_are_those_of_a_search_of_their_own(tmp_path: Path) -> None:
 def test_a_set_by_its_teeth_is_that_of_the_search() -> None:
     for scheme in SCHEMES:
         asked = RATIOS.get(scheme.name, "-3" if scheme.name == "pair" else "6")
-        wanted = Wanted(scheme, Fraction(asked), Fraction(2, 100), most=60, ring_most=120)
+        wanted = TeethSpecification(
+            scheme, Fraction(asked), Fraction(2, 100), max_teeth=60, max_ring_teeth=120
+        )
         chosen = choose(wanted, first=25)
         assert chosen.sets, scheme.name
         for one in chosen.sets:

@@ -167,7 +167,7 @@ def overlap(pair: Pair) -> float:
 def test_a_pinion_turns_freely_in_its_ring_and_interference_is_reported() -> None:
     good = load(FILE)
     solved = SolvedMeshing(good)
-    assert all(value >= bound for _, value, bound in solved.judged())
+    assert all(value >= bound for _, value, bound in solved.evaluated_limits())
     assert overlap(solved.pair) < 1e-3
     touching = solved.contact.overlap(solved.pair)
     assert touching == pytest.approx(float(solved.pair.epsilon), rel=1e-12)

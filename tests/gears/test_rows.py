@@ -18,8 +18,8 @@ from planmethod.gears.answers import answer
 from planmethod.gears.comparison import compare
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.model import GearProblem
-from planmethod.gears.told import given
-from planmethod.note.wording import language
+from planmethod.gears.sheet_texts import train_facts
+from planmethod.note.wording import get_language
 
 WHEELS = {"1": 20, "2": 40, "2'": 25, "3": 85, "4": 13, "5": 20}
 MESHES = [
@@ -48,7 +48,7 @@ def test_rows_have_modules_of_their_own(tmp_path: Path) -> None:
     due = {"a_w_1_2": 120, "a_w_2'_3": 120, "a_w_4_5": 99, "r_4": 39, "r_5": 60, "r_3": 170}
     for name, value in due.items():
         assert answer(motion, name).exact == value, name
-    facts = [fact.text for fact in given(motion, language("ru"))]
+    facts = [fact.text for fact in train_facts(motion, get_language("ru"))]
     assert "m = 4 мм (колёса 1, 2, 2', 3)" in facts
     assert "m = 6 мм (колёса 4, 5)" in facts
     as_wheels = TRAIN.replace('"1" = 20', '"1" = { z = 20, m = 4 }')
@@ -63,7 +63,9 @@ def test_coaxial_rows_of_different_modules_are_compared_by_radii(tmp_path: Path)
     rest = 'coaxial = [["1", "3"]]\nn = { 1 = 1 }\n'
     motion = solved(tmp_path, told(wheels, meshes, rest + 'module = { "1-2" = 2, "2\'-3" = 3 }'))
     (one,) = [c for c in conditions(motion) if c.name == "coaxiality"]
-    assert sentence(one, language("en")) == "Coaxiality (axis 2): r_1 + r_2 = r_3 + r_2' = 60 mm"
+    assert (
+        sentence(one, get_language("en")) == "Coaxiality (axis 2): r_1 + r_2 = r_3 + r_2' = 60 mm"
+    )
     with pytest.raises(ProblemError, match="not coaxial"):
         solved(tmp_path, told(wheels, meshes, rest + "module = 2"))
     found = told({**wheels, "3": 28}, meshes, rest).replace(', "3" = 28', "")
@@ -122,12 +124,12 @@ def k10(arm: str) -> str:
 
 def test_the_radius_of_a_carrier_is_given_and_checks_coaxiality(tmp_path: Path) -> None:
     motion = solved(tmp_path, k10("{ r = 0.05 }"))
-    facts = [fact.text for fact in given(motion, language("en"))]
+    facts = [fact.text for fact in train_facts(motion, get_language("en"))]
     assert facts[:6] == [f"r_{{{k}}} = {r} m" for k, r in enumerate(
         ("0.07", "0.02", "0.03", "0.05", "0.06", "0.04"), 1)]  # fmt: skip
     assert [motion.speed(x) for x in "246"] == [25, 4, 6]
     assert answer(motion, "r_4").exact == 50
-    sums = [sentence(c, language("en")) for c in conditions(motion) if c.name == "coaxiality"]
+    sums = [sentence(c, get_language("en")) for c in conditions(motion) if c.name == "coaxiality"]
     assert "Coaxiality (axis 2): r_1 − r_2 = r_4 = 0.05" in sums
     with pytest.raises(ProblemError, match=r"r_4 = 0\.06 m, and the axis of 2 is 0\.05 m from it"):
         solved(tmp_path, k10("{ r = 0.06 }"))
@@ -142,7 +144,7 @@ def test_the_radius_of_a_carrier_is_given_and_checks_coaxiality(tmp_path: Path) 
 def test_a_carrier_of_wheels_with_teeth_has_a_radius_too(tmp_path: Path) -> None:
     text = TRAIN.replace('"5" = 20', '"5" = 20, H = { r = 0.12 }')
     motion = solved(tmp_path, text + "module = 4\n")
-    sums = [sentence(c, language("en")) for c in conditions(motion)]
+    sums = [sentence(c, get_language("en")) for c in conditions(motion)]
     assert "Coaxiality (axis 2): r_1 + r_2 = r_H = 120 mm" in sums
     for rest, said in (("module = 5\n", "is 0.15 m from it"), ("", "needs the module")):
         with pytest.raises(ProblemError, match=said):
@@ -187,8 +189,12 @@ def test_the_planetary_stage_of_a_longer_train_is_compared(rest: str, tmp_path: 
     found, due = both
     assert found is not None
     assert due is not None
-    assert (found.found, found.own, found.variants) == (due.found, due.own, due.variants)
-    assert found.own.ratio == Fraction(39, 5)
+    assert (found.set_counts, found.file_set, found.variants) == (
+        due.set_counts,
+        due.file_set,
+        due.variants,
+    )
+    assert found.file_set.ratio == Fraction(39, 5)
     assert found.module_m == (Fraction(4, 1000) if rest else None)
     designed(tmp_path, text)
     run("solve", str(tmp_path / "train.toml"))

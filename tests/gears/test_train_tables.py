@@ -21,15 +21,15 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.gears.answers import answer
 from planmethod.gears.construction import construct, read
-from planmethod.gears.drawn.pictures import ARROW_INSIDE, front
+from planmethod.gears.drawn.views import ARROW_INSIDE, front
 from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.gears.picture import ContactKind, draw
 from planmethod.gears.reader import load
 from planmethod.gears.scheme import SchemeData
 from planmethod.gears.sheet import drawings
+from planmethod.gears.sheet_texts import results
 from planmethod.gears.text import equation_of
-from planmethod.gears.told import results
-from planmethod.note.wording import language
+from planmethod.gears.velocity_diagrams import ContactKind, draw
+from planmethod.note.wording import get_language
 from planmethod.render.ink.drawing import Arc, Drawing, Fill, Pen, Text
 
 PLANAR = [maker for maker in MAKERS if maker is not bevel]
@@ -82,7 +82,7 @@ def rows_of(name: str, ruler: float) -> list[tuple[str, ...]]:
     assert picture is not None
     drawn = construct(motion, picture)
     seen = read(drawn, replace(BOARD, ruler=ruler))
-    return list(results(motion, drawn, seen, language("en")))
+    return list(results(motion, drawn, seen, get_language("en")))
 
 
 @each("name", WITH_PICTURES)
@@ -90,7 +90,7 @@ def test_the_difference_is_the_reading_less_the_exact_value_in_per_cent_of_the_e
     name: str,
 ) -> None:
     """With a ruler of 7 mm the differences are large: neither sign nor base is in doubt."""
-    assert language("en").gears["sheet"].columns_results[2:] == ("Exact", "Read", "σ", "δ, %")
+    assert get_language("en").gears["sheet"].columns_results[2:] == ("Exact", "Read", "σ", "δ, %")
     large = 0
     for _, _, exact, seen, _, off in rows_of(name, 7.0):
         if "—" in (seen, off):
@@ -145,9 +145,9 @@ def test_the_table_of_segments_has_heights_before_segments(name: str) -> None:
     picture = draw(motion)
     assert picture is not None
     drawn = construct(motion, picture)
-    assert language("en").gears["sheet"].columns_segments[:3] == ("Segment", "y, mm", "Exact")
+    assert get_language("en").gears["sheet"].columns_segments[:3] == ("Segment", "y, mm", "Exact")
     (drawing,) = drawings(load(PROBLEMS / f"gears/{name}.toml"), fields={}, profile=BOARD)
-    named = {f"{spot.foot}{spot.letter}": spot for spot in drawn.spots}
+    named = {f"{spot.base}{spot.letter}": spot for spot in drawn.spots}
     seen = list(rows_on(drawing, set(named)))
     assert seen
     for row in seen:

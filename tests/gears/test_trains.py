@@ -14,11 +14,11 @@ from scales import is_round
 from trains import MAKERS, Made, bevel, solved
 
 from planmethod.gears.answers import answer, efficiency
-from planmethod.gears.conditions import conditions, satellites_held
+from planmethod.gears.conditions import conditions, max_planets
 from planmethod.gears.linear import solve
 from planmethod.gears.motion import TrainKind, TrainMotion
-from planmethod.gears.picture import draw
 from planmethod.gears.text import tabular
+from planmethod.gears.velocity_diagrams import draw
 
 SEEDS = range(100)  # 500 trains
 EXTERNAL_RING = 'wheels = { 1 = 20, 2 = 40, 3 = 100 }\nmeshes = [{ of = [1, 2], carrier = "H"%s },\
@@ -35,9 +35,11 @@ def test_speeds_are_those_of_the_step_by_step_formulas(
     for label, speed in made.speeds.items():
         assert motion.speed(label) == speed, (made.text, label)
     for turns in tabular(motion):
-        sums = {body: speed + turns.held[body] for body, speed in turns.together.items()}
+        sums = {
+            body: speed + turns.held_speeds[body] for body, speed in turns.locked_speeds.items()
+        }
         assert sums == {body: motion.speeds[body] for body in sums}
-        assert turns.held[turns.carrier] == 0
+        assert turns.held_speeds[turns.carrier] == 0
     if maker is not bevel:
         assert_contacts_meet(motion)
 
@@ -204,13 +206,13 @@ def test_ordinary_and_planetary_trains_are_distinguished(tmp_path: Path) -> None
 def test_assembly_and_neighbourhood_of_planet_gears(tmp_path: Path) -> None:
     """(20 + 100)/k is whole, and sin(180/k) > 42/60 only up to three."""
     motion = solved(tmp_path, SET + "satellites = 4\nn = { 1 = 1 }\n")
-    judged = {one.name: one.holds for one in conditions(motion)}
+    judged = {one.name: one.is_met for one in conditions(motion)}
     assert judged["assembly"]
-    assert not judged["neighbourhood"] or satellites_held(motion, "H") == 4
-    assert satellites_held(motion, "H") == 4  # 0.7071 > 0.7
+    assert not judged["neighbourhood"] or max_planets(motion, "H") == 4
+    assert max_planets(motion, "H") == 4  # 0.7071 > 0.7
     assert answer(motion, "k_H").exact == 4
     five = solved(tmp_path, SET + "satellites = { H = 7 }\nn = { 1 = 1 }\n")
-    assert not any(one.holds for one in conditions(five) if one.name == "assembly")
+    assert not any(one.is_met for one in conditions(five) if one.name == "assembly")
 
 
 def test_undercutting_is_reported_and_a_shift_avoids_it(tmp_path: Path) -> None:
@@ -227,8 +229,8 @@ def test_the_tabular_method_turns_the_fixed_wheel_back(tmp_path: Path) -> None:
     """+1 turn of all, -1 of the ring with the carrier held: wheel 1 by +5, in all 6."""
     (turns,) = tabular(solved(tmp_path, SET + "n = { H = 1 }\n"))
     assert turns.started == ("3",)
-    assert turns.together == dict.fromkeys(("H", "1", "2", "3"), 1)
-    assert turns.held == {"H": 0, "1": 5, "2": Fraction(-5, 2), "3": -1}
+    assert turns.locked_speeds == dict.fromkeys(("H", "1", "2", "3"), 1)
+    assert turns.held_speeds == {"H": 0, "1": 5, "2": Fraction(-5, 2), "3": -1}
     assert not tabular(solved(tmp_path, SET.replace('["3"]', '["H"]') + "n = { 1 = 1 }\n"))
 
 

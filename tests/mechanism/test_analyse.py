@@ -65,8 +65,8 @@ def test_dyads(signature: str) -> None:
     (group,) = analyse(mechanism(points, slides)).groups
     assert (group.signature, group.kind) == (signature, kind)
     assert (group.class_number, group.order) == (2, 2)
-    assert [lead.link for lead in group.leads] == ["2", "3"]
-    assert [lead.to for lead in group.leads] == ["1", "0"]
+    assert [lead.link for lead in group.legs] == ["2", "3"]
+    assert [lead.to for lead in group.legs] == ["1", "0"]
 
 
 @pytest.mark.parametrize(
@@ -101,26 +101,26 @@ def test_hinge_of_three_links_is_closed_by_the_group_that_reaches_it_first() -> 
     assert first.links == ("2", "3")
     assert first.inner == (Revolute("C", ("2", "3", "4")),)
     assert second.links == ("4", "5")
-    lead = second.leads[0]
+    lead = second.legs[0]
     assert (lead.link, lead.to) == ("4", "2")
 
 
 def test_hinge_is_closed_by_the_links_that_can_though_the_file_names_others_first() -> None:
     found = analyse(mechanism("A:01 D:05 B:14 C:245 E:23", "3/0@E"))
     assert found.formula == "I(0,1) → II(4,5) → II(2,3)"
-    assert found.groups[1].leads[0].to == "4"
+    assert found.groups[1].legs[0].to == "4"
 
 
 def test_links_on_a_fixed_hinge_of_the_crank_are_joined_to_the_frame() -> None:
     found = analyse(mechanism("A:013 B:12", "2/3@B"))
     (group,) = found.groups
-    assert group.leads[1].to == FRAME
+    assert group.legs[1].to == FRAME
 
 
 def test_point_carried_by_a_known_link_for_two_later_groups() -> None:
     found = analyse(mechanism("A:01 B:12 C:23 D:03 E:246 F:45 G:05 H:67 K:07"))
     assert found.formula == "I(0,1) → II(2,3) → II(4,5) → II(6,7)"
-    assert [group.leads[0].to for group in found.groups[1:]] == ["2", "2"]
+    assert [group.legs[0].to for group in found.groups[1:]] == ["2", "2"]
 
 
 def test_independent_groups_are_in_file_order() -> None:
@@ -228,10 +228,10 @@ def test_every_leg_starts_from_links_known_before_its_group(mech: Mechanism, see
     again, _ = _shuffled(mech, seed)
     known = {FRAME, again.driver}
     for group in analyse(again).groups:
-        for lead in group.leads:
+        for lead in group.legs:
             assert lead.to in known
             assert lead.to in links_of(lead.joint)
-        assert 3 * len(group.links) == 2 * (len(group.leads) + _inner_pairs(group))
+        assert 3 * len(group.links) == 2 * (len(group.legs) + _inner_pairs(group))
         known.update(group.links)
     assert known == {FRAME, *again.links}
 

@@ -47,7 +47,7 @@ MOTIONS = {
         EX3,
         [
             (ROTATION, Role.CRANK),
-            (PLANE, Role.STONE),
+            (PLANE, Role.SLIDING_BLOCK),
             (ROTATION, Role.SLOTTED_LINK),
             (PLANE, Role.ROD),
             (TRANSLATION, Role.SLIDER),
@@ -59,7 +59,7 @@ MOTIONS = {
             (ROTATION, Role.CRANK),
             (PLANE, Role.ROD),
             (ROTATION, Role.ROCKER),
-            (PLANE, Role.STONE),
+            (PLANE, Role.SLIDING_BLOCK),
             (TRANSLATION, Role.SLIDER),
         ],
     ),
@@ -68,9 +68,9 @@ MOTIONS = {
         TASK12,
         [
             (ROTATION, Role.CRANK),
-            (PLANE, Role.STONE),
+            (PLANE, Role.SLIDING_BLOCK),
             (ROTATION, Role.SLOTTED_LINK),
-            (TRANSLATION, Role.STONE),
+            (TRANSLATION, Role.SLIDING_BLOCK),
             (TRANSLATION, Role.SLIDER),
         ],
     ),
@@ -79,7 +79,7 @@ MOTIONS = {
         [
             (ROTATION, Role.CRANK),
             (PLANE, Role.ROD),
-            (ROTATION, Role.STONE),
+            (ROTATION, Role.SLIDING_BLOCK),
             (PLANE, Role.ROD),
             (TRANSLATION, Role.SLIDER),
         ],

@@ -12,8 +12,8 @@ from planmethod.mechanism.describe import PairKind, pairs, stated_pairs
 from planmethod.mechanism.structure import analyse
 from planmethod.note.narrate.structure import structure_document
 from planmethod.note.records.aligned import structure_in_full
-from planmethod.note.wording import language
-from planmethod.note.writers.plain import plain_document
+from planmethod.note.wording import get_language
+from planmethod.note.writers.terminal import plain_document
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Pen, Stroke, Text
@@ -175,7 +175,7 @@ def test_a_round_tappet_may_turn_only_where_its_face_is_oblique() -> None:
 @pytest.mark.parametrize("lang", ["ru", "en"])
 def test_the_replacement_is_described_and_drawn(lang: str) -> None:
     problem = _follower(ROUND + '\nroller = "3"', ASSEMBLY)
-    found, words = analyse(problem.mechanism), language(lang)
+    found, words = analyse(problem.mechanism), get_language(lang)
     aligned = self_aligning(problem, found)
     document = structure_document(problem.mechanism, found, words, None, aligned)
     text = re.sub(r"\s+", " ", plain_document(document, words))

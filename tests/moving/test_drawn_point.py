@@ -20,7 +20,7 @@ from planmethod.construct.drafting import PROFILES
 from planmethod.construct.scale import SERIES, Scale
 from planmethod.errors import ExitCode
 from planmethod.moving.construction import construct, read_hodograph
-from planmethod.moving.course import course_of
+from planmethod.moving.interval import drawn_interval
 from planmethod.moving.motion import Undefined, move
 from planmethod.moving.reader import load, loads
 from planmethod.moving.sheet import drawings
@@ -105,7 +105,7 @@ def test_a_construction_gives_the_exact_numbers(name: str) -> None:
             if not math.isnan(exact):
                 assert trace.value[result] == pytest.approx(exact, rel=1e-9, abs=1e-9), column
         for vector in built.vectors:
-            if vector.is_whole:
+            if vector.is_resultant:
                 tip = complex(trace.value[vector.head])
                 parts = (motion.columns[f"{vector.plan}{c}"][k] for c in "xy")
                 assert tip * SCALES[vector.plan].per_mm == pytest.approx(complex(*parts), abs=1e-9)
@@ -125,7 +125,7 @@ def test_at_rest_there_is_no_tangent_and_without_velocity_no_plan() -> None:
 
 
 def test_sigma_of_a_hodograph_s_chord_is_that_of_random_drawings() -> None:
-    course = course_of(of('x = "5*cos(t)"\ny = "5*sin(t)"', "t = 0"))
+    course = drawn_interval(of('x = "5*cos(t)"\ny = "5*sin(t)"', "t = 0"))
     read = read_hodograph(course, Scale("mu_v", 0.1, "m/s"), BOARD)
     step = course.marks.columns["t"][1] - course.marks.columns["t"][0]
     # The chord of an arc of the circle v = 5: the error of the method, exactly.
@@ -139,7 +139,7 @@ def test_sigma_of_a_hodograph_s_chord_is_that_of_random_drawings() -> None:
 
 
 def test_poles_are_not_drawn_through() -> None:
-    course = course_of(of('x = "tg(t)"\ny = "t"', "t = { from = 0, to = 6, step = 0.5 }"))
+    course = drawn_interval(of('x = "tg(t)"\ny = "t"', "t = { from = 0, to = 6, step = 0.5 }"))
     parts = list(course.curves("x", "y"))
     assert len(parts) == 3
     assert all(np.all(np.diff(part.real) > 0) for part in parts)
@@ -148,13 +148,13 @@ def test_poles_are_not_drawn_through() -> None:
 
 
 def test_a_cusp_ends_a_smooth_part() -> None:
-    course = course_of(of('x = "t^2"\ny = "t^3"', "t = 0"))
+    course = drawn_interval(of('x = "t^2"\ny = "t^3"', "t = 0"))
     assert [abs(part[-1]) < 1e-12 for part in course.curves("x", "y")] == [True, False]
 
 
 def test_an_interval_of_our_own_is_one_where_everything_exists() -> None:
     for path in FILES:
-        course = course_of(load(path))
+        course = drawn_interval(load(path))
         assert Undefined.POSITION not in course.path.reasons, path.stem
         assert np.nanmax(course.path.columns["a"]) < 12 * np.nanmean(course.path.columns["a"])
 
@@ -167,8 +167,8 @@ def test_the_norm_control_marks_no_sheet(path: Path) -> None:
     assert [view.kind for view in drawing.views] == ["trajectory", "hodograph", "hodograph"]
     for view in drawing.views:
         assert any(math.isclose(float(f"{view.per_mm:e}".split("e")[0]), m) for m in SERIES)
-    motion = course_of(problem).marks
-    k = course_of(problem).shown[0]
+    motion = drawn_interval(problem).marks
+    k = drawn_interval(problem).shown[0]
     poles = [item.centre for item in drawing.items if isinstance(item, Disc) and item.tag == POLE]
     for view, plan, pole in zip(drawing.views[1:], "va", poles, strict=True):
         for span in view.spans:

@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.moving.construction import construct
-from planmethod.moving.course import course_of
+from planmethod.moving.interval import drawn_interval
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import COLUMNS, LEGEND, POLAR, ROLLED, Motion, move
 from planmethod.moving.pictures import hodograph_picture, trajectory_picture
@@ -23,7 +23,7 @@ from planmethod.moving.reader import loads
 from planmethod.moving.sheet import drawings, sheet_scales
 from planmethod.moving.text import moment
 from planmethod.note.formula import inlined
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Pen, Stroke, Text, View
 from planmethod.render.pictures.planview import POLE
 
@@ -61,7 +61,7 @@ def value_of(formula: str, names: dict[str, float] | None = None) -> float:
 
 
 def moment_texts(problem: PointProblem, motion: Motion) -> list[str]:
-    return [node.text for node in moment(problem, motion, 0, language("en"))]
+    return [node.text for node in moment(problem, motion, 0, get_language("en"))]
 
 
 @each("name", LAWS)
@@ -169,7 +169,7 @@ def test_a_printed_value_has_its_excess_over_the_exact_one(tmp_path: Path) -> No
 
 def test_the_result_of_the_chords_has_its_difference_from_the_exact_one(tmp_path: Path) -> None:
     told = run(tmp_path, "protocol", f"[point]\n{LAWS['plane']}\nt = 0.5\n")
-    assert language("en").point["chords"] == (
+    assert get_language("en").point["chords"] == (
         "№", "t, s", "a exact, m/s²", "a read", "σ", "difference",
     )  # fmt: skip
     rows = re.findall(r"^\d+ +(\S+) +(\S+) +(\S+) +(\S+) +(\S+)$", told, re.M)
@@ -207,7 +207,7 @@ def within(drawing: Drawing, view: View) -> list[Any]:
 def test_a_hodograph_is_titled_by_the_vector_that_is_drawn_on_it(lang: str, name: str) -> None:
     problem = loads(f'[sheet]\nlang = "{lang}"\n[point]\n{LAWS[name]}\nt = 0.9\n', name="p")
     (drawing,) = drawings(problem, profile=BOARD)
-    words, motion = language(lang).point, move(problem)
+    words, motion = get_language(lang).point, move(problem)
     seen = []
     for view in drawing.views[1:]:
         items = within(drawing, view)
@@ -230,7 +230,7 @@ def test_a_hodograph_is_titled_by_the_vector_that_is_drawn_on_it(lang: str, name
 @each("name", LAWS)
 def test_the_components_on_a_hodograph_add_up_to_its_vector(name: str) -> None:
     problem = of(LAWS[name])
-    course = course_of(problem)
+    course = drawn_interval(problem)
     scales = sheet_scales(problem, course, BOARD)
     (k,) = course.shown
     built = construct(problem, course.marks, k, scales)
@@ -260,7 +260,7 @@ def test_the_components_on_a_hodograph_add_up_to_its_vector(name: str) -> None:
 def test_the_chord_joins_the_instants_before_and_after_the_calculated_one() -> None:
     """In uniform circular motion it is perpendicular to the velocity, which bisects it."""
     problem = of('x = "2*cos(t)"\ny = "2*sin(t)"')
-    course = course_of(problem)
+    course = drawn_interval(problem)
     scales = sheet_scales(problem, course, BOARD)
     picture = hodograph_picture(course, "v", None, scales, letter_height=5.0)
     (chord,) = (i for i in picture.items if isinstance(i, Stroke) and i.tag == "chord")
@@ -278,12 +278,12 @@ def test_the_chord_joins_the_instants_before_and_after_the_calculated_one() -> N
 ])  # fmt: skip
 def test_the_circle_of_curvature_of_a_circle_is_the_circle(law: str, centre: complex) -> None:
     problem = of(law)
-    course = course_of(problem)
+    course = drawn_interval(problem)
     scales = dict(sheet_scales(problem, course, BOARD))
     per_mm = 0.1
     scales["l"] = replace(scales["l"], per_mm=per_mm)
-    say = language("en").say
-    items = trajectory_picture(problem, course, scales, letter_height=5.0, say=say).items
+    say = get_language("en").notation
+    items = trajectory_picture(problem, course, scales, letter_height=5.0, notation=say).items
     (circle,) = (i for i in items if isinstance(i, Arc) and i.tag == "circle of curvature")
     (middle,) = (i for i in items if isinstance(i, Disc) and i.tag == "centre of curvature")
     assert circle.radius == pytest.approx(2 / per_mm)

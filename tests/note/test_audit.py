@@ -22,9 +22,9 @@ from planmethod.note.audit.audit import (
     half_digit,
     source_scales,
 )
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.problem import load
-from planmethod.problem.head import KindProblem, Published
+from planmethod.problem.common import KindProblem, Published
 from planmethod.problem.model import Problem
 from planmethod.solved.selectors.steps import NoValue
 
@@ -110,22 +110,22 @@ def test_positions_count_from_zero() -> None:
     )
     assert first.exact == pytest.approx(0.1)
     assert second.exact == pytest.approx(0.0, abs=1e-12)
-    assert (nowhere.why, nowhere.verdict) == (NoValue.NO_POSITION, AuditVerdict.ABSENT)
+    assert (nowhere.reason, nowhere.verdict) == (NoValue.NO_POSITION, AuditVerdict.ABSENT)
 
 
 def test_a_position_that_the_problem_does_not_have_is_reported() -> None:
     problem = problem_of('a = { value = 0.1, what = "x B" }')
     late = replace(problem, published=(replace(problem.published[0], position=7),))
     (item,) = audit(late)
-    assert item.why is NoValue.NO_POSITION
-    said = language("en").audit["whys"][NoValue.NO_POSITION.value]
+    assert item.reason is NoValue.NO_POSITION
+    said = get_language("en").audit["whys"][NoValue.NO_POSITION.value]
     assert said in AuditDocument("en", 0.5).markdown([(late, [item])])
 
 
 def test_a_value_without_a_quantity_is_listed_with_its_note() -> None:
     problem = problem_of('a = { value = 0.1, note = "вторая передаточная функция" }')
     (item,) = audit(problem)
-    assert item.why is NoValue.NO_WHAT
+    assert item.reason is NoValue.NO_QUANTITY
     text = AuditDocument("en", 0.5).markdown([(problem, [item])])
     assert "not computed | вторая передаточная функция |" in text
 
@@ -148,7 +148,7 @@ def test_scales_are_found_from_the_printed_values_if_the_file_has_none() -> None
     assert v.read == pytest.approx(0.71)
     assert b.exact == pytest.approx(25.0)
     assert q.exact == pytest.approx(50 * R)
-    assert c.why is NoValue.NO_SCALE
+    assert c.reason is NoValue.NO_SCALE
     given = source_scales(problem_of(*entries, scales="[scales]\nmu_l = 0.002\n"))
     assert (given.mu_l, given.mu_v) == (0.002, 0.02)
 
@@ -288,7 +288,7 @@ def test_the_counts_add_up() -> None:
 
 def test_every_row_has_every_cell() -> None:
     for lang in LANGUAGES:
-        says = language(lang).audit
+        says = get_language(lang).audit
         text = AuditDocument(lang, 0.5).markdown(audits())
         for block in text.split("\n\n"):
             rows = [line for line in block.splitlines() if line.startswith("| ")]
@@ -325,7 +325,7 @@ def test_the_command_prints_by_default_in_russian() -> None:
     path = next(path for path in PROBLEMS if path.stem == "ex1")
     result = CliRunner().invoke(cli, ["audit", str(path), "--ruler", "1"])
     assert result.exit_code == 0
-    assert result.stdout.startswith(f"# {language('ru').audit.title}")
+    assert result.stdout.startswith(f"# {get_language('ru').audit.title}")
     assert "ценой деления 1 мм" in result.stdout
 
 

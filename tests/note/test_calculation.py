@@ -17,7 +17,7 @@ from planmethod.note.formula import inlined
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.steps import calculation
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.model import PlanKind
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
@@ -29,13 +29,13 @@ PLANS = (PlanKind.VELOCITY, PlanKind.ACCELERATION)
 
 def lines_of(solution: Solution, lang: str) -> list[str]:
     """Return the formulas of both plans, those of one line each for itself."""
-    lines = [line for kind in PLANS for line in calculation(solution, kind, 0, language(lang))]
+    lines = [line for kind in PLANS for line in calculation(solution, kind, 0, get_language(lang))]
     return [part for line in lines for part in line.split(";  ")]
 
 
 def assert_computes(lines: list[str], lang: str) -> int:
     """Check to four digits of the numbers put in, of a difference too; return the count."""
-    count, decimal = 0, language(lang).say.decimal
+    count, decimal = 0, get_language(lang).notation.decimal
     for line in map(inlined, lines):
         *_, numbers, result = ["", *line.split(" = ")]
         letters = re.search(r"[^\W\d]", re.sub(r"\^\{.*?\}", "", numbers))
@@ -97,12 +97,12 @@ _LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 def test_every_value_of_the_plans_is_in_a_formula(seed: int) -> None:
     """Vectors laid off, vectors read, and angular velocities and accelerations of links."""
     solution = drawn(seed)
-    names, lines = Names(solution, language("ru").note, on_sheet=True), lines_of(solution, "ru")
+    names, lines = Names(solution, get_language("ru").note, on_sheet=True), lines_of(solution, "ru")
     symbols = {part for line in lines for part in line.split(" = ")[:-1]}
-    for motion in (names.kin.velocity, names.kin.acceleration):
+    for motion in (names.kinematics.velocity, names.kinematics.acceleration):
         for ends, number in motion.segments.values.items():
             vector = names.vector(*ends)
             own = {names.symbol(number), *([vector.symbol] if vector else [])}
             assert own & symbols or not isinstance(names.step[number], Compute), number
-    for number in (*names.kin.omega.values(), *names.kin.epsilon.values()):
+    for number in (*names.kinematics.omega.values(), *names.kinematics.epsilon.values()):
         assert names.symbol(number) in symbols or not isinstance(names.step[number], Compute)

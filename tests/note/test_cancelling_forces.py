@@ -86,4 +86,4 @@ def test_a_driver_at_rest_has_no_lever_and_one_remark_on_it(tmp_path: Path) -> N
 def test_a_force_along_the_axis_of_the_crank_has_no_moment(what: str) -> None:
     more = f'{CANCEL}\n[published]\n"q" = {{ value = 1.0, unit = "Н", what = "{what}" }}\n'
     (entry,) = audit(six_link(more))
-    assert entry.exact is None and entry.why is not None and entry.why.value == "no arm"
+    assert entry.exact is None and entry.reason is not None and entry.reason.value == "no arm"

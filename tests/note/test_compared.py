@@ -18,7 +18,7 @@ from worked import PROBLEMS
 
 from planmethod.cli import cli
 from planmethod.note.document import Document, Table
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.render.layout.tables import TablePart
 
 NONE = "—"
@@ -63,7 +63,7 @@ def written(text: str, sense: int | None = None) -> Range | None:
 @cache
 def names(lang: str) -> tuple[set[str], set[str], set[str]]:
     """Return the names of reference values, compared values and differences in the tables."""
-    words = language(lang)
+    words = get_language(lang)
     sheets, said, point = words.sheets, words.report, words.point
     compared, reactions = said["results"]["columns_compared"], said["forces"]["columns_reactions"]
     train, results = said["gears"]["columns"], words.gears["sheet"]["columns_results"]

@@ -18,7 +18,7 @@ from worked import path_of
 from benchmarks.hard_problems import rocker
 from planmethod.errors import AssemblyError
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem import loads
 from planmethod.solved.forces.reading import ForceReading
@@ -268,9 +268,9 @@ def test_every_reaction_is_described_from_end_to_end() -> None:
         reading, text = ForceReading(solution, 0), forces_of(text_of(solution))
         for plan in reading.plans:
             for edge in plan.reactions:
-                symbol = re.escape(plain_text(language("ru").say.symbol(edge.symbol)))
+                symbol = re.escape(plain_text(get_language("ru").notation.symbol(edge.symbol)))
                 assert re.search(rf"[ :]{symbol} (=|≈) [^;.]*[;.]", text), symbol
-                if not reading.is_none(edge):
+                if not reading.is_negligible(edge):
                     said = rf"{symbol} (— (вектор )?от|=|замыкает)|реакция {symbol} = "
                     assert re.search(said, text), symbol
 
@@ -288,7 +288,7 @@ def test_a_tangential_reaction_turns_its_link_in_the_stated_sense() -> None:
         for plan in reading.plans:
             for equation in plan.moments:
                 edge = equation.force
-                if edge is None or reading.is_none(edge):
+                if edge is None or reading.is_negligible(edge):
                     continue
                 arm = reading.place(edge.at) - reading.place(equation.about)
                 turn = (arm.conjugate() * reading.force(edge)).imag
@@ -446,7 +446,7 @@ def test_a_shifted_force_of_inertia_is_described_at_its_point_of_action(lang: st
     solution = six_link(("[dynamics]", "[dynamics]\nresultant = true"))
     text = flat(protocol(solution, lang=lang))
     (shift,) = statics_of(solution).board.shifts.values()
-    drawn = abs(float(statics_of(solution).by_hand.number(shift.length)[0]))
+    drawn = abs(float(statics_of(solution).ruler_reading.number(shift.length)[0]))
     laid = "откладываем {} мм от точки S2" if lang == "ru" else "{} mm are laid off from point S2"
     length = f"{drawn:.2f}"
     assert laid.format(length.replace(".", ",") if lang == "ru" else length) in text

@@ -13,7 +13,7 @@ from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
 
 from planmethod.note.audit.audit import Audited, AuditVerdict, audit, source_force_scale
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import FORCES, parse_selector
@@ -176,7 +176,7 @@ def test_the_shift_is_the_constructed_one() -> None:
     quantities, selector = SelectorValues(solution), parse_selector("shift 3")
     exact = statics_of(solution).paper.point(shift.at) - solution.paper.point(shift.centre)
     assert quantities.exact(selector) == pytest.approx(abs(complex(exact[0])), rel=1e-9)
-    laid = statics_of(solution).by_hand.number(shift.length)
+    laid = statics_of(solution).ruler_reading.number(shift.length)
     assert quantities.read(selector) == pytest.approx(abs(float(laid[0])), rel=1e-9)
     assert abs(complex(exact[0])) == pytest.approx(83.4, abs=0.5)
 
@@ -237,7 +237,7 @@ def test_a_driving_slider_is_balanced_along_its_guide() -> None:
     assert asked(slider, "lever") == pytest.approx(30.0)
     with pytest.raises(NoValueError) as caught:
         asked(slider, "balance B")
-    assert caught.value.why is NoValue.NO_LINK
+    assert caught.value.reason is NoValue.NO_LINK
 
 
 @pytest.mark.parametrize(
@@ -251,7 +251,7 @@ def test_a_driving_slider_is_balanced_along_its_guide() -> None:
         (loaded(), "shift 1", NoValue.ZERO_DIVISOR),
         (loaded(), "balance D", NoValue.NO_LINK),
         (loaded(), "F 1 0 / weight 1", NoValue.ZERO_DIVISOR),
-        (loaded(driver="omega = 0"), "lever", NoValue.STANDS),
+        (loaded(driver="omega = 0"), "lever", NoValue.AT_REST),
     ],
 )
 def test_missing_quantities_of_forces_have_a_reason(
@@ -259,8 +259,8 @@ def test_missing_quantities_of_forces_have_a_reason(
 ) -> None:
     with pytest.raises(NoValueError) as caught:
         asked(problem, what)
-    assert caught.value.why is why
-    assert all(language(lang).audit["whys"][why.value] for lang in LANGUAGES)
+    assert caught.value.reason is why
+    assert all(get_language(lang).audit["whys"][why.value] for lang in LANGUAGES)
 
 
 def test_a_zero_force_has_no_direction() -> None:
@@ -270,7 +270,7 @@ def test_a_zero_force_has_no_direction() -> None:
     for what in ("angle F 3 0", "arm F 3 0 about A"):
         with pytest.raises(NoValueError) as caught:
             asked(still, what)
-        assert caught.value.why is NoValue.NO_DIRECTION
+        assert caught.value.reason is NoValue.NO_DIRECTION
 
 
 # Audit -----------------------------------------------------------------------------------------
@@ -323,4 +323,4 @@ def test_true_lengths_need_no_scale() -> None:
     text = KULISA + LOADS + f"[published]\n{entry}\n{drawn}\n"
     found: list[Audited] = audit(loads(text, name="kulisa"))
     assert found[0].exact == pytest.approx(0.15 * sqrt(2))
-    assert found[1].why is NoValue.NO_SCALE
+    assert found[1].reason is NoValue.NO_SCALE

@@ -20,11 +20,11 @@ from planmethod.note.formula import (
     written,
 )
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import language
-from planmethod.note.writers.broken import lines_of
-from planmethod.note.writers.sentences import formula_alone, pieces, units_of, with_stops
+from planmethod.note.wording import get_language
+from planmethod.note.writers.linebreak import lines_of
+from planmethod.note.writers.sentences import pieces, sole_formula, units_of, with_stops
 
-UNITS = units_of(language("ru").note["units"])
+UNITS = units_of(get_language("ru").note["units"])
 
 
 def test_the_tree_has_every_part_of_the_text() -> None:
@@ -126,5 +126,5 @@ def test_no_line_begins_with_the_stop_after_a_formula() -> None:
 
 
 def test_a_formula_alone_is_known() -> None:
-    assert formula_alone(pieces(parse("(pb) = v_{B} = 5 мм."), UNITS))
-    assert not formula_alone(pieces(parse("(pb) = v_{B} (точно 5)."), UNITS))
+    assert sole_formula(pieces(parse("(pb) = v_{B} = 5 мм."), UNITS))
+    assert not sole_formula(pieces(parse("(pb) = v_{B} (точно 5)."), UNITS))

@@ -9,7 +9,7 @@ from worked import path_of
 from planmethod.kinds import kind_of, load
 from planmethod.note.document import Document
 from planmethod.note.protocol import protocol_document
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import Language, get_language
 from planmethod.options import drawn_by
 from planmethod.solved.solution import Solution
 
@@ -38,6 +38,6 @@ def documents_of(name: str, words: Language) -> list[Document]:
 
 @each("name, least, lang", FILES)
 def test_the_numbers_of_every_formula_come_to_its_result(name: str, least: int, lang: str) -> None:
-    documents = documents_of(name, language(lang))
+    documents = documents_of(name, get_language(lang))
     texts = (text for document in documents for text in texts_of(document))
     assert count_equations_that_hold(texts) >= least

@@ -10,11 +10,11 @@ from worked import path_of
 
 from planmethod.note.records.solution import record
 from planmethod.note.records.spreadsheet import csv_columns
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans import build
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import Quantity, QuantityKind, motion_quantities
-from planmethod.plans.motion.leads import Kinematics
+from planmethod.plans.motion.legs import Kinematics
 from planmethod.problem import load
 from planmethod.problem.model import Problem
 from planmethod.render.sheets.results import result_columns
@@ -47,7 +47,9 @@ def test_a_quantity_of_the_legend_is_in_every_output(problem: Problem) -> None:
     read = solution.read_off("omega_0/3")[0]
     told = {"omega": read, "sigma_omega": pytest.approx(sigma)}
     assert entry["hand"]["links"]["0/3"] == told
-    assert "ω_{0/3}" in [column.head for column in result_columns(solution, [0], language("ru"))]
+    assert "ω_{0/3}" in [
+        column.head for column in result_columns(solution, [0], get_language("ru"))
+    ]
     rows = [line.split() for line in result_tables(solution, "en", sigma=True).splitlines()]
     assert ["0/3", "—", "−15.48", "−15.52", "0.3", "clockwise"] in rows
     many = result_tables(Solution(problem, positions=[0.0, 30.0, 60.0, 90.0]), "en")

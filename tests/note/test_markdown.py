@@ -11,12 +11,12 @@ from noted import note
 from planmethod.note import document
 from planmethod.note.document import Document, Equation, Node, Term, table_of
 from planmethod.note.formula import parse
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.note.writers.markdown import latex, markdown_document
 
 
 def written(*nodes: Node, lang: str = "ru") -> str:
-    return markdown_document(Document.of(nodes), language(lang)) + "\n"
+    return markdown_document(Document.of(nodes), get_language(lang)) + "\n"
 
 
 @pytest.mark.parametrize(
@@ -90,7 +90,7 @@ def test_figures_are_captions_and_a_title_page_is_lines() -> None:
 
 
 def test_every_node_is_written_and_each_brace_and_dollar_has_its_pair() -> None:
-    text = markdown_document(note(), language("ru"))
+    text = markdown_document(note(), get_language("ru"))
     assert text.count("{") == text.count("}")
     assert len(re.findall(r"(?<!\\)\$", text)) % 2 == 0
     for shown in ("## Содержание", "- 1 Кинематика", "#### 1.1.1. Группа 2–3", "- 1 $n_{1}"):

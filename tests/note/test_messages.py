@@ -22,10 +22,18 @@ import planmethod
 from planmethod.cli import COMMANDS, cli, command_of
 from planmethod.errors import PlanMethodError
 from planmethod.kinds import load
-from planmethod.languages import LANGUAGES, WRITTEN, catalogue, say, speaking, spoken_to, translated
+from planmethod.languages import (
+    LANGUAGES,
+    WRITTEN,
+    catalogue,
+    choose_language,
+    look_up_translation,
+    speaking,
+    translate,
+)
 from planmethod.problem import keys
-from planmethod.problem.declared import NumberKey, declared
-from planmethod.problem.head import TITLE_BLOCK, TITLE_BLOCK_IN
+from planmethod.problem.common import TITLE_BLOCK, TITLE_BLOCK_IN
+from planmethod.problem.key_types import NumberKey, declared
 
 HOME = Path(planmethod.__file__).parent
 WORDING = HOME / "note" / "wording"
@@ -36,7 +44,7 @@ DECLARED = [one.key for record in keys.FLAT.values() for one in declared(record)
 NUMBERS = [key for key in DECLARED if isinstance(key, NumberKey)]
 REFERENCE = {
     *(text for key in DECLARED for text in (key.sentence, key.more, key.absent)),
-    *(key.what for key in NUMBERS if key.unit),  # printed with the unit
+    *(key.noun for key in NUMBERS if key.unit),  # printed with the unit
     *TITLE_BLOCK.values(),
     *TITLE_BLOCK_IN.values(),
 }
@@ -156,7 +164,7 @@ def test_every_message_of_a_catalogue_is_found(lang: str) -> None:
     """Its key is the English sentence of the source."""
     with speaking(lang):
         for english, other in messages(lang).items():
-            assert translated(english) == other
+            assert look_up_translation(english) == other
 
 
 @pytest.mark.parametrize("lang", OTHERS)
@@ -256,18 +264,18 @@ def test_python_runs_the_package() -> None:
 
 def test_words_go_with_their_numbers() -> None:
     head = "{0}: {1} fault{1:||s} in the problem file"
-    assert [say(head, "a", n).split()[2] for n in (1, 2, 21)] == ["fault", "faults", "faults"]
+    assert [translate(head, "a", n).split()[2] for n in (1, 2, 21)] == ["fault", "faults", "faults"]
     with speaking("ru"):
-        told = [say(head, "a", n).split()[2] for n in (1, 2, 5, 11, 21, 22, 112)]
+        told = [translate(head, "a", n).split()[2] for n in (1, 2, 5, 11, 21, 22, 112)]
     assert told == ["ошибка", "ошибки", "ошибок", "ошибок", "ошибка", "ошибки", "ошибок"]
 
 
 def test_texts_of_a_file_are_left_unchanged() -> None:
     with speaking("ru"):
-        once = say("the mechanism has no '{}'", "missing {0}")
+        once = translate("the mechanism has no '{}'", "missing {0}")
         assert once == "в механизме нет имени «missing {0}»"
-        assert say(once) == once
-        assert say("nobody knows {this}") == "nobody knows {this}"
+        assert translate(once) == once
+        assert translate("nobody knows {this}") == "nobody knows {this}"
 
 
 def test_the_language_can_be_selected() -> None:
@@ -285,4 +293,4 @@ def test_the_language_can_be_selected() -> None:
         ("--lang", {"PLANMETHOD_LANG": "nonsense", "LANG": "ru_RU"}, "ru"),
     ]
     for words, environ, lang in cases:
-        assert spoken_to(words.split(), environ) == lang, (words, environ)
+        assert choose_language(words.split(), environ) == lang, (words, environ)

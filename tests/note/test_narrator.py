@@ -6,9 +6,9 @@ import pytest
 
 from planmethod.construct import steps
 from planmethod.construct.program import Builder
-from planmethod.construct.steps import LineName, NumberName, PointName, Side, Way
+from planmethod.construct.steps import LineName, LineSense, NumberName, PointName, Side
 from planmethod.note.narrate.narrator import BoardNarrator, StepNarrator
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 
 NUMBERS = {"r": 30.0, "s": -40.0, "turned": -1.0, "read AC": 25.04}
 COURSES = {"ray": 3.0 + 1.0j, "post": -0.5 - 2.0j}
@@ -29,7 +29,7 @@ class Letters:
     def line(self, name: LineName) -> str:
         return f"<{name}>"
 
-    def course(self, name: LineName) -> complex:
+    def direction_vector(self, name: LineName) -> complex:
         return COURSES[name]
 
     def length(self, name: NumberName) -> str:
@@ -45,46 +45,46 @@ class Letters:
 class Marking(BoardNarrator):
     """A narrator with its own sentence for given points."""
 
-    def given(self, step: steps.Given) -> list[str]:
+    def given_point(self, step: steps.GivenPoint) -> list[str]:
         return [f"mark {self.naming.point(step.out)}"]
 
 
 @pytest.fixture
 def narrator() -> BoardNarrator:
-    return Marking(Letters(), language("en").note)
+    return Marking(Letters(), get_language("en").note)
 
 
-def arc(way: Way, line: str = "ray", branch: str | None = None) -> steps.MeetLineCircle:
+def arc(way: LineSense, line: str = "ray", branch: str | None = None) -> steps.IntersectLineCircle:
     turned = None if branch is None else NumberName(branch)
     names = PointName("C"), LineName(line), PointName("A"), NumberName("r")
-    return steps.MeetLineCircle(*names, way, turned)
+    return steps.IntersectLineCircle(*names, way, turned)
 
 
 def test_a_narrators_own_sentence_outranks_silence(narrator: BoardNarrator) -> None:
-    assert narrator.tell(steps.Given(PointName("A"))) == ["mark A_{1}"]
-    assert narrator.tell(steps.GivenNumber(NumberName("r"))) == []
+    assert narrator.narrate(steps.GivenPoint(PointName("A"))) == ["mark A_{1}"]
+    assert narrator.narrate(steps.GivenNumber(NumberName("r"))) == []
 
 
 def test_an_intersection_names_both_lines_and_the_point(narrator: BoardNarrator) -> None:
-    step = steps.MeetLines(PointName("C"), LineName("ray"), LineName("post"))
-    assert narrator.tell(step) == ["Where <ray> meets <post> we get point C_{1}."]
+    step = steps.IntersectLines(PointName("C"), LineName("ray"), LineName("post"))
+    assert narrator.narrate(step) == ["Where <ray> meets <post> we get point C_{1}."]
 
 
 @pytest.mark.parametrize(
     ("step", "key"),
     [
-        (arc(Way.FORWARD), "rightmost"),
-        (arc(Way.BACKWARD), "leftmost"),
-        (arc(Way.FORWARD, branch="turned"), "leftmost"),
-        (arc(Way.FORWARD, "post"), "lower"),
-        (arc(Way.BACKWARD, "post"), "upper"),
+        (arc(LineSense.FORWARD), "rightmost"),
+        (arc(LineSense.BACKWARD), "leftmost"),
+        (arc(LineSense.FORWARD, branch="turned"), "leftmost"),
+        (arc(LineSense.FORWARD, "post"), "lower"),
+        (arc(LineSense.BACKWARD, "post"), "upper"),
     ],
 )
 def test_an_arc_names_the_chosen_intersection(step: steps.Step, key: str) -> None:
     for lang in LANGUAGES:
-        words = language(lang).note
+        words = get_language(lang).note
         ways = {name: getattr(words, name) for name in ("rightmost", "leftmost", "upper", "lower")}
-        (told,) = Marking(Letters(), words).tell(step)
+        (told,) = Marking(Letters(), words).narrate(step)
         assert [name for name, word in ways.items() if word in told] == [key], told
         assert "30 mm" in told
 
@@ -95,7 +95,7 @@ def test_two_arcs_name_the_side_of_the_line_of_centres(
     narrator: BoardNarrator, side: Side, branch: NumberName | None
 ) -> None:
     ends = PointName("A"), NumberName("r"), PointName("B"), NumberName("s")
-    (told,) = narrator.tell(steps.MeetCircles(PointName("C"), *ends, side, branch))
+    (told,) = narrator.narrate(steps.IntersectCircles(PointName("C"), *ends, side, branch))
     is_left = (side is Side.LEFT) == (branch is None)
     assert ("on the left" in told, "on the right" in told) == (is_left, not is_left)
     assert "A_{1} with the radius 30 mm" in told
@@ -103,16 +103,16 @@ def test_two_arcs_name_the_side_of_the_line_of_centres(
 
 
 def test_a_reading_has_the_value_read_and_the_exact_one(narrator: BoardNarrator) -> None:
-    (told,) = narrator.tell(steps.Measure(NumberName("read AC"), PointName("A"), PointName("C")))
+    (told,) = narrator.narrate(steps.Measure(NumberName("read AC"), PointName("A"), PointName("C")))
     assert told == "We measure the segment AC = 25.04 mm (exactly 25.00 mm)."
 
 
 def test_a_kind_without_sentences_is_silent_about_every_step() -> None:
     builder = Builder()
-    one, other = builder.given("A"), builder.given("B")
+    one, other = builder.take_point("A"), builder.take_point("B")
     base = builder.join(one, other)
     radius = builder.measure("r", one, other)
-    builder.meet_circles("C", one, radius, other, radius, Side.LEFT)
-    builder.meet_lines("D", base, builder.perpendicular(other, base))
+    builder.intersect_circles("C", one, radius, other, radius, Side.LEFT)
+    builder.intersect_lines("D", base, builder.perpendicular(other, base))
     narrator = StepNarrator()
-    assert [narrator.tell(step) for step in builder.steps] == [[]] * len(builder.steps)
+    assert [narrator.narrate(step) for step in builder.steps] == [[]] * len(builder.steps)

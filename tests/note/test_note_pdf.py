@@ -23,15 +23,15 @@ from planmethod.note.document import (
     Table,
 )
 from planmethod.note.formula import parse
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.note.writers.html import html_document
 from planmethod.note.writers.pdfformula import FormulaSetter
 from planmethod.note.writers.pdfnote import note_fonts, pdf_note
-from planmethod.note.writers.plain import plain_document
+from planmethod.note.writers.terminal import plain_document
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.ink.drawing import Drawing
 
-RU = language("ru")
+RU = get_language("ru")
 
 
 def test_the_note_is_the_same_each_time_and_embeds_its_letters() -> None:

@@ -38,8 +38,8 @@ from planmethod.note.document import (
     table_of_quantities,
 )
 from planmethod.note.formula import escape
-from planmethod.note.wording import language
-from planmethod.note.writers.plain import WIDTH, plain_document, width
+from planmethod.note.wording import get_language
+from planmethod.note.writers.terminal import WIDTH, plain_document, width
 
 LONG = " ".join(["word"] * 30)
 
@@ -74,7 +74,7 @@ ALONE: dict[type, tuple[Node, str]] = {
 
 
 def written(*nodes: Node, lang: str = "en") -> str:
-    return plain_document(Document.of(nodes), language(lang))
+    return plain_document(Document.of(nodes), get_language(lang))
 
 
 @pytest.mark.parametrize("kind", get_args(Node))
@@ -153,7 +153,7 @@ def test_equations_are_cut_at_a_sign_that_is_repeated() -> None:
 
 @pytest.mark.parametrize("lang", ["ru", "en"])
 def test_a_number_and_its_unit_are_not_parted(lang: str) -> None:
-    metre = language(lang).note["units"]["m"]
+    metre = get_language(lang).note["units"]["m"]
     for count in range(80, 100):
         text = written(Paragraph("x" * count + f" 0.25 {metre} y"), lang=lang)
         assert f"0.25 {metre}" in text
@@ -206,7 +206,7 @@ def test_items_below_a_caption_are_indented_and_others_are_not() -> None:
 
 
 def test_zero_has_no_sign() -> None:
-    say = language("ru").say
+    say = get_language("ru").notation
     assert [say.number(text) for text in ("-0.00", "-0", "0.0", "-0.01")] == [
         "0,00",
         "0",

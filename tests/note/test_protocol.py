@@ -9,7 +9,7 @@ from texts import protocol
 from told import LANGUAGES, assert_readable, drawn, flat, told, worked
 from worked import SIX, path_of
 
-from planmethod.construct.steps import Carry, MeasureArm, PointName, Step, Total, makes
+from planmethod.construct.steps import Carry, MeasureArm, PointName, Step, Total, result_kind
 from planmethod.note.narrate.naming import Names
 from planmethod.note.wording import wording
 from planmethod.plans.model import PlanKind
@@ -139,7 +139,7 @@ def test_offsets_are_on_the_stated_side() -> None:
         place = {
             names.point(PointName(step.out)): complex(solution.paper.point(step.out)[0])
             for step in steps
-            if makes(step) is PointName and step.out not in names.letters
+            if result_kind(step) is PointName and step.out not in names.letters
         }
         bases = {a + b: place[b] - place[a] for a in place for b in place if a != b}
         for found in OFFSET.finditer(flat(protocol(solution))):
@@ -171,7 +171,7 @@ def test_sections_are_the_whole_program_in_order() -> None:
     program = solution.construction.program
     assert steps == program.steps[: len(steps)]
     # Later steps serve the tables of results and add no point to a plan.
-    assert not [step for step in program.steps[len(steps) :] if makes(step) is PointName]
+    assert not [step for step in program.steps[len(steps) :] if result_kind(step) is PointName]
     assert [s.kind for s in found] == [
         *[PlanKind.POSITION] * 4,
         *[PlanKind.VELOCITY] * 3,

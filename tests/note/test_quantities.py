@@ -132,4 +132,4 @@ def test_an_angle_is_not_read_with_a_ruler() -> None:
 def test_quantities_that_the_solution_does_not_have_are_rejected(what: str, why: NoValue) -> None:
     with pytest.raises(NoValueError) as caught:
         kulisa().exact(parse_selector(what))
-    assert caught.value.why is why
+    assert caught.value.reason is why

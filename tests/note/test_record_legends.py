@@ -21,7 +21,7 @@ def test_sizes_of_a_mesh_are_those_of_its_tables(name: str) -> None:
     legend = told["legend"]
     assert {*legend} <= {*told["meshing"]}
     assert [*legend] == [
-        one.quantity.key for group in SolvedMeshing(problem).told() for one in group
+        one.quantity.key for group in SolvedMeshing(problem).sized_quantities() for one in group
     ]
     assert legend["d_b"] == {"symbol": ["d_b1", "d_b2"], "unit": "mm"}
     assert legend["alpha_w"] == {"symbol": "α_w", "unit": "deg"}

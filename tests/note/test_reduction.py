@@ -7,14 +7,16 @@ import pytest
 from cases import each
 from worked import problem_of
 
-from planmethod.note.narrate.reduction import ReductionTeller
-from planmethod.note.tables.machine import machine_teller
-from planmethod.note.wording import language
+from planmethod.note.narrate.reduction import ReductionNarrator
+from planmethod.note.tables.machine import machine_narrator
+from planmethod.note.wording import get_language
 from planmethod.solved.solution import Solution
 
 
-def told(name: str, variant: str | None = None) -> ReductionTeller:
-    return ReductionTeller(machine_teller(Solution(problem_of(name, variant)), language("ru")))
+def told(name: str, variant: str | None = None) -> ReductionNarrator:
+    return ReductionNarrator(
+        machine_narrator(Solution(problem_of(name, variant)), get_language("ru"))
+    )
 
 
 MACHINES = [("press/flywheel", None), ("press/flywheel", "source"), ("machines/engine", None)]

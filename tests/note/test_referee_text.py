@@ -6,7 +6,7 @@ import pytest
 from texts import referee_tables
 from worked import problem_of
 
-from planmethod.note.tables.referee import judged, referee_record
+from planmethod.note.tables.referee import examine_results, referee_record
 from planmethod.solved.accuracy import examine
 from planmethod.solved.solution import Solution
 
@@ -36,7 +36,7 @@ def test_the_record_has_all_digits() -> None:
 
 def test_more_digits_agree_with_fewer() -> None:
     solution = Solution(problem_of("levers/six-link"))
-    few, many = judged(solution, 25)[0], judged(solution, 60)[0]
+    few, many = examine_results(solution, 25)[0], examine_results(solution, 60)[0]
     for one, two in zip(few.verdicts, many.verdicts, strict=True):
         assert one.label == two.label
         assert abs(one.value - complex(two.value)) <= 1e-14 * (1 + two.size)

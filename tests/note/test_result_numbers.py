@@ -11,13 +11,13 @@ from worked import problem_of
 
 from planmethod.note.document import Table
 from planmethod.note.tables.results import results_document
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
-EN = language("en")
+EN = get_language("en")
 TURN = {"counter-clockwise": 1.0, "clockwise": -1.0, "—": 0.0}
 CASES = (
     ("press/press", None),

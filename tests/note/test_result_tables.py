@@ -14,7 +14,7 @@ from worked import SIX, problem_of
 from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import plain_text
 from planmethod.note.records.spreadsheet import csv_rows
-from planmethod.note.writers.plain import WIDTH, columns_text, pad, table, width
+from planmethod.note.writers.terminal import WIDTH, columns_text, pad, table, width
 from planmethod.solved.solution import Solution
 
 

@@ -13,11 +13,11 @@ from told import LANGUAGES, assert_readable, drawn, flat, worked
 from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES
-from planmethod.note.narrate.given import asked_links, asked_points
 from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.statement import reported_links, reported_points
 from planmethod.note.plaintext import plain_text
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.tables.causes import Causes
+from planmethod.note.tables.causes import ErrorCauses
 from planmethod.note.wording import wording
 from planmethod.plans.model import MOTION, PlanKind
 from planmethod.solved.errors.motion import Drafting, drafting_of
@@ -217,8 +217,8 @@ def test_many_positions_have_one_more_table(name: str, lang: str) -> None:
     table = text[text.index(title) :]
     head = [row for row in rows_of(table) if row[:1] == [wording(lang).number]]
     columns = [name for row in head for name in row[3:]]
-    assert len(columns) == 2 * len(asked_points(solution)) + 2 * len(asked_links(solution))
-    point = asked_points(solution)[-1]
+    assert len(columns) == 2 * len(reported_points(solution)) + 2 * len(reported_links(solution))
+    point = reported_points(solution)[-1]
     spread = drafting_of(solution).spreads[f"a_{point}"]
     (row,) = [row for row in head if f"a_{point}" in row]
     at = row.index(f"a_{point}") - 1  # "φ₁, °" is two words
@@ -237,10 +237,10 @@ def test_no_causes_of_many_positions() -> None:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_tables_without_errors_compute_none(lang: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    once = Solution.once
+    once = Solution.compute_once
     monkeypatch.setattr(
         Solution,
-        "once",
+        "compute_once",
         lambda s, make: pytest.fail("asked") if make is Drafting else once(s, make),
     )
     for solution in (worked("linkages/ex3"), around("linkages/ex3", 12)):
@@ -260,11 +260,11 @@ def test_the_largest_causes_of_the_worst_result(name: str, lang: str) -> None:
     lines = text[text.index(words.table_causes) :].split("\n\n")[0].splitlines()
     spreads = drafting_of(solution).spreads
     worst: dict[str, float] = {}
-    for point in asked_points(solution):
+    for point in reported_points(solution):
         motion = solution.points[point]
         worst[f"v_{point}"] = float(abs(motion.velocity[0]))
         worst[f"a_{point}"] = float(abs(motion.acceleration[0]))
-    for link in asked_links(solution):
+    for link in reported_links(solution):
         worst[f"omega_{link}"] = abs(float(solution.links[link].omega[0]))
         worst[f"epsilon_{link}"] = abs(float(solution.links[link].epsilon[0]))
     parts = {
@@ -288,7 +288,7 @@ def test_the_largest_causes_of_the_worst_result(name: str, lang: str) -> None:
 def test_every_stroke_has_a_name(name: str | int, lang: str) -> None:
     """Every cause of every quantity has a name that a reader knows."""
     solution = drawn(name) if isinstance(name, int) else worked(name)
-    causes = Causes(Names(solution, wording(lang)))
+    causes = ErrorCauses(Names(solution, wording(lang)))
     strokes = {
         stroke
         for label in drafting_of(solution).items
@@ -296,7 +296,7 @@ def test_every_stroke_has_a_name(name: str | int, lang: str) -> None:
     }
     assert strokes
     for stroke in strokes:
-        said = plain_text(causes.tell(stroke))
+        said = plain_text(causes.describe(stroke))
         assert_readable(said)
         assert said.endswith(")"), said  # which plan it is on
 
@@ -304,7 +304,7 @@ def test_every_stroke_has_a_name(name: str | int, lang: str) -> None:
 def test_causes_are_named_by_the_drawn_item() -> None:
     solution = worked("linkages/ex3")
     causes, velocity = (
-        Causes(Names(solution, wording("ru"))),
+        ErrorCauses(Names(solution, wording("ru"))),
         solution.construction.kinematics.velocity,
     )
     read = velocity.segments.drawn((velocity.pole, velocity.point["3", "B"]))
@@ -316,9 +316,9 @@ def test_causes_are_named_by_the_drawn_item() -> None:
         read: "снятие отрезка pb₃ (план скоростей)",
         "a:D": "построение точки d по подобию (план ускорений)",
     }.items():
-        assert plain_text(causes.tell(stroke)) == named
-    english = Causes(Names(worked("linkages/ex2"), wording("en")))
-    assert plain_text(english.tell("B")) == "fixing point B with an arc (position plan)"
+        assert plain_text(causes.describe(stroke)) == named
+    english = ErrorCauses(Names(worked("linkages/ex2"), wording("en")))
+    assert plain_text(english.describe("B")) == "fixing point B with an arc (position plan)"
 
 
 def test_without_a_believed_result_there_are_no_causes() -> None:
@@ -328,5 +328,5 @@ def test_without_a_believed_result_there_are_no_causes() -> None:
         label: type(spread)(spread.sigma, np.ones_like(spread.drawn))
         for label, spread in drafting_of(solution).spreads.items()
     }
-    assert tuple(Causes(Names(solution, wording("ru"))).nodes(0)) == ()
+    assert tuple(ErrorCauses(Names(solution, wording("ru"))).nodes(0)) == ()
     assert wording("ru").table_causes not in result_tables(solution, sigma=True)

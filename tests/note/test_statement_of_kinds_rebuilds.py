@@ -14,7 +14,7 @@ from rebuilt import file_of, printed, table_of
 from planmethod.kinds import KINDS
 from planmethod.note.document import GivenFact
 from planmethod.note.numbers import Notation
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 
 ROOT = Path(__file__).parents[2]
 CASES = [
@@ -150,7 +150,7 @@ parts = 8
 }
 """Additional problems, for data that the shipped ones do not have."""
 
-RU, EN = language("ru"), language("en")
+RU, EN = get_language("ru"), get_language("en")
 SAME = 1e-9
 ASIDE = ("published", "answers")
 """Parts of a record that are not computed: numbers printed in the file."""
@@ -213,7 +213,7 @@ def assert_rebuilt(kind: Any, path: Path, variant: str | None, written: Path) ->
             table["gears"]["ask"] = [*problem.train.ask]
         written.write_text(file_of(table), "utf-8")
         assert_same(kind.record(problem, "en"), kind.record(kind.load(written, None), "en"))
-        assert_printed(facts, words.say)
+        assert_printed(facts, words.notation)
 
 
 @each("kind,path", CASES)

@@ -19,9 +19,9 @@ from planmethod.gears.driving import TrainOutput
 from planmethod.kinds import kind_of, load_each
 from planmethod.note.document import GivenFact
 from planmethod.note.narrate.forces.statement import cycle_statement, statement
-from planmethod.note.narrate.given import arithmetic, drawn, given
+from planmethod.note.narrate.statement import arithmetic, drawn, given_facts
 from planmethod.note.numbers import Notation
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import Language, get_language
 from planmethod.problem.load_records import SizeTable
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.friction import friction_of
@@ -38,13 +38,13 @@ STATED = [
     if not path.stem.endswith("-fault")
 ]
 PROJECTS = [ROOT / "tests/data/projects/rubbing.toml"]
-RU, EN = language("ru"), language("en")
+RU, EN = get_language("ru"), get_language("en")
 SAME = 1e-9
 
 
 def assert_same(problem: Problem, again: Problem, positions: Sequence[float]) -> None:
-    one = Solution(problem).moved([*positions])
-    two = Solution(again).moved([*positions])
+    one = Solution(problem).with_positions([*positions])
+    two = Solution(again).with_positions([*positions])
     size = max(float(np.nanmax(np.abs(point.place))) for point in one.points.values())
     assert {*one.points} == {*two.points}
     for name, point in one.points.items():
@@ -90,7 +90,7 @@ def is_said_in_words(key: str, number: float) -> bool:
 
 
 def facts_of(problem: Problem, words: Language, positions: Sequence[float]) -> list[GivenFact]:
-    return [drawn(problem, words), *given(problem, words, positions)]
+    return [drawn(problem, words), *given_facts(problem, words, positions)]
 
 
 @each("path", FILES + STATED)
@@ -99,7 +99,7 @@ def test_every_problem_is_rebuilt_from_its_stated_data(path: Path) -> None:
         for words in (RU, EN):
             facts = facts_of(problem, words, problem.drive.positions)
             assert_same(problem, rebuilt(facts), problem.drive.positions)
-            assert_printed(problem, facts, words.say)
+            assert_printed(problem, facts, words.notation)
 
 
 @each("path", [path for path in FILES if "[variants" in path.read_text("utf-8")])
@@ -108,7 +108,7 @@ def test_every_variant_is_rebuilt(path: Path) -> None:
     for one in load_each(path, problem.variants[:: some(1, 7)] if problem.variants else []):
         facts = facts_of(one, RU, one.drive.positions)
         assert_same(one, rebuilt(facts), one.drive.positions)
-        assert_printed(one, facts, RU.say)
+        assert_printed(one, facts, RU.notation)
 
 
 @each("train", ("n = { 1 = -960 }", "omega = { 1 = -100 }"))
@@ -119,7 +119,7 @@ def test_a_linkage_driven_by_a_train_is_rebuilt_with_its_teeth(train: str) -> No
         facts = facts_of(problem, words, problem.drive.positions)
         again = rebuilt(facts)
         assert_same(problem, again, problem.drive.positions)
-        (one, two) = (x.drive.geared for x in (problem, again))
+        (one, two) = (x.drive.gear_drive for x in (problem, again))
         assert isinstance(one, TrainOutput) and isinstance(two, TrainOutput)
         assert (two.ratio, two.inputs) == (one.ratio, one.inputs)
         assert (two.train.wheels, two.train.meshes) == (one.train.wheels, one.train.meshes)
@@ -137,7 +137,7 @@ def test_random_mechanisms_are_rebuilt(seed: int) -> None:
             continue
         facts = facts_of(problem, EN, problem.drive.positions)
         assert_same(problem, rebuilt(facts), problem.drive.positions)
-        assert_printed(problem, facts, EN.say)
+        assert_printed(problem, facts, EN.notation)
 
 
 @each("path", FILES[::5])
@@ -145,7 +145,9 @@ def test_other_positions_keep_the_way_it_is_assembled(path: Path) -> None:
     (problem,) = load_each(path, [None])
     if not problem.drive.is_crank:
         return
-    solution = Solution(problem).moved([problem.drive.positions[0] + 3.0 * k for k in range(1, 9)])
+    solution = Solution(problem).with_positions(
+        [problem.drive.positions[0] + 3.0 * k for k in range(1, 9)]
+    )
     again = rebuilt(facts_of(problem, RU, solution.positions.tolist()))
     assert_same(problem, again, solution.positions.tolist())
 
@@ -194,7 +196,9 @@ def test_forces_of_a_cycle_follow_from_the_rows_of_its_loads() -> None:
     problems = [one for path in TABLED for one in load_each(path, [None]) if has_table(one)]
     assert len(problems) >= 7
     for problem in problems:
-        solution = Solution(problem).moved([*(problem.numbered or problem.drive.positions)])
+        solution = Solution(problem).with_positions(
+            [*(problem.numbered or problem.drive.positions)]
+        )
         facts = [drawn(problem, RU), *cycle_statement(solution, RU)]
         for fact in facts:
             for rows in nested(fact.data):
@@ -202,7 +206,7 @@ def test_forces_of_a_cycle_follow_from_the_rows_of_its_loads() -> None:
         if any("machine.cycle_deg" in fact.data for fact in facts):
             assert problem.machine is not None  # a machine has a δ, forces do not depend on it
             facts.append(GivenFact("", {"machine.delta": problem.machine.delta}))
-        again = Solution(rebuilt(facts)).moved(solution.positions.tolist())
+        again = Solution(rebuilt(facts)).with_positions(solution.positions.tolist())
         one, two = (statics_of(of).balance for of in (solution, again))
         assert two == pytest.approx(one, abs=SAME * np.abs(one).max())
 

@@ -14,8 +14,8 @@ from planmethod.mechanism.model import Mechanism, Revolute
 from planmethod.mechanism.structure import analyse
 from planmethod.note.narrate.structure import aligned_lines, structure_document
 from planmethod.note.records.solution import structure_record
-from planmethod.note.wording import language
-from planmethod.note.writers.plain import plain_document
+from planmethod.note.wording import get_language
+from planmethod.note.writers.terminal import plain_document
 from planmethod.render.ink.drawing import Text
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.aligned.schemes import self_aligning
@@ -65,7 +65,7 @@ def test_numbers_and_letters_of_the_six_link() -> None:
 def test_the_numbers_of_pairs_have_one_notation(
     notation: str | None, lower: str, higher: str
 ) -> None:
-    solution, words = worked("levers/six-link"), language("ru")
+    solution, words = worked("levers/six-link"), get_language("ru")
     document = structure_document(solution.problem.mechanism, solution.structure, words, notation)
     text = plain_document(document, words)
     assert f"W = 3n − 2{lower} − {higher} = 3·5" in text
@@ -76,7 +76,7 @@ def test_the_numbers_of_pairs_have_one_notation(
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("name", [*SIX, "levers/task-13", "levers/task-33", "levers/task-49"])
 def test_schemes_without_redundant_constraints_are_described(name: str, lang: str) -> None:
-    problem, words = problem_of(name), language(lang)
+    problem, words = problem_of(name), get_language(lang)
     structure = analyse(problem.mechanism)
     aligned = self_aligning(problem, structure)
     text = plain_document(
@@ -94,7 +94,7 @@ def test_schemes_without_redundant_constraints_are_described(name: str, lang: st
 
 
 def test_a_scheme_that_is_right_by_count_only_is_named() -> None:
-    problem, words = problem_of("levers/six-link"), language("ru")
+    problem, words = problem_of("levers/six-link"), get_language("ru")
     structure = analyse(problem.mechanism)
     aligned = self_aligning(problem, structure)
     lines = [

@@ -11,8 +11,8 @@ from msgspec.structs import replace
 from texts import result_tables
 from worked import problem_of
 
-from planmethod.note.tables.turn import cycle_columns
-from planmethod.note.wording import language
+from planmethod.note.tables.cycle import cycle_columns
+from planmethod.note.wording import get_language
 from planmethod.problem.cycle_records import CycleTask
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
@@ -74,7 +74,9 @@ def test_the_columns_of_a_turn_are_derivatives_of_one_another() -> None:
     diagrams = diagrams_of(Solution(replace(problem, cycle=CycleTask("B", count=24))))
     assert diagrams is not None
     omega = abs(problem.drive.rate)
-    columns = {head: (unit, cells) for head, unit, cells in cycle_columns(diagrams, language("en"))}
+    columns = {
+        head: (unit, cells) for head, unit, cells in cycle_columns(diagrams, get_language("en"))
+    }
     path, v_q, a_q, v, a = list(columns)[2:]
     assert [columns[head][0] for head in (path, v_q, a_q, v, a)] == ["m", "m", "m", "m/s", "m/s²"]
     assert (v_q[0], a_q[0], v[0], a[0]) == ("v", "a", "v", "a")

@@ -35,11 +35,11 @@ from planmethod.note.document import (
 )
 from planmethod.note.formula import parse
 from planmethod.note.protocol import protocol_document
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.note.writers import omml
 from planmethod.note.writers.word import word_document
 
-RU = language("ru")
+RU = get_language("ru")
 M, W = f"{{{omml.MATH}}}", f"{{{omml.WORD}}}"
 
 
@@ -76,7 +76,7 @@ def shape_of(markup: str) -> str:
         ("(pb) = −3 мм", '(pb)=−3"\u00a0""мм"'),
         (r"(\frac{a}{b})", "d(f(a,b))"),
         ("(1 + δ)^{2}", "sSup(d(1+δ),2)"),
-        ("_{2}", f'sSub("{omml.NOTHING}",2)'),
+        ("_{2}", f'sSub("{omml.EMPTY}",2)'),
         ("2M_{max}", '2sSub(M,"max")'),
         ("AB_{1} (x", 'AsSub(B,1)"\u00a0""("x'),
         ("tg ψ", '"tg""\u00a0"ψ'),
@@ -124,7 +124,7 @@ def test_points_are_italic_with_an_index_and_without() -> None:
     file = opened(word_document(Document.of([Paragraph(text)]), RU))
     shown = [shape(one) for one in file.element.body.iter(f"{M}oMath")]
     assert shown[:2] == ["B", "sSub(O,1)"] and len(shown) == 3
-    english = word_document(Document.of([Paragraph("A point B of link 2")]), language("en"))
+    english = word_document(Document.of([Paragraph("A point B of link 2")]), get_language("en"))
     assert not list(opened(english).element.body.iter(f"{M}oMath"))
 
 
@@ -396,7 +396,7 @@ def test_a_failure_without_the_template_is_not_blamed_on_it(
     def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError
 
-    monkeypatch.setattr("planmethod.note.writers.word.timeless", fail)
+    monkeypatch.setattr("planmethod.note.writers.word.strip_timestamps", fail)
     with pytest.raises(ZeroDivisionError):
         word_document(note(), RU, template=changed(tmp_path, lambda name, data: data))
 

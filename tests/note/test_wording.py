@@ -15,7 +15,13 @@ from planmethod.errors import ExitCode
 from planmethod.languages import WRITTEN
 from planmethod.note.audit.audit import AuditVerdict
 from planmethod.note.numbers import Notation
-from planmethod.note.wording import LANGUAGES, Language, UnknownLanguageError, Words, language
+from planmethod.note.wording import (
+    LANGUAGES,
+    Language,
+    MessageTable,
+    UnknownLanguageError,
+    get_language,
+)
 from planmethod.problem import FAMILIES, OTHER_FAMILIES
 from planmethod.problem.model import FORCE, MOMENT, PUSH, THRUST
 from planmethod.solved.selectors.steps import NoValue
@@ -73,7 +79,7 @@ def places(text: str) -> set[str]:
 
 @pytest.mark.parametrize("lang", LANGUAGES[1:])
 def test_a_language_has_every_sentence_of_russian_with_the_same_places(lang: str) -> None:
-    russian, other = (dict(said(language(name))) for name in (LANGUAGES[0], lang))
+    russian, other = (dict(said(get_language(name))) for name in (LANGUAGES[0], lang))
     assert set(russian) == set(other)
     for path, text in russian.items():
         assert type(text) is type(other[path])
@@ -90,12 +96,21 @@ def test_a_language_has_every_sentence_of_russian_with_the_same_places(lang: str
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_a_language_has_the_names_of_its_subjects(lang: str) -> None:
-    words = language(lang)
+    words = get_language(lang)
     lever = {f"lever {one.quantity}" for one in (MOMENT, FORCE)}
     rubbing = {"friction force", "friction moment"}
-    assert set(words.say.symbols) == {MOMENT.symbol, FORCE.symbol} | lever | MACHINE | rubbing
-    assert set(words.forces["and_balance"]) == {MOMENT.said, FORCE.said, PUSH.said}
-    assert set(words.note["balance"]) == {MOMENT.said, FORCE.said, PUSH.said, THRUST.said}
+    assert set(words.notation.symbols) == {MOMENT.symbol, FORCE.symbol} | lever | MACHINE | rubbing
+    assert set(words.forces["and_balance"]) == {
+        MOMENT.phrase_key,
+        FORCE.phrase_key,
+        PUSH.phrase_key,
+    }
+    assert set(words.note["balance"]) == {
+        MOMENT.phrase_key,
+        FORCE.phrase_key,
+        PUSH.phrase_key,
+        THRUST.phrase_key,
+    }
     assert set(words.sheets["balance"]) == {MOMENT.quantity, FORCE.quantity}
     assert list(words.families) == [*FAMILIES, *OTHER_FAMILIES]
     audit = words.audit
@@ -104,10 +119,10 @@ def test_a_language_has_the_names_of_its_subjects(lang: str) -> None:
 
 
 def test_russian_is_russian_and_english_is_english() -> None:
-    for path, text in said(language("en")):
+    for path, text in said(get_language("en")):
         assert not CYRILLIC.search(str(text)), path
     names = re.compile(r"\{\w*\}|\\frac|planmethod|toml|ГОСТ|PROBLEM|\[\w+\]|--\w+|`[^`]*`|\$\w+")
-    for path, text in said(language("ru")):
+    for path, text in said(get_language("ru")):
         if path.startswith((".layouts", ".note[lang]", ".note[units]", ".note[symbols]")):
             continue
         words = re.findall("[A-Za-z]{4,}", names.sub(" ", str(text)))
@@ -146,14 +161,14 @@ def _texts(kept: object) -> Iterator[str]:
             yield from _texts(one)
 
 
-WORDS = {subject: getattr(language(WRITTEN), subject) for subject in Language.__annotations__}
+WORDS = {subject: getattr(get_language(WRITTEN), subject) for subject in Language.__annotations__}
 
 
-def tables(words: Words) -> Iterator[Words]:
+def tables(words: MessageTable) -> Iterator[MessageTable]:
     """Yield a table of words and all tables in it."""
     yield words
     for one in words.values():
-        if isinstance(one, Words):
+        if isinstance(one, MessageTable):
             yield from tables(one)
 
 
@@ -164,7 +179,7 @@ NO_KEYS = {*dir(dict), *dir(Language("en")), *WORDS}
 """Attributes of a table, or of a whole language."""
 
 
-def table_of(node: ast.AST, known: Mapping[str, list[Words]]) -> list[Words] | None:
+def table_of(node: ast.AST, known: Mapping[str, list[MessageTable]]) -> list[MessageTable] | None:
     """Return the tables that an expression may be; None if it is not one."""
     match node:
         case ast.Attribute(value, subject) if subject in WORDS:
@@ -175,13 +190,15 @@ def table_of(node: ast.AST, known: Mapping[str, list[Words]]) -> list[Words] | N
             return [WORDS["note"]]
         case ast.Subscript(value, ast.Constant(str(key))):
             inside = table_of(value, known)
-            return (inside and [t[key] for t in inside if isinstance(t.get(key), Words)]) or None
+            return (
+                inside and [t[key] for t in inside if isinstance(t.get(key), MessageTable)]
+            ) or None
         case ast.Attribute(_, "said" | "words"):
             return known.get(ast.unparse(node), EVERY)
     return known.get(ast.unparse(node)) if isinstance(node, (ast.Name, ast.Attribute)) else None
 
 
-def bound(scope: ast.AST, known: Mapping[str, list[Words]]) -> dict[str, list[Words]]:
+def bound(scope: ast.AST, known: Mapping[str, list[MessageTable]]) -> dict[str, list[MessageTable]]:
     """Return the tables that names of a function, or attributes of ``self``, may be."""
     found = dict(known)
     other: set[str] = set()
@@ -206,7 +223,7 @@ def bound(scope: ast.AST, known: Mapping[str, list[Words]]) -> dict[str, list[Wo
     return {name: words for name, words in found.items() if name not in other}
 
 
-def keys_read(module: str, tree: ast.Module) -> Iterator[tuple[str, str, list[Words]]]:
+def keys_read(module: str, tree: ast.Module) -> Iterator[tuple[str, str, list[MessageTable]]]:
     """Yield where a sentence of words is named in a module, its key, the tables it may be of."""
     of_self = {n: w for n, w in bound(tree, {}).items() if n.startswith("self.")}
     for scope in ast.walk(tree):
@@ -221,9 +238,9 @@ def keys_read(module: str, tree: ast.Module) -> Iterator[tuple[str, str, list[Wo
 
 
 @cache
-def code() -> tuple[list[tuple[str, str, list[Words]]], set[object]]:
+def code() -> tuple[list[tuple[str, str, list[MessageTable]]], set[object]]:
     """Return the keys that the package reads, and its texts and attributes; its trees are large."""
-    keys: list[tuple[str, str, list[Words]]] = []
+    keys: list[tuple[str, str, list[MessageTable]]] = []
     texts: set[object] = set()
     for path in sorted(HOME.rglob("*.py")):
         if "wording" not in path.parts:
@@ -265,7 +282,7 @@ def test_every_sentence_is_used() -> None:
 
 
 def test_a_notation_writes_numbers_and_names_with_a_role() -> None:
-    russian, english = (language(lang).say for lang in ("ru", "en"))
+    russian, english = (get_language(lang).notation for lang in ("ru", "en"))
     for say, text in ((russian, "−1,5·10^{−7}"), (english, "−1.5·10^{−7}")):
         assert isinstance(say, Notation)
         assert say.number("-1.5e-07") == text
@@ -276,11 +293,11 @@ def test_a_notation_writes_numbers_and_names_with_a_role() -> None:
 
 def test_an_unknown_language_is_an_error_of_usage() -> None:
     with pytest.raises(UnknownLanguageError, match=r"'de'.*Choose one of: ru, en") as error:
-        language("de")
+        get_language("de")
     assert error.value.exit_code is ExitCode.USAGE
 
 
 def test_an_index_of_several_signs_is_in_braces() -> None:
     for lang in LANGUAGES:
-        for template in (language(lang).forces.against, language(lang).forces.along):
+        for template in (get_language(lang).forces.against, get_language(lang).forces.along):
             assert template.format(point="S4").endswith("v_{S4}")

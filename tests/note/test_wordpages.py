@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planmethod.note.document import Chapter, Figure, Node, Paragraph
-from planmethod.note.writers.wordpages import PageFlow, Told, flowing
+from planmethod.note.writers.wordpages import NumberedNode, PageFlow, flowing
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.ink.drawing import Drawing
 
@@ -14,11 +14,11 @@ PAGE = 100.0
 def order(nodes: list[Node]) -> list[Node]:
     """Return nodes as they are put on pages where a paragraph takes 10 mm."""
     flow, found = PageFlow(PAGE), []
-    told: list[Told] = [
+    told: list[NumberedNode] = [
         ((node, ""), after) for node, after in zip(nodes, [*nodes[1:], None], strict=True)
     ]
     for (node, _), _after in flowing(told, flow, lambda figure: figure.view.size[1]):
-        flow.put(FIGURE.view.size[1] if isinstance(node, Figure) else 10.0)
+        flow.reserve(FIGURE.view.size[1] if isinstance(node, Figure) else 10.0)
         found.append(node)
     return found
 

@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 from worked import problem_of
 
+from planmethod.note.columnar import ColumnarRecords, list_of, record_of, to_builtins
 from planmethod.note.records.solution import record, record_in_columns
-from planmethod.note.written import Records, plain_of, rows, together
 from planmethod.solved.solution import Solution
 
-NOTHING = rows({}, 3)
+NOTHING = record_of({}, 3)
 
 
 @pytest.mark.parametrize("name", ["press/press", "levers/task12", "linkages/ex1", "levers/task-33"])
@@ -20,7 +20,7 @@ def test_a_solution_in_columns_is_its_plain_data(name: str, positions: tuple[flo
     solution = Solution(problem_of(name), positions=positions)
     more = [{"digits": i} for i in range(len(positions))]
     told = record_in_columns(solution, more=more)
-    plain = plain_of(told)
+    plain = to_builtins(told)
     assert [one.pop("more") for one in plain["positions"]] == more
     assert plain == record(solution)
 
@@ -29,26 +29,26 @@ def test_a_solution_in_columns_is_its_plain_data(name: str, positions: tuple[flo
     ("records", "plain"),
     [
         (NOTHING, [{}, {}, {}]),
-        (together([], 2), [[], []]),
-        (rows({"a": NOTHING, "b": together([], 3)}), [{"a": {}, "b": []}] * 3),
+        (list_of([], 2), [[], []]),
+        (record_of({"a": NOTHING, "b": list_of([], 3)}), [{"a": {}, "b": []}] * 3),
         (
-            rows({"100 %": [1.0, None], "%s": ["%d", "°"]}),
+            record_of({"100 %": [1.0, None], "%s": ["%d", "°"]}),
             [{"100 %": 1.0, "%s": "%d"}, {"100 %": None, "%s": "°"}],
         ),
         (
-            rows({"n": [1, 1], "x": [1.0, 1.0], "is": [True, True]}),
+            record_of({"n": [1, 1], "x": [1.0, 1.0], "is": [True, True]}),
             [{"n": 1, "x": 1.0, "is": True}] * 2,
         ),
         (
-            rows({"x": [0.5, 1.5]}, some={1: {"edges": [1], "at": "b"}}),
+            record_of({"x": [0.5, 1.5]}, some={1: {"edges": [1], "at": "b"}}),
             [{"x": 0.5}, {"x": 1.5, "edges": [1], "at": "b"}],
         ),
         (
-            together([[0.1, 0.2], rows({"y": [[], [1.0]]})], 2),
+            list_of([[0.1, 0.2], record_of({"y": [[], [1.0]]})], 2),
             [[0.1, {"y": []}], [0.2, {"y": [1.0]}]],
         ),
     ],
 )
-def test_records_are_put_together(records: Records, plain: list[Any]) -> None:
-    assert records.plain() == plain
-    assert plain_of({"positions": records}) == {"positions": plain}
+def test_records_are_put_together(records: ColumnarRecords, plain: list[Any]) -> None:
+    assert records.to_list() == plain
+    assert to_builtins({"positions": records}) == {"positions": plain}

@@ -9,7 +9,7 @@ from texts import protocol
 from worked import problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.note.writers.plain import WIDTH, width
+from planmethod.note.writers.terminal import WIDTH, width
 from planmethod.problem import loads
 from planmethod.solved.solution import Solution
 

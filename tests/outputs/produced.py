@@ -388,7 +388,7 @@ def _listed(drawing: Drawing) -> Iterator[str]:
         yield f"view {view.kind} {box} {view.scale!r} {view.per_mm:.9g}\n"
         for span in view.spans:
             ends = f"{_at(span.start)} {_at(span.end)}"
-            yield f"  span {span.name} {span.position} {ends} {span.share:.9g}\n"
+            yield f"  span {span.name} {span.position} {ends} {span.magnification:.9g}\n"
     yield "</svg>\n"
 
 

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from planmethod import Solution, load
 from planmethod.cli import cli
-from planmethod.construct.steps import AtAngle, LayOff, MeetCircles, PointName
+from planmethod.construct.steps import AtAngle, IntersectCircles, LayOffLength, PointName
 from planmethod.plans import draft
 from planmethod.plans.model import PlanKind
 
@@ -67,7 +67,11 @@ def test_an_arm_is_laid_off_by_its_angle_and_length(
     made = {step.out: step for step in solution.construction.program.steps}
     found = {}
     for step in made.values():
-        if isinstance(step, LayOff) and isinstance(line := made[step.along], AtAngle) and line.to:
+        if (
+            isinstance(step, LayOffLength)
+            and isinstance(line := made[step.line], AtAngle)
+            and line.to
+        ):
             found[step.out] = step.origin, round(solution.construction.draft.numbers[line.angle], 9)
     assert found == arms
     body = solution.problem.bodies["3"].points
@@ -108,7 +112,7 @@ def test_three_sides_are_two_arcs(points: list[str], way: str, inner: str, tmp_p
     path.write_text(text, "utf-8")
     solution = Solution(load(path))
     corner = "D" if inner == "B" else "B"
-    arcs = [s for s in solution.construction.program.steps if isinstance(s, MeetCircles)]
+    arcs = [s for s in solution.construction.program.steps if isinstance(s, IntersectCircles)]
     (step,) = (arc for arc in arcs if arc.out == corner)
     sizes = {"C": {"B": 0.22, "D": 0.18}, inner: {"B": 0.15, "D": 0.15}}
     told = [(step.centre1, step.radius1), (step.centre2, step.radius2)]

@@ -12,7 +12,7 @@ import pytest
 from cases import some
 
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.referee import Precise
+from planmethod.construct.multiprecision import Precise
 from planmethod.construct.steps import PointName
 from planmethod.errors import ProblemError
 from planmethod.problem import load, loads
@@ -174,7 +174,7 @@ def test_all_readings_of_a_position_agree_alone_and_together(seed: int) -> None:
             read = evaluate(right, {n: referee.lift(v) for n, v in data.items()}, referee)
             place = complex(read.value[C]) + alone.construction.draft.origin
             assert abs(place - alone.points["C"].place[0]) < 1e-12
-            hand = alone.by_hand.value[C] * alone.per_mm["mu_l"]
+            hand = alone.ruler_reading.value[C] * alone.per_mm["mu_l"]
             assert abs(complex(np.ravel(hand)[0]) - place) < 1e-12
 
 
@@ -271,8 +271,8 @@ def test_lengths_move_the_change_points() -> None:
         alone = Sweep(one).run(at)
         assert found[:, k] == pytest.approx(alone, rel=1e-9, abs=1e-9, nan_ok=True)
     given = {
-        **problem.given,
-        "links": {**problem.given["links"], "2": dict(problem.given["links"]["2"])},
+        **problem.source_table,
+        "links": {**problem.source_table["links"], "2": dict(problem.source_table["links"]["2"])},
     }
     given["links"]["2"]["BC"] *= 1.004
     moved = Sweep(read_parsed(given, source="x", name="x"), ["C", "v_C"]).run(at)

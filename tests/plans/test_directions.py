@@ -15,13 +15,13 @@ from worked import SIX, every_task, problem_of
 from benchmarks.generator import random_problem
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.equations import direction_note, equation_of
-from planmethod.note.narrate.given import given
 from planmethod.note.narrate.letters import direction_text
 from planmethod.note.narrate.naming import Names
-from planmethod.note.wording import language, wording
-from planmethod.note.writers.plain import equation_lines
+from planmethod.note.narrate.statement import given_facts
+from planmethod.note.wording import get_language, wording
+from planmethod.note.writers.terminal import equation_lines
 from planmethod.plans.model import RATES, Direction, Relation, Vector, VectorKind
-from planmethod.plans.motion.leads import slot_name
+from planmethod.plans.motion.legs import slot_name
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
@@ -107,7 +107,7 @@ def _compared(solution: Solution, terms: list[Vector]) -> set[Relation]:
     peak = max(sizes, default=0.0)
     for term in terms:
         direction = term.direction
-        if direction is None or direction.relation is Relation.STILL:
+        if direction is None or direction.relation is Relation.ZERO:
             continue
         vectors = solution.si.vector(term.tail, term.head)
         for i, vector in enumerate(map(complex, vectors)):
@@ -122,9 +122,9 @@ def _compared(solution: Solution, terms: list[Vector]) -> set[Relation]:
             turn = vector / line / abs(vector / line)
             told = (term.symbol, direction, i)
             match direction.relation:
-                case Relation.ALONG:
+                case Relation.PARALLEL:
                     assert abs(turn.imag) < 1e-6, told
-                case Relation.ACROSS:
+                case Relation.PERPENDICULAR:
                     assert abs(turn.real) < 1e-6, told
                 case Relation.TOWARDS:
                     assert abs(turn - 1) < 1e-6, told
@@ -137,14 +137,14 @@ def _compared(solution: Solution, terms: list[Vector]) -> set[Relation]:
 
 @each("name", SIX)
 def test_vectors_of_the_worked_mechanisms_have_the_directions_of_their_equations(name: str) -> None:
-    assert Relation.ACROSS in assert_directions(Solution(problem_of(name)))
+    assert Relation.PERPENDICULAR in assert_directions(Solution(problem_of(name)))
 
 
 def test_vectors_of_the_tasks_have_the_directions_of_their_equations() -> None:
     seen = set()
     for path in thinned(every_task(), 3):
         seen |= assert_directions(Solution(load(path)))
-    assert seen >= {Relation.ALONG, Relation.ACROSS, Relation.TOWARDS}
+    assert seen >= {Relation.PARALLEL, Relation.PERPENDICULAR, Relation.TOWARDS}
 
 
 @each("seed", range(some(60, 12)))
@@ -191,7 +191,9 @@ def test_a_slot_through_the_pin_is_described_by_the_points_on_it(angle: float) -
             assert term.direction is not None
             assert set(term.direction.points) == {"C", "B"}
             is_along = term.kind is VectorKind.SLIDING
-            assert term.direction.relation is (Relation.ALONG if is_along else Relation.ACROSS)
+            assert term.direction.relation is (
+                Relation.PARALLEL if is_along else Relation.PERPENDICULAR
+            )
 
 
 def test_a_slot_that_joins_no_two_letters_has_a_name_that_the_statement_gives() -> None:
@@ -201,7 +203,7 @@ def test_a_slot_that_joins_no_two_letters_has_a_name_that_the_statement_gives() 
     assert_directions(solution)
     told = {term.direction for term in terms(solution) if term.kind in TAGS}
     assert {direction_text(one) for one in told} == {"∥ n_{2}–n_{2}", "⊥ n_{2}–n_{2}"}
-    given_texts = [fact.text for fact in given(solution.problem, language("ru"))]
+    given_texts = [fact.text for fact in given_facts(solution.problem, get_language("ru"))]
     assert "n_{2}–n_{2} — направляющая звена 3 для звена 2, проходит через C" in given_texts
 
 
@@ -225,7 +227,7 @@ def test_a_direction_is_printed_under_its_own_term() -> None:
 
 @pytest.mark.parametrize(
     ("relation", "text"),
-    [(Relation.ALONG, "∥ BC"), (Relation.ACROSS, "⊥ BC"), (Relation.TOWARDS, "B → C")],
+    [(Relation.PARALLEL, "∥ BC"), (Relation.PERPENDICULAR, "⊥ BC"), (Relation.TOWARDS, "B → C")],
 )
 def test_the_signs_of_the_relations(relation: Relation, text: str) -> None:
     assert direction_text(Direction(relation, ("B", "C"))) == text
@@ -233,5 +235,5 @@ def test_the_signs_of_the_relations(relation: Relation, text: str) -> None:
 
 def test_an_angle_is_written_in_the_language() -> None:
     told = Direction(Relation.ANGLED, ("A", "B"), angle=-66.63)
-    assert direction_text(told, language("ru").say) == "∠ −66,63° AB"
-    assert direction_text(told, language("en").say) == "∠ −66.63° AB"
+    assert direction_text(told, get_language("ru").notation) == "∠ −66,63° AB"
+    assert direction_text(told, get_language("en").notation) == "∠ −66.63° AB"

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from worked import problem_of
 
-from planmethod.plans.forces.polygons import Edge, Share, reaction_symbol
-from planmethod.plans.model import Direction, Known, PlanKind, Relation
+from planmethod.plans.forces.polygons import Component, Edge, reaction_symbol
+from planmethod.plans.model import Direction, KnownParts, PlanKind, Relation
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
@@ -63,7 +63,7 @@ def test_edges_are_the_loads_and_the_reactions(name: str) -> None:
     seen = set()
     for plan in statics.board.plans:
         for edge in (*plan.polygon, *plan.wholes, *plan.inner):
-            if edge.share is Share.WHOLE:
+            if edge.component is Component.TOTAL:
                 seen.add(edge.symbol)
                 expected = {**loads, **reactions}[edge.symbol]
                 assert drawn(statics, edge) == pytest.approx(expected, rel=1e-9, abs=1e-6)
@@ -91,12 +91,12 @@ def test_moment_equations_give_their_results(name: str) -> None:
 def test_the_hand_goes_on_with_the_forces_that_it_has_read(name: str) -> None:
     """Each equation of moments once more, from arms and forces in whole steps of the ruler."""
     statics = statics_of(name)
-    solution, step = statics.solution, statics.solution.hand.ruler
+    solution, step = statics.solution, statics.solution.ruler_arithmetic.ruler
     loaded = {given.applied.name for given in statics.board.given}
     segments = statics.board.segments
 
     def drawn_by_hand(edge: Edge) -> Any:
-        hand = statics.by_hand
+        hand = statics.ruler_reading
         return hand.point(edge.head) - hand.point(edge.tail)
 
     def ruled(length: Any, times: Any = 1.0) -> Any:
@@ -106,30 +106,30 @@ def test_the_hand_goes_on_with_the_forces_that_it_has_read(name: str) -> None:
     for plan in statics.board.plans:
         for equation in plan.moments:
             total: Any = 0.0
-            about = solution.by_hand.point(equation.about)
+            about = solution.ruler_reading.point(equation.about)
             for edge in equation.edges:
-                vector, at = drawn_by_hand(edge), solution.by_hand.point(edge.at)
+                vector, at = drawn_by_hand(edge), solution.ruler_reading.point(edge.at)
                 length = np.abs(vector)
                 # A small plan is drawn and read at a scale of its own.
-                times = statics.hand.enlarged.get(segments.drawn(edge.ends), 1.0)
+                times = statics.ruler_arithmetic.enlarged.get(segments.drawn(edge.ends), 1.0)
                 size = length if edge.symbol in loaded else ruled(length, times)
                 across = ((at - about).conj() * vector).imag / np.where(length == 0, 1.0, length)
                 total = total + ruled(across) * size
             whole = total * statics.scale.per_mm * solution.scales[PlanKind.POSITION].per_mm
             for couple in equation.couples:
-                whole = whole + statics.by_hand.number(couple.moment)
+                whole = whole + statics.ruler_reading.number(couple.moment)
             if equation.couple is not None:
-                found = statics.by_hand.number(equation.couple.moment)
+                found = statics.ruler_reading.number(equation.couple.moment)
                 assert found == pytest.approx(-whole, rel=1e-9, abs=1e-9)
 
 
 def test_letters_of_the_components() -> None:
-    assert reaction_symbol("2", "1", Share.NORMAL) == "F^{n}_{21}"
+    assert reaction_symbol("2", "1", Component.NORMAL) == "F^{n}_{21}"
     assert reaction_symbol("10", "2") == "F_{10,2}"
     plan = statics_of("levers/six-link").board.plans[1]
     assert [(edge.symbol, edge.known, edge.direction) for edge in plan.polygon[:2]] == [
-        ("F^{n}_{21}", Known.ONE, Direction(Relation.ALONG, ("B", "C"))),
-        ("F^{τ}_{21}", Known.BOTH, None),
+        ("F^{n}_{21}", KnownParts.ONE, Direction(Relation.PARALLEL, ("B", "C"))),
+        ("F^{τ}_{21}", KnownParts.BOTH, None),
     ]
     assert [edge.symbol for edge in plan.reactions] == [
         "F^{n}_{21}", "F^{n}_{30}", "F_{21}", "F_{30}", "F_{23}",

@@ -13,7 +13,13 @@ from newton import solve as newton
 
 from benchmarks.generator import random_problem
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.steps import MeetCircles, MeetLineCircle, MeetLines, PointName, Touch
+from planmethod.construct.steps import (
+    IntersectCircles,
+    IntersectLineCircle,
+    IntersectLines,
+    PointName,
+    Touch,
+)
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind, VectorKind
 from planmethod.problem import loads
@@ -219,7 +225,7 @@ def distance(solution: Solution, point: PointName, line: tuple[object, object]) 
 @each("seed", sampled(SEEDS, 3))
 def test_both_rays_end_in_the_point_where_they_meet(seed: int) -> None:
     solution = solved(seed)
-    meetings = [s for s in solution.construction.program.steps if isinstance(s, MeetLines)]
+    meetings = [s for s in solution.construction.program.steps if isinstance(s, IntersectLines)]
     for step in meetings:
         for line in (step.first, step.second):
             assert distance(solution, step.out, solution.paper.value[line]) < 1e-9, step.out
@@ -287,18 +293,18 @@ def test_an_assembly_keeps_its_side_all_round(seed: int) -> None:
     trace = around.read(Float64(), UNIT_SCALES)
     assert around.construction.program == solved(seed).construction.program
     for step in around.construction.program.steps:
-        if isinstance(step, MeetCircles):
+        if isinstance(step, IntersectCircles):
             c1, c2 = trace.point(step.centre1), trace.point(step.centre2)
             side = ((c2 - c1).conj() * (trace.point(step.out) - c1)).imag
         elif isinstance(step, Touch):
             c1, c2 = trace.point(step.centre), trace.point(step.source)
             side = ((c2 - c1).conj() * (trace.point(step.out) - c1)).imag
-        elif isinstance(step, MeetLineCircle):
+        elif isinstance(step, IntersectLineCircle):
             _, u = trace.value[step.line]
             side = (np.conj(u) * (trace.point(step.out) - trace.point(step.centre))).real
         else:
             continue
-        chosen = step.way.value if isinstance(step, MeetLineCircle) else step.side.value
+        chosen = step.sense.value if isinstance(step, IntersectLineCircle) else step.side.value
         assert side[0] * chosen > 0
         there = np.isfinite(side)
         assert (side[there] * chosen > -1e-9).all(), step.out

@@ -13,7 +13,7 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import (
     Compute,
     GivenNumber,
-    LayOff,
+    LayOffLength,
     Measure,
     MeasureAlong,
     MeasureArm,
@@ -91,7 +91,7 @@ def test_no_result_follows_from_a_reading_of_a_laid_off_segment(what: str | int)
     extra = idle(solution)
     results = {quantity.size for quantity in solution.construction.legend}
     assert not extra & (used(steps) | results)
-    laid = {frozenset((step.origin, step.out)) for step in steps if isinstance(step, LayOff)}
+    laid = {frozenset((step.origin, step.out)) for step in steps if isinstance(step, LayOffLength)}
     assert [
         name for name, ends in readings(steps).items() if ends in laid and name not in extra
     ] == []

@@ -16,7 +16,7 @@ from worked import SIX, problem_of
 from benchmarks.generator import random_problem
 from planmethod.plans.model import MOTION
 from planmethod.problem import loads
-from planmethod.problem.model import Problem, Rule, Where
+from planmethod.problem.model import AssemblyRelation, Problem, Rule
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
@@ -103,10 +103,13 @@ def test_results_go_with_the_mechanism(name: str, move: Move) -> None:
 def test_rules_in_words_hold_in_a_mirror(name: str) -> None:
     """In the x axis only above and below and the sides of a line are exchanged."""
     before = solved(name)
-    above = {Where.ABOVE: Where.BELOW, Where.BELOW: Where.ABOVE}
+    above = {
+        AssemblyRelation.ABOVE: AssemblyRelation.BELOW,
+        AssemblyRelation.BELOW: AssemblyRelation.ABOVE,
+    }
     move = Move(mirrors=True)
     problem = move.problem(before.problem)
-    rules = tuple(replace(r, where=above.get(r.where, r.where)) for r in problem.assembly)
+    rules = tuple(replace(r, relation=above.get(r.relation, r.relation)) for r in problem.assembly)
     after = Solution(
         replace(problem, assembly=rules), positions=[-float(phi) for phi in before.positions]
     )
@@ -196,8 +199,11 @@ def test_the_helper_moves_rules() -> None:
     move = Move(degrees=90, mirrors=True, shift=1 + 0j)
     problem = replace(
         problem_of("linkages/ex1"),
-        assembly=(Rule("C", Where.NEAR, (), 2 + 3j), Rule("C", Where.LEFT_OF, ("A", "B"))),
+        assembly=(
+            Rule("C", AssemblyRelation.NEAR, (), 2 + 3j),
+            Rule("C", AssemblyRelation.LEFT_OF, ("A", "B")),
+        ),
     )
     near, side = move.problem(problem).assembly
     assert near.at == 1j * (2 - 3j) + 1
-    assert side.where is Where.RIGHT_OF
+    assert side.relation is AssemblyRelation.RIGHT_OF

@@ -14,7 +14,7 @@ from worked import PROBLEMS, every_file
 from planmethod.errors import ProblemError
 from planmethod.problem import Problem, load, loads
 from planmethod.problem.answers import words_of
-from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
+from planmethod.problem.common import AnswerForm, DirectionMode, QuestionSpec
 from planmethod.problem.selector import parse_selector
 from planmethod.solved.labelled import quantities_for
 from planmethod.solved.selectors.values import SelectorValues
@@ -38,20 +38,20 @@ def test_every_key_is_read_and_the_order_is_that_of_the_file() -> None:
         'what = "omega_2"\nletters = "ω₂"',
     )
     assert problem.answers == (
-        AskedAnswer(
+        QuestionSpec(
             "vc",
             "v C",
             letters=("v_C", "V C"),
             unit="м/с",
             points=2.5,
             form=AnswerForm.MM,
-            sense=AskedSense.DIRECTION,
+            sense=DirectionMode.DIRECTION,
             position=3,
             digits=3,
             segment="p-c",
             tolerance=0.05,
         ),
-        AskedAnswer("omega_2", "omega 2", letters=("ω₂",)),
+        QuestionSpec("omega_2", "omega 2", letters=("ω₂",)),
     )
 
 
@@ -128,7 +128,7 @@ def test_the_example_of_the_documentation_is_read() -> None:
     (example,) = re.findall(r"```toml\n(\[\[answers\]\].*?)```", text, re.DOTALL)
     first, second, third = loads(SLOTTED + example, name="doc").answers
     assert (first.id, first.letters, first.points) == ("v_B3", ("v_B3", "VB₃"), 2.0)
-    assert (second.what, second.sense, second.digits) == ("omega 3", AskedSense.TURN, 3)
+    assert (second.what, second.sense, second.digits) == ("omega 3", DirectionMode.TURN, 3)
     assert (third.segment, third.form, third.tolerance) == ("d-n_ED", AnswerForm.MM, 0.1)
 
 
@@ -140,19 +140,19 @@ def test_an_answer_of_a_position_has_it_in_its_id() -> None:
 @pytest.mark.parametrize(
     ("what", "sense", "wanted"),
     [
-        ("omega 2", "true", AskedSense.TURN),
-        ("epsilon 2", '"turn"', AskedSense.TURN),
-        ("v C B", "true", AskedSense.DIRECTION),
-        ("a C", '"angle"', AskedSense.ANGLE),
+        ("omega 2", "true", DirectionMode.TURN),
+        ("epsilon 2", '"turn"', DirectionMode.TURN),
+        ("v C B", "true", DirectionMode.DIRECTION),
+        ("a C", '"angle"', DirectionMode.ANGLE),
         ("phi 2", "false", None),
-        ("F 2 1", "true", AskedSense.DIRECTION),
-        ("inertia couple 2", "true", AskedSense.TURN),
-        ("balance", "true", AskedSense.TURN),
-        ("lever B", "true", AskedSense.DIRECTION),
+        ("F 2 1", "true", DirectionMode.DIRECTION),
+        ("inertia couple 2", "true", DirectionMode.TURN),
+        ("balance", "true", DirectionMode.TURN),
+        ("lever B", "true", DirectionMode.DIRECTION),
     ],
 )
 def test_a_sense_is_required_only_if_the_quantity_has_one(
-    what: str, sense: str, wanted: AskedSense | None
+    what: str, sense: str, wanted: DirectionMode | None
 ) -> None:
     (answer,) = read(f'what = "{what}"\nsense = {sense}', variants=LOADED).answers
     assert answer.sense is wanted
@@ -161,7 +161,7 @@ def test_a_sense_is_required_only_if_the_quantity_has_one(
 def test_the_balance_of_a_driving_slider_is_a_force_with_a_direction() -> None:
     load_ = '[[loads]]\nlink = "2"\nat = "C"\nforce = 1\nangle = 0\n'
     (answer,) = read('what = "F_dr"\nsense = true', base=SLIDER, variants=load_).answers
-    assert (answer.what, answer.sense) == ("balance", AskedSense.DIRECTION)
+    assert (answer.what, answer.sense) == ("balance", DirectionMode.DIRECTION)
 
 
 def test_variants_change_one_key_or_require_other_answers() -> None:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from planmethod.errors import ProblemError
 from planmethod.problem import Problem, loads
-from planmethod.problem.bodies import heading, rotation
+from planmethod.problem.placement import heading, rotation
 
 CRANK = '[links.1]\npoints = ["A", "B"]\nAB = 0.1\n'
 REST = """

@@ -10,7 +10,7 @@ from worked import path_of
 
 from planmethod.errors import ConfigError, ExitCode, ProblemError
 from planmethod.problem import loads
-from planmethod.problem.head import SheetSettings
+from planmethod.problem.common import SheetSettings
 from planmethod.problem.sheet import VARIABLE, find_config, load_config, usual_place
 
 

@@ -8,8 +8,8 @@ import pytest
 
 from planmethod.errors import ProblemError
 from planmethod.problem import loads
-from planmethod.problem.model import Convention, Drive, Rule, Scales, Where
-from planmethod.problem.unlikely import unlikely
+from planmethod.problem.model import AssemblyRelation, Convention, Drive, Rule, Scales
+from planmethod.problem.plausibility import unlikely
 
 CRANK = """
 [frame]
@@ -103,15 +103,15 @@ def test_a_slider_has_no_full_turn() -> None:
 @pytest.mark.parametrize(
     ("phrase", "rule"),
     [
-        ('"right of A"', Rule("B", Where.RIGHT, ("A",))),
-        ('"left of A"', Rule("B", Where.LEFT, ("A",))),
-        ('"above A"', Rule("B", Where.ABOVE, ("A",))),
-        ('"above of A"', Rule("B", Where.ABOVE, ("A",))),
-        ('"below C"', Rule("B", Where.BELOW, ("C",))),
-        ('"left of AC"', Rule("B", Where.LEFT_OF, ("A", "C"))),
-        ('"right of CA"', Rule("B", Where.RIGHT_OF, ("C", "A"))),
-        ('"  right   of  A "', Rule("B", Where.RIGHT, ("A",))),
-        ("{ near = [0.1, -0.2] }", Rule("B", Where.NEAR, at=0.1 - 0.2j)),
+        ('"right of A"', Rule("B", AssemblyRelation.RIGHT, ("A",))),
+        ('"left of A"', Rule("B", AssemblyRelation.LEFT, ("A",))),
+        ('"above A"', Rule("B", AssemblyRelation.ABOVE, ("A",))),
+        ('"above of A"', Rule("B", AssemblyRelation.ABOVE, ("A",))),
+        ('"below C"', Rule("B", AssemblyRelation.BELOW, ("C",))),
+        ('"left of AC"', Rule("B", AssemblyRelation.LEFT_OF, ("A", "C"))),
+        ('"right of CA"', Rule("B", AssemblyRelation.RIGHT_OF, ("C", "A"))),
+        ('"  right   of  A "', Rule("B", AssemblyRelation.RIGHT, ("A",))),
+        ("{ near = [0.1, -0.2] }", Rule("B", AssemblyRelation.NEAR, at=0.1 - 0.2j)),
     ],
 )
 def test_rules(phrase: str, rule: Rule) -> None:

@@ -52,10 +52,10 @@ def test_the_crank_turns_at_the_speed_of_the_train(path: Path) -> None:
     """U_1H = 1 + 96/24 = 5."""
     drive = load(path).drive
     assert drive.rate == pytest.approx(-1440 / 5 * math.pi / 30)
-    assert drive.geared is not None and drive.geared.ratio == 5
+    assert drive.gear_drive is not None and drive.gear_drive.ratio == 5
     rates = [load(path, variant=name).drive.rate for name in "ABC"]
     assert rates == pytest.approx([720 / 5 * math.pi / 30, 7, 288 * 5 / 3 * math.pi / 30])
-    assert load(path, variant="B").drive.geared is None
+    assert load(path, variant="B").drive.gear_drive is None
 
 
 def test_plans_sheets_and_keys_have_that_speed(path: Path, tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from planmethod.problem.names import (
     is_label,
     is_point_name,
     looks_latin,
-    near,
+    nearest_name,
     segment,
     split_pair,
 )
@@ -80,9 +80,9 @@ def test_message_names_each_letter() -> None:
 
 
 def test_nearest_name_ignores_case_and_layout() -> None:
-    assert near("Omega", ["phi", "omega"]) == "omega"
-    assert near("оmega", ["phi", "omega"]) == "omega"
-    assert near("zzz", ["phi", "omega"]) is None
+    assert nearest_name("Omega", ["phi", "omega"]) == "omega"
+    assert nearest_name("оmega", ["phi", "omega"]) == "omega"
+    assert nearest_name("zzz", ["phi", "omega"]) is None
 
 
 def test_paths_are_safe_to_print() -> None:

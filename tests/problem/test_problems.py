@@ -19,12 +19,12 @@ from worked import every_file, every_task
 import planmethod
 from planmethod.kinds import kind_of
 from planmethod.problem import FAMILIES, keys, load, loads, template, variant_names
-from planmethod.problem.declared import (
+from planmethod.problem.key_types import (
     AngleKey,
     FlagKey,
+    IntegerKey,
     NumberKey,
     TextKey,
-    WholeKey,
     WordKey,
     declared,
 )
@@ -223,7 +223,7 @@ def test_every_declared_table_is_in_the_schema_and_in_both_references() -> None:
 
 @each("kind", keys.FLAT)
 def test_declared_keys_agree_with_the_types_of_their_fields(kind: str) -> None:
-    kinds = {WholeKey: int, FlagKey: bool, TextKey: str, NumberKey: float, AngleKey: float}
+    kinds = {IntegerKey: int, FlagKey: bool, TextKey: str, NumberKey: float, AngleKey: float}
     for one in declared(keys.FLAT[kind]):
         if isinstance(one.key, WordKey):
             sentence = one.key.sentence

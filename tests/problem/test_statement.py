@@ -9,9 +9,9 @@ import pytest
 
 from planmethod.errors import PlanMethodError, ProblemError
 from planmethod.kinds import load
-from planmethod.note.narrate.given import given
+from planmethod.note.narrate.statement import given_facts
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.solved.solution import Solution
 
 FILES = sorted((Path(__file__).parent / "statement").glob("*.toml"))
@@ -29,7 +29,7 @@ def test_stated_data_are_printed_as_given_and_read_back(path: Path) -> None:
     solution = Solution(problem)
     said = [
         plain_text(fact.text)
-        for fact in given(problem, language("ru"), solution.positions.tolist())
+        for fact in given_facts(problem, get_language("ru"), solution.positions.tolist())
     ]
     assert ["; ".join(said)] == told(path, "given")
     for place in told(path, "place"):

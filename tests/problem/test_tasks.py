@@ -15,7 +15,7 @@ from benchmarks.tasks import document, index, index_text
 from planmethod.cli import cli
 from planmethod.kinds import load
 from planmethod.languages import LANGUAGES
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem import Problem, variant_names
 from planmethod.problem.fields import Faults
 from planmethod.problem.selector import parse_selector
@@ -101,7 +101,7 @@ def test_a_scheme_with_several_readings_is_marked_but_not_on_a_sheet(lang: str) 
     assert len([name for name in several if name.startswith("levers-")]) == 17
     assert len([name for name in several if name.startswith("linkages-")]) == 12 + 4
     assert len([name for name in several if name.startswith("gears-")]) == 8
-    said = language(lang).tasks
+    said = get_language(lang).tasks
     listed = run("tasks", "--lang", lang).output
     starred = re.findall(r"(?m)^  (\S+) .*\*$", listed)
     assert sorted(starred) == sorted(several)

@@ -7,7 +7,7 @@ import pytest
 from planmethod.errors import ProblemError
 from planmethod.moving.reader import load
 from planmethod.problem import Problem, loads
-from planmethod.problem.model import Rule, Where
+from planmethod.problem.model import AssemblyRelation, Rule
 
 TEXT = """
 title = "Основная часть"
@@ -71,7 +71,7 @@ def test_spans_rules_and_places_are_replaced_whole() -> None:
     text = "v = { driver.phi = { from = 0, to = 90, step = 45 }, assembly.B = { near = [1, 2] } }"
     problem = read(text, "v")
     assert problem.drive.positions == (0, 45, 90)
-    assert problem.assembly == (Rule("B", Where.NEAR, at=1 + 2j),)
+    assert problem.assembly == (Rule("B", AssemblyRelation.NEAR, at=1 + 2j),)
 
 
 def test_a_key_of_a_span_may_be_overridden_alone() -> None:

@@ -23,16 +23,16 @@ from planmethod.errors import ProblemError
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.model import GearProblem, Train
 from planmethod.gears.motion import solve_motion
-from planmethod.gears.told import given as train_given
+from planmethod.gears.sheet_texts import train_facts as train_given
 from planmethod.kinds import load
 from planmethod.note import document
 from planmethod.note.document import Document, numbers_of
 from planmethod.note.formula import inlined
-from planmethod.note.narrate.given import given, told
+from planmethod.note.narrate.statement import given_facts, reported_quantities
 from planmethod.note.narrate.steps import calculation
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import LANGUAGES, Language, language
-from planmethod.note.writers.plain import plain_document
+from planmethod.note.wording import LANGUAGES, Language, get_language
+from planmethod.note.writers.terminal import plain_document
 from planmethod.plans.legend import MOTION_KINDS, QuantityKind
 from planmethod.plans.model import RATES
 from planmethod.problem.load_records import SizeTable
@@ -48,7 +48,7 @@ from planmethod.project.report.flywheel import flywheel_chapter
 from planmethod.project.report.gears import train_chapter
 from planmethod.project.settle import settle
 from planmethod.project.sheets import part_drawings, sheet_list
-from planmethod.project.train import in_mesh, meshed, train_apart
+from planmethod.project.train import in_mesh, meshed, warn_of_separate_train
 from planmethod.render.ink.drawing import Text
 from planmethod.solved.cycle import cycle
 from planmethod.solved.forces.friction import friction_of
@@ -84,12 +84,12 @@ def project_of(name: str) -> Project:
 
 @cache
 def note_of(name: str, lang: str = "ru") -> Document:
-    return note_document(project_of(name), language(lang))
+    return note_document(project_of(name), get_language(lang))
 
 
 @cache
 def text_of(name: str, lang: str = "ru") -> str:
-    return plain_document(note_of(name, lang), language(lang))
+    return plain_document(note_of(name, lang), get_language(lang))
 
 
 def scales_of(name: str) -> str:
@@ -269,7 +269,7 @@ def test_the_strokes_in_the_conclusion_make_one_turn_and_k_v_is_working_over_idl
 
 @pytest.mark.parametrize("name", FILES)
 def test_the_calculation_has_the_results_of_the_sheet(name: str) -> None:
-    words, solution = language("ru"), project_of(name).loaded
+    words, solution = get_language("ru"), project_of(name).loaded
     own = " ".join(n.text for n in note_of(name).nodes if isinstance(n, document.Formula))
     for kind in RATES:
         for line in calculation(solution, kind, 0, words):
@@ -283,18 +283,18 @@ def test_the_calculation_has_the_results_of_the_sheet(name: str) -> None:
 @pytest.mark.parametrize("name", FILES)
 def test_the_comparison_has_the_values_of_solve(name: str) -> None:
     project = project_of(name)
-    solution, say = project.loaded, language("ru").say
+    solution, say = project.loaded, get_language("ru").notation
     (table,) = (
         n for n in note_of(name).nodes if isinstance(n, document.Table) and n.key == "compared"
     )
     rows = {row[0].partition(",")[0]: row for row in table.rows}
     kinds = (QuantityKind.VELOCITY, QuantityKind.OMEGA, QuantityKind.ACCELERATION)
     seen = 0
-    for quantity in told(solution, *kinds):
+    for quantity in reported_quantities(solution, *kinds):
         if quantity.symbol in rows:
             read, exact = rows[quantity.symbol][1:3]
-            assert exact == say.found(float(solution.exact(quantity)[0]))
-            assert read == say.found(float(solution.read_off(quantity.label)[0]))
+            assert exact == say.computed(float(solution.exact(quantity)[0]))
+            assert read == say.computed(float(solution.read_off(quantity.label)[0]))
             seen += 1
     assert seen > 2
 
@@ -344,7 +344,7 @@ def test_differences_of_tables_are_readings_of_the_plans_less_exact_values(name:
 @pytest.mark.parametrize("name", ["shaper", "engine", "rubbing"])
 def test_the_largest_differences_are_those_of_the_position_that_is_named(name: str) -> None:
     every = project_of(name).solution
-    quantities = {one.symbol: one for one in told(every, *MOTION_KINDS)}
+    quantities = {one.symbol: one for one in reported_quantities(every, *MOTION_KINDS)}
     rows = cells_of(tables_of(name)["largest"])
     for row in rows:
         symbol, _, _ = row["Величина"].partition(". ")
@@ -384,7 +384,7 @@ def test_the_tables_of_all_positions_have_the_readings_of_the_plans() -> None:
     ):
         table = tables[key]
         assert len(table.rows) == len(project.positions)
-        for quantity in told(every, kind):
+        for quantity in reported_quantities(every, kind):
             column = [row[table.head.index(quantity.symbol)] for row in table.rows]
             values = [float(cell.replace(",", ".").replace("−", "-")) for cell in column]
             read = every.read_off(quantity.label)
@@ -398,14 +398,14 @@ def test_strokes_and_scales_are_those_of_the_project() -> None:
     angles = [round(one, 2) for one in (strokes.working_deg, strokes.idle_deg)]
     ratio = "K_v = φ_р/φ_х = {:g}°/{:g}° = {:.3f}".format(*angles, strokes.K_v)
     assert ratio.replace(".", ",") in text
-    say = language("ru").say
+    say = get_language("ru").notation
     for letter in "lvaF":
-        scale = say.given(getattr(project.scales, f"mu_{letter}"))
+        scale = say.as_input(getattr(project.scales, f"mu_{letter}"))
         assert set(re.findall(rf"μ_{letter} = ([0-9,]+) (?:м|\(|Н)", text)) >= {scale}
     plans = re.findall(
         r"План (?:скоростей|ускорений).* строим в масштабе μ_([va]) = ([0-9,]+)", text
     )
-    assert dict(plans) == {x: say.given(getattr(project.scales, f"mu_{x}")) for x in "va"}
+    assert dict(plans) == {x: say.as_input(getattr(project.scales, f"mu_{x}")) for x in "va"}
 
 
 def test_by_mertsalov_the_chapter_of_the_flywheel_does_not_mention_tangents() -> None:
@@ -415,7 +415,7 @@ def test_by_mertsalov_the_chapter_of_the_flywheel_does_not_mention_tangents() ->
     project = settle(replace(problem, machine=machine), FILES["engine"])
     for lang, steps in (("ru", ("наивысшая точка A", "Вычитая")), ("en", ("highest point A",
                         "Subtracting"))):  # fmt: skip
-        chapter = " ".join(map(repr, flywheel_chapter(Report(project, language(lang)))))
+        chapter = " ".join(map(repr, flywheel_chapter(Report(project, get_language(lang)))))
         for word in (*steps, "T_{II}", "ΔT_{I}", "μ_{T}·AB"):
             assert word.lower() in chapter.lower(), word
         for word in ("касательн", "tangent", "энергомасс", "energy-mass", "KL", "ψ"):
@@ -425,7 +425,7 @@ def test_by_mertsalov_the_chapter_of_the_flywheel_does_not_mention_tangents() ->
 def test_the_flywheel_is_that_of_the_diagrams_in_the_formula_and_in_the_conclusion() -> None:
     solution = project_of("shaper").solution
     found = drawing_of(flywheel_of(solution), solution.profile).read_inertia
-    told = f"{language('ru').say.found(found)}\u00a0кг·м^{{2}}"
+    told = f"{get_language('ru').notation.computed(found)}\u00a0кг·м^{{2}}"
     nodes = note_of("shaper").nodes
     (formula,) = (n for n in nodes if isinstance(n, document.Formula) and n.key == "flywheel")
     assert formula.text.endswith(f"= {told}.")
@@ -449,10 +449,10 @@ def test_a_colon_is_followed_by_a_formula_or_a_list(name: str, lang: str) -> Non
 
 
 def test_the_largest_reaction_of_the_cycle_is_that_of_the_sheet() -> None:
-    say = language("ru").say
+    say = get_language("ru").notation
     for name in ("shaper", "engine"):
         curves = cycle(project_of(name).solution)
-        most = say.found(max(curves.peak(k).size for k in range(len(curves.joints))))
+        most = say.computed(max(curves.peak(k).size for k in range(len(curves.joints))))
         _, _, chapter = told_of(name).partition("Модули реакций")
         told = chapter[: chapter.index("Приведённые моменты сил")]
         assert re.search(rf"за (?:весь )?цикл .*{most} Н", told), told
@@ -503,7 +503,7 @@ def test_construction_and_calculation_differ_by_no_more_than_the_table_has(tmp_p
     project = geared("1 = 20, 2 = 40", "1 = 21, 2 = 39", tmp_path)
     part = project.part(PartName.GEARS)
     assert part is not None and isinstance(part.problem, GearProblem)
-    nodes = list(train_chapter(Report(project, language("ru")), part.problem))
+    nodes = list(train_chapter(Report(project, get_language("ru")), part.problem))
     (table,) = (node for node in nodes if isinstance(node, document.Table))
     offs = [abs(float(row[-1].replace(",", ".").replace("−", "-"))) for row in table.rows]
     told = " ".join(node.text for node in nodes if isinstance(node, document.Paragraph))
@@ -517,22 +517,22 @@ def test_construction_and_calculation_differ_by_no_more_than_the_table_has(tmp_p
 def test_a_condition_of_the_teeth_that_fails_is_in_the_conclusion(tmp_path: Path) -> None:
     assert "Числа зубьев не" not in told_of("shaper")
     old, new = """1 = 20, 2 = 40, "2'" = 20, 3 = 80""", """1 = 18, 2 = 36, "2'" = 18, 3 = 72"""
-    report = Report(geared(old, new, tmp_path), language("ru"))
+    report = Report(geared(old, new, tmp_path), get_language("ru"))
     *_, last = (node.text for node in conclusion(report) if isinstance(node, document.Item))
     assert last.startswith("Числа зубьев не удовлетворяют одному из условий (внутреннее")
     assert last.endswith("не меньше 143).")
 
 
 def test_a_train_that_does_not_turn_the_crank_is_warned_of(tmp_path: Path) -> None:
-    assert train_apart(project_of("shaper")) is None
-    apart = train_apart(geared("1 = 540", "1 = 480", tmp_path))
+    assert warn_of_separate_train(project_of("shaper")) is None
+    apart = warn_of_separate_train(geared("1 = 540", "1 = 480", tmp_path))
     assert apart is not None
     assert "60 rev/min" in apart and "H" in apart and "53.33 rev/min" in apart
 
 
 def test_the_warning_of_a_train_names_its_last_stage(tmp_path: Path) -> None:
     """Behind the carrier there is a pair of wheels."""
-    apart = train_apart(staged('train = "5"', "n = 90", tmp_path))
+    apart = warn_of_separate_train(staged('train = "5"', "n = 90", tmp_path))
     assert apart is not None
     assert "link 5 of the train 80 rev/min" in apart and 'train = "5"' in apart
 
@@ -564,7 +564,9 @@ def changed_template(tmp_path_factory: pytest.TempPathFactory) -> str:
     text, _, after = text.partition("[cam]")
     path = tmp_path_factory.mktemp("template") / "changed.toml"
     path.write_text(text + after[after.index("[stamp]") :] + scales_of("template"), "utf-8")
-    return plain_document(note_document(settle(load(path), path), language("ru")), language("ru"))
+    return plain_document(
+        note_document(settle(load(path), path), get_language("ru")), get_language("ru")
+    )
 
 
 def test_the_wheels_of_the_train_are_those_of_the_meshing() -> None:
@@ -682,7 +684,7 @@ def test_counterweights_are_a_part_of_a_project(tmp_path: Path) -> None:
     assert [part.name.value for part in project.parts] == ["kinematics", "forces", "balancing"]
     sheets = part_drawings(project, project.parts[-1], {})
     assert [sheet.title for sheet in sheets] == ["Уравновешивание механизма"]
-    text = plain_document(note_document(project, language("ru")), language("ru"))
+    text = plain_document(note_document(project, get_language("ru")), get_language("ru"))
     # m_2B = 3.6·0.16/0.36 kg and the slider, at AB = 0.36 m; then all of it and m_1 at the crank.
     rod = (1.6 + 2.8) * 0.36 / 0.24
     assert f"на звене 2 массой {rod:.3f} кг".replace(".", ",") in " ".join(text.split())
@@ -698,7 +700,7 @@ def test_the_list_of_sheets_has_the_numbers_titles_and_formats_of_the_title_bloc
     assert (one.number, one.title) == (1, sheets[0][0].title)
     assert (one.paper.width, one.paper.height) == (sheets[0][0].width, sheets[0][0].height)
     several = [replace(one, number=number) for number in (1, 2)]
-    nodes = note_document(project, language("ru"), several).nodes
+    nodes = note_document(project, get_language("ru"), several).nodes
     (table,) = (n for n in nodes if isinstance(n, document.Table) and n.key == "sheets")
     assert table.head == ("Лист", "Наименование", "Формат")
     paper = one.paper.written("А")
@@ -725,7 +727,7 @@ def test_friction_has_a_sheet_beside_that_of_the_forces_and_is_described() -> No
     rubbing = friction_of(project.loaded)
     eta = float(rubbing.efficiency[0])
     told = " ".join(text_of("rubbing").split())
-    assert f"= {language('ru').say.found(eta)}." in told and 0 < eta < 1
+    assert f"= {get_language('ru').notation.computed(eta)}." in told and 0 < eta < 1
     for lang, sentences in {
         "ru": ("Уравновешивающая сила приложена в точке A перпендикулярно OA.",
                "имеют на его оси координаты −0,04 м и 0,06 м",
@@ -747,15 +749,15 @@ def test_the_balance_has_the_size_that_the_equations_beside_it_give(tmp_path: Pa
     project = settle(load(path), path)
     friction = friction_of(project.loaded)
     assert float(friction.without.balance[0]) < 0 and float(friction.converged.balance[0]) < 0
-    words = language("ru")
+    words = get_language("ru")
     told = plain_document(note_document(project, words), words).replace("\u00a0", " ")
-    size = words.say.found(-float(friction.without.balance[0]))
+    size = words.notation.computed(-float(friction.without.balance[0]))
     assert told.count(f"Без трения M_ур = {size} Н·м") == 2
     flat = " ".join(told.split())
     # 10030 N at 0.04, the bearings at −0.03 and 0.02: moments about each give the other.
     f = abs(complex(friction.statics.reactions[-1].force[0]))
     for share in (f * 0.02 / 0.05, f * 0.07 / 0.05):
-        assert f"= {words.say.found(share)} Н" in flat
+        assert f"= {words.notation.computed(share)} Н" in flat
     assert "(противоположно F₁₀); F''₁₀" in flat
 
 
@@ -767,7 +769,7 @@ def test_figures_are_legible_at_the_width_of_a_page(name: str) -> None:
     for node in note_of(name).nodes:
         if isinstance(node, document.Figure):
             assert isinstance(node.view, FittedView)
-            view, factor = node.view.fitted
+            view, factor = node.view.scaled_view
             assert node.view.size[0] <= WIDTH + 1e-6
             heights = [item.height for item in view.drawing.items if isinstance(item, Text)]
             assert min(heights) * factor > 0.4 * LETTER  # of an index of an index
@@ -788,7 +790,7 @@ def test_a_figure_is_drawn_only_when_a_writer_needs_it() -> None:
 
 
 def test_the_parts_of_a_project_are_named() -> None:
-    names = set(language("ru").report["back"]["names"])
+    names = set(get_language("ru").report["back"]["names"])
     assert {name.value for name in PartName} - {"note"} <= names
 
 
@@ -805,7 +807,7 @@ def test_the_title_page_has_the_city_and_the_year_of_the_stamp(
 ) -> None:
     project = project_of("homework")
     problem = replace(project.problem, stamp=stamp)
-    page = note_document(replace(project, problem=problem), language("ru")).nodes[0]
+    page = note_document(replace(project, problem=problem), get_language("ru")).nodes[0]
     assert isinstance(page, document.TitlePage) and (page.place, page.year) == foot
 
 
@@ -836,7 +838,7 @@ def test_the_stated_data_have_the_tables_of_the_loads(name: str) -> None:
             for share, pressure in stroke
         ]
         assert np.allclose(cells, listed)
-        area = language("ru").say.given(told.area)
+        area = get_language("ru").notation.as_input(told.area)
         assert any(isinstance(n, document.Paragraph) and area in n.text for n in front)
 
 
@@ -887,13 +889,13 @@ def test_pages_of_pdf_have_the_frames_of_word_and_no_text_runs_into_them(
 def speeds_told(project: Project, words: Language) -> Iterator[tuple[str, float]]:
     """Yield the rotational speeds in the note and sheets of a project, with their symbols."""
     symbol, value = r"(n(?:_\{[^}]*\})?)", r"([−-]?\d[\d.,]*)"
-    given_facts = [fact.text for fact in given(project.problem, words)]
+    facts_given = [fact.text for fact in given_facts(project.problem, words)]
     for part in project.parts:
         if isinstance(part.problem, GearProblem):
             facts = train_given(solve_motion(part.problem), words)
-            given_facts += [fact.text for fact in facts]
+            facts_given += [fact.text for fact in facts]
     written = note_document(project, words)
-    for text in (*given_facts, *texts(written)):
+    for text in (*facts_given, *texts(written)):
         for name, found in re.findall(
             rf"{symbol} = (?:[^;]* = )?{value} (?:об/мин|мин\^|rev/min|rpm|min\^)",
             text.replace("\u00a0", " "),
@@ -925,10 +927,10 @@ def test_a_letter_of_a_speed_is_one_thing_in_all_parts(
     else:
         project = project_of(name)
     found: dict[str, set[float]] = {}
-    for symbol, value in speeds_told(project, language(lang)):
+    for symbol, value in speeds_told(project, get_language(lang)):
         found.setdefault(symbol, set()).add(value)
     assert found and all(max(of) - min(of) <= 1e-3 * max(map(abs, of)) for of in found.values())
-    beside = language(lang).say.symbol("crank turns")
+    beside = get_language(lang).notation.symbol("crank turns")
     assert {"template": "n_{5}", "engine": "n_{1}"}.get(name, beside) in found
 
 

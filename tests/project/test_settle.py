@@ -21,13 +21,13 @@ from planmethod.problem.model import Problem
 from planmethod.project.decided import loaded_positions
 from planmethod.project.model import PartName, Project
 from planmethod.project.record import project_record
-from planmethod.project.settle import settle, settled
+from planmethod.project.settle import settle, with_decisions
 from planmethod.project.sheets import numbered_set, part_drawings
 from planmethod.render.ink.drawing import Drawing, Text
-from planmethod.render.sheets.turn import MOST, SMALL, hodograph
+from planmethod.render.sheets.turn import MAX_SIDE, SMALL, hodograph
 from planmethod.solved.forces.loads import external
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import turn_of
+from planmethod.solved.turn.cycle import crank_cycle_of
 
 FILES = Path(__file__).parents[1] / "data" / "projects"
 
@@ -60,7 +60,7 @@ def sheets_of(name: str) -> list[list[Drawing]]:
 
 def test_positions_are_those_of_the_cycle_numbered_from_0() -> None:
     project = project_of("shaper")
-    turn = turn_of(project.solution)
+    turn = crank_cycle_of(project.solution)
     assert project.positions == pytest.approx(tuple(turn.positions))
     assert project.problem.drive.positions == project.positions
     assert len(project.positions) == 6
@@ -98,7 +98,10 @@ def test_a_homework_of_one_position_is_a_project_of_that_position() -> None:
 def test_the_way_of_assembly_is_that_of_the_file() -> None:
     """The rules of the file hold for its own positions, not for the first one of the cycle."""
     asked = problem_of("crusher")
-    one, two = Solution(asked, positions=[30.0]), project_of("crusher").solution.moved([30.0])
+    one, two = (
+        Solution(asked, positions=[30.0]),
+        project_of("crusher").solution.with_positions([30.0]),
+    )
     assert one.place("D")[0] == pytest.approx(two.place("D")[0])  # type: ignore[arg-type]
 
 
@@ -112,7 +115,9 @@ def test_the_calculated_position_is_the_requested_one() -> None:
 def test_phi_is_the_calculated_position_if_it_is_one_of_them() -> None:
     problem = scaled("shaper")
     at = project_of("shaper").positions[2]
-    drive = replace(problem.drive, positions=(at - 360.0,), judged=problem.drive.positions)
+    drive = replace(
+        problem.drive, positions=(at - 360.0,), assembly_positions=problem.drive.positions
+    )
     found = settle(replace(problem, drive=drive, project=None))
     assert found.calculated == 2
 
@@ -188,8 +193,8 @@ def test_the_working_stroke_is_that_of_the_load() -> None:
 
 def test_a_settled_problem_stays_as_it_is() -> None:
     problem = project_of("shaper").problem
-    assert settled(problem) is problem
-    assert settled(problem_of("homework")).calculated is None  # it has no [project]
+    assert with_decisions(problem) is problem
+    assert with_decisions(problem_of("homework")).calculated is None  # it has no [project]
 
 
 @pytest.mark.parametrize("name", ["shaper", "engine"])
@@ -199,13 +204,13 @@ def test_hodographs_have_the_scale_of_the_plans_or_are_larger(name: str) -> None
         made, common = hodograph(solution, kind, 60.0), solution.scales[kind]
         widths = [np.ptp([part.real, part.imag], axis=1).max() for part in made.parts]
         assert made.scale == hodograph(solution, kind, 90.0).scale  # that of the sheet in the note
-        assert MOST / 2.5 <= max(widths) <= MOST
+        assert MAX_SIDE / 2.5 <= max(widths) <= MAX_SIDE
         at_common = max(widths) * made.scale.per_mm / common.per_mm
-        if SMALL * MOST <= at_common <= MOST:
+        if SMALL * MAX_SIDE <= at_common <= MAX_SIDE:
             assert made.scale == common
         else:  # the next larger one would not fit
             finer = next_scale(made.scale.per_mm, finer=True)
-            assert max(widths) * made.scale.per_mm / finer > MOST
+            assert max(widths) * made.scale.per_mm / finer > MAX_SIDE
 
 
 def test_places_are_written_within_a_turn() -> None:

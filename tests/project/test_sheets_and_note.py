@@ -16,7 +16,7 @@ from worked import PROBLEMS, ROOT
 from planmethod.kinds import load
 from planmethod.note.document import Chapter, Formula, Item, Paragraph, Part, Step, Table
 from planmethod.note.formula import inlined
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.project.model import PartName, Project
 from planmethod.project.report import note_document
 from planmethod.project.settle import settle
@@ -173,7 +173,7 @@ def _signed(cell: TableCell) -> str:
 
 def in_note(project: Project) -> Iterator[Reading]:
     position, is_told = project.calculated, True
-    for node in note_document(project, language("ru")).nodes:
+    for node in note_document(project, get_language("ru")).nodes:
         match node:
             case Chapter(title) | Part(title):
                 is_told = "Трение" not in title

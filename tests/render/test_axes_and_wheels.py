@@ -136,7 +136,7 @@ def bars_along(items: list[Item]) -> list[float]:
 
 
 def test_cross_bars_of_meshing_wheels_are_apart_about_the_pitch_point() -> None:
-    sun = wheel_profile(0j, 10.0, ways=(1,))
+    sun = wheel_profile(0j, 10.0, sides=(1,))
     planet = wheel_profile(16j, 6.0, loose=True)
     ring = ring_profile(0j, 22.0)
     lower, upper = bars_along(sun)[-1], bars_along(planet)[0]

@@ -12,19 +12,19 @@ import pytest
 from cases import each
 from worked import problem_of
 
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem.load_records import SizeTable
 from planmethod.render.ink.drawing import Item, Stroke, Text
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.pictures.diagram import AXIS, CURVE
 from planmethod.render.sheets.blocks import maker_of
 from planmethod.render.sheets.composer import Sizes
-from planmethod.render.sheets.model import Entry, Extras, Manner
+from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle
 from planmethod.solved.machine.flywheel import flywheel_of
 from planmethod.solved.machine.runup import run_up_of
 from planmethod.solved.solution import Solution
 
-EN = language("en")
+EN = get_language("en")
 TURN = tuple(98.918918918919 + 30.0 * k for k in range(12))
 
 BLOCKS = (
@@ -59,8 +59,8 @@ def solution_of(name: str, positions: tuple[float, ...] | None) -> Solution:
 def axes_of(kind: str, name: str, positions: tuple[float, ...] | None) -> list[Axes]:
     """Return the axes of the diagrams of a block."""
     solution = solution_of(name, positions)
-    extras = Extras(EN, asked=("v_B", "a_B"))
-    manner = Manner(Entry(kind), Sizes(5.0, 5.0, 5.0, 240.0), 800.0, extras)
+    extras = BlockOptions(EN, quantities=("v_B", "a_B"))
+    manner = BlockStyle(BlockSpec(kind), Sizes(5.0, 5.0, 5.0, 240.0), 800.0, extras)
     block = maker_of(kind)(solution, tuple(range(len(solution.positions))), manner)
     return list(read_axes(getattr(block, "shapes", [block])[0].place(0j)))
 
@@ -172,7 +172,7 @@ def test_numbers_of_time_angle_and_speed_are_those_of_the_run_up_and_the_stop() 
     motor, *courses = axes_of("run-up-diagrams", "machines/compressor", None)
     ends = (
         (float(run.run_up.time[-1]), float(run.run_up.omega.max())),
-        (degrees(float(run.run_up.turned[-1])), float(run.run_up.omega.max())),
+        (degrees(float(run.run_up.rotation[-1])), float(run.run_up.omega.max())),
         (float(stop.time[-1]), float(stop.omega.max())),
     )
     assert len(courses) == 3

@@ -9,7 +9,7 @@ from worked import path_of
 from planmethod.errors import LayoutError
 from planmethod.mechanism.structure import analyse
 from planmethod.problem import load
-from planmethod.problem.head import SheetSettings
+from planmethod.problem.common import SheetSettings
 from planmethod.render.control.sheet import inspect
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet

@@ -15,24 +15,24 @@ from msgspec.structs import replace
 from worked import ROOT, SIX, drawn_sheets, path_of, problem_of
 
 from planmethod.errors import CompositionError, ExitCode, LayoutError
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.plans.model import MOTION
 from planmethod.problem import loads
 from planmethod.problem.model import Scales
 from planmethod.render.control.texts import lint
 from planmethod.render.frame.frame import FORMATS
-from planmethod.render.frame.furniture import Furniture, Room
+from planmethod.render.frame.furniture import DrawingArea, Furniture
 from planmethod.render.ink.drawing import Drawing, Text, View
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.layout.block import Block, Column, heading
 from planmethod.render.sheets import blocks as kinds
 from planmethod.render.sheets.blocks import BLOCKS
-from planmethod.render.sheets.composer import Blank
+from planmethod.render.sheets.composer import TrialPaper
 from planmethod.render.sheets.composition import entries, reader
 from planmethod.render.sheets.composition.reader import composition, read_composition, shipped
 from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
+from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle, Composition
 from planmethod.render.sheets.pages import pages_of
 from planmethod.solved.solution import Solution
 
@@ -211,14 +211,14 @@ def test_sheets_keep_clear_of_graph_26(
     cell = (left, top - 14.0, left + 70.0, top)
     if corner == "right":
         cell = (right - 14.0, top - 70.0, right, top)
-    room = Room(fmt.inner, fmt.stamp, (cell,))
-    monkeypatch.setattr(Furniture, "room", lambda *_: room)
+    room = DrawingArea(fmt.inner, fmt.stamp, (cell,))
+    monkeypatch.setattr(Furniture, "drawing_area", lambda *_: room)
     found = pages_of(
         shipped("one-position"),
         solution,
         (0,),
-        Blank(fmt, Furniture()),
-        Extras(language("ru")),
+        TrialPaper(fmt, Furniture()),
+        BlockOptions(get_language("ru")),
     )
     assert found is not None
     (page,) = found
@@ -401,7 +401,7 @@ def test_plans_grow_into_free_paper_and_given_scales_stay() -> None:
 
 
 def test_a_new_kind_of_block_is_a_function_and_its_lines(monkeypatch: pytest.MonkeyPatch) -> None:
-    def signature(solution: Solution, indices: object, manner: Manner) -> Block:
+    def signature(solution: Solution, indices: object, manner: BlockStyle) -> Block:
         return Column([heading(f"Подпись: {solution.problem.title}", manner.text(3.5))])
 
     signed = kinds.BlockKind(lambda: {"signature": signature}, ("height",))
@@ -438,7 +438,7 @@ def test_positions_on_one_sheet(
     per_sheet: tuple[int, ...], count: int, tried: tuple[int, ...]
 ) -> None:
     mine = made(f'per_sheet = {list(per_sheet)}\n[[blocks]]\nkind = "scheme"\n')
-    assert mine.at_most(count) == tried
+    assert mine.list_per_sheet(count) == tried
 
 
 @pytest.mark.parametrize("name", ["linkages/ex3", "levers/task12"])
@@ -458,7 +458,7 @@ def test_the_sheet_of_a_block_is_that_of_the_one_before() -> None:
 
 def test_defaults_of_a_block() -> None:
     (entry,) = made('[[blocks]]\nkind = "scheme"\n').blocks
-    assert entry == Entry("scheme")
+    assert entry == BlockSpec("scheme")
 
 
 @pytest.mark.parametrize("path", FAULTY, ids=lambda path: path.stem)

@@ -17,7 +17,7 @@ from worked import drawn_sheets, path_of, problem_of
 from planmethod import loads
 from planmethod.cli import cli
 from planmethod.errors import LayoutError, PlanMethodError, ProblemError
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem.model import Problem
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
@@ -34,7 +34,7 @@ from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
-RU = language("ru")
+RU = get_language("ru")
 
 TURN = tuple(30.0 * k for k in range(12))
 PRESS = tuple(98.918918918919 + phi for phi in TURN)
@@ -291,7 +291,7 @@ inertia = 0.1
 def test_the_difference_has_the_digits_of_its_operands() -> None:
     """If the balance has a narrow peak, its numbers have different decimals."""
     solution = Solution(loads(FAST, name="fast"), positions=TURN)
-    (_, plans, lever, off, *_) = cycle_balance_columns(solution, range(12), language("ru"))
+    (_, plans, lever, off, *_) = cycle_balance_columns(solution, range(12), get_language("ru"))
 
     def decimals(text: str) -> int:
         return len(text.partition(",")[2])
@@ -324,8 +324,8 @@ def test_a_smaller_paper_keeps_the_letters_of_the_positions(name: str, wide: flo
 def test_sheets_are_small_where_no_block_is_left_out() -> None:
     """A short calculation of forces takes A2, with diagrams as large as fit."""
     (sheet,) = drawn_sheets("machines/engine", layout="forces-cycle")
-    assert (sheet.width, sheet.is_cut_down) == (594.0, False)
+    assert (sheet.width, sheet.has_omissions) == (594.0, False)
     (forces,) = drawn_sheets("machines/engine", layout="forces")
-    assert (forces.width, forces.is_cut_down) == (841.0, False)  # A2 would leave plans out
+    assert (forces.width, forces.has_omissions) == (841.0, False)  # A2 would leave plans out
     asked = drawn_sheets("machines/engine", layout="forces", paper="A2")
     assert asked[0].width == 594.0

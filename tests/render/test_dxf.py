@@ -37,7 +37,7 @@ from planmethod.render.ink.drawing import Arc, Bounds, Disc, Drawing, Fill, Ink,
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.style import PENS, sweep
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.pictures.enlarged import ENLARGED
+from planmethod.render.pictures.detail_views import ENLARGED
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet

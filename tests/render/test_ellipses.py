@@ -14,7 +14,7 @@ from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.model import MOTION, PlanKind
 from planmethod.render.ink.drawing import Pen, Stroke, Text
 from planmethod.render.ink.typeset import text_corners
@@ -31,7 +31,7 @@ from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
 
-RU = language("ru")
+RU = get_language("ru")
 
 FINITE = st.floats(-20.0, 20.0, allow_nan=False)
 
@@ -122,7 +122,7 @@ def test_every_letter_point_has_its_ellipse(name: str) -> None:
     for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
         plan = solution.construction.plan(kind)
         view = error_ellipses(solution, kind, 0)
-        assert not view.too_large
+        assert not view.has_oversized
         assert not view.undefined
         for point in plan.letters:
             covariance = drafting_of(solution).ellipse(point, 0)
@@ -160,8 +160,8 @@ def test_an_ellipse_larger_than_half_the_plan_is_mentioned_but_not_drawn() -> No
     for index in range(12):
         view = error_ellipses(solution, kind, index)
         told = "эллипсы больше половины плана не показаны"
-        assert (told in ellipse_inscription(solution, kind, [index], RU)) == view.too_large
-    assert any(error_ellipses(solution, kind, index).too_large for index in range(12))
+        assert (told in ellipse_inscription(solution, kind, [index], RU)) == view.has_oversized
+    assert any(error_ellipses(solution, kind, index).has_oversized for index in range(12))
 
 
 def test_dashed_are_the_points_where_first_order_does_not_hold() -> None:
@@ -181,7 +181,7 @@ def test_a_short_segment_alone_does_not_make_its_end_dashed() -> None:
     """The slotted link of ex3 stops at 270°: b b3 is zero, but b3 is known as well as ever."""
     solution = solved("linkages/ex3", many=True)
     assert drafting_of(solution).spreads["velocity.b-b3"].drawn[9]
-    assert not error_ellipses(solution, PlanKind.VELOCITY, 9).strained
+    assert not error_ellipses(solution, PlanKind.VELOCITY, 9).has_nonlinear
 
 
 def test_the_inscription_names_factor_and_profile() -> None:

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from worked import PROBLEMS, problem_of
 
 from planmethod.mechanism.structure import analyse
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.problem import loads as parsed
 from planmethod.problem import template
 from planmethod.problem.model import Problem
@@ -131,7 +131,9 @@ def test_the_structural_sheet_in_english(name: str) -> None:
 
 @pytest.mark.parametrize("name", SPECIMENS)
 def test_a_specimen_in_english(name: str) -> None:
-    told = [text for text in texts(SPECIMENS[name]({}, language("en"))) if CYRILLIC.search(text)]
+    told = [
+        text for text in texts(SPECIMENS[name]({}, get_language("en"))) if CYRILLIC.search(text)
+    ]
     assert all(len(text) == 1 for text in told)  # the letters that are shown themselves
     assert (told != []) is (name == "lettering")
 
@@ -153,6 +155,6 @@ def test_the_numbers_are_the_same_in_every_language() -> None:
     found = []
     for lang in LANGUAGES:
         (drawing,) = kinematics_sheets(bare(problem, lang), layout="homework", sigma=True)
-        told = " ".join(texts(drawing)).replace(language(lang).say.decimal, ".")
+        told = " ".join(texts(drawing)).replace(get_language(lang).notation.decimal, ".")
         found.append(Counter(re.findall(r"\d+\.\d+", told)))
     assert all(one == found[0] != Counter() for one in found)

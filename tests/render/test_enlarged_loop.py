@@ -8,11 +8,11 @@ from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.construct.drafting import PROFILES
-from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.wording import language
+from planmethod.note.narrate.machine import MachineNarrator
+from planmethod.note.wording import get_language
 from planmethod.render.ink.drawing import Disc, Text
 from planmethod.render.pictures.flywheel import construction_picture
-from planmethod.solved.enlarging import RATIOS
+from planmethod.solved.detail_views import RATIOS
 from planmethod.solved.machine.drawing import FlywheelDrawing
 from planmethod.solved.machine.flywheel import Flywheel
 
@@ -25,7 +25,7 @@ def test_a_narrow_curve_is_enlarged(lang: str, inertia: float, narrow: bool) -> 
     assert problem.machine is not None
     problem = replace(problem, machine=replace(problem.machine, crank_inertia=inertia))
     drawing = FlywheelDrawing(Flywheel(problem), PROFILES["board"])
-    picture = construction_picture(drawing, MachineTeller(drawing, language(lang)), 5.0)
+    picture = construction_picture(drawing, MachineNarrator(drawing, get_language(lang)), 5.0)
     larger = [one.centre for one in picture.items
               if isinstance(one, Disc) and one.tag == "diagram enlarged"]  # fmt: skip
     heading = {"ru": "начинается не с нуля", "en": "does not begin at zero"}[lang]
@@ -33,7 +33,7 @@ def test_a_narrow_curve_is_enlarged(lang: str, inertia: float, narrow: bool) -> 
     assert (heading in written) is narrow
     assert len(larger) == (drawing.count if narrow else 0)
     if narrow:
-        curve = [complex(drawing.exact.point(name)[0]) for name in drawing.made.curve]
+        curve = [complex(drawing.exact.point(name)[0]) for name in drawing.construction.curve]
         times = np.ptp(np.real(larger)) / np.ptp(np.real(curve))
         assert min(abs(times - ratio) for ratio in RATIOS) < 1e-9
         off = (np.array(larger) - larger[0]) - times * (np.array(curve) - curve[0])

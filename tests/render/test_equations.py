@@ -12,12 +12,12 @@ from planmethod.note.narrate.equations import equation_of
 from planmethod.note.narrate.letters import direction_text
 from planmethod.plans.model import (
     Direction,
-    Known,
+    KnownParts,
     Relation,
     Vector,
     VectorEquation,
     VectorKind,
-    across,
+    perpendicular_to,
     towards,
 )
 from planmethod.render.control.texts import lint
@@ -35,18 +35,20 @@ def equation_block(
     return made(equation_of(equation, direction_text), height, width=width)
 
 
-def vector(symbol: str, known: Known = Known.ONE, direction: Direction | None = None) -> Vector:
+def vector(
+    symbol: str, known: KnownParts = KnownParts.ONE, direction: Direction | None = None
+) -> Vector:
     letters = PointName("p"), PointName("b")
     return Vector(symbol, VectorKind.ABSOLUTE, *letters, known, direction)
 
 
 EQUATION = VectorEquation(
-    vector("a_{C}", Known.ONE, Direction(Relation.ALONG, guide="x-x")),
+    vector("a_{C}", KnownParts.ONE, Direction(Relation.PARALLEL, guide="x-x")),
     (
-        vector("a_{B}", Known.BOTH, towards("B", "A")),
-        vector("a^{n}_{CB}", Known.BOTH, towards("C", "B")),
-        vector("a^{τ}_{CB}", Known.ONE, across("B", "C")),
-        vector("a_{S}", Known.NOTHING),
+        vector("a_{B}", KnownParts.BOTH, towards("B", "A")),
+        vector("a^{n}_{CB}", KnownParts.BOTH, towards("C", "B")),
+        vector("a^{τ}_{CB}", KnownParts.ONE, perpendicular_to("B", "C")),
+        vector("a_{S}", KnownParts.NONE),
     ),
 )
 
@@ -114,10 +116,10 @@ words = st.text(alphabet="ABCDOxτn123", min_size=1, max_size=8)
 vectors = st.builds(
     vector,
     words.map("a_{{{}}}".format),
-    st.sampled_from(Known),
+    st.sampled_from(KnownParts),
     st.one_of(
         st.none(),
-        words.map(lambda guide: Direction(Relation.ACROSS, guide=guide)),
+        words.map(lambda guide: Direction(Relation.PERPENDICULAR, guide=guide)),
         st.builds(towards, words, words),
     ),
 )

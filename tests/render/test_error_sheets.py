@@ -14,8 +14,8 @@ from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import LayoutError
-from planmethod.note.narrate.given import asked_links, asked_points
-from planmethod.note.wording import language
+from planmethod.note.narrate.statement import reported_links, reported_points
+from planmethod.note.wording import get_language
 from planmethod.render.frame.frame import FORMATS
 from planmethod.render.ink.drawing import Drawing, Stroke
 from planmethod.render.pictures.ellipses import TAG
@@ -26,7 +26,7 @@ from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
 
 PAPERS = ("A3", "A1")
-RU = language("ru")
+RU = get_language("ru")
 
 
 def count_ellipses(sheet: Drawing) -> int:
@@ -47,7 +47,7 @@ def test_the_lint_finds_no_faults(name: str, many: bool) -> None:
         assert marks(sheets) == []
         if sigma:
             assert_tables_inside(sheets)
-        sheets = [sheet for sheet in sheets if not sheet.goes_on]
+        sheets = [sheet for sheet in sheets if not sheet.is_continuation]
         assert all((count_ellipses(sheet) > 0) == errors for sheet in sheets)
         for sheet in sheets:
             shown = texts(sheet)
@@ -112,10 +112,10 @@ def test_no_errors_are_computed_without_the_options(
     positions = MANY[name] if many else None
     plain = kinematics_sheets(problem_of(name), positions=positions, sigma=False)
     same_ruler = replace(PROFILES["coarse"], ruler=PROFILES["board"].ruler)
-    once = Solution.once
+    once = Solution.compute_once
     monkeypatch.setattr(
         Solution,
-        "once",
+        "compute_once",
         lambda s, make, *of, **how: (
             pytest.fail("asked") if make is Drafting else once(s, make, *of, **how)
         ),
@@ -159,10 +159,10 @@ def test_rows_of_a_single_position(name: str) -> None:
     plain = {column.head: column.cells for column in result_columns(solution, [0], RU)}
     assert [cell.text for cell in columns.pop("")] == ["точно", "план", "Δ, %", "±σ"]
     assert list(columns) == list(plain)
-    labels = [("v", "v", p) for p in asked_points(solution)]
-    labels += [("ω", "omega", k) for k in asked_links(solution)]
-    labels += [("a", "a", p) for p in asked_points(solution)]
-    labels += [("ε", "epsilon", k) for k in asked_links(solution)]
+    labels = [("v", "v", p) for p in reported_points(solution)]
+    labels += [("ω", "omega", k) for k in reported_links(solution)]
+    labels += [("a", "a", p) for p in reported_points(solution)]
+    labels += [("ε", "epsilon", k) for k in reported_links(solution)]
     for symbol, word, what in labels:
         exact, read, off, error = columns[f"{symbol}_{{{what}}}"]
         assert exact == plain[f"{symbol}_{{{what}}}"][0]

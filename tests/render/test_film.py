@@ -17,7 +17,7 @@ from planmethod.cli import cli
 from planmethod.errors import ExitCode
 from planmethod.problem import loads
 from planmethod.render.ink.drawing import Disc, Text
-from planmethod.render.live.film import film_of
+from planmethod.render.live.animation import make_animation
 from planmethod.solved.solution import Solution
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -33,7 +33,7 @@ links.3 = { points = ["C", "D"], CD = 0.15 }
 
 def test_an_svg_that_plays_has_links_and_plan_where_they_are_solved_to_be() -> None:
     problem = problem_of("linkages/ex3")
-    film = film_of(problem, "ru", frames=12, plans=True)
+    film = make_animation(problem, "ru", frames=12, plans=True)
     assert film.skipped == "" and film.positions == pytest.approx(20.0 + 30.0 * np.arange(12))
     root = ElementTree.fromstring(film.svg(6.0))
     solved = Solution(problem, positions=film.positions.tolist())
@@ -72,8 +72,8 @@ def test_an_svg_that_plays_has_links_and_plan_where_they_are_solved_to_be() -> N
 def test_joints_of_the_scheme_are_at_their_points_in_every_frame(name: str) -> None:
     """Parts and places have the scale that is written on the film."""
     problem = problem_of(name)
-    film = film_of(problem, "ru", frames=8, plans=False)
-    told = "".join(item.text for item in film.still if isinstance(item, Text))
+    film = make_animation(problem, "ru", frames=8, plans=False)
+    told = "".join(item.text for item in film.static_items if isinstance(item, Text))
     (number,) = re.findall(r"([\d,]+)\sм/мм|([\d,]+)\sмм/м", told)
     mu = float(number[0].replace(",", ".")) if number[0] else 1 / float(number[1].replace(",", "."))
     solved = Solution(problem, positions=film.positions.tolist())
@@ -82,7 +82,7 @@ def test_joints_of_the_scheme_are_at_their_points_in_every_frame(name: str) -> N
         circles = np.array(
             [
                 body.places[k] + item.centre * np.exp(1j * np.radians(body.turns[k]))
-                for body in film.bodies
+                for body in film.drawn_bodies
                 for item in body.items
                 if isinstance(item, Disc)
             ]
@@ -96,7 +96,7 @@ def test_joints_of_the_scheme_are_at_their_points_in_every_frame(name: str) -> N
 
 
 def test_positions_that_do_not_exist_are_left_out_and_the_crank_goes_to_and_fro() -> None:
-    film = film_of(loads(ROCKERS, name="rockers"), "en", frames=36, plans=False)
+    film = make_animation(loads(ROCKERS, name="rockers"), "en", frames=36, plans=False)
     end = 105.33820309628705
     assert np.abs(film.positions).max() <= end + 360 and film.closed
     assert np.abs((film.positions + 180) % 360 - 180).max() <= end
@@ -113,7 +113,9 @@ def test_the_command_writes_every_frame_and_reports_faults(tmp_path: Path) -> No
     done = CliRunner().invoke(cli, args)
     assert done.exit_code == 0 and "do not exist and are skipped" in done.output
     assert {p.suffix for p in tmp_path.glob("rockers-animated.*")} == {".gif", ".svg"}
-    count = len(film_of(loads(ROCKERS, name="rockers"), "en", frames=8, plans=False).positions)
+    count = len(
+        make_animation(loads(ROCKERS, name="rockers"), "en", frames=8, plans=False).positions
+    )
     with Image.open(tmp_path / "rockers-animated.gif") as picture:
         shown = set()
         for k in range(count):

@@ -15,16 +15,16 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ExitCode
 from planmethod.kinds import load
-from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.tables.machine import machine_teller
-from planmethod.note.wording import language
+from planmethod.note.narrate.machine import MachineNarrator
+from planmethod.note.tables.machine import machine_narrator
+from planmethod.note.wording import get_language
 from planmethod.problem.machine_records import FlywheelMethod
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Pen, Stroke, Text
 from planmethod.render.pictures.flywheel import construction_picture
 from planmethod.render.sheets.blocks import maker_of
 from planmethod.render.sheets.composer import Sizes
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.model import Entry, Extras, Manner
+from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle
 from planmethod.solved.machine.drawing import NEAREST_POLE, TALLEST, drawing_of
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.solution import Solution
@@ -88,7 +88,7 @@ def test_by_mertsalov_the_sheet_has_three_curves_of_energy_and_their_segment(
             if isinstance(item, Disc) and item.tag in ("A", "B")}  # fmt: skip
     assert ends["A"] == pytest.approx(spans["AB"].end)
     assert ends["B"].imag == pytest.approx(spans["AB"].start.imag)
-    tell = MachineTeller(drawing, language(lang))
+    tell = MachineNarrator(drawing, get_language(lang))
     sheet = [item.text for item in drawn.items if isinstance(item, Text)]
     heads = [head for head, _, _ in tell.columns()]
     for told in (sheet, heads, [*tell.formulas(), *tell.conclusions()], tell.steps()):
@@ -118,13 +118,13 @@ def test_a_file_without_a_machine_is_reported() -> None:
 def test_a_moment_that_jumps_is_drawn_upright() -> None:
     problem = load(ROOT / "tests/data/turn/shaper.toml")
     drawing = drawing_of(Flywheel(problem), PROFILES["board"])
-    picture = construction_picture(drawing, MachineTeller(drawing, language("ru")), 5.0)
+    picture = construction_picture(drawing, MachineNarrator(drawing, get_language("ru")), 5.0)
     curve = [item for item in picture.items
              if isinstance(item, Stroke) and item.tag == "diagram curve M"]  # fmt: skip
     uprights = [one for one in curve if one.pen is Pen.THIN]
     assert len(uprights) == 2
     assert all(abs((one.points[1] - one.points[0]).real) < 0.1 for one in uprights)
-    given = MachineTeller(drawing, language("ru")).given()
+    given = MachineNarrator(drawing, get_language("ru")).given_facts()
     assert not any(fact.text.startswith("φ") for fact in given)  # of no single position
 
 
@@ -147,9 +147,11 @@ def test_scales_of_the_file_are_those_of_an_energy_mass_curve() -> None:
 def test_the_dimensions_of_the_flywheel_span_its_width_and_its_diameter() -> None:
     """Read between the heads of each dimension, beside the circle of the rim."""
     solution = Solution(problem_of("press/flywheel"))
-    sizes = machine_teller(solution, language("en")).sizes
+    sizes = machine_narrator(solution, get_language("en")).sizes
     assert sizes is not None and not sizes.bore
-    manner = Manner(Entry("flywheel"), Sizes(5.0, 5.0, 5.0, 240.0), 800.0, Extras(language("en")))
+    manner = BlockStyle(
+        BlockSpec("flywheel"), Sizes(5.0, 5.0, 5.0, 240.0), 800.0, BlockOptions(get_language("en"))
+    )
     items = maker_of("flywheel")(solution, (0,), manner).place(0j)
     rim = max(one.radius for one in items if isinstance(one, Arc))
     tips = [one.points[0] for one in items if isinstance(one, Fill)]

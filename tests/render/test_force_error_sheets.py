@@ -19,19 +19,19 @@ from worked import drawn_sheets, path_of, problem_of
 
 from planmethod import loads
 from planmethod.construct.drafting import PROFILES
-from planmethod.note.compared import NONE
+from planmethod.note.compared import DASH
 from planmethod.note.records.solution import record
-from planmethod.note.wording import language, wording
+from planmethod.note.wording import get_language, wording
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.ellipses import vertex_ellipses
-from planmethod.render.forces.polygon import START, apart, drawn_edges
+from planmethod.render.forces.polygon import START, drawn_edges, find_overlap_shifts
 from planmethod.render.ink.drawing import Disc, Drawing, Pen, Stroke
 from planmethod.render.pictures.ellipses import TAG
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.guides import guided_at, is_couple
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.model import Entry, Extras, Manner
+from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle
 from planmethod.render.sheets.reactionerrors import (
     angle_column,
     balance_columns,
@@ -52,7 +52,7 @@ from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
-RU = language("ru")
+RU = get_language("ru")
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
 NEAR_DEAD = (230.0, 240.0, 250.0)
@@ -71,7 +71,7 @@ def reading_of(
 
 def errors_in(sheets: list[Drawing]) -> list[str]:
     found = [f for sheet in sheets for f in inspect(sheet)]
-    return [f.what("en") for f in found if f.severity is Severity.ERROR]
+    return [f.describe("en") for f in found if f.severity is Severity.ERROR]
 
 
 def ellipses_in(sheet: Drawing) -> list[Stroke]:
@@ -172,12 +172,12 @@ def test_no_errors_of_reactions_are_computed_without_the_options(
 def test_every_ellipse_is_that_of_a_vertex(name: str) -> None:
     reading = reading_of(name)
     for k in range(len(reading.plans)):
-        edges, shifts = drawn_edges(reading, k), apart(reading, k)
+        edges, shifts = drawn_edges(reading, k), find_overlap_shifts(reading, k)
         drawn = vertex_ellipses(reading, k)
         assert drawn.enlarged == 1
         for stroke in drawn.strokes:
             near = [
-                drawn_forces(reading.statics).ellipse(end, 0) * reading.share(k) ** 2
+                drawn_forces(reading.statics).ellipse(end, 0) * reading.enlargement(k) ** 2
                 for edge, shift in zip(edges, shifts, strict=True)
                 for end in (edge.tail, edge.head)
                 if abs(reading.corner(k, end) + shift - middle(stroke)) < 1e-6
@@ -198,7 +198,7 @@ def test_every_vertex_but_the_first_has_its_ellipse(name: str) -> None:
             reading.end(end) for end in reading.statics.board.starts
         }
         assert len(drawn.strokes) <= len(ends) - len(free)
-        if not drawn.too_large:
+        if not drawn.has_oversized:
             corners = [reading.corner(k, end) for end in ends - free]
             places = {complex(round(place.real, 3), round(place.imag, 3)) for place in corners}
             assert len(drawn.strokes) >= len(places)
@@ -239,9 +239,9 @@ def test_dashed_are_vertices_where_first_order_does_not_hold() -> None:
         strained = drafting_of(reading.solution).spreads["x_H"].drawn[index]
         for k in range(len(reading.plans)):
             drawn = vertex_ellipses(reading, k)
-            assert drawn.strained == any(s.pen is Pen.HIDDEN for s in drawn.strokes)
+            assert drawn.has_nonlinear == any(s.pen is Pen.HIDDEN for s in drawn.strokes)
             if not strained:
-                assert not drawn.strained
+                assert not drawn.has_nonlinear
             pens |= {stroke.pen for stroke in drawn.strokes}
     assert Pen.HIDDEN in pens
 
@@ -251,7 +251,7 @@ def test_an_ellipse_larger_than_half_the_plan_is_mentioned() -> None:
         problem_of("levers/six-link"), layout="forces", errors=True, positions=NEAR_DEAD[:1]
     )
     reading = reading_of("levers/six-link", "board", NEAR_DEAD[:1])
-    hidden = [vertex_ellipses(reading, k).too_large for k in range(len(reading.plans))]
+    hidden = [vertex_ellipses(reading, k).has_oversized for k in range(len(reading.plans))]
     assert shown(sheet).count("эллипсы больше половины плана не показаны") == sum(hidden) > 0
 
 
@@ -263,8 +263,8 @@ def test_columns_of_the_reactions(name: str) -> None:
     reading = reading_of(name)
     drawn, found = drawn_forces(reading.statics), reading.statics.reactions
     read, error = size_columns(reading, RU)
-    turn = angle_column(reading, [False] * len(found), RU.say)
-    moment = moment_column(reading, RU.say)
+    turn = angle_column(reading, [False] * len(found), RU.notation)
+    moment = moment_column(reading, RU.notation)
     for k, joint in enumerate(found):
         for column, label in (
             (error, size_label(joint)),
@@ -272,7 +272,7 @@ def test_columns_of_the_reactions(name: str) -> None:
             (moment, moment_label(joint)),
         ):
             if column is moment and not is_couple(guided_at(reading, k)):
-                assert column.cells[k].text == NONE
+                assert column.cells[k].text == DASH
                 continue
             text = column.cells[k].text
             if label not in drawn.items:
@@ -309,8 +309,10 @@ def test_the_table_is_no_wider_than_it_may_be(seed: int, height: float) -> None:
     problem, _ = loaded_problem(seed)
     solution = Solution(problem, positions=problem.drive.positions[:1])
     sizes = composition("forces").sizes_for("A1")
-    entry = Entry("reactions", heights=(height,))
-    block = reactions_block(solution, [0], Manner(entry, sizes, 811.0, Extras(RU, sigma=True)))
+    entry = BlockSpec("reactions", heights=(height,))
+    block = reactions_block(
+        solution, [0], BlockStyle(entry, sizes, 811.0, BlockOptions(RU, sigma=True))
+    )
     assert block.width == pytest.approx(185.0)
 
 

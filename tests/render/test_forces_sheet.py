@@ -21,15 +21,15 @@ from planmethod.cli import cli
 from planmethod.errors import ExitCode, ProblemError
 from planmethod.note.document import Equation, Term
 from planmethod.note.narrate.forces.lever import both_balances, compared_balances
-from planmethod.note.narrate.forces.statement import statement, wanted
-from planmethod.note.numbers import alike, significant
-from planmethod.note.wording import language
+from planmethod.note.narrate.forces.statement import force_unknowns, statement
+from planmethod.note.numbers import format_column, significant
+from planmethod.note.wording import get_language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem.model import FORCE, MOMENT, Problem
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.arms import ARM, ForceArm, arm_items
-from planmethod.render.forces.arrows import Acting, distance, lay_forces
+from planmethod.render.forces.arrows import Acting, distance, place_force_arrows
 from planmethod.render.forces.polygon import drawn_edges
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Stroke, Text, View
 from planmethod.render.layout.equations import equation_block
@@ -40,7 +40,7 @@ from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import PLAN_BOX
 from planmethod.solved.solution import Solution
 
-RU = language("ru")
+RU = get_language("ru")
 
 LOADED = ("levers/six-link", "levers/task12", "press/press")
 
@@ -85,7 +85,7 @@ def reading_of(name: str) -> ForceReading:
     per_mm = {view.scale: view.per_mm for view in sheet_of(name).views}
     views_of = composition("forces").views_for("A1", 1)
     reading = ForceReading(Solution(problem_of(name), views=views_of), 0)
-    assert reading.own_scale(len(reading.plans) - 1).per_mm == per_mm["μ_{F}"]
+    assert reading.plan_scale(len(reading.plans) - 1).per_mm == per_mm["μ_{F}"]
     return reading
 
 
@@ -171,7 +171,7 @@ def test_each_plan_fills_its_view_and_the_scale_is_of_the_series(name: str) -> N
     reading = ForceReading(Solution(free), 0)
     inverse = name != "press/press"
     for number in range(len(reading.plans)):
-        own = reading.own_scale(number).per_mm
+        own = reading.plan_scale(number).per_mm
         value = 1.0 / own if inverse else own
         assert f"{value:.6e}".partition("e")[0] in ("1.000000", "2.000000", "2.500000", "4.000000",
                                                     "5.000000")  # fmt: skip
@@ -206,11 +206,11 @@ def test_the_scheme_has_every_load_in_its_direction(name: str) -> None:
 def test_cut_links_have_loads_and_reactions_in_their_directions(name: str) -> None:
     sheet, reading = sheet_of(name), reading_of(name)
     for view, plan in zip(views(sheet, "position")[1:], reading.plans, strict=True):
-        expected = {e.symbol: reading.way(e) for e in reading.shown(plan)}
+        expected = {e.symbol: reading.drawn_direction(e) for e in reading.shown(plan)}
         drawn = dict(arrows(sheet, view))
         assert set(drawn) == set(expected)
         assert all(turned(vector, expected[letter]) < 0.01 for letter, vector in drawn.items())
-        symbols = [RU.say.symbol(couple.symbol) for couple in reading.couples(plan)]
+        symbols = [RU.notation.symbol(couple.symbol) for couple in reading.couples(plan)]
         assert sorted(couples(sheet, view)) == sorted(symbols)
 
 
@@ -231,7 +231,7 @@ def test_segments_of_the_plans_are_the_forces_to_scale(name: str) -> None:
             # Readings of the ruler enter the calculation; a fine ruler gives the force itself.
             assert abs(abs(vector) - reading.length(edge, number)) < 0.26
             exact = {**loads_of, **reactions}.get(letter, fine.force(edge))
-            drawn = fine.drawn(number, edge) * fine.own_scale(number).per_mm
+            drawn = fine.drawn(number, edge) * fine.plan_scale(number).per_mm
             assert drawn == pytest.approx(exact, rel=1e-6)
             seen |= {letter} & ({*reactions} | {*loads_of})
         for span in view.spans:
@@ -261,7 +261,7 @@ def test_vectors_on_one_line_are_drawn_apart_and_the_sheet_mentions_it() -> None
 
 def test_arrows_at_one_point_do_not_overlap() -> None:
     down = [Acting(name, 0j, -1j) for name in "ab"]
-    placed = lay_forces([*down, Acting("c", 0j, 1j), Acting("d", 0j, 1 + 0j)], [(0j, 50j)])
+    placed = place_force_arrows([*down, Acting("c", 0j, 1j), Acting("d", 0j, 1 + 0j)], [(0j, 50j)])
     for (_, one), (_, other) in combinations(placed, 2):
         middle = (one[0] + one[1]) / 2
         assert distance(middle, other) > 5.0
@@ -310,7 +310,7 @@ def test_stated_data_and_the_computed_loads() -> None:
         assert fact in facts
     assert "G_{2} = m_{2}·g = 40·9,81 = 392,4 Н" in load_lines(reading)
     assert "M_{Φ1} = J_{S1}·ε_{1} = 5·80 = 400,0 Н·м" in load_lines(reading)
-    assert wanted(reading, RU.say) == (
+    assert force_unknowns(reading, RU.notation) == (
         "F_{42}, F_{50}, F_{45}, F_{21}, F_{30}, F_{23}, F_{10}, l_{42}, l_{50}, M_{ур}"
     )
 
@@ -323,16 +323,16 @@ def test_the_table_has_every_reaction(name: str) -> None:
     sheet, reading = sheet_of(name), reading_of(name)
     written = shown(sheet)
     found = reading.statics.reactions
-    sizes = alike([abs(complex(one.force[0])) for one in found])
+    sizes = format_column([abs(complex(one.force[0])) for one in found])
     for one, size in zip(found, sizes, strict=True):
         force = complex(one.force[0])
         assert f"({one.on}–{one.by})" in written
         if abs(force) > 1.0:
-            assert RU.say.number(size) in written
-            assert RU.say.number(f"{degrees(phase(force)) % 360.0:.1f}") in written
-    assert RU.say.number(significant(abs(float(reading.statics.balance[0])))) in written
+            assert RU.notation.number(size) in written
+            assert RU.notation.number(f"{degrees(phase(force)) % 360.0:.1f}") in written
+    assert RU.notation.number(significant(abs(float(reading.statics.balance[0])))) in written
     for value in both_balances(reading):
-        assert value is not None and RU.say.number(significant(abs(value))) in written
+        assert value is not None and RU.notation.number(significant(abs(value))) in written
 
 
 # Lever --------------------------------------------------------------------------------------------
@@ -387,11 +387,11 @@ def test_the_lever_has_the_forces_that_do_work(name: str) -> None:
     assert sorted(letter for letter, _ in arrows(sheet, view)) == sorted(
         one.symbol for one in lever.forces
     )
-    symbols = [RU.say.symbol(one.symbol) for one in lever.couples]
+    symbols = [RU.notation.symbol(one.symbol) for one in lever.couples]
     assert sorted(couples(sheet, view)) == sorted(symbols)
     assert lever.couples[-1].symbol == MOMENT.symbol
     both = compared_balances(reading.statics, 0)
-    assert both is not None and 0.0 < both.share < 5.0
+    assert both is not None and 0.0 < both.percent_size < 5.0
 
 
 def test_a_driving_slider_is_balanced_by_a_force() -> None:
@@ -458,7 +458,7 @@ def test_norm_control_of_the_command_is_clean(name: str) -> None:
 
 
 def test_arms_that_a_reader_cannot_distinguish_are_left_to_the_equations() -> None:
-    say = language("en").say
+    say = get_language("en").notation
     arms = [ForceArm(f"Q{k}", 0j, 10.0 + k + 5j, 10.0) for k in range(25)]
     items, labels = arm_items(arms[1:], [], 3.5, "lever", say)
     assert len(items) == len(labels) == 24

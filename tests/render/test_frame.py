@@ -15,7 +15,7 @@ from worked import ROOT
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
 from planmethod.problem import keys
-from planmethod.problem.head import TITLE_BLOCK
+from planmethod.problem.common import TITLE_BLOCK
 from planmethod.render.control.texts import lint
 from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
 from planmethod.render.frame.frame import (
@@ -29,7 +29,7 @@ from planmethod.render.frame.titleblock import ALIASES, SHARED, merged
 from planmethod.render.ink.drawing import Item, Pen, Stroke, Text
 from planmethod.render.ink.extent import ink_bounds, overlap
 from planmethod.render.ink.lettering import OutlineLettering, using
-from planmethod.render.layout.block import CUT, fit
+from planmethod.render.layout.block import CUT, fit_text
 
 FIELDS = {
     "designation": "ТММ.КП.12.03.00.000",
@@ -245,7 +245,7 @@ def test_graph_26_is_the_designation_turned(
     (run,) = shown(made.items, box)
     assert run.angle == angle
     assert run.text == FIELDS["designation"]
-    assert made.taken == (box,)
+    assert made.reserved == (box,)
 
 
 def test_graph_26_goes_with_form_1_unless_requested() -> None:
@@ -253,21 +253,21 @@ def test_graph_26_goes_with_form_1_unless_requested() -> None:
     assert list(Furniture().graphs(paper)) == ["26"]
     assert list(Furniture(form="2").graphs(paper)) == []
     assert list(Furniture(form="2", graph_26=True).graphs(paper)) == ["26"]
-    assert Furniture(graph_26=False).room(paper).taken == ()
+    assert Furniture(graph_26=False).drawing_area(paper).reserved == ()
 
 
 def test_a_long_designation_stays_in_graph_26() -> None:
     for name in ("A3", "A3:portrait"):
         made = sheet_frame(name, {"designation": "ТММ.КП.12.03.00.000-" * 12})
-        runs = [run for run in texts(made.items) if run.box == made.taken[0]]
+        runs = [run for run in texts(made.items) if run.box == made.reserved[0]]
         assert runs
         assert {f.code for f in lint(made.items, made.inner)} <= {"PM-D06"}
 
 
 def test_graphs_27_to_30_of_form_1() -> None:
-    room = FULL.room(FORMATS["A3"])
+    room = FULL.drawing_area(FORMATS["A3"])
     assert room.stamp == (230, 5, 415, 68)  # graph 30 is 8 mm high, above the title block
-    assert set(room.taken) == {
+    assert set(room.reserved) == {
         (20, 278, 90, 292),
         (90, 278, 104, 292),
         (104, 285, 157, 292),
@@ -496,7 +496,7 @@ def test_no_text_ever_leaves_its_cell(fields: Mapping[str, str], form: str, name
 def test_fit_keeps_every_character_unless_it_marks_a_cut(
     text: str, width: float, height: float, size: float
 ) -> None:
-    items = fit(text, (0, 0, width, height), (size, 2.5))
+    items = fit_text(text, (0, 0, width, height), (size, 2.5))
     findings = [f for f in lint(items) if f.code in ("PM-D03", "PM-D01")]
     assert findings == []
     runs = texts(items)

@@ -13,16 +13,22 @@ from planmethod.errors import ProblemError
 from planmethod.note.records.solution import record
 from planmethod.note.records.spreadsheet import csv_columns
 from planmethod.note.tables.forces import forces_columns
-from planmethod.note.tables.friction import teller
-from planmethod.note.wording import language
+from planmethod.note.tables.friction import friction_narrator
+from planmethod.note.wording import get_language
 from planmethod.problem import load, loads
-from planmethod.render.forces.friction import CIRCLE, CONE, LEAST, friction_picture, is_enlarged
+from planmethod.render.forces.friction import (
+    CIRCLE,
+    CONE,
+    MIN_RADIUS,
+    friction_picture,
+    is_enlarged,
+)
 from planmethod.render.ink.drawing import Arc, Stroke
 from planmethod.solved.forces.friction import rubbed_reading
 from planmethod.solved.solution import Solution
 
 TEXT = path_of("machines/rubbing-crank").read_text("utf-8")
-SAY = language("ru").say
+SAY = get_language("ru").notation
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +43,7 @@ def test_a_reaction_touches_its_circle(solution: Solution) -> None:
     (circle,) = [
         item for item in picture.items if isinstance(item, Arc) and item.tag.startswith(CIRCLE)
     ]
-    assert circle.radius == pytest.approx(LEAST, rel=0.01)
+    assert circle.radius == pytest.approx(MIN_RADIUS, rel=0.01)
     shafts = [
         item for item in picture.items if isinstance(item, Stroke) and item.tag == "force R_{21}"
     ]
@@ -191,10 +197,10 @@ def test_friction_in_a_guide_is_shown_for_every_reaction() -> None:
         assert columns[column][0] == pytest.approx(pair["converged"]["f"], rel=1e-12)
         assert abs(pair["f_without"] / pair["converged"]["f"] - 1) > 0.01
     assert [name for name in columns if name.startswith("friction.")] == ["friction.B.3-0"]
-    table = teller(solution, language("en"), 0).table()
+    table = friction_narrator(solution, get_language("en"), 0).table()
     assert len(table.rows) == 4
     several = Solution(loads(GUIDE.format(phi="[10, 70, 130, 190]", f=0.34), name="guide"))
-    heads = [head for head, *_ in forces_columns(several, language("en").note)]
+    heads = [head for head, *_ in forces_columns(several, get_language("en").note)]
     assert sum(head.endswith("with friction") for head in heads) == 5
 
 

@@ -6,8 +6,8 @@ import pytest
 
 from planmethod import loads
 from planmethod.construct.steps import PointName
-from planmethod.note.narrate.given import given
-from planmethod.note.wording import language
+from planmethod.note.narrate.statement import given_facts
+from planmethod.note.wording import get_language
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.pictures.schemeview import SchemeView
@@ -45,7 +45,7 @@ B = "right of A"
 )
 def test_a_guide_is_lettered_at_its_stated_place(through: str, told: str, metres: float) -> None:
     problem = loads(MECHANISM.format(through=through), name="beside")
-    assert told in [fact.text for fact in given(problem, language("ru"))]
+    assert told in [fact.text for fact in given_facts(problem, get_language("ru"))]
     solution = Solution(problem)
     pin = PointName("B")
     scheme = SchemeView.drawn(solution, 0, 5.0).scheme

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from reading import texts
 from worked import drawn_sheets, problem_of
 
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem.cycle_records import CycleTask
 from planmethod.render.control.texts import lint
 from planmethod.render.ink.drawing import Item, Stroke
@@ -30,7 +30,7 @@ def said(items: list[Item] | tuple[Item, ...]) -> str:
 def test_curves_are_the_exact_quantities_in_their_scale() -> None:
     solution = Solution(problem_of("linkages/ex3"))
     diagrams = diagrams_of(solution)
-    groups = graph_groups(diagrams.turn, ASKED)
+    groups = graph_groups(diagrams.cycle, ASKED)
     assert [[one.label for one in group] for group in groups] == [
         ["x_E", "y_E"],
         ["v_qx_D", "v_qy_D"],
@@ -40,14 +40,14 @@ def test_curves_are_the_exact_quantities_in_their_scale() -> None:
         ["a_D"],
     ]
     for group in groups:
-        picture, scale = graph_picture(diagrams, group, 5.0, language("ru"))
+        picture, scale = graph_picture(diagrams, group, 5.0, get_language("ru"))
         drawn = [
             item.points
             for item in picture.items
             if isinstance(item, Stroke) and item.tag.startswith(CURVE)
         ]
-        at = diagrams.turn.at(diagrams.fine)
-        rows = [values_over(diagrams.turn, one, at) / scale.per_mm for one in group]
+        at = diagrams.cycle.at(diagrams.fine)
+        rows = [values_over(diagrams.cycle, one, at) / scale.per_mm for one in group]
         rows = [row for row in rows if np.abs(row).max() > 1e-9]
         assert len(drawn) == len(rows)  # y_E is zero: the axis itself
         for points, row in zip(drawn, rows, strict=True):

@@ -12,21 +12,21 @@ from test_forces_sheet import arrows, couples, shown, turned, views
 from worked import path_of
 
 from planmethod import loads
-from planmethod.note.narrate.forces.statement import statement, wanted
-from planmethod.note.wording import language
+from planmethod.note.narrate.forces.statement import force_unknowns, statement
+from planmethod.note.wording import get_language
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.cut import inner_picture
-from planmethod.render.forces.guides import DIMENSION, FAR, POINT, drawn_length
+from planmethod.render.forces.guides import DIMENSION, MAX_DISTANCE, POINT, drawn_length
 from planmethod.render.ink.drawing import Disc, Drawing, Fill, Item, Stroke, View
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
 
-RU = language("ru")
+RU = get_language("ru")
 
 LOADS = """
 [dynamics]
@@ -158,7 +158,7 @@ def test_far_away_it_stays_a_force_at_the_joint_and_a_couple() -> None:
     contact = next(iter(reading(problem).statics.contacts.values()))
     sheet = kinematics_sheets(problem, layout="forces")[0]
     view = views(sheet, "position")[1]
-    assert abs(contact.b()[0]) / view.per_mm > FAR
+    assert abs(contact.b()[0]) / view.per_mm > MAX_DISTANCE
     assert "M_{30}" in couples(sheet, view)
     assert "F_{30}" in dict(arrows(sheet, view))
     assert marks(sheet, view) == []
@@ -184,7 +184,7 @@ def test_sliders_are_to_scale_where_they_look_like_one() -> None:
     ],
 )
 def test_an_inner_guide_has_a_picture_of_one_link(problem: Problem, link: str) -> None:
-    found = inner_picture(reading(problem), 0, 5.0, RU.say)
+    found = inner_picture(reading(problem), 0, 5.0, RU.notation)
     assert found is not None
     name, picture = found
     assert name == link
@@ -200,7 +200,7 @@ def test_an_inner_guide_has_a_picture_of_one_link(problem: Problem, link: str) -
 
 
 def test_a_sliding_block_without_a_moment_needs_no_picture() -> None:
-    assert inner_picture(reading(task12("")), 1, 5.0, RU.say) is None
+    assert inner_picture(reading(task12("")), 1, 5.0, RU.notation) is None
 
 
 # Formulas and table -------------------------------------------------------------------------------
@@ -240,7 +240,7 @@ def test_formulas_of_the_crosshead() -> None:
         read = float(line.rpartition(" = ")[2].removesuffix(" Н").replace(",", "."))
         assert read == pytest.approx(size, rel=0.05)
     assert "a_{30} = 0,08 м" in [fact.text for fact in statement(at, RU)]
-    assert wanted(at, RU.say) == "F_{21}, F_{30}, F_{23}, F_{10}, l_{30}, M_{ур}"
+    assert force_unknowns(at, RU.notation) == "F_{21}, F_{30}, F_{23}, F_{10}, l_{30}, M_{ур}"
 
 
 def test_a_force_through_the_joint_has_no_distance() -> None:

@@ -17,7 +17,7 @@ from planmethod.render.ink.drawing import Arc, Bounds, Fill, Item, Pen, Stroke, 
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import (
-    CROWDED,
+    SERIES,
     UNDER_LABEL,
     Label,
     LabelStyle,
@@ -179,7 +179,7 @@ def test_a_style_equal_to_that_of_few_is_that_of_few() -> None:
     hedge: list[Item] = [Stroke((complex(40, y), complex(70, y))) for y in range(40, 61)]
     for at in 40 + 30 * rng.random(20) + 1j * (40 + 20 * rng.random(20)):
         few = [label("B", complex(at)), label("A", complex(at) + 3)]
-        same = [replace(one, manner=LabelStyle()) for one in few]
+        same = [replace(one, style=LabelStyle()) for one in few]
         found = [(one.at, one.ground) for one in place_labels(few, hedge, BOUNDS)]
         forget_cached()
         assert [(one.at, one.ground) for one in place_labels(same, hedge, BOUNDS)] == found
@@ -258,7 +258,7 @@ def test_clipping_agrees_with_shapely(
 
 def of_a_series(k: int, anchor: complex) -> Label:
     return Label(
-        typeset(f"B_{{{k}}}", 3.5), anchor, prefer=1 + 0j, gap=1.0, manner=CROWDED, series="B"
+        typeset(f"B_{{{k}}}", 3.5), anchor, prefer=1 + 0j, gap=1.0, style=SERIES, series="B"
     )
 
 
@@ -310,8 +310,8 @@ def test_a_label_sends_another_away() -> None:
         Stroke((complex(90, y), complex(100, y))) for y in (*range(20, 60), *range(66, 72))
     ]
     posts += [Stroke((complex(90, y), complex(100, y))) for y in range(78, 130)]
-    first = Label(typeset("A", 3.5), 95 + 69j, prefer=-1j, manner=CROWDED, priority=1)
-    second = Label(typeset("B", 3.5), 95 + 57j, prefer=1j, manner=CROWDED)
+    first = Label(typeset("A", 3.5), 95 + 69j, prefer=-1j, style=SERIES, priority=1)
+    second = Label(typeset("B", 3.5), 95 + 57j, prefer=1j, style=SERIES)
     placed = place_labels([first, second], [*hedge, *posts], BOUNDS)
     assert all(p.free for p in placed)
 
@@ -338,7 +338,7 @@ def test_a_letter_at_the_end_of_a_long_leader_line_comes_near_on_a_thin_line() -
     grid: list[Item] = [
         Stroke((complex(x, 0), complex(x, 150)), Pen.THIN) for x in range(62, 140, 4)
     ]
-    letter = replace(label("O", 100 + 75j), manner=CROWDED)
+    letter = replace(label("O", 100 + 75j), style=SERIES)
     (placed,) = place_labels([letter], grid, BOUNDS)
     assert placed.ground
     assert placed.leader is None or abs(placed.leader[1] - placed.leader[0]) < 24
@@ -350,12 +350,12 @@ def test_a_letter_at_the_end_of_a_long_leader_line_comes_near_on_a_thin_line() -
 
 
 def test_the_name_of_a_segment_is_not_at_another_one() -> None:
-    manner = replace(CROWDED, stranger=25.0)
+    manner = replace(SERIES, stranger=25.0)
     one, two = (50 + 50j, 80 + 50j), (50 + 62j, 80 + 62j)
     # There is no space under either: between them the upper one's name is nearer to its own.
     floor: list[Item] = [Stroke((complex(20, y), complex(110, y))) for y in (46, 48, 65, 67)]
     names = [
-        replace(segment_label(text, *line), along=line, manner=manner)
+        replace(segment_label(text, *line), segment=line, style=manner)
         for text, line in (("F", one), ("G", two))
     ]
     placed = place_labels(names, floor, BOUNDS)

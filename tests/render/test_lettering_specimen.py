@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.render.control.texts import GRID, lint
 from planmethod.render.ink.drawing import Stroke, Text
 from planmethod.render.ink.lettering import STYLES, in_use, lettering, using
@@ -18,7 +18,7 @@ from planmethod.render.sheets.specimen.lettering import (
     measured,
 )
 
-RU = language("ru")
+RU = get_language("ru")
 
 
 @pytest.mark.parametrize("style", STYLES)
@@ -47,7 +47,7 @@ def test_letters_are_on_their_grid() -> None:
 def test_measures_are_those_of_the_standard(style: str) -> None:
     """Rounding of the outlines may lose half a font unit at either side."""
     for measure in measured(lettering(style)):
-        assert measure.found == pytest.approx(measure.asked, abs=2e-3), measure
+        assert measure.actual == pytest.approx(measure.nominal, abs=2e-3), measure
 
 
 def test_the_document_has_the_measured_table() -> None:
@@ -57,6 +57,6 @@ def test_the_document_has_the_measured_table() -> None:
     for k, (_, cells) in enumerate(rows):
         a, b = measured(lettering("A"))[k], measured(lettering("B"))[k]
         assert cells == (
-            f"{round(a.asked * 14)}/14 | {a.found * 14:.2f}/14 | "
-            f"{round(b.asked * 10)}/10 | {b.found * 10:.2f}/10"
+            f"{round(a.nominal * 14)}/14 | {a.actual * 14:.2f}/14 | "
+            f"{round(b.nominal * 10)}/10 | {b.actual * 10:.2f}/10"
         )

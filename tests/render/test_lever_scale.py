@@ -11,7 +11,7 @@ from planmethod import loads
 from planmethod.construct.scale import next_scale
 from planmethod.note.narrate.forces.common import lettered
 from planmethod.note.narrate.forces.lever import LeverNarrator
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.model import PlanKind
 from planmethod.project.settle import settle
 from planmethod.render.ink.drawing import Text
@@ -22,7 +22,7 @@ from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
-RU = language("ru")
+RU = get_language("ru")
 SHIPPED = ("levers/six-link", "levers/task12", "press/press", "levers/task-66")
 
 
@@ -48,19 +48,19 @@ def test_a_lever_of_few_loads_is_the_turned_plan(name: str) -> None:
 
 
 def test_a_full_lever_has_a_scale_of_its_own(crowded: ForceReading) -> None:
-    lever, plan = LeverReading(crowded), crowded.solution.own_scale(PlanKind.VELOCITY, 0)
+    lever, plan = LeverReading(crowded), crowded.solution.plan_scale(PlanKind.VELOCITY, 0)
     assert lever.times in TIMES
     assert lever.scale.per_mm * lever.times == pytest.approx(plan.per_mm)
     motion = crowded.solution.construction.kinematics.velocity
-    on_plan = crowded.solution.by_hand.point(motion.point[motion.named["C"]])[0]
+    on_plan = crowded.solution.ruler_reading.point(motion.point[motion.named["C"]])[0]
     assert lever.place(motion.point[motion.named["C"]]) == pytest.approx(1j * lever.times * on_plan)
     (said,) = LeverNarrator(lettered(crowded, RU)).larger()
-    assert RU.say.given(1.0 / lever.scale.per_mm) in said  # the file has mm per unit
+    assert RU.notation.as_input(1.0 / lever.scale.per_mm) in said  # the file has mm per unit
 
 
 def test_its_arms_are_read_with_the_ruler_where_they_are_drawn(crowded: ForceReading) -> None:
     """To half a millimetre of the lever, not of the plan that is smaller; they are in balance."""
-    lever, ruler = LeverReading(crowded), crowded.solution.hand.ruler
+    lever, ruler = LeverReading(crowded), crowded.solution.ruler_arithmetic.ruler
     arms = np.array([one.arm for one in lever.forces])
     assert np.allclose(arms / ruler, np.round(arms / ruler), atol=1e-6)
     assert (np.round(arms / ruler) % lever.times > 0).any()
@@ -80,8 +80,8 @@ def test_the_sheet_has_the_scale_and_the_lengths_of_the_lever(crowded: ForceRead
     assert own.per_mm != pytest.approx(plan.per_mm)
     written = "".join(item.text for item in sheet.items if isinstance(item, Text))
     arm = max(abs(one.arm) for one in LeverReading(crowded).forces)
-    assert RU.say.ruled(arm) in written
-    assert any(RU.say.ruled(arm) in line for line in lever_lines(crowded))
+    assert RU.notation.measured(arm) in written
+    assert any(RU.notation.measured(arm) in line for line in lever_lines(crowded))
 
 
 def test_the_lever_of_a_project_fills_its_place() -> None:

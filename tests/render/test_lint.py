@@ -30,7 +30,7 @@ def test_inscriptions_that_overlap() -> None:
     assert finding.code == "PM-D01"
     assert "'слово' and 'другое' overlap at (50.0, 50.0) mm" in finding.message
     assert finding.value > 1
-    assert finding.where == AT
+    assert finding.place == AT
 
 
 def test_runs_of_one_label_are_one_inscription() -> None:

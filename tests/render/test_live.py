@@ -19,7 +19,7 @@ from worked import PROBLEMS, ROOT, path_of, problem_of
 from benchmarks.generator import random_problem
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.render.live.page import live_page
@@ -143,7 +143,7 @@ def opened(page: Page, problem: Problem, folder: Path, lang: str = "ru") -> Live
     file.write_text(live_page(problem, lang), "utf-8")
     page.said.clear()
     page.open(file, width=360, height=740)
-    return LiveScene(problem, language(lang))
+    return LiveScene(problem, get_language(lang))
 
 
 @needs_chromium
@@ -183,7 +183,7 @@ def test_the_slider_moves_everything_to_the_numbers_of_solve(
     for part in scene.parts:
         if part.link in scene.problem.mechanism.links:
             x, turn = (
-                values[scene.place(scene.foot(part.link))[0]],
+                values[scene.place(scene.anchor_point(part.link))[0]],
                 values[scene.row(f"{part.link}.phi_deg")],
             )
             placed = page.ask(f"byId('part-{scene.parts.index(part)}').getAttribute('transform')")
@@ -267,7 +267,7 @@ def test_a_position_that_does_not_exist_is_reported_and_play_turns_back(
         values = sweep.run(np.array([edge + inside, edge - inside]))
         assert np.isnan(values).any(axis=0).tolist() == [False, True]
     assert page.ask("document.querySelectorAll('figure.gone').length") == len(LiveScene(
-        watt(), language("en")).views)  # fmt: skip
+        watt(), get_language("en")).views)  # fmt: skip
     assert set(page.ask("[...document.querySelectorAll('[data-row]')].map(n => n.textContent)")) > {
         "—"
     }
@@ -293,7 +293,7 @@ def test_loads_that_change_are_those_of_the_program(page: Page, tmp_path: Path) 
         assert scene.loads() is not None, told
         positions = np.concatenate((np.linspace(-29.0, 57.0, 87) % 360.0, [20.0, 350.0]))
         if problem.machine is not None:
-            positions = np.linspace(*scene.way, 121)
+            positions = np.linspace(*scene.driver_range, 121)
         asked = f"{json.dumps(positions.tolist())}.map(x => at(x).map(v => v === v ? v : null))"
         made = np.array(page.ask(asked), dtype=float).T[: len(scene.sweep.rows)]
         assert apart(made, scene.sweep, positions) < 1e-11, told

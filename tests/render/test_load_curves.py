@@ -10,19 +10,19 @@ from msgspec.structs import replace
 from worked import ROOT, problem_of
 
 from planmethod.kinds import load
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem.load_records import Interpolation, Over, SizeTable
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Arc, Item, Stroke
 from planmethod.render.pictures.diagram import AXIS, CURVE
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.loads import load_curves
-from planmethod.render.sheets.model import Extras, Manner
+from planmethod.render.sheets.model import BlockOptions, BlockStyle
 from planmethod.solved.solution import Solution
 
 LAYOUT = composition("forces")
 (ENTRY,) = (entry for entry in LAYOUT.blocks if entry.kind == "load-curves")
-MANNER = Manner(ENTRY, LAYOUT.sizes_for("A1"), 800.0, Extras(language("en")))
+MANNER = BlockStyle(ENTRY, LAYOUT.sizes_for("A1"), 800.0, BlockOptions(get_language("en")))
 
 
 def with_table(table: SizeTable, phi: float) -> list[Item]:

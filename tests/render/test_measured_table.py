@@ -7,7 +7,7 @@ from worked import drawn_sheets, problem_of
 
 from benchmarks.generator import random_problem
 from planmethod import loads
-from planmethod.note.narrate.given import told
+from planmethod.note.narrate.statement import reported_quantities
 from planmethod.plans.legend import MOTION_KINDS
 from planmethod.render.ink.drawing import Drawing, Text
 from planmethod.render.sheets.kinematics import kinematics_sheets
@@ -48,7 +48,7 @@ def test_equal_rotations_share_one_column() -> None:
 def test_a_value_by_proportion_depends_on_a_reading_but_is_not_one() -> None:
     solution = Solution(problem_of("linkages/ex3"), positions=THREE)
     read = read_names(solution)
-    quantities = {one.label: one for one in told(solution, *MOTION_KINDS)}
+    quantities = {one.label: one for one in reported_quantities(solution, *MOTION_KINDS)}
     assert quantities["v_B"].size not in read and quantities["a_B"].size not in read
     assert {quantities[label].size for label in ("v_B3", "v_D", "v_E", "omega_3")} <= read
     (sheet,) = drawn_sheets("linkages/ex3", THREE)

@@ -11,9 +11,9 @@ from msgspec.structs import replace
 from worked import ROOT, drawn_sheets, every_file, problem_of
 
 from planmethod.mechanism.structure import analyse
-from planmethod.note.wording import LANGUAGES, UnknownLanguageError, language
+from planmethod.note.wording import LANGUAGES, UnknownLanguageError, get_language
 from planmethod.problem import variant_names
-from planmethod.render.control.remarks import REMARKS, Finding, Severity, thing_text, unit_text
+from planmethod.render.control.remarks import REMARKS, Finding, Severity, obstacle_text, unit_text
 from planmethod.render.control.sheet import inspect, unused_paper
 from planmethod.render.control.unused import CELL, largest_empty
 from planmethod.render.frame.frame import FORMATS, STAMP, sheet_frame
@@ -37,7 +37,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import CUT
 from planmethod.render.sheets.control_report import control_text
 from planmethod.render.sheets.controlled import (
-    Controlled,
+    CheckedSheet,
     controlled_kinematics,
     controlled_structure,
 )
@@ -234,8 +234,8 @@ def test_a_sheet_that_shows_it_and_one_that_does_not(code: str) -> None:
 @pytest.mark.parametrize("code", SHOWN)
 def test_a_finding_has_its_fault_its_place_and_its_remedy(code: str, lang: str) -> None:
     (finding,) = found(SHOWN[code][0])
-    told = finding.what(lang)
-    x, y = (f"{part:.1f}" for part in (finding.where.real, finding.where.imag))
+    told = finding.describe(lang)
+    x, y = (f"{part:.1f}" for part in (finding.place.real, finding.place.imag))
     place = f"({x}, {y}) mm" if lang == "en" else f"({x}; {y}) мм".replace(".", ",")
     assert place in told
     assert finding.action(lang).endswith(".")
@@ -246,7 +246,7 @@ def test_a_finding_has_its_fault_its_place_and_its_remedy(code: str, lang: str) 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_every_code_has_its_text_in_every_language(lang: str) -> None:
-    words = language(lang).control
+    words = get_language(lang).control
     assert list(words.remarks) == list(REMARKS)
     assert set(words.severities) == {severity.value for severity in Severity}
     units = {remark.unit for remark in REMARKS.values()}
@@ -257,7 +257,7 @@ def test_every_code_has_its_heading() -> None:
     text = (ROOT / "docs" / "normcontrol.md").read_text("utf-8")
     parts = re.split(r"(?m)^## ", text)
     headings = {part.splitlines()[0]: part for part in parts[1:]}
-    english, russian = (language(lang).control["remarks"] for lang in ("en", "ru"))
+    english, russian = (get_language(lang).control["remarks"] for lang in ("en", "ru"))
     assert list(headings) == [f"{code}: {said.title}" for code, said in english.items()]
     for code, said in english.items():
         body = headings[f"{code}: {said.title}"]
@@ -270,7 +270,7 @@ def test_every_code_has_its_heading() -> None:
 
 def test_an_unknown_language_is_an_error_of_usage() -> None:
     (finding,) = found(SHOWN["PM-D07"][0])
-    for say in (finding.what, finding.action, lambda lang: control_text("x", [], lang)):
+    for say in (finding.describe, finding.action, lambda lang: control_text("x", [], lang)):
         with pytest.raises(UnknownLanguageError, match=r"'de'.*Choose one of: ru, en"):
             say("de")
 
@@ -321,7 +321,7 @@ def test_every_ink_outside_the_frame_is_reported(item: Item) -> None:
     (finding,) = found(sheet(item))
     assert (finding.code, finding.limit) == ("PM-D07", 0.0)
     assert finding.value == pytest.approx(8.0, abs=0.1)
-    assert finding.where == pytest.approx(12 + 150j, abs=0.6)
+    assert finding.place == pytest.approx(12 + 150j, abs=0.6)
 
 
 def test_white_and_the_frame_itself_are_not_outside() -> None:
@@ -333,7 +333,7 @@ def test_a_view_that_leaves_the_frame_is_reported_once() -> None:
     (finding,) = found(sheet(*lines, *SCALE, views=(VIEW,)))
     assert finding.view == "velocity"
     assert finding.value == pytest.approx(6.7)
-    assert finding.where == pytest.approx(13.3 + 170j)
+    assert finding.place == pytest.approx(13.3 + 170j)
 
 
 # Segments -----------------------------------------------------------------------------------------
@@ -355,7 +355,7 @@ def test_short_segments_are_named_with_the_scale_that_fits() -> None:
         Severity.WARNING,
     )
     assert finding.facts["segments"] == (("bn_CB", round(finding.value, 3)),)
-    assert "bn_CB 4,8 мм" in finding.what("ru") and "bn_CB 4.8 mm" in finding.what("en")
+    assert "bn_CB 4,8 мм" in finding.describe("ru") and "bn_CB 4.8 mm" in finding.describe("en")
     assert "mu_a = 4" in finding.action("ru") and "поместится на А2" in finding.action("ru")
 
 
@@ -389,7 +389,7 @@ def test_a_vector_that_is_nearly_zero_is_called_so() -> None:
 
 
 @cache
-def forces_at(name: str, mu_F: float | None) -> Controlled:
+def forces_at(name: str, mu_F: float | None) -> CheckedSheet:
     """Return the sheet of forces at a scale, N/mm; ``None`` leaves it to the program."""
     problem = problem_of(name)
     scaled = replace(problem, scales=replace(problem.scales, mu_F=mu_F))
@@ -397,7 +397,7 @@ def forces_at(name: str, mu_F: float | None) -> Controlled:
     return whole
 
 
-def short_segments(whole: Controlled) -> list[Finding]:
+def short_segments(whole: CheckedSheet) -> list[Finding]:
     return [finding for finding in whole.findings if finding.code == "PM-D08"]
 
 
@@ -415,8 +415,8 @@ def test_a_length_just_below_its_limit_does_not_look_like_it() -> None:
     view = replace(VIEW, spans=(Span("F₃₀", None, start, start + 4.996),))
     drawn = sheet(*SCALE, views=(view,))
     (finding,) = found(drawn)
-    assert finding.what("en").startswith("segments shorter than 5 mm: F₃₀ 4.996 mm;")
-    told = Controlled(drawn, "A4", (finding,))
+    assert finding.describe("en").startswith("segments shorter than 5 mm: F₃₀ 4.996 mm;")
+    told = CheckedSheet(drawn, "A4", (finding,))
     assert "4,996 мм, предел 5 мм" in control_text("press", [told], "ru")
 
 
@@ -486,7 +486,7 @@ def test_a_requested_format_that_is_too_large_is_marked_and_the_default_is_not()
 def test_the_frame_does_not_count_as_filled_area() -> None:
     finding, _ = unused_paper(sheet(ground=False).items, A4.inner)
     assert finding.value > 70
-    assert "%" in finding.what("ru")
+    assert "%" in finding.describe("ru")
 
 
 @pytest.mark.parametrize(
@@ -526,8 +526,8 @@ def test_a_line_that_ends_in_a_gap_is_marked(monkeypatch: pytest.MonkeyPatch) ->
         assert finding.code == "PM-D11"
         assert finding.value == pytest.approx(1.0)
         assert finding.severity is Severity.ERROR
-        assert finding.what("ru").startswith("штриховая линия не начинается")
-        assert finding.what("en").startswith("a dashed line does not begin")
+        assert finding.describe("ru").startswith("штриховая линия не начинается")
+        assert finding.describe("en").startswith("a dashed line does not begin")
         assert finding.action("ru") and finding.action("en")
 
 
@@ -568,11 +568,11 @@ def test_the_structural_sheet_is_looked_at_too() -> None:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_every_view_and_every_pen_has_a_word(lang: str) -> None:
-    words = language(lang).control
+    words = get_language(lang).control
     assert set(words.views) == {*VIEW_KINDS, "stamp", ""}
     assert len(set(words["views"].values())) == len(words["views"])
     for pen in Pen:
-        assert thing_text(f"stroke {pen.value} some tag", words).endswith("(some tag)")
+        assert obstacle_text(f"stroke {pen.value} some tag", words).endswith("(some tag)")
         if PENS[pen].dashes is not None:
-            assert "(link 2)" in thing_text(f"line {pen.value} link 2", words)
-    assert thing_text("disc", words) and thing_text("fill", words)
+            assert "(link 2)" in obstacle_text(f"line {pen.value} link 2", words)
+    assert obstacle_text("disc", words) and obstacle_text("fill", words)

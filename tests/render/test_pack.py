@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planmethod.render.ink.drawing import Bounds
-from planmethod.render.layout.block import Shapes, Spacer
-from planmethod.render.layout.cuttings import CLEAR, GAP, Arrange, Group, Packed
-from planmethod.render.layout.pack import EDGE, emptiest_share, pack
+from planmethod.render.layout.block import Alternatives, Spacer
+from planmethod.render.layout.cuttings import CLEAR, GAP, Arrange, Group, LayoutItem
+from planmethod.render.layout.pack import EDGE, largest_empty_fraction, pack
 
 INNER: Bounds = (20.0, 5.0, 589.0, 415.0)  # A2
 STAMP: Bounds = (404.0, 5.0, 589.0, 60.0)
@@ -19,8 +19,8 @@ LEFT: Bounds = (20.0, 401.0, 90.0, 415.0)  # graph 26 in the upper left corner
 RIGHT: Bounds = (575.0, 345.0, 589.0, 415.0)  # and in the upper right one, turned
 
 
-def part(width: float, height: float, *, text: bool = False) -> Packed:
-    return Packed(Spacer(width, height), text)
+def part(width: float, height: float, *, text: bool = False) -> LayoutItem:
+    return LayoutItem(Spacer(width, height), text)
 
 
 def boxes(
@@ -156,7 +156,7 @@ def test_blocks_keep_clear_of_occupied_areas(taken: tuple[Bounds, ...]) -> None:
 @pytest.mark.parametrize(
     ("first", "arrange"), [(part(540, 280), "column"), (part(200, 395), "row")]
 )
-def test_a_block_in_the_corner_moves_down_or_aside(first: Packed, arrange: Arrange) -> None:
+def test_a_block_in_the_corner_moves_down_or_aside(first: LayoutItem, arrange: Arrange) -> None:
     whole = Group((first, part(180, 30)), arrange)
     plain, moved = boxes(whole), boxes(whole, taken=(LEFT,))
     assert plain is not None
@@ -211,19 +211,19 @@ def test_any_blocks_that_fit_are_apart(
 
 def test_the_largest_empty_rectangle() -> None:
     paper: Bounds = (0.0, 0.0, 100.0, 100.0)
-    assert emptiest_share([], paper) == pytest.approx(1.0)
-    assert emptiest_share([(0.0, 0.0, 100.0, 30.0)], paper) == pytest.approx(0.7)
+    assert largest_empty_fraction([], paper) == pytest.approx(1.0)
+    assert largest_empty_fraction([(0.0, 0.0, 100.0, 30.0)], paper) == pytest.approx(0.7)
     cross = [(40.0, 0.0, 60.0, 100.0), (0.0, 40.0, 100.0, 60.0)]
-    assert emptiest_share(cross, paper) == pytest.approx(0.16)
+    assert largest_empty_fraction(cross, paper) == pytest.approx(0.16)
 
 
 def test_a_block_takes_the_shape_that_fits() -> None:
     wide, high = Spacer(500.0, 160.0), Spacer(120.0, 250.0)
     others = [part(200.0, 300.0), part(180.0, 150.0)]
-    placed = pack(Group((Packed(Shapes((wide, high))), *others)), INNER, STAMP)
+    placed = pack(Group((LayoutItem(Alternatives((wide, high))), *others)), INNER, STAMP)
     assert placed is not None
     assert placed[0][0] is high
-    assert pack(Group((Packed(wide), *others)), INNER, STAMP) is None
+    assert pack(Group((LayoutItem(wide), *others)), INNER, STAMP) is None
 
 
 def test_a_block_may_be_beside_the_last_one_above_a_title_block_as_wide_as_the_sheet() -> None:
@@ -236,7 +236,7 @@ def test_a_block_may_be_beside_the_last_one_above_a_title_block_as_wide_as_the_s
 @pytest.mark.parametrize(("grows", "wide"), [(True, 200.0), (False, 100.0)])
 def test_growing_blocks_take_the_largest_size_that_fits(grows: bool, wide: float) -> None:
     ways = [Spacer(width, 0.8 * width) for width in (100.0, 200.0, 600.0)]
-    picture = Packed(Shapes(tuple(ways), grows))
+    picture = LayoutItem(Alternatives(tuple(ways), grows))
     whole = Group((Group((picture, part(250.0, 60.0))), part(180.0, 100.0)))
     found = boxes(whole)
     assert found is not None

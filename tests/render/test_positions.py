@@ -20,11 +20,11 @@ from planmethod.render.pictures.paths import TRAJECTORY, Paths
 from planmethod.render.pictures.positions import PRIMES, Positions, Thinned, written
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.clearest import clearest_position
-from planmethod.solved.crowd import CROWD, densest
+from planmethod.solved.label_density import MAX_LABELS, densest
+from planmethod.solved.representative_position import clearest_position
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import turn_of
+from planmethod.solved.turn.cycle import crank_cycle_of
 
 ALL_ROUND = [30.0 * k for k in range(12)]
 SOME = [150.0 + 10.0 * k for k in range(12)]  # the six-link mechanism does not go all round
@@ -72,7 +72,7 @@ def test_every_point_has_its_letter_in_every_position(name: str) -> None:
     centre of mass only the bold one.
     """
     positions = positions_of(name)
-    third = {str(positions.bold), *map(str, TWELVE[::3])}
+    third = {str(positions.main), *map(str, TWELVE[::3])}
     labels = [w.name for w in writings_of(drawn(name).items)]
     for point in positions.points:
         own = [
@@ -81,7 +81,7 @@ def test_every_point_has_its_letter_in_every_position(name: str) -> None:
         numbers = [number for label in own for number in label.split(",")]
         left = {number for number in numbers if number not in PRIMES}
         if point in positions.solution.problem.centres and left != {*map(str, TWELVE)}:
-            assert left == {str(positions.bold)}
+            assert left == {str(positions.main)}
             continue
         if left == third:
             continue
@@ -138,7 +138,7 @@ def test_letters_are_thinned_step_by_step() -> None:
         named = [label.name for label in positions.labels(2.5, thinned=thinned)]
         for point in positions.points:
             own = [name for name in named if name.startswith(f"point {point} ")]
-            assert any(str(positions.bold) in name.split(" ")[2].split(",") for name in own)
+            assert any(str(positions.main) in name.split(" ")[2].split(",") for name in own)
         assert any("′" in name for name in named)
         if thinned >= Thinned.CENTRES:
             centres = [n for n in named if n.split(" ")[1] in positions.solution.problem.centres]
@@ -149,7 +149,7 @@ def test_letters_are_thinned_step_by_step() -> None:
 def test_no_part_of_a_scheme_is_overfull(name: str) -> None:
     writings = [w for w in writings_of(drawn(name).items) if w.name.startswith("point ")]
     count, _ = densest([complex(w.ink.centroid.x, w.ink.centroid.y) for w in writings])
-    assert count <= CROWD + 4
+    assert count <= MAX_LABELS + 4
 
 
 def test_a_point_that_stays_has_its_letter_once() -> None:
@@ -193,7 +193,7 @@ def test_of_many_positions_every_other_one_has_a_letter() -> None:
 def test_the_label_of_a_point_has_its_position_numbers(
     point: str, numbers: list[str], bold: bool, text: str
 ) -> None:
-    assert written(point, numbers, bold=bold) == text
+    assert written(point, numbers, is_main=bold) == text
 
 
 # Trajectories and extreme positions ---------------------------------------------------------------
@@ -263,7 +263,7 @@ def test_few_positions_have_no_extreme_ones_behind_them() -> None:
 def test_the_stroke_is_dimensioned_between_the_extreme_positions() -> None:
     solution, items = solved("linkages/ex1"), drawn("linkages/ex1").items
     heads = [i.points[0] for i in items if isinstance(i, Fill) and i.tag == STROKE]
-    stroke = turn_of(solution).stroke
+    stroke = crank_cycle_of(solution).stroke
     assert stroke is not None
     per_mm = solution.scales[PlanKind.POSITION].per_mm
     assert abs(heads[0] - heads[1]) * per_mm == pytest.approx(stroke, abs=1e-6)
@@ -273,7 +273,7 @@ def test_the_stroke_is_dimensioned_between_the_extreme_positions() -> None:
 def test_the_swing_is_dimensioned_from_one_extreme_position_to_the_other() -> None:
     solution, items = solved("levers/task-49"), drawn("levers/task-49").items
     (arc,) = (i for i in items if isinstance(i, Arc) and i.tag == STROKE)
-    swing = turn_of(solution).stroke
+    swing = crank_cycle_of(solution).stroke
     assert swing is not None
     assert np.degrees(arc.end - arc.start) == pytest.approx(swing, abs=0.1)
     assert "ψ" in [w.shown for w in writings_of(items)]

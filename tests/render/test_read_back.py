@@ -14,7 +14,7 @@ from worked import PROBLEMS, SIX, problem_of, solved_while
 from benchmarks.sheets import positions_of
 from planmethod.note.narrate.steps import calculation
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.model import PlanKind
 from planmethod.render.backends import render
 from planmethod.render.forces.arms import ARM
@@ -58,7 +58,7 @@ def test_a_ruler_on_the_sheet_reads_the_calculated_values(name: str, layout: str
                     assert np.abs(inked - end).min() < 0.01
         if solution.scales[PlanKind(view.kind)].per_mm != pytest.approx(view.per_mm):
             continue  # grown: the calculation of that sheet has its own scale
-        for line in calculation(solution, PlanKind(view.kind), 0, language("ru")):
+        for line in calculation(solution, PlanKind(view.kind), 0, get_language("ru")):
             said = plain_text(line).replace(",", ".")
             for letters, value in (
                 *LAID_OFF.findall(said),
@@ -67,7 +67,7 @@ def test_a_ruler_on_the_sheet_reads_the_calculated_values(name: str, layout: str
             ):
                 if letters in on_sheet:
                     span = on_sheet[letters]  # on an enlarged view the ruler is so much finer
-                    length = float(value) * span.share
+                    length = float(value) * span.magnification
                     assert span.length == pytest.approx(length, abs=0.2501), said
                     compared += 1
     assert compared >= 5 or layout == "homework"
@@ -99,12 +99,12 @@ def test_a_ruler_finds_it_in_each_of_many_positions(
                 continue  # dead: a scale of 10¹² (m/s²)/mm
             enlarged = count == 1 or index in solution.small_plans[PlanKind(view.kind)]
             on_sheet = {span.name: span for span in view.spans if (span.position or 0) == index}
-            for line in calculation(solution, PlanKind(view.kind), index, language("ru")):
+            for line in calculation(solution, PlanKind(view.kind), index, get_language("ru")):
                 said = plain_text(line).replace(",", ".")
                 for letters, value in LAID_OFF.findall(said) + READ.findall(said):
                     if letters in on_sheet:
                         span = on_sheet[letters]
-                        said_mm = float(value) * (span.share if enlarged else 1.0)
+                        said_mm = float(value) * (span.magnification if enlarged else 1.0)
                         assert span.length == pytest.approx(said_mm, abs=0.2501), said
                         compared += 1
     assert compared >= 5 * count

@@ -16,7 +16,7 @@ from planmethod.kinds import kind_of
 from planmethod.plans.model import FACTS, MOTION, RATES
 from planmethod.problem import loads
 from planmethod.render.sheets.kinematics import kinematics_sheets, sheet_scales
-from planmethod.solved.clearest import clear_position
+from planmethod.solved.representative_position import clear_position
 from planmethod.solved.scaling import AROUND_PLAN, FULL
 from planmethod.solved.solution import Solution
 

@@ -13,7 +13,7 @@ from loaded import with_resultant
 from test_forces_sheet import arrows, couples, shown, views, within
 from worked import drawn_sheets, problem_of
 
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem.selector import parse_selector
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
@@ -26,7 +26,7 @@ from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.selectors.values import SelectorValues
 from planmethod.solved.solution import Solution
 
-RU = language("ru")
+RU = get_language("ru")
 
 SHIFTED = {"levers/six-link": "2", "press/press": "3"}
 """Worked problems, and the link whose force is shifted."""

@@ -11,7 +11,7 @@ from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Fill, Ink, Text
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels.candidates import far
+from planmethod.render.labels.candidates import far_candidates
 from planmethod.render.labels.model import NAMING, Label
 from planmethod.render.live.parts import LINES, parts_of
 from planmethod.render.pictures.schemeview import scheme_picture
@@ -43,7 +43,7 @@ def test_positions_around_that_of_the_file_are_written_in_its_range(shift: float
 def test_a_leader_of_a_name_is_never_level() -> None:
     for degrees in range(0, 90, 2):
         way = cis(float(degrees))
-        places = far(Label(typeset("a_{B}", 2.5), 0j, prefer=way, manner=NAMING))
+        places = far_candidates(Label(typeset("a_{B}", 2.5), 0j, prefer=way, style=NAMING))
         rises = abs((places.ends - places.starts).imag[places.led])
         assert len(rises)
         assert rises.min() > 0.5

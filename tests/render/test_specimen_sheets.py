@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 
 from planmethod.errors import LayoutError
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.render.control.sheet import inspect
 from planmethod.render.ink.drawing import Arc, Drawing, Fill, Pen, Stroke, Text
 from planmethod.render.ink.extent import ink_bounds
@@ -27,13 +27,13 @@ from planmethod.render.sheets.specimen.lines import (
 from planmethod.render.sheets.specimen.symbols import HEIGHT, WIDTH, symbol_cells
 from planmethod.render.symbols import GROUND, SIZES
 
-RU = language("ru")
+RU = get_language("ru")
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("name", SPECIMENS)
 def test_the_norm_control_finds_no_faults(name: str, lang: str) -> None:
-    assert inspect(SPECIMENS[name]({}, language(lang))) == []
+    assert inspect(SPECIMENS[name]({}, get_language(lang))) == []
 
 
 def letters(drawing: Drawing) -> str:
@@ -58,7 +58,7 @@ def test_every_symbol_has_a_name_and_a_clause_of_its_own() -> None:
     assert len(set(names)) == len(names) >= 28
     for cell in cells:
         assert cell.clause is None or re.fullmatch(
-            r"ГОСТ 2\.770(, п\. (1|2|5, а|6, [абв]|7, а|38))?", cell.clause.told(RU.specimens)
+            r"ГОСТ 2\.770(, п\. (1|2|5, а|6, [абв]|7, а|38))?", cell.clause.describe(RU.specimens)
         )
 
 
@@ -90,7 +90,7 @@ def test_the_requested_symbols_are_there() -> None:
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("cell", symbol_cells(), ids=lambda cell: cell.name)
 def test_a_symbol_stays_in_its_cell(cell: SymbolCell, lang: str) -> None:
-    box, words = (0.0, 0.0, WIDTH, HEIGHT), language(lang).specimens
+    box, words = (0.0, 0.0, WIDTH, HEIGHT), get_language(lang).specimens
     left, low, right, high = ink_bounds(drawn_cell(cell, 1, box, words))
     assert left > 1
     assert low > 1
@@ -124,9 +124,11 @@ def test_strokes_are_drawn_as_described(kind: LineType) -> None:
     assert abs(line.points[-1] - line.points[0]) == pytest.approx(SAMPLE)
     pieces = stroke_lines(line)
     if PENS[kind.pen].dashes is None:
-        assert measured([line], RU.say) == "–"
+        assert measured([line], RU.notation) == "–"
         return
-    stroke, gap = (float(part.replace(",", ".")) for part in measured([line], RU.say).split("; "))
+    stroke, gap = (
+        float(part.replace(",", ".")) for part in measured([line], RU.notation).split("; ")
+    )
     lengths = [abs(piece[-1] - piece[0]) for piece in pieces]
     assert stroke == pytest.approx(max(lengths), abs=0.051)
     long = [piece for piece in pieces if abs(piece[-1] - piece[0]) > 2]
@@ -141,7 +143,7 @@ def test_the_table_has_the_widths_of_the_pens() -> None:
 
 
 def test_the_rules_are_kept_in_their_own_pictures() -> None:
-    drawn = {cell.name: cell for cell in rule_cells(RU.say)}
+    drawn = {cell.name: cell for cell in rule_cells(RU.notation)}
     small = drawn["small_circle"].items
     assert drawn["small_circle"].size == "12"
     (circle,) = (i for i in small if isinstance(i, Arc))

@@ -17,7 +17,7 @@ from planmethod.mechanism.model import Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.note.narrate.letters import pair_letters
 from planmethod.note.narrate.structure import group_caption, mobility_formulas
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem import load
 from planmethod.problem.model import Drive, Problem
 from planmethod.render.control.texts import lint
@@ -25,13 +25,13 @@ from planmethod.render.frame.frame import STAMP, Format, paper_format
 from planmethod.render.ink.drawing import Arc, Drawing, Pen, Stroke, Text
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.chains import (
-    Far,
+    JointEnd,
     driver_chain,
     group_chain,
     mechanism_chain,
     textbook_places,
 )
-from planmethod.render.pictures.embedding import Bar, Net, embed
+from planmethod.render.pictures.embedding import Bar, SchemeGraph, embed
 from planmethod.render.pictures.structural import (
     Mobile,
     driver_picture,
@@ -42,7 +42,7 @@ from planmethod.render.sheets.structure import structure_sheet
 from planmethod.render.symbols import SIZES
 from planmethod.solved.aligned.schemes import self_aligning
 
-RU = language("ru")
+RU = get_language("ru")
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
 
@@ -344,7 +344,7 @@ def test_scheme_names_every_joint_and_link(name: str) -> None:
 @pytest.mark.parametrize("name", CASES)
 def test_bars_of_the_scheme_do_not_cross(name: str) -> None:
     problem, structure = _case(name)
-    net = mechanism_chain(problem.mechanism, structure).net
+    net = mechanism_chain(problem.mechanism, structure).graph
     at = embed(net)
     for one, two in combinations(net.bars, 2):
         if not {one.start, one.end} & {two.start, two.end}:
@@ -372,11 +372,11 @@ def test_open_joints_of_a_group_name_the_neighbours() -> None:
 def test_the_driver_is_on_the_frame() -> None:
     mechanism = MADE["driving slider"]
     chain = driver_chain(mechanism)
-    assert [slide.far for slide in chain.slides] == [Far.FRAME]
+    assert [slide.joint_end for slide in chain.slides] == [JointEnd.FRAME]
     picture = driver_picture(mechanism, width=60, height=60)
     assert "v1" in _writings([i for i in picture.items if isinstance(i, Text)])
     crank = driver_chain(MADE["triad of class III"])
-    assert [(pin.node, pin.far) for pin in crank.pins] == [("A", Far.FRAME)]
+    assert [(pin.node, pin.joint_end) for pin in crank.pins] == [("A", JointEnd.FRAME)]
 
 
 def test_hinge_of_three_links_is_a_double_joint() -> None:
@@ -388,7 +388,9 @@ def test_hinge_of_three_links_is_a_double_joint() -> None:
     assert sum(abs(ring.radius - 2.8) < 1e-9 for ring in rings) == 1
     first, second = structure.groups
     assert {p.node: p.count for p in group_chain(problem.mechanism, first).pins}["C"] == 1
-    assert {p.node: p.far for p in group_chain(problem.mechanism, second).pins}["C"] is Far.OPEN
+    assert {p.node: p.joint_end for p in group_chain(problem.mechanism, second).pins}[
+        "C"
+    ] is JointEnd.OPEN
 
 
 @pytest.mark.parametrize("name", WORKED)
@@ -398,7 +400,7 @@ def test_dyads_are_placed_as_in_the_textbook(name: str) -> None:
         chain = group_chain(problem.mechanism, group)
         at = textbook_places(chain)
         assert at is not None
-        assert set(at) == {*chain.net.nodes, *chain.net.between}
+        assert set(at) == {*chain.graph.nodes, *chain.graph.between}
 
 
 def test_class_three_triad_is_a_base_with_three_leads() -> None:
@@ -407,7 +409,7 @@ def test_class_three_triad_is_a_base_with_three_leads() -> None:
     at = textbook_places(chain)
     assert at is not None
     base = next(shape for shape in chain.shapes if len(shape.outline) == 3)
-    opened = [pin.node for pin in chain.pins if pin.far is Far.OPEN]
+    opened = [pin.node for pin in chain.pins if pin.joint_end is JointEnd.OPEN]
     assert max(abs(at[node]) for node in base.outline) < min(abs(at[node]) for node in opened)
 
 
@@ -426,5 +428,5 @@ def test_letters_of_points_with_numbers() -> None:
 
 
 def test_embedding_of_one_node() -> None:
-    net = Net(("A",), frozenset("A"), {"B": ("A", "A", 0.5)}, (Bar("1", "A", "B"),))
+    net = SchemeGraph(("A",), frozenset("A"), {"B": ("A", "A", 0.5)}, (Bar("1", "A", "B"),))
     assert embed(net) == {"A": 0j, "B": 0j}

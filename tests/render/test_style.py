@@ -51,14 +51,14 @@ def test_open_line_starts_and_ends_with_a_stroke(dashes: Dashes, total: float) -
     strokes = lengths[:: 1 + len(dashes.inside)]
     assert max(strokes) - min(strokes) < 1e-9
     if len(spans) > 1:
-        assert strokes[0] >= dashes.least - 1e-9
+        assert strokes[0] >= dashes.min_stroke - 1e-9
         assert strokes[0] < 2.0 * dashes.stroke
         whole = [b[0] - a[1] for a, b in pairwise(spans)]
         dots = len(dashes.inside)
         gap = (dashes.gap - dots * dashes.dot) / (dots + 1)
         assert whole == pytest.approx([gap] * len(whole))
     else:
-        assert total < 2.0 * dashes.least + dashes.gap
+        assert total < 2.0 * dashes.min_stroke + dashes.gap
 
 
 # GOST 2.303: least and greatest stroke, least and greatest gap, dots in a gap.

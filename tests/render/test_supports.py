@@ -17,8 +17,8 @@ from planmethod.render.ink.drawing import Arc, Fill, Ink, Item, Pen, Stroke
 from planmethod.render.ink.style import PENS
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.render.pictures.supports import free_sides, stand
-from planmethod.render.symbols import GROUND, SIZES, fixed_pivots, foot_of, slider
+from planmethod.render.pictures.supports import free_sides, place_supports
+from planmethod.render.symbols import GROUND, SIZES, fixed_pivots, slider, support_half_width
 from planmethod.solved.solution import Solution
 
 UNREACHED = {("levers/six-link", 40.0), ("levers/six-link", 75.0)}
@@ -44,15 +44,15 @@ def lines_of(items: Sequence[Item], pen: Pen | None = None) -> BaseGeometry:
 
 
 def test_a_support_points_down_where_it_can() -> None:
-    (support,) = stand([0j], [bar(0j, 30 + 20j)])
+    (support,) = place_supports([0j], [bar(0j, 30 + 20j)])
     assert (support.places, support.direction, support.factor) == ((0j,), DOWN, 1.0)
-    (alone,) = stand([3 + 4j], [])
+    (alone,) = place_supports([3 + 4j], [])
     assert alone.direction == DOWN
 
 
 @pytest.mark.parametrize("way", [-1j, 1 - 2j, -1 - 3j])
 def test_a_support_turns_away_from_a_link_below_it(way: complex) -> None:
-    (support,) = stand([0j], [bar(0j, 40 * way / abs(way))])
+    (support,) = place_supports([0j], [bar(0j, 40 * way / abs(way))])
     assert support.direction == UP
     ground = lines_of(support.items())
     link = LineString([(0.1 * way.real, 0.1 * way.imag), (40 * way.real, 40 * way.imag)])
@@ -61,14 +61,14 @@ def test_a_support_turns_away_from_a_link_below_it(way: complex) -> None:
 
 def test_a_support_turns_aside_between_links_above_and_below() -> None:
     links = [bar(0j, 40j), bar(0j, -40j)]
-    (support,) = stand([0j], links)
+    (support,) = place_supports([0j], links)
     assert support.direction == LEFT
-    (other,) = stand([0j], [*links, bar(0j, -40 + 0j)])
+    (other,) = place_supports([0j], [*links, bar(0j, -40 + 0j)])
     assert other.direction == 1
 
 
 def test_a_line_that_passes_below_turns_the_support() -> None:
-    (support,) = stand([0j], [bar(-30 - 8j, 30 - 8j), bar(0j, 30 + 0j)])
+    (support,) = place_supports([0j], [bar(-30 - 8j, 30 - 8j), bar(0j, 30 + 0j)])
     assert support.direction == UP
 
 
@@ -76,7 +76,7 @@ def test_a_line_that_passes_below_turns_the_support() -> None:
 @each("step", [0.0, 3.0, 5.5, 8.0, 12.0])
 def test_supports_of_near_pivots_do_not_run_into_each_other(apart: float, step: float) -> None:
     pivots = [0j, complex(apart, step)]
-    found = stand(pivots, [])
+    found = place_supports(pivots, [])
     assert sorted((p for s in found for p in s.places), key=abs) == pivots
     for one, two in combinations(found, 2):
         assert lines_of(one.items()).distance(lines_of(two.items())) > PENS[Pen.MAIN].width
@@ -92,18 +92,18 @@ def test_one_base_under_two_pivots() -> None:
         left, top, right = triangle.points
         assert top == at
         assert left.imag == right.imag == -9
-        assert right.real - left.real == pytest.approx(2 * foot_of([0j, 7 + 2j]))
+        assert right.real - left.real == pytest.approx(2 * support_half_width([0j, 7 + 2j]))
     assert isinstance(base, Stroke)
     assert sorted(p.real for p in base.points) == [-7, 14]
     assert all(isinstance(s, Stroke) and s.tag == GROUND for s in hatching)
     # 1 mm is left between the feet.
-    assert 7 - 2 * foot_of([0j, 7 + 2j]) == pytest.approx(1.0)
-    assert foot_of([0j, 40 + 0j]) == SIZES.support_width / 2
-    assert foot_of([0j]) == SIZES.support_width / 2
+    assert 7 - 2 * support_half_width([0j, 7 + 2j]) == pytest.approx(1.0)
+    assert support_half_width([0j, 40 + 0j]) == SIZES.support_width / 2
+    assert support_half_width([0j]) == SIZES.support_width / 2
 
 
 def test_pivots_one_over_the_other_look_away() -> None:
-    low, high = stand([0j, 8j], [])
+    low, high = place_supports([0j, 8j], [])
     assert {low.direction, high.direction} != {DOWN}
     assert lines_of(low.items()).distance(lines_of(high.items())) > PENS[Pen.MAIN].width
 
@@ -186,12 +186,12 @@ def test_a_rod_is_welded_to_the_edge_of_its_block() -> None:
     wedges = [item for item in scheme.corners if isinstance(item, Fill)]
     assert len(wedges) == 2
     for wedge in wedges:
-        way = (wedge.points[0] - block.middle) * block.along.conjugate()
+        way = (wedge.points[0] - block.middle) * block.direction.conjugate()
         assert abs(way.imag) == pytest.approx(block.width / 2)
     for item in scheme.lines:
         if isinstance(item, Stroke) and item.tag == "link 5":
             for point in item.points:
-                way = (point - block.middle) * block.along.conjugate()
+                way = (point - block.middle) * block.direction.conjugate()
                 inside = min(block.length / 2 - abs(way.real), block.width / 2 - abs(way.imag))
                 assert inside < 1e-6
 
@@ -200,9 +200,9 @@ def test_no_block_hides_another() -> None:
     """All white grounds of sliders and blocks are drawn before any of their outlines."""
     scheme = Scheme(Solution(problem_of("linkages/ex3")), 0, 5.0)
     scheme.draw()
-    fills = [k for k, item in enumerate(scheme.bodies) if isinstance(item, Fill)]
-    outlines = [k for k, i in enumerate(scheme.bodies) if isinstance(i, Stroke) and i.closed]
-    white = [k for k in fills if scheme.bodies[k].ink is Ink.WHITE]  # type: ignore[union-attr]
+    fills = [k for k, item in enumerate(scheme.slider_items) if isinstance(item, Fill)]
+    outlines = [k for k, i in enumerate(scheme.slider_items) if isinstance(i, Stroke) and i.closed]
+    white = [k for k in fills if scheme.slider_items[k].ink is Ink.WHITE]  # type: ignore[union-attr]
     assert max(white) < min(outlines)
 
 

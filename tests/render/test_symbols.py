@@ -100,10 +100,10 @@ def test_slider_is_14_by_8_along_its_guide(angle: float) -> None:
 
 
 def test_a_sliding_block_has_its_guide_line_and_pin() -> None:
-    items = symbols.stone(0j, angle=30)
+    items = symbols.sliding_block(0j, angle=30)
     assert isinstance(items[0], Fill)
     assert isinstance(items[-1], Arc)
-    assert not any(isinstance(i, Disc) for i in symbols.stone(0j, pin=False))
+    assert not any(isinstance(i, Disc) for i in symbols.sliding_block(0j, pin=False))
 
 
 def test_guide_line_touches_the_slider() -> None:
@@ -190,7 +190,7 @@ def test_no_circular_arrow_at_rest() -> None:
 
 
 def test_triangle_link() -> None:
-    items = symbols.stiff_triangle(0j, 30 + 0j, 10 + 20j, hatched=True)
+    items = symbols.rigid_polygon(0j, 30 + 0j, 10 + 20j, hatched=True)
     assert hatching(items)
     assert isinstance(items[-1], Stroke)
     assert items[-1].closed
@@ -251,7 +251,7 @@ def test_a_bearing_leaves_the_shaft_free() -> None:
 
 
 def test_corners_of_a_triangle_are_marked() -> None:
-    marks = fills(symbols.stiff_triangle(0j, 30 + 0j, 10 + 20j, marked=True))
+    marks = fills(symbols.rigid_polygon(0j, 30 + 0j, 10 + 20j, marked=True))
     assert {mark.points[0] for mark in marks} == {0j, 30 + 0j, 10 + 20j}
     for mark in marks:
         assert (
@@ -304,7 +304,7 @@ def test_hatching_gives_way_to_items_in_it() -> None:
     corners = (0j, 40 + 0j, 20 + 25j)
     joint = symbols.revolute(20 + 10j)
     free = symbols.hatch(corners)
-    cut = symbols.hatch(corners, keep_off=joint)
+    cut = symbols.hatch(corners, obstacles=joint)
     clear = Point(20, 10).buffer(1.5 + 0.7)
     assert any(shape(stroke).intersects(clear) for stroke in free)
     assert not any(shape(stroke).intersects(clear) for stroke in cut)
@@ -314,14 +314,14 @@ def test_hatching_gives_way_to_items_in_it() -> None:
 
 def test_only_hatching_is_cut() -> None:
     base = symbols.ground_line(0j, 30 + 0j)
-    taken = symbols.taken_by(symbols.link(15 + 5j, 15 - 5j))
+    taken = symbols.occupied_area(symbols.link(15 + 5j, 15 - 5j))
     assert taken is not None
     kept = symbols.clipped(base, taken)
     assert kept[0] == base[0]
     assert len(hatching(kept)) >= len(hatching(base)) - 2
     assert not any(shape(stroke).intersects(taken.buffer(-1e-6)) for stroke in hatching(kept))
     assert all(shape(stroke).length >= 1.2 - 1e-9 for stroke in hatching(kept))
-    assert symbols.taken_by([]) is None
+    assert symbols.occupied_area([]) is None
 
 
 def test_the_frame_gives_way_to_links_and_not_to_its_own_lines() -> None:

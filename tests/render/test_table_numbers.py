@@ -13,13 +13,13 @@ import numpy.typing as npt
 import pytest
 from worked import problem_of
 
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.render.layout.block import Block, Column, Row
 from planmethod.render.layout.tables import TableCell, TablePart
 from planmethod.render.sheets.blocks import maker_of
 from planmethod.render.sheets.composer import Sizes
-from planmethod.render.sheets.model import Entry, Extras, Manner
+from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle
 from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.machine.flywheel import flywheel_of
@@ -27,7 +27,7 @@ from planmethod.solved.machine.runup import run_up_of
 from planmethod.solved.solution import Solution
 from planmethod.solved.transfers import transfers_of
 
-EN = language("en")
+EN = get_language("en")
 THREE = (20.0, 140.0, 260.0)
 PRESS = (99.0, 150.0, 219.0)
 
@@ -78,7 +78,9 @@ def columns_of(
 ) -> list[Told]:
     """Return the columns of the tables of a block of a sheet, in order."""
     solution = solution_of(name, positions)
-    manner = Manner(Entry(kind), Sizes(5.0, 5.0, 5.0, 240.0), 3000.0, Extras(EN, sigma=sigma))
+    manner = BlockStyle(
+        BlockSpec(kind), Sizes(5.0, 5.0, 5.0, 240.0), 3000.0, BlockOptions(EN, sigma=sigma)
+    )
     block = maker_of(kind)(solution, tuple(range(len(solution.positions))), manner)
     sources = [column.source for part in parts_of(block) for column in part.columns]
     return [Told(source.head, source.cells) for source in sources]
@@ -271,7 +273,7 @@ def test_the_table_of_the_machine_keeps_the_equation_of_motion() -> None:
         heads[head].values for head in ("M_{r}", "A_{r}", "J_{r}", "dJ/dφ", "ω")
     )
     heads["M^{Zh}"].assert_are(moment, share=1e-4)
-    whole = flywheel.fitted + inertia
+    whole = flywheel.steady_inertia + inertia
     energy = whole * omega**2 / 2.0
     heads["ΔT"].assert_are(energy - energy[0], share=2e-3)
     turned = 2.0 * pi * np.arange(len(moment)) / len(moment)
@@ -334,9 +336,9 @@ def test_the_run_up_and_the_stop_go_by_even_times_with_the_speed_of_the_course()
         count = len(time.values)
         assert time.values[-1] == pytest.approx(float(course.time[-1]), abs=time.room[-1])
         for k in range(1, count - 1):
-            found = np.interp(time.values[k], course.time, course.turned)
+            found = np.interp(time.values[k], course.time, course.rotation)
             assert phi.values[k] == pytest.approx(np.degrees(found), abs=4.0)
-            speed = np.interp(radians(phi.values[k]), course.turned, course.omega)
+            speed = np.interp(radians(phi.values[k]), course.rotation, course.omega)
             assert omega.values[k] == pytest.approx(float(speed), abs=0.35)
 
 

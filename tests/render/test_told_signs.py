@@ -9,7 +9,7 @@ import pytest
 from cases import each
 from worked import SIX, drawn_sheets, problem_of
 
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.model import RATES, PlanKind, VectorKind
 from planmethod.render.ink.drawing import Pen, Stroke
 from planmethod.render.pictures.extremes import construction_items
@@ -34,7 +34,7 @@ def test_the_sign_beside_an_angular_velocity_is_the_way_the_link_turns_next(name
     seen = 0
     for sigma in (False, True):
         here = Solution(problem, positions=[first])
-        for column in result_columns(here, [0], language("en"), sigma=sigma):
+        for column in result_columns(here, [0], get_language("en"), sigma=sigma):
             letter, _, link = column.head.rstrip("}").partition("_{")
             if letter not in ("ω", "ε") or link not in now.links:
                 continue
@@ -58,8 +58,8 @@ def test_the_sign_beside_an_angular_velocity_is_the_way_the_link_turns_next(name
 
 def test_the_rows_of_a_single_position_are_exact_read_difference_and_error() -> None:
     here = Solution(problem_of("linkages/ex3"))
-    said = language("en").sheets
-    head, *columns = result_columns(here, [0], language("en"), sigma=True)
+    said = get_language("en").sheets
+    head, *columns = result_columns(here, [0], get_language("en"), sigma=True)
     assert [cell.text for cell in head.cells] == [said.exact, said.read, "Δ, %", "±σ"]
     for column in columns:
         exact, seen, off, sigma = (cell.text.rstrip("*") for cell in column.cells)
@@ -114,9 +114,9 @@ def test_a_segment_represents_its_velocity_at_its_own_multiple_of_the_scale(
                     and abs(complex(paper.point(vector.head)[index]) + pole - span.end) < 1e-9
                 ]
                 sizes = [abs(complex(solution.si.vector(v.tail, v.head)[index])) for v in own]
-                true = span.length * solution.scales[kind].per_mm / span.share
+                true = span.length * solution.scales[kind].per_mm / span.magnification
                 assert any(abs(true - size) < 1e-9 * (1 + size) for size in sizes), span.name
-                shares.add(round(span.share, 6))
+                shares.add(round(span.magnification, 6))
     assert shares == {1.0}
 
 
@@ -131,10 +131,10 @@ def test_an_enlarged_segment_represents_its_vector_at_its_multiple() -> None:
     seen = 0
     for view in sheet.views:
         for span in view.spans:
-            if span.share > 1.0:
-                size = span.length * view.per_mm / span.share
+            if span.magnification > 1.0:
+                size = span.length * view.per_mm / span.magnification
                 # As long as the hand has drawn it: half a division of the ruler, enlarged.
-                room = (0.6 / span.share + 0.3) * view.per_mm
+                room = (0.6 / span.magnification + 0.3) * view.per_mm
                 assert min(abs(size - one) for one in true[view.kind]) < room, span
                 seen += 1
     assert seen
@@ -152,9 +152,9 @@ def test_radii_of_extreme_positions_are_as_long_as_their_names_state(name: str) 
     _, labels = construction_items(made, 3.5)
     assert len(labels) == 2
     for label in labels:
-        assert label.along is not None
+        assert label.segment is not None
         pivot = made.place(made.pivot)
-        reach = abs(label.along[1] - pivot)
+        reach = abs(label.segment[1] - pivot)
         is_sum = "+" in label.inscription.markup
         assert is_sum or "−" in label.inscription.markup
         assert reach == pytest.approx(rod + crank if is_sum else abs(rod - crank), abs=1e-6)

@@ -8,7 +8,7 @@ import pytest
 from msgspec.structs import replace
 from worked import SIX, drawn_sheets, problem_of
 
-from planmethod.construct.steps import MeetCircles, MeetLineCircle, PointName
+from planmethod.construct.steps import IntersectCircles, IntersectLineCircle, PointName
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Arc, Item, Stroke
 from planmethod.render.pictures.planview import plan_places
@@ -36,7 +36,7 @@ def middle(arc: Arc) -> complex:
 def test_each_arc_of_the_scheme_leaves_one_short_notch_at_its_point(name: str) -> None:
     solution = Solution(problem_of(name))
     kinds = [type(step) for step in solution.construction.program.steps]
-    compass = 2 * kinds.count(MeetCircles) + kinds.count(MeetLineCircle)
+    compass = 2 * kinds.count(IntersectCircles) + kinds.count(IntersectLineCircle)
     found = arcs(scheme_traces(solution, 0, 1.0, True))
     places = [
         complex(solution.paper.point(PointName(p))[0]) for p in solution.construction.draft.points()
@@ -105,13 +105,13 @@ def test_every_trace_goes_on_beyond_the_head_of_its_vector_and_not_back_over_it(
 def test_traces_are_those_of_one_position_unless_requested_or_forbidden() -> None:
     problem = problem_of("levers/six-link")
     one, many = Solution(problem), Solution(problem, positions=[150.0, 170.0])
-    assert [shown_traces(s, None, room=True) for s in (one, many)] == [True, False]
-    assert shown_traces(one, None, room=False) is False
+    assert [shown_traces(s, None, has_space=True) for s in (one, many)] == [True, False]
+    assert shown_traces(one, None, has_space=False) is False
     told = [
         Solution(replace(problem, sheet=replace(problem.sheet, traces=t))) for t in (True, False)
     ]
-    assert [shown_traces(s, None, room=False) for s in told] == [True, False]
-    assert shown_traces(told[1], ("C",), room=False) == ("C",)
+    assert [shown_traces(s, None, has_space=False) for s in told] == [True, False]
+    assert shown_traces(told[1], ("C",), has_space=False) == ("C",)
     assert len(scheme_traces(one, 0, 1.0, ("C",))) == 2
     assert scheme_traces(one, 0, 1.0, ("H",)) == []
     for kind, letters in zip(PLANS, ("c", "c′"), strict=True):

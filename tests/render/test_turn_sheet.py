@@ -15,23 +15,23 @@ from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import LayoutError
 from planmethod.note.records.solution import cycle_record
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.paper import FORMATS
 from planmethod.problem.cycle_records import CycleTask, Differentiation, PoleDistances
 from planmethod.render.control.texts import lint
 from planmethod.render.ink.drawing import VIEW_KINDS, Disc, Stroke
 from planmethod.render.pictures.diagram import AXIS
 from planmethod.render.pictures.extremes import EXTREME
-from planmethod.render.pictures.kinematic import FOUND, kinematic_picture
+from planmethod.render.pictures.kinematic import POINT_TAG, kinematic_picture
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn import numbering
 from planmethod.solved.turn.construction import extreme_construction
+from planmethod.solved.turn.cycle import crank_cycle_of
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of, sigmas
-from planmethod.solved.turn.turn import turn_of
 
-RU = language("ru")
+RU = get_language("ru")
 
 
 @cache
@@ -49,7 +49,7 @@ def diagrams(solution: Solution) -> Diagrams:
 def test_the_points_of_the_diagrams_are_at_their_values() -> None:
     solution = press()
     told = cycle_record(solution)["diagrams"]
-    items = kinematic_picture(diagrams(solution), 3.5, RU.say).items
+    items = kinematic_picture(diagrams(solution), 3.5, RU.notation).items
     levels = [
         item.points[0].imag
         for item in items
@@ -57,7 +57,9 @@ def test_the_points_of_the_diagrams_are_at_their_values() -> None:
         and item.points[0].imag == item.points[1].imag
     ]  # fmt: skip
     for letter, key, start in (("v", "v_chord_mm", 7.5), ("a", "a_chord_mm", 0.0)):
-        found = [i.centre for i in items if isinstance(i, Disc) and i.tag == f"{FOUND} {letter}"]
+        found = [
+            i.centre for i in items if isinstance(i, Disc) and i.tag == f"{POINT_TAG} {letter}"
+        ]
         level = min(levels, key=lambda y: abs(found[0].imag - told[key][0] - y))
         assert [p.imag - level for p in found] == pytest.approx(told[key], abs=1e-9)
         assert [p.real for p in found] == pytest.approx([start + 15.0 * k for k in range(12)])
@@ -135,7 +137,7 @@ def test_a_number_names_one_position_of_the_sheet(
         monkeypatch,
     )
     assert solution.positions.tolist() == asked
-    assert turn_of(solution).positions == pytest.approx(np.array(asked), abs=1e-9)
+    assert crank_cycle_of(solution).positions == pytest.approx(np.array(asked), abs=1e-9)
     assert solution.problem.numbered == pytest.approx(tuple(asked), abs=1e-9)
 
 

@@ -32,5 +32,5 @@ def test_each_format_is_as_large_as_the_view(
 
 
 def test_items_outside_the_box_are_left_out() -> None:
-    shown = DrawingView(drawing(), (5.0, 5.0, 45.0, 25.0)).shown()
+    shown = DrawingView(drawing(), (5.0, 5.0, 45.0, 25.0)).crop()
     assert shown.items == [Stroke((5 + 5j, 25 + 5j))]

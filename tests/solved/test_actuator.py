@@ -28,10 +28,10 @@ from texts import protocol
 from planmethod.errors import ProblemError
 from planmethod.mechanism.model import FRAME
 from planmethod.note.tables.forces import driven_by
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem import loads
 from planmethod.problem.load_records import FrictionTask
-from planmethod.problem.model import Lifted, Problem
+from planmethod.problem.model import CamDrive, Problem
 from planmethod.project.settle import settle
 from planmethod.render.forces.cut import cut_picture
 from planmethod.render.forces.leverpicture import lever_picture
@@ -190,7 +190,7 @@ def test_friction_is_carried_by_the_actuator(seed: int) -> None:
     for pair, size in zip(friction.pairs, forces.friction, strict=True):
         lost += float(size[0] * abs(pair.rate[0]))
         pressed = abs(forces.reactions[pair.number][0]) if pair.sense[0] else 0.0
-        assert size[0] == pytest.approx(pair.share * pressed, rel=1e-9, abs=1e-9)
+        assert size[0] == pytest.approx(pair.coefficient * pressed, rel=1e-9, abs=1e-9)
         for one in pair.loads(size):
             at = 0j if one.point is None else motion.position[one.link, one.point]
             loaded.append(Acting(one.link, one.force[0], at, one.couple[0]))
@@ -216,7 +216,7 @@ def test_the_cylinder_of_a_scissor_lift(own: bool, rate: int) -> None:
         pins = [abs(forces["P", "4", "1"]), abs(forces["Q", "5", "2"])]
         assert pins == pytest.approx([statics.balance[0]] * 2, rel=1e-12)
         assert abs(forces["P", "4", "5"]) < 1e-9
-    assert np.isfinite(statics.by_hand.number(statics.driving.balance)).all()
+    assert np.isfinite(statics.ruler_reading.number(statics.driving.balance)).all()
 
 
 def test_a_slider_on_a_guide_of_the_frame_is_no_cylinder() -> None:
@@ -290,10 +290,10 @@ def test_the_actuator_is_named_as_driver_if_another_quantity_gives_the_position(
     actuated = loads(SCISSOR.replace("CYLINDER", ""), name="scissor")
     told = SCISSOR.replace("CYLINDER", "").replace("PQ = 400\nv_PQ = 20", "phi_2_3 = 60\nomega = 1")
     posed = loads(told, name="scissor")
-    lifted = Lifted(turns=True, n=60.0, pieces=())
-    followed = replace(posed, drive=replace(posed.drive, posed=None, followed=lifted))
+    lifted = CamDrive(turns=True, n=60.0, pieces=())
+    followed = replace(posed, drive=replace(posed.drive, posed=None, cam_drive=lifted))
     said = {
-        lang: [[*driven_by(one, language(lang).note)] for one in (actuated, posed, followed)]
+        lang: [[*driven_by(one, get_language(lang).note)] for one in (actuated, posed, followed)]
         for lang in ("en", "ru")
     }
     for none, by_position, by_cam in said.values():
@@ -316,7 +316,7 @@ def test_actuator_force_is_reported_and_drawn_wherever_it_acts(seed: int) -> Non
         assert sum(force.at == edge.at for p in statics.board.plans for edge in p.polygon) >= 1
     assert ("are a pair of forces" in text) is not stands(seed)
     assert ("a tried force of" in text) is stands(seed)
-    reading, say = force_reading(statics.solution, 0), language("en").say
+    reading, say = force_reading(statics.solution, 0), get_language("en").notation
     for number in range(len(reading.plans)):
         cut_picture(reading, number, 3.5, say)
     if not stands(seed):

@@ -22,7 +22,7 @@ from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, 
 from planmethod.mechanism.structure import analyse
 from planmethod.note.narrate.structure import aligned_lines
 from planmethod.note.records.aligned import aligned_record
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem import loads
 from planmethod.problem.model import Drive, Problem
 from planmethod.render.sheets.structure import structure_sheet
@@ -232,7 +232,9 @@ def test_sizes_that_close_nowhere_give_the_schemes_of_random_ones() -> None:
     found = self_aligning(problem, analyse(problem.mechanism))
     assert len(found.schemes) == 6 and found.rank == 17
     assert found.random and aligned_record(found)["sizes"] == "random"
-    told = next(aligned_lines(problem.mechanism, analyse(problem.mechanism), found, language("ru")))
+    told = next(
+        aligned_lines(problem.mechanism, analyse(problem.mechanism), found, get_language("ru"))
+    )
     assert told.endswith("ранги найдены при случайных размерах.")
     assert not aligned("linkages/2.1.15").random  # its position is found by an angle of links
     assert not aligned("linkages/ex1").random and "sizes" not in aligned_record(
@@ -285,7 +287,7 @@ def test_a_link_on_three_profiles_keeps_a_local_mobility_which_is_reported() -> 
     record = aligned_record(found)
     assert record["valid"] and record["local_mobility"] == [1, 1, 1]
     assert record["reason"] == "every scheme of the links 3 with q = 0 leaves a local mobility"
-    told = aligned_lines(problem.mechanism, structure, found, language("ru"))
+    told = aligned_lines(problem.mechanism, structure, found, get_language("ru"))
     lines = [line.replace("\u00a0", " ") for line in told]
     assert "W_{пр} = 6·1 − 2·2 − 1·1 = 1, q = 0" in lines[0] and "W_{м} = 1" in lines[1]
     assert "Схема без изменения пар не годится" in lines[3] and "меньше на 1" in lines[3]
@@ -330,7 +332,7 @@ def test_if_no_scheme_is_found_the_links_are_named(monkeypatch: pytest.MonkeyPat
     record = aligned_record(found := self_aligning(problem, structure))
     assert (record["valid"], record["schemes"]) == (False, [])
     assert "2-3; 4-5" in record["reason"]
-    lines = list(aligned_lines(problem.mechanism, structure, found, language("ru")))
+    lines = list(aligned_lines(problem.mechanism, structure, found, get_language("ru")))
     assert len(lines) == 1 and "2–3; 4–5" in lines[0]
     assert structure_sheet(problem, structure, found).items
 

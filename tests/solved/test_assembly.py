@@ -11,7 +11,7 @@ from worked import problem_of
 
 from planmethod.errors import AssemblyError, ExitCode, ProblemError, StructureError
 from planmethod.problem import loads
-from planmethod.problem.model import Problem, Rule, Where
+from planmethod.problem.model import AssemblyRelation, Problem, Rule
 from planmethod.solved.solution import Solution
 
 FOUR_BAR = """
@@ -164,7 +164,7 @@ def test_missing_rules_of_all_groups_are_reported_at_once() -> None:
     (fault,) = faulty(problem)
     assert fault.startswith("assembly.C: links 2, 3 can be assembled in two ways")
     assert len(faulty(replace(problem_of("linkages/ex3"), assembly=()))) == 1
-    rules = (Rule("A", Where.ABOVE, ("B",)), Rule("B", Where.LEFT, ("C",)))
+    rules = (Rule("A", AssemblyRelation.ABOVE, ("B",)), Rule("B", AssemblyRelation.LEFT, ("C",)))
     faults = faulty(replace(problem_of("linkages/ex1"), assembly=rules))
     assert [fault.partition(":")[0] for fault in faults] == [
         "assembly.C",
@@ -209,7 +209,10 @@ def test_a_rule_that_holds_for_neither_assembly() -> None:
 
 @pytest.mark.parametrize(("point", "other"), [("A", "B"), ("B", "A"), ("D", "B")])
 def test_points_of_the_frame_and_the_driver_have_one_place(point: str, other: str) -> None:
-    rules = (Rule("C", Where.ABOVE, ("D",)), Rule(point, Where.ABOVE, (other,)))
+    rules = (
+        Rule("C", AssemblyRelation.ABOVE, ("D",)),
+        Rule(point, AssemblyRelation.ABOVE, (other,)),
+    )
     (fault,) = faulty(replace(four_bar('C = "above D"'), assembly=rules))
     assert fault == (
         f"assembly.{point}: {point} belongs to the frame or to the driving link: it has one place. "

@@ -99,10 +99,10 @@ def test_the_balancing_force_is_read_and_acts_on_the_lever() -> None:
 def test_selectors_and_questions() -> None:
     solution = Solution(pushed(stone()))
     values = ForceValues(solution, 0)
-    alone = values.value(Selector("balance", ()), by_hand=False)
-    at_a = values.value(Selector("balance", ("A",)), by_hand=False)
+    alone = values.value(Selector("balance", ()), by_ruler=False)
+    at_a = values.value(Selector("balance", ("A",)), by_ruler=False)
     assert abs(alone) == pytest.approx(at_a, rel=1e-12)
-    assert values.value(Selector("lever", ("A",)), by_hand=False) == pytest.approx(at_a)
+    assert values.value(Selector("lever", ("A",)), by_ruler=False) == pytest.approx(at_a)
     question = Questions(solution).question(Selector("balance", ()))
     assert question.unit == "N"
 

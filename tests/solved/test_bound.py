@@ -10,9 +10,9 @@ import pytest
 from planmethod.problem import loads
 from planmethod.solved.accuracy import examine
 from planmethod.solved.quantities import natural_size
-from planmethod.solved.selfcheck import doubts
+from planmethod.solved.selfcheck import motion_doubts
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import JUDGED, error_bound
+from planmethod.solved.trust.conditioning import BOUNDED_KINDS, error_bound
 
 TEXT = """
 title = "x"
@@ -63,7 +63,7 @@ def test_no_error_of_a_result_exceeds_the_reported_bound(shape: str, phi: float)
     problem = loads(four_bar(shape, phi), name="x")
     (bound,) = error_bound(Solution(problem))
     (found,) = examine(problem, [phi], closely=False)
-    largest = dict.fromkeys(JUDGED, 0.0)
+    largest = dict.fromkeys(BOUNDED_KINDS, 0.0)
     for one in found.verdicts:
         if one.kind in largest:
             largest[one.kind] = max(largest[one.kind], one.size)
@@ -79,7 +79,7 @@ def test_no_error_of_a_result_exceeds_the_reported_bound(shape: str, phi: float)
 def test_the_reported_bound_is_relative_to_the_largest_of_a_kind() -> None:
     """The coupler of a parallelogram does not turn: its computed acceleration is all noise."""
     solution = Solution(loads(four_bar("parallelogram", 0.01), name="x"))
-    (doubt,) = doubts(solution)
+    (doubt,) = motion_doubts(solution)
     turned = abs(float(solution.links["2"].epsilon[0]))
     assert turned <= doubt.bound * 5.0
     assert f"accurate to about {doubt.bound:.0e} of the largest of their kind" in str(doubt)

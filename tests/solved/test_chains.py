@@ -14,7 +14,7 @@ from planmethod.mechanism.groups import triad_of
 from planmethod.mechanism.structure import analyse
 from planmethod.plans.build import build
 from planmethod.problem.keys import LINK_LIMIT
-from planmethod.solved.closings import choose_closings
+from planmethod.solved.assembly_modes import choose_modes
 from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.solution import Solution
 
@@ -44,10 +44,10 @@ def prepared(dyads: int) -> dict[str, int]:
     """Count the work of the parts of preparing a chain."""
     problem = chain(dyads)
     structure = analyse(problem.mechanism)
-    choice = choose_closings(problem, structure)
+    choice = choose_modes(problem, structure)
     return {
         "structure": lines_of(lambda: analyse(problem.mechanism)),
-        "closings": lines_of(lambda: choose_closings(problem, structure)),
+        "closings": lines_of(lambda: choose_modes(problem, structure)),
         "plans": lines_of(lambda: build(problem, structure, choice)),
         "sweep": lines_of(lambda: Sweep(problem, native=False)),
     }

@@ -17,7 +17,7 @@ from worked import path_of
 from benchmarks.generator import Pose, random_problem
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
-from planmethod.solved.forces.contact import across, distance, edge_forces
+from planmethod.solved.forces.contact import distance, edge_forces, transverse_component
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.solution import Solution
 
@@ -41,7 +41,7 @@ def one(value: complex) -> np.ndarray[tuple[int], np.dtype[np.complex128]]:
 def test_a_force_counts_to_the_left_of_the_guide(
     along: complex, force: complex, normal: float
 ) -> None:
-    assert across(one(force), one(along))[0] == pytest.approx(normal, abs=1e-15)
+    assert transverse_component(one(force), one(along))[0] == pytest.approx(normal, abs=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from worked import path_of
 
 from planmethod.plans.model import PlanKind
 from planmethod.problem import load
-from planmethod.solved.crowd import CROWD, SIDE, densest, is_crowded
+from planmethod.solved.label_density import MAX_LABELS, SIDE, densest, is_too_dense
 from planmethod.solved.solution import Solution
 
 ALL_ROUND = [30.0 * k for k in range(12)]
@@ -23,7 +23,7 @@ def test_letters_are_counted_in_a_square_about_one_of_them() -> None:
 def test_a_scheme_is_crowded_at_a_coarse_scale_only(name: str) -> None:
     solution = Solution(load(path_of(name)), positions=ALL_ROUND)
     crowded = [
-        is_crowded(solution.construction, solution.si, per_mm)
+        is_too_dense(solution.construction, solution.si, per_mm)
         for per_mm in (1e-6, 0.0005, 0.005, 0.02)
     ]
     assert crowded == sorted(crowded)
@@ -34,12 +34,12 @@ def test_a_scheme_is_crowded_at_a_coarse_scale_only(name: str) -> None:
 def test_points_close_together_have_one_letter() -> None:
     solution = Solution(load(path_of("press/press")), positions=ALL_ROUND)
     points = solution.construction.draft.points()
-    assert len(points) < CROWD
-    assert not is_crowded(solution.construction, solution.si, 1e3)
+    assert len(points) < MAX_LABELS
+    assert not is_too_dense(solution.construction, solution.si, 1e3)
 
 
 def test_a_crowded_scheme_takes_the_spare_space() -> None:
     """At 0.005 m/mm most letters of the press had to be left out, with space on its sheet."""
     solution = Solution(load(path_of("press/press")), positions=ALL_ROUND)
-    assert is_crowded(solution.construction, solution.si, 0.005)
+    assert is_too_dense(solution.construction, solution.si, 0.005)
     assert solution.scales[PlanKind.POSITION].per_mm == pytest.approx(0.004)

@@ -10,10 +10,10 @@ from worked import path_of, problem_of
 from planmethod import loads
 from planmethod.errors import PlanMethodError
 from planmethod.solved.cycle import Cycle
+from planmethod.solved.driver_path import DriverPath, without_corners
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.travel import Travel, without_corners
 
 TURN = [30.0 * k for k in range(12)]
 RESISTANCE = "force = 2000 # Н\nangle = -90"
@@ -167,7 +167,7 @@ def test_random_mechanisms(seed: int) -> None:
 
 def test_the_course_keeps_the_requested_positions() -> None:
     solution = Solution(problem_of("levers/task12"), positions=[10.0, 10.0, 40.0, 25.0])
-    course = Travel(solution, step=1.0, least=120)
+    course = DriverPath(solution, step=1.0, min_steps=120)
     assert course.drawn.tolist() == [10.0, 25.0, 40.0] and not course.closed
     assert set(course.drawn) <= set(course.positions)
     assert len(course.positions) == 121
@@ -178,7 +178,7 @@ def test_a_curve_has_no_corner_that_is_seen(name: str) -> None:
     """Halfway between its points a reaction is on the chord, to a thousandth of its largest."""
     cycle = Cycle(Solution(problem_of(name), positions=TURN))
     halves = np.unique((cycle.positions[1:] + cycle.positions[:-1]) / 2)
-    between = statics_of(cycle.solution.moved(halves.tolist())).reactions
+    between = statics_of(cycle.solution.with_positions(halves.tolist())).reactions
     for number, joint in enumerate(between):
         (piece,) = cycle.force(number)
         start, chord = piece.values[:-1], np.diff(piece.values)

@@ -76,7 +76,7 @@ def test_a_spoilt_position_is_rejected(phi: str) -> None:
 
 def test_the_change_point_itself_cannot_choose_an_assembly() -> None:
     solution = parallelogram("0")
-    for act in (lambda: solution.si, lambda: solution.moved([50.0])):
+    for act in (lambda: solution.si, lambda: solution.with_positions([50.0])):
         with pytest.raises(AssemblyError, match=r"dead position"):
             act()
     with pytest.raises(AssemblyError, match="both assemblies place C at one point"):

@@ -31,7 +31,7 @@ from planmethod.problem.model import Scales
 from planmethod.solved.errors.drawing import DrawnKind
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.errors.motion import Drafting, drafting_of
-from planmethod.solved.errors.spread import DRAWS, SHORT, STRAINED, UnknownItemError
+from planmethod.solved.errors.spread import DRAWS, MAX_MARGIN_SIGMA, SHORT, UnknownItemError
 from planmethod.solved.errors.widths import root_of
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
@@ -154,8 +154,8 @@ def test_the_number_of_errors_depends_only_on_the_steps_and_free_points(name: st
 
 def test_a_length_laid_off_along_a_line_at_an_angle() -> None:
     b = Builder()
-    p, angle, length = b.given("P"), b.known("angle"), b.known("length")
-    b.lay_off("X", p, b.at_angle(p, None, angle), length)
+    p, angle, length = b.take_point("P"), b.known("angle"), b.known("length")
+    b.lay_off_length("X", p, b.at_angle(p, None, angle), length)
     sigma = sigma_of(b.program(), "X", P=0j, angle=0.0, length=80.0)
     assert sigma.real == pytest.approx(PROFILE.lay_off)
     turned = 80.0 * math.radians(PROFILE.parallel)
@@ -164,7 +164,7 @@ def test_a_length_laid_off_along_a_line_at_an_angle() -> None:
 
 def test_a_read_length() -> None:
     b = Builder()
-    p, q = b.given("P"), b.given("Q")
+    p, q = b.take_point("P"), b.take_point("Q")
     b.measure("pq", p, q)
     sigma = sigma_of(b.program(), "pq", P=0j, Q=40 + 30j).real
     assert sigma == pytest.approx(math.hypot(PROFILE.measure, PROFILE.ruler / math.sqrt(12)))
@@ -172,8 +172,8 @@ def test_a_read_length() -> None:
 
 def test_the_error_of_a_line_through_two_points_depends_on_its_length() -> None:
     b = Builder()
-    p, q, length = b.given("P"), b.given("Q"), b.known("length")
-    b.lay_off("X", p, b.join(p, q), length)
+    p, q, length = b.take_point("P"), b.take_point("Q"), b.known("length")
+    b.lay_off_length("X", p, b.join(p, q), length)
     sigma = sigma_of(b.program(), "X", P=0j, Q=40 + 0j, length=120.0)
     # Turned by either end, three times as far as they are apart; and pricked beside the line.
     assert sigma.imag == pytest.approx(PROFILE.point * math.sqrt(3**2 + 3**2 + 1), rel=1e-9)
@@ -183,9 +183,9 @@ def test_the_error_of_a_line_through_two_points_depends_on_its_length() -> None:
 def test_lines_that_meet_at_an_angle(gamma: float) -> None:
     """Sigma along line 1: sqrt(s2² + s1²·cos²γ)/sin γ, and the prick of the point."""
     b = Builder()
-    p, q = b.given("P"), b.given("Q")
+    p, q = b.take_point("P"), b.take_point("Q")
     zero, angle = b.known("zero"), b.known("angle")
-    b.meet_lines("X", b.at_angle(p, None, zero), b.at_angle(q, None, angle))
+    b.intersect_lines("X", b.at_angle(p, None, zero), b.at_angle(q, None, angle))
     g, t1, t2 = math.radians(gamma), 60.0, 40.0
     data: dict[str, complex | float] = {
         "P": 0j, "Q": t1 - t2 * complex(math.cos(g), math.sin(g)), "zero": 0.0, "angle": gamma,
@@ -200,8 +200,8 @@ def test_lines_that_meet_at_an_angle(gamma: float) -> None:
 
 def test_no_laid_off_value_has_an_error() -> None:
     b = Builder()
-    p, angle, length = b.given("P"), b.known("angle"), b.known("length")
-    b.lay_off("X", p, b.at_angle(p, None, angle), length)
+    p, angle, length = b.take_point("P"), b.known("angle"), b.known("length")
+    b.lay_off_length("X", p, b.at_angle(p, None, angle), length)
     data: dict[str, complex | float] = {"P": 0j, "angle": 0.0, "length": 0.0}
     sampled = Sampled(PROFILE, FREE, 50, 1)
     found = evaluate(b.program(), data, sampled).value
@@ -349,7 +349,7 @@ def test_the_documented_strokes_make_the_documented_errors() -> None:
         stroke = getattr(pencil, name.strip("`"))
         stroke("x", *[1.0] * (len(signature(stroke).parameters) - 1))
         assert sorted(pencil.by) == sorted(re.findall(r"`(\w+)`", errors)), name
-    assert f"not {1 / STRAINED:g} times".replace("10", "ten") in DOCS
+    assert f"not {1 / MAX_MARGIN_SIGMA:g} times".replace("10", "ten") in DOCS
     assert f"shorter than {SHORT:g} of its sigmas" in DOCS
     assert f"of {DRAWS} random drawings" in DOCS
 

@@ -254,7 +254,7 @@ def compared(seed: int) -> float:
     exact = made.moment(turned)
     size = float(np.abs(exact).max())
     worst = float(np.abs(wheel.moment.value(turned) - exact).max()) / size
-    even = wheel.turned(24)
+    even = wheel.even_rotations(24)
     inside = np.array([min(abs(t - at) % pi for k in range(len(made.cylinders))
                            for at, _ in made.dead(k)) > 1e-6 for t in even])  # fmt: skip
     at_plans = [wheel.reduced(24).moment, wheel.lever(24)]

@@ -8,16 +8,23 @@ import numpy as np
 import pytest
 from worked import problem_of
 
-from planmethod.note.narrate.formulas import knot_letter
+from planmethod.note.narrate.formulas import detail_view_letter
 from planmethod.note.narrate.steps import calculation
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.plans.model import PlanKind
 from planmethod.problem.names import fold
 from planmethod.render.ink.drawing import Arc, Text
-from planmethod.render.pictures.enlarged import ENLARGED
-from planmethod.render.pictures.planview import knot_pictures, vector_label
+from planmethod.render.pictures.detail_views import ENLARGED
+from planmethod.render.pictures.planview import detail_pictures, vector_label
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.enlarging import NOTHING, RATIOS, SHORT, SHOWN, SMALL, least_shown
+from planmethod.solved.detail_views import (
+    NEGLIGIBLE_LENGTH,
+    RATIOS,
+    SHORT,
+    SHOWN,
+    SMALL,
+    min_enlarged,
+)
 from planmethod.solved.scaling import sizes
 from planmethod.solved.solution import Solution
 
@@ -34,25 +41,27 @@ def solutions() -> Iterator[Solution]:
 
 def test_no_view_has_the_letter_of_a_point() -> None:
     """А, В and С of a sheet in Russian look like the points A, B and C."""
-    knots = [knot for solution in solutions() for each in solution.knots.values() for knot in each]
+    knots = [
+        knot for solution in solutions() for each in solution.detail_views.values() for knot in each
+    ]
     assert any("A" in knot.initials for knot in knots)
     for knot in knots:
         assert {"O", "A"} & knot.initials
         for lang in ("ru", "en"):
-            assert fold(knot_letter(knot, language(lang))) not in knot.initials
-    assert {knot_letter(knot, language("ru")) for knot in knots} >= {"Б"}
+            assert fold(detail_view_letter(knot, get_language(lang))) not in knot.initials
+    assert {detail_view_letter(knot, get_language("ru")) for knot in knots} >= {"Б"}
 
 
 def test_every_short_segment_is_in_one_knot_and_long_enough_there() -> None:
     count = 0
     for solution in solutions():
-        for kind, knots in solution.knots.items():
+        for kind, knots in solution.detail_views.items():
             plan = solution.construction.plan(kind)
             found = [frozenset(ends) for knot in knots for ends in knot.ends]
             assert len(found) == len(set(found))
             for vector in plan.vectors:
                 length = abs(complex(solution.paper.vector(vector.tail, vector.head)[0]))
-                is_short = NOTHING <= length < SHORT
+                is_short = NEGLIGIBLE_LENGTH <= length < SHORT
                 assert (frozenset((vector.tail, vector.head)) in found) == is_short
             for knot in knots:
                 assert knot.times in RATIOS
@@ -68,15 +77,17 @@ def test_segments_on_a_view_are_read_to_five_per_cent_and_the_calculation_names_
     seen = 0
     for solution in solutions():
         for name, knot in solution.read_on(0).items():
-            read, drawn = (float(r.number(name)[0]) for r in (solution.by_hand, solution.paper))
-            step = solution.hand.ruler / knot.times
+            read, drawn = (
+                float(r.number(name)[0]) for r in (solution.ruler_reading, solution.paper)
+            )
+            step = solution.ruler_arithmetic.ruler / knot.times
             assert read / step == pytest.approx(round(read / step), abs=1e-6)
             assert step / 2 <= 0.0501 * abs(drawn) + 1e-9
             seen += 1
         told = [
             line
             for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)
-            for line in calculation(solution, kind, 0, language("ru"))
+            for line in calculation(solution, kind, 0, get_language("ru"))
             if "по виду" in line
         ]
         assert bool(told) == bool(solution.read_on(0))
@@ -85,16 +96,16 @@ def test_segments_on_a_view_are_read_to_five_per_cent_and_the_calculation_names_
 
 def test_a_segment_below_half_a_division_is_called_zero() -> None:
     solution = Solution(problem_of("levers/task-33"))
-    lines = calculation(solution, PlanKind.ACCELERATION, 0, language("ru"))
+    lines = calculation(solution, PlanKind.ACCELERATION, 0, get_language("ru"))
     (nothing,) = (line for line in lines if "≈ 0" in line)
     assert nothing == "a^{r}_{D5D} = μ_{a}·(k_{D5D}d_{5}) ≈ 0"
-    assert least_shown(0.5) == NOTHING > least_shown(0.01) == SHORT / RATIOS[-1]
+    assert min_enlarged(0.5) == NEGLIGIBLE_LENGTH > min_enlarged(0.01) == SHORT / RATIOS[-1]
 
 
 def test_short_segments_of_many_positions_are_not_enlarged() -> None:
     solution = Solution(problem_of("levers/task-49"), positions=[30.0, 60.0])
-    assert not any(solution.knots.values())
-    assert not solution.hand.enlarged
+    assert not any(solution.detail_views.values())
+    assert not solution.ruler_arithmetic.enlarged
 
 
 def test_a_small_plan_of_many_is_shown_enlarged_beside_itself_and_read_there() -> None:
@@ -111,29 +122,31 @@ def test_a_small_plan_of_many_is_shown_enlarged_beside_itself_and_read_there() -
     assert all(knot.times * drawn[k] >= SHOWN for k, knot in small.items())
     for k in small:
         for name, knot in solution.read_on(k).items():  # those of the velocity plan have their own
-            read = float(solution.by_hand.number(name)[k]) * knot.times
+            read = float(solution.ruler_reading.number(name)[k]) * knot.times
             assert read / 0.5 == pytest.approx(round(read / 0.5), abs=1e-6)
-    words = language("ru")
+    words = get_language("ru")
     every = [k for found in solution.small_plans.values() for k in found.values()]
-    assert len({knot_letter(knot, words) for knot in every}) == len(every) > 12  # of nine letters
+    assert (
+        len({detail_view_letter(knot, words) for knot in every}) == len(every) > 12
+    )  # of nine letters
     (sheet,) = kinematics_sheets(problem, positions=positions)
     (view,) = (v for v in sheet.views if v.kind == "acceleration")
     tags = {i.tag for i in sheet.items if isinstance(i, Arc) and i.tag.startswith(ENLARGED)}
     assert {f"{ENLARGED} {knot.number}" for knot in small.values()} <= tags
-    assert {span.position for span in view.spans if span.share > 1.0} == set(small)
+    assert {span.position for span in view.spans if span.magnification > 1.0} == set(small)
 
 
 def test_a_sheet_has_a_circle_at_each_knot_and_its_view_with_measured_segments() -> None:
     problem = problem_of("levers/task-57")
     (sheet,) = kinematics_sheets(problem)[:1]
-    knots = [knot for each in Solution(problem).knots.values() for knot in each]
+    knots = [knot for each in Solution(problem).detail_views.values() for knot in each]
     tags = [i.tag for i in sheet.items if isinstance(i, Arc) and i.tag.startswith(ENLARGED)]
     assert knots
     assert sorted(tags) == sorted(
         f"{ENLARGED} {knot.number}{part}" for knot in knots for part in ("", " place")
     )
     spans = [span for view in sheet.views for span in view.spans]
-    assert sum(span.share > 1.0 for span in spans) == sum(len(knot.ends) for knot in knots)
+    assert sum(span.magnification > 1.0 for span in spans) == sum(len(knot.ends) for knot in knots)
     assert min(span.length for span in spans) >= SHORT
 
 
@@ -141,9 +154,9 @@ def test_a_vector_without_a_name_on_the_plan_has_it_on_its_view() -> None:
     """Shorter than 5 mm it is too short for a name there; on the view it is long enough."""
     wanted = named = 0
     for solution in solutions():
-        for kind, knots in solution.knots.items():
+        for kind, knots in solution.detail_views.items():
             plan = solution.construction.plan(kind)
-            views = knot_pictures(solution, kind, 0, letter_height=5.0, by_hand=False)
+            views = detail_pictures(solution, kind, 0, letter_height=5.0, use_ruler=False)
             for knot, view in zip(knots, views, strict=True):
                 there = {item.label for item in view.items if isinstance(item, Text)}
                 symbols = {frozenset((v.tail, v.head)): v for v in reversed(plan.vectors)}

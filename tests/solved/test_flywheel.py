@@ -22,10 +22,10 @@ from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ProblemError
 from planmethod.note.audit.audit import AuditVerdict, audit
 from planmethod.note.audit.machine import chain
-from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.narrate.reduction import ReductionTeller
+from planmethod.note.narrate.machine import MachineNarrator
+from planmethod.note.narrate.reduction import ReductionNarrator
 from planmethod.note.records.machine import machine_record
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem import load, loads
 from planmethod.problem.machine_records import FlywheelMethod, Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
@@ -97,8 +97,8 @@ def test_the_flywheel_is_exact_and_evens_out_the_motion(name: str) -> None:
     assert abs(made.delta_reached - delta) < 1e-9
     high, low = made.integrated
     position = made.cycle / 12
-    assert near(high.turned / position, CASES[name]["omega_max_at"], 1e-6)
-    assert near(low.turned / position, CASES[name]["omega_min_at"], 1e-6)
+    assert near(high.rotation / position, CASES[name]["omega_max_at"], 1e-6)
+    assert near(low.rotation / position, CASES[name]["omega_min_at"], 1e-6)
 
 
 def test_the_mean_in_time_is_another_flywheel() -> None:
@@ -114,7 +114,7 @@ def test_the_construction_is_that_of_the_sheet_and_its_error_is_split(count: int
     made = machine("rod/table/true")
     drawing = FlywheelDrawing(made, PROFILES["board"], count)
     wanted = CASES["rod/table/true"]["sheet_mm"][str(count)]
-    steps, exact = drawing.made, drawing.exact
+    steps, exact = drawing.construction, drawing.exact
     feet = {key: complex(exact.point(axes.origin)[0]) for key, axes in steps.axes.items()}
     for key, names in (("A", steps.work), ("T", steps.energies)):
         got = [complex(exact.point(name)[0]) - feet[key] for name in names]
@@ -148,7 +148,7 @@ def test_by_mertsalov_the_flywheel_has_the_rest_of_the_energy(path: str) -> None
     """In the crusher T_II is at least 900 J: its axis does not begin at zero."""
     drawing = drawn_by_mertsalov(ROOT / f"{path}.toml")
     wheel = drawing.flywheel
-    points, made, exact = drawing.points, drawing.made, drawing.exact
+    points, made, exact = drawing.points, drawing.construction, drawing.exact
     second = 0.5 * wheel.middle_speed**2 * points.inertia
     first, work = points.gain - second, drawing.scales.work
     wanted = float(np.ptp(first[:-1])) / (wheel.machine.delta * wheel.middle_speed**2)
@@ -186,9 +186,9 @@ def test_values_printed_by_a_source_are_compared_with_mertsalovs_construction() 
     problem = loads(text.replace("[machine]", '[machine]\nmethod = "mertsalov"', 1), name="printed")
     drawing = FlywheelDrawing(Flywheel(problem), PROFILES["board"])
     found = {item.published.what: item for item in audit(problem)}
-    segment = float(drawing.exact.number(drawing.made.segment)[0])
+    segment = float(drawing.exact.number(drawing.construction.segment)[0])
     assert near(found["machine AB"].exact or 0.0, segment)
-    assert [what for what, item in found.items() if item.why] == [
+    assert [what for what, item in found.items() if item.reason] == [
         what for what in found if what.startswith("machine psi")
     ]
     steps = dict(chain(problem))
@@ -226,7 +226,7 @@ def test_a_share_of_the_largest_load_is_that_of_the_diagram() -> None:
     )
     text = text.replace("angle = 180\n", 'angle = 180\nphases = { moving = "right" }\n')
     made = FlywheelDrawing(Flywheel(loads(text, name="peak")), PROFILES["board"])
-    columns = ReductionTeller(MachineTeller(made, language("en"))).moments()
+    columns = ReductionNarrator(MachineNarrator(made, get_language("en"))).moments()
     cells = {head: values for head, _, values in columns}
     shares, sizes = (next(v for h, v in cells.items() if h.startswith(k)) for k in ("\\frac", "P"))
     assert 0.0 < max(map(float, sizes)) < 900.0
@@ -266,7 +266,7 @@ def test_an_even_machine_needs_no_flywheel() -> None:
     text = PRESS.replace("J_crank = 0.03", "J_crank = 30")
     made = Flywheel(loads(text, name="even"))
     assert made.exact.inertia < 0.0
-    assert made.fitted == 0.0
+    assert made.steady_inertia == 0.0
     assert 0.0 < made.delta_reached < 1 / 18
     high, low = made.integrated
     assert near((high.value + low.value) / 2, made.middle_speed, 1e-6)
@@ -309,7 +309,7 @@ def test_an_indicator_has_as_many_strokes_as_the_cycle() -> None:
 def test_the_adopted_flywheel_has_a_round_diameter_and_the_same_inertia(wheel: str) -> None:
     text = PRESS.replace("[machine]", f"[machine]\n{wheel}", 1)
     made = FlywheelDrawing(Flywheel(loads(text, name="wheel")), PROFILES["board"])
-    tell = MachineTeller(made, language("en"))
+    tell = MachineNarrator(made, get_language("en"))
     found, sizes = tell.calculated, tell.sizes
     assert found is not None and sizes is not None
     D, bore = sizes.diameter, sizes.bore
@@ -353,7 +353,7 @@ def test_the_record_has_the_agreed_keys() -> None:
 def test_the_values_of_the_source_are_beside_the_right_ones() -> None:
     found = {item.published.name: item for item in audit(load(path_of("press/flywheel")))}
     assert len(found) == 71
-    assert all(item.why is None for item in found.values())
+    assert all(item.reason is None for item in found.values())
     kinetic = found["T3 4 (таблица 4)"]
     assert near(kinetic.exact or 0.0, 11.1715871058343)
     flywheel = found["Iм"]

@@ -18,7 +18,7 @@ import planmethod
 from planmethod.cli import cli
 from planmethod.construct.condition import UNIT_ROUNDOFF
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.referee import Precise
+from planmethod.construct.multiprecision import Precise
 from planmethod.construct.steps import Name
 from planmethod.errors import DoubtWarning, PlanMethodError
 from planmethod.plans.forces.board import SCALE

@@ -39,25 +39,27 @@ def test_a_position_has_the_scales_that_it_has_alone() -> None:
     )
     assert together.scale.per_mm >= alone.scale.per_mm
     told = record(together.solution)["positions"][5]["forces"]["plans"]
-    assert [plan["mu"] for plan in told] == [own[0] for own in alone.own_scales]
+    assert [plan["mu"] for plan in told] == [own[0] for own in alone.plan_scales]
     assert [plan["links"] for plan in told] == [["4", "5"], ["2", "3"], ["1"]]
 
 
 def test_a_small_plan_has_a_scale_of_its_own_and_is_read_at_that() -> None:
     problem = problem_of("levers/task-33")
     reading = ForceReading(Solution(problem), 0)
-    own = [reading.own_scale(number).per_mm for number in range(len(reading.plans))]
+    own = [reading.plan_scale(number).per_mm for number in range(len(reading.plans))]
     assert own[0] < 0.5 * own[1] < reading.scale.per_mm
     (slight,) = (edge for edge in reading.plans[0].wholes if edge.symbol == "F_{42}")
-    ruler, exact = reading.solution.hand.ruler, abs(reading.force(slight))
+    ruler, exact = reading.solution.ruler_arithmetic.ruler, abs(reading.force(slight))
     assert abs(reading.read(slight) - exact) < 0.05 * exact
     assert reading.length(slight, 0) / ruler == pytest.approx(
         round(reading.length(slight, 0) / ruler)
     )
-    coarse = reading.solution.hand.ruled(exact / reading.scale.per_mm) * reading.scale.per_mm
+    coarse = (
+        reading.solution.ruler_arithmetic.ruled(exact / reading.scale.per_mm) * reading.scale.per_mm
+    )
     assert abs(coarse - exact) > 0.3 * exact
     asked = replace(problem, scales=replace(problem.scales, mu_F=20.0))
-    assert ForceReading(Solution(asked), 0).own_scale(0).per_mm == 20.0
+    assert ForceReading(Solution(asked), 0).plan_scale(0).per_mm == 20.0
 
 
 def test_the_scale_of_the_file() -> None:

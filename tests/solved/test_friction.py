@@ -22,7 +22,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.problem import loads
 from planmethod.problem.load_records import FrictionTask, PairFriction
 from planmethod.problem.model import Problem
-from planmethod.solved.efficiency import turn_efficiency
+from planmethod.solved.efficiency import cycle_efficiency
 from planmethod.solved.forces.friction import Friction, friction_of
 from planmethod.solved.solution import Solution
 
@@ -307,7 +307,7 @@ def test_the_plans_with_friction_are_the_numbers() -> None:
 
 def test_efficiency_of_a_turn_is_that_of_many_positions() -> None:
     solution = Solution(rubbed(problem_of("press/press"), TASK))
-    one, two = (turn_efficiency(solution, count) for count in (360, 720))
+    one, two = (cycle_efficiency(solution, count) for count in (360, 720))
     assert one is not None and two is not None and one.value is not None and two.value is not None
     assert 0 < one.value < 1
     assert one.value == pytest.approx(two.value, rel=1e-3)

@@ -99,7 +99,7 @@ def test_the_normal_component_follows_from_the_read_omega() -> None:
     def length(values: Mapping[Name, Any]) -> float:
         return float(np.ravel(values[NumberName("|a:n_CB|")])[0])
 
-    assert length(solution.by_hand.value) == pytest.approx(15.5**2 * 0.1 / 5, rel=1e-14)
+    assert length(solution.ruler_reading.value) == pytest.approx(15.5**2 * 0.1 / 5, rel=1e-14)
     exact = 15.5334111923549**2 * 0.1 / 5
     assert length(solution.paper.value) == pytest.approx(exact, rel=1e-12)
 
@@ -186,7 +186,7 @@ def test_a_coincident_point_found_by_similarity(step: float) -> None:
     assert got["p-h2"] == rule(abs(h2), step)
     assert got["h2-h"] == rule(abs(h - h2), step)
     assert got["p-h"] == rule(abs(h), step)
-    trace = drawn("levers/six-link", step).by_hand.value
+    trace = drawn("levers/six-link", step).ruler_reading.value
     assert complex(np.ravel(trace[PointName("v:H2")])[0]) == pytest.approx(h2, rel=1e-9)
     assert complex(np.ravel(trace[PointName("v:H")])[0]) == pytest.approx(h, rel=1e-9)
 
@@ -222,7 +222,9 @@ def test_read_segments_are_marks_of_the_ruler(name: str, ruler: float) -> None:
             if segment.name in laid_off(name, kind):
                 continue
             # On an enlarged view the marks are closer by its factor.
-            read = segment.read[0] * solution.hand.enlarged.get(lengths[kind, segment.name], 1.0)
+            read = segment.read[0] * solution.ruler_arithmetic.enlarged.get(
+                lengths[kind, segment.name], 1.0
+            )
             marks = round(read / ruler)
             assert read == pytest.approx(float(marks * step), abs=1e-12), segment.name
 
@@ -255,7 +257,7 @@ def test_laid_off_segments_follow_from_the_readings(name: str) -> None:
         turning = omega.get(r.to, 0.0)
         assert k == pytest.approx(2 * abs(turning) * v, rel=1e-12, abs=1e-12)
     normals = [value for segment, value in lengths.items() if segment.split("-")[1][:2] == "n_"]
-    trace, draft = solution.by_hand.value, solution.construction.draft
+    trace, draft = solution.ruler_reading.value, solution.construction.draft
     read_arms = {
         float(np.ravel(trace[draft.measured_before(p, q)])[0])
         * solution.scales[PlanKind.POSITION].per_mm

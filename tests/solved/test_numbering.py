@@ -15,22 +15,22 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ProblemError
 from planmethod.kinds import loads
-from planmethod.note.narrate.given import of_turn
-from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.narrate.machine import MachineNarrator
+from planmethod.note.narrate.statement import angle_with_positions
 from planmethod.note.records.solution import cycle_record
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem.model import ANYWHERE, Problem
-from planmethod.problem.unlikely import unlikely
+from planmethod.problem.plausibility import unlikely
 from planmethod.render.ink.drawing import Drawing, Text
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.course.motion import TurnMotion
+from planmethod.solved.course.motion import CycleMotion
 from planmethod.solved.cycle import cycle
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import crank_cycle_of
 from planmethod.solved.turn.diagrams import diagrams_of
 from planmethod.solved.turn.numbering import numbered_positions, strokes_of
-from planmethod.solved.turn.turn import turn_of
 
 FILES = ROOT / "tests/data/turn"
 SHAPER, ENGINE, CRUSHER, EPSILON = (
@@ -62,7 +62,9 @@ def without_phi(text: str) -> str:
 
 def test_without_phi_the_positions_of_a_file_are_those_of_its_cycle() -> None:
     problem = read(without_phi(SHAPER))
-    assert problem.drive.positions == problem.numbered and problem.drive.judged == ANYWHERE
+    assert (
+        problem.drive.positions == problem.numbered and problem.drive.assembly_positions == ANYWHERE
+    )
     assert np.diff(problem.numbered) == pytest.approx([30.0] * 11)
     assert problem.numbered[0] == pytest.approx(197.999, abs=1e-3)
     assert not list(unlikely(problem))
@@ -109,7 +111,7 @@ def test_the_layouts_of_the_cycle_have_the_same_positions(with_cycle: bool) -> N
     solution = Solution(problem)
     positions = numbered_positions(solution)
     assert positions == pytest.approx(198.0 + 30.0 * np.arange(12), abs=2e-3)
-    assert turn_of(solution).positions == pytest.approx(positions)
+    assert crank_cycle_of(solution).positions == pytest.approx(positions)
     wheel = Flywheel(problem)
     assert wheel.turn.start_deg == pytest.approx(positions[0])
     assert wheel.rows.phi_deg == pytest.approx(positions)
@@ -159,11 +161,12 @@ def test_the_points_a_flywheel_is_found_by_have_the_numbers_of_the_sheet(method:
     against = ('zero = "extreme"', 'zero = "extreme"\ndirection = "cw"')
     wheels = (Flywheel(read(without_phi(SHAPER), machine, *more)) for more in ((), (against,)))
     ahead, back = (
-        MachineTeller(drawing_of(wheel, PROFILES["board"]), language("en")) for wheel in wheels
+        MachineNarrator(drawing_of(wheel, PROFILES["board"]), get_language("en"))
+        for wheel in wheels
     )
-    assert any(ahead.found_in)
-    assert back.found_in == tuple(-number % 12 for number in ahead.found_in)
-    for number in back.found_in:
+    assert any(ahead.tangent_positions)
+    assert back.tangent_positions == tuple(-number % 12 for number in ahead.tangent_positions)
+    for number in back.tangent_positions:
         assert f"{number})" in back.steps()[-1]
 
 
@@ -194,25 +197,25 @@ def test_a_cycle_of_two_turns_has_the_positions_and_the_forces_of_both() -> None
     assert len(told["positions_deg"]) == len(told["velocity"]) == 24
     assert told["velocity"][12:] == pytest.approx(told["velocity"][:12], abs=1e-9)
     diagrams = diagrams_of(Solution(problem))
-    assert diagrams.x(diagrams.shares)[-1] * diagrams.mu_phi == pytest.approx(radians(720))
+    assert diagrams.x(diagrams.fractions)[-1] * diagrams.mu_phi == pytest.approx(radians(720))
 
 
 def test_angles_of_two_turns_are_written_within_one_and_the_number_distinguishes_the_turn() -> None:
     problem = read(without_phi(ENGINE))
-    shown = [problem.shown(position) for position in problem.numbered]
+    shown = [problem.display_position(position) for position in problem.numbered]
     assert shown[:6] == [90.0, 60.0, 30.0, 0.0, 330.0, 300.0]
     assert shown[12:] == shown[:12]
-    words = language("en")
+    words = get_language("en")
     places = [
         (-270.0, "(position 12)"),
         (90.0, "(position 0)"),
         (67.0, "between positions 0 and 1"),
     ]
     for position, said in places:
-        assert said in of_turn(problem, position, "φ = 90°", words)
+        assert said in angle_with_positions(problem, position, "φ = 90°", words)
     (sheet,) = kinematics_sheets(problem, layout="forces-cycle")
     assert {"= 90° (положение 12)", "= 67° (между положениями 0 и 1)"} <= {*sheet_texts(sheet)}
-    assert of_turn(read(without_phi(SHAPER)), 228.0, "φ = 228°", words) == "φ = 228°"
+    assert angle_with_positions(read(without_phi(SHAPER)), 228.0, "φ = 228°", words) == "φ = 228°"
 
 
 def test_a_warning_of_outranked_positions_has_angles_within_a_turn() -> None:
@@ -230,7 +233,7 @@ def test_the_cycle_of_a_machine_ends_with_position_0() -> None:
 
 def test_the_table_of_a_driving_machine_has_its_letter_and_sign() -> None:
     flywheel = Flywheel(read(without_phi(ENGINE)))
-    tell = MachineTeller(drawing_of(flywheel, PROFILES["board"]), language("ru"))
+    tell = MachineNarrator(drawing_of(flywheel, PROFILES["board"]), get_language("ru"))
     heads = [head for head, _, _ in tell.columns()]
     assert tell.moment in heads and heads[3] == "M^{Ж}"
     cells = dict(zip(heads, (cells for _, _, cells in tell.columns()), strict=True))
@@ -329,7 +332,7 @@ def test_a_load_over_the_path_of_a_rocker_is_over_its_arc() -> None:
     table = 'force = { law = "table", values = [[89.68, 0], [264.8, 40000]] }'
     ramp = 'force = { law = "path", values = [[0, 0], [1, 40000]] }'
     problem = read(CRUSHER, (table, ramp))
-    stroke = TurnMotion(problem).stroke("K")
+    stroke = CycleMotion(problem).stroke("K")
     assert np.degrees(stroke.swing) == pytest.approx(-3.7117, abs=1e-3)
     work = 0.5 * 40000 * abs(stroke.swing) * 0.6
     assert Flywheel(problem).work_per_cycle == pytest.approx(work, rel=1e-9)

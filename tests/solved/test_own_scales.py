@@ -22,7 +22,7 @@ def test_plans_of_several_positions_have_one_scale(name: str) -> None:
     solution = Solution(problem, positions=[first + 120.0 * k for k in range(3)])
     for kind in RATES:
         assert solution.has_common(kind)
-        assert {solution.own_scale(kind, i) for i in range(3)} == {solution.scales[kind]}
+        assert {solution.plan_scale(kind, i) for i in range(3)} == {solution.scales[kind]}
         size = np.maximum(*sizes(solution.construction, solution.si, kind))
         assert size.max() / solution.scales[kind].per_mm < 400.0
 
@@ -33,9 +33,9 @@ def test_plans_have_their_own_scales_if_the_file_requires_it() -> None:
     positions, kind = [30.0, 150.0, 270.0], PlanKind.ACCELERATION
     asked = replace(problem, scales=replace(problem.scales, own=True))
     together = Solution(asked, positions=positions)
-    own = [together.own_scale(kind, i).per_mm for i in range(3)]
+    own = [together.plan_scale(kind, i).per_mm for i in range(3)]
     assert not together.has_common(kind) and len(set(own)) > 1
-    scales = {k: together.own_scale(k, 0) for k in PlanKind if k in together.scales}
+    scales = {k: together.plan_scale(k, 0) for k in PlanKind if k in together.scales}
     alone = Solution(problem, positions=[30.0, 30.0], scales=scales)
     for one, other in zip(together.segments(kind), alone.segments(kind), strict=True):
         assert one.exact[0] == pytest.approx(other.exact[0], rel=1e-12)
@@ -66,6 +66,6 @@ def test_a_plan_in_a_dead_position_has_a_scale_of_its_own() -> None:
     size = np.maximum(*sizes(solution.construction, solution.si, kind))
     dead = size > DEAD * median(size)
     assert dead.sum() == 1
-    own = [solution.own_scale(kind, i) != solution.scales[kind] for i in range(3)]
+    own = [solution.plan_scale(kind, i) != solution.scales[kind] for i in range(3)]
     assert own == dead.tolist()
     assert solution.has_common(kind)

@@ -13,9 +13,9 @@ from worked import PROBLEMS, every_file, problem_of
 
 from benchmarks.generator import random_problem
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.program import Program
 from planmethod.construct.rewrite import rewritten, substituted
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.steps import (
     Carry,
     Compute,
@@ -51,7 +51,7 @@ class Drawn:
     program: Program
     data: Mapping[str, Any]
     trace: Trace
-    hand: Hand
+    hand: RulerArithmetic
 
     def replay(self, values: Mapping[NumberName, Any]) -> Trace:
         """Draw with somebody's own values."""
@@ -69,10 +69,15 @@ def drawn(name: str) -> Drawn:
     solution = solved(name)
     if solution.problem.dynamics is None:
         data = solution.data(solution.per_mm)
-        return Drawn(solution.construction.program, data, solution.by_hand.trace, solution.hand)
+        return Drawn(
+            solution.construction.program,
+            data,
+            solution.ruler_reading.trace,
+            solution.ruler_arithmetic,
+        )
     statics = statics_of(solution)
     data = statics.data(statics.per_mm, slice(None))
-    return Drawn(statics.program, data, statics.by_hand.trace, statics.hand)
+    return Drawn(statics.program, data, statics.ruler_reading.trace, statics.ruler_arithmetic)
 
 
 def flat(value: Any) -> Any:
@@ -173,7 +178,7 @@ def test_without_coriolis() -> None:
         return Compute(number, 0.0, ()) if step.out == number else step
 
     program = rewritten(solution.construction.program, forget)
-    trace = evaluate(program, solution.data(), type(solution.hand)(ruler=1e-9))
+    trace = evaluate(program, solution.data(), type(solution.ruler_arithmetic)(ruler=1e-9))
     exact = solution.si
     along = exact.value[PointName("B")] - exact.value[PointName("C")]
     length = abs(along)

@@ -110,7 +110,7 @@ def test_links_of_all_dyads_and_drivers_have_their_force_shifted() -> None:
         statics = both(seed)[1]
         groups = {link: g.signature for g in statics.solution.structure.groups for link in g.links}
         seen.update(groups.get(link, "driver") for link in statics.board.shifts)
-        seen.update(one.why.value for one in statics.unshifted)
+        seen.update(one.hindrance.value for one in statics.unshifted)
     kinds = ["RRR", "RRP", "PRP", "RPR", "RPP", "driver", *(why.value for why in Hindrance)]
     assert {kind: seen[kind] for kind in kinds if seen[kind] < some(20, few=2)} == {}
 
@@ -123,7 +123,7 @@ def test_on_the_lever_the_force_acts_at_the_velocity_of_its_point(seed: int) -> 
     assert statics.lever_plan is not None
     motion = newton(problem, problem.drive.positions[0], pose)
     for hung in statics.lever_plan.loads:
-        given, at = hung.given, hung.at
+        given, at = hung.load, hung.at
         shift = statics.board.shifts.get(given.applied.link)
         if shift is None or given.force is None or given.force.at != shift.at:
             continue
@@ -150,7 +150,7 @@ def test_the_hand_lays_off_its_computed_lengths_and_reads_other_numbers(name: st
     acceleration = solution.read_off(f"a_{mass.centre}")
     epsilon = solution.read_off(f"epsilon_{shift.link}")
     metres = mass.inertia * np.abs(epsilon) / (mass.mass * acceleration)
-    laid = np.abs(shifted.by_hand.number(shift.length))
+    laid = np.abs(shifted.ruler_reading.number(shift.length))
     per_mm = solution.scales[PlanKind.POSITION].per_mm
     assert laid * per_mm == pytest.approx(metres, rel=1e-12)
     one, other = drawn_forces(couples), drawn_forces(shifted)
@@ -187,16 +187,16 @@ def test_the_predicted_sigma_is_that_of_random_sheets() -> None:
 
 
 def reasons(statics: Statics) -> dict[str, Hindrance]:
-    return {one.link: one.why for one in statics.unshifted}
+    return {one.link: one.hindrance for one in statics.unshifted}
 
 
 def test_shipped_problems_that_keep_couples() -> None:
     assert reasons(both("levers/six-link")[1]) == {"1": Hindrance.NO_FORCE, "3": Hindrance.NO_FORCE}
     task = both("levers/task12")[1]
-    assert reasons(task) == {"1": Hindrance.NO_FORCE, "3": Hindrance.FAR}
+    assert reasons(task) == {"1": Hindrance.NO_FORCE, "3": Hindrance.TOO_LONG}
     assert task.board.shifts == {}
     assert reasons(both("press/press")[1]) == {}
-    far = next(one for one in task.unshifted if one.why is Hindrance.FAR)
+    far = next(one for one in task.unshifted if one.hindrance is Hindrance.TOO_LONG)
     couple = of_kind(task, LoadKind.INERTIA_COUPLE)["3"].applied.couple
     force = of_kind(task, LoadKind.INERTIA)["3"].applied.force
     expected = np.max(np.abs(couple) / np.abs(force))
@@ -244,8 +244,8 @@ def test_one_position_takes_the_shift_from_all() -> None:
         assert set(statics.board.shifts) == {"2"} - set(kept[positions])
     assert kept == {
         (0.0, 30.0): {},
-        (90.0,): {"2": Hindrance.FAR},
-        (0.0, 30.0, 90.0): {"2": Hindrance.FAR},
+        (90.0,): {"2": Hindrance.TOO_LONG},
+        (0.0, 30.0, 90.0): {"2": Hindrance.TOO_LONG},
     }
 
 

@@ -41,7 +41,7 @@ def over_time(
         turned, speed = state
         moment, mass, slope = (np.interp(turned % wheel.cycle, grid, c) for c in columns)
         pushed = pull(speed) - moment - speed**2 * slope / 2.0
-        return speed, float(pushed / (wheel.fitted + mass))
+        return speed, float(pushed / (wheel.steady_inertia + mass))
 
     state, step = np.array([0.0, omega]), until / steps
     for _ in range(steps):
@@ -59,23 +59,23 @@ def test_run_up_and_stop_are_those_of_the_equation_of_motion() -> None:
     assert motor is not None
     course = run.run_up
     turned, omega = over_time(run, 0.0, motor.at, 1500, float(course.time[-1]))
-    assert turned == pytest.approx(float(course.turned[-1]), rel=2e-5)
+    assert turned == pytest.approx(float(course.rotation[-1]), rel=2e-5)
     assert omega == pytest.approx(float(course.omega[-1]), rel=2e-5)
-    steady = run.steady(run.flywheel.fitted)
-    there = steady.at(np.mod(course.turned[-1:], 2 * pi))[0]
+    steady = run.steady(run.flywheel.steady_inertia)
+    there = steady.at(np.mod(course.rotation[-1:], 2 * pi))[0]
     assert abs(float(course.omega[-1] / there[0]) - 1.0) == pytest.approx(NEAR, rel=0.1)
     stop = run.stop
     assert stop is not None
     turned, omega = over_time(run, float(stop.omega[0]), lambda _: -20.0, 500, float(stop.time[-1]))
-    assert turned == pytest.approx(float(stop.turned[-1]), rel=1e-4)
+    assert turned == pytest.approx(float(stop.rotation[-1]), rel=1e-4)
     assert abs(omega) < 2e-3
 
 
 def test_a_flywheel_for_a_motor_keeps_delta() -> None:
     run = press("{ line = { M_start = 60, n_idle = 145 } }")
-    assert run.wanted is not None
-    assert run.irregularity(run.wanted) == pytest.approx(1 / 18, abs=1e-9)
-    steady = run.steady(run.wanted)
+    assert run.required_inertia is not None
+    assert run.irregularity(run.required_inertia) == pytest.approx(1 / 18, abs=1e-9)
+    steady = run.steady(run.required_inertia)
     assert steady.half[0] == pytest.approx(steady.half[-1], rel=1e-11)
     # the motor's work in a cycle is that of the loads
     at = np.linspace(0.0, run.flywheel.cycle, 4001)
@@ -100,7 +100,7 @@ def test_the_plate_of_a_motor_gives_its_characteristic() -> None:
 def test_a_motor_that_is_too_weak_is_reported() -> None:
     weak = press("{ line = { M_start = 3, n_idle = 145 } }")
     assert isinstance(weak.failure, StalledError)
-    assert weak.failure.turned > 0.0
+    assert weak.failure.rotation > 0.0
     assert weak.stop is None
     coasts = press("{ line = { M_start = 60, n_idle = 145 } }", "0")
     assert coasts.stop is not None

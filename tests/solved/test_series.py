@@ -12,18 +12,18 @@ from planmethod.kinds import load
 from planmethod.problem.graphs import graph_quantities
 from planmethod.solved.quantities import UnknownQuantityError
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import CrankCycle
 from planmethod.solved.turn.series import quantities_over, usual_labels, values_over
-from planmethod.solved.turn.turn import Turn
 
 FILES = ("linkages/ex3", "linkages/ex1", "levers/six-link", "levers/task-22")
 RATES = ((20.0, 0.0), (-5.0, 13.0))
 
 
-def turn_of(name: str, rate: float, acceleration: float) -> Turn:
+def turn_of(name: str, rate: float, acceleration: float) -> CrankCycle:
     problem = load(path_of(name))
     assert problem is not None
     drive = replace(problem.drive, rate=rate, acceleration=acceleration)
-    return Turn(Solution(replace(problem, drive=drive, dynamics=None)))
+    return CrankCycle(Solution(replace(problem, drive=drive, dynamics=None)))
 
 
 @each("name", FILES)
@@ -31,7 +31,7 @@ def test_every_quantity_is_that_of_a_solution(name: str) -> None:
     for rate, acceleration in RATES:
         turn = turn_of(name, rate, acceleration)
         at = turn.positions[:5]
-        solved = turn.solution.moved(at.tolist())
+        solved = turn.solution.with_positions(at.tolist())
         links = [link for link in solved.links if link != "0"]
         for one in graph_quantities(solved.points, links, turn.unit.problem.drive.link).values():
             found = values_over(turn, one, at)

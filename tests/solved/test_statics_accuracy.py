@@ -19,8 +19,8 @@ from benchmarks import hard_problems as texts
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.condition import UNIT_ROUNDOFF, measured_reach
 from planmethod.construct.evaluate import evaluate
+from planmethod.construct.multiprecision import Precise
 from planmethod.construct.program import Program
-from planmethod.construct.referee import Precise
 from planmethod.construct.steps import Name, PointName
 from planmethod.errors import AssemblyError
 from planmethod.plans.forces.board import SCALE

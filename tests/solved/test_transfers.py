@@ -41,7 +41,7 @@ def differentiated(problem: Problem, at: float) -> dict[str, tuple[complex, comp
     kin, draft = solution.construction.kinematics, solution.construction.draft
     rows = {n: reading.point(PointName(place)) for n, (_, place) in kin.velocity.named.items()}
     for link in problem.mechanism.links:
-        course = reading.course(draft.axes[link])
+        course = reading.line_vector(draft.axes[link])
         rows[f"link {link}"] = np.unwrap(np.angle(course)).astype(complex)
     one = np.array([-1, 9, -45, 0, 45, -9, 1]) / 60.0 / STEP
     two = np.array([2, -27, 270, -490, 270, -27, 2]) / 180.0 / STEP**2

@@ -21,9 +21,9 @@ from newton import Motion
 from newton import solve as newton
 
 from planmethod.construct.arithmetic import Float64, Single
-from planmethod.construct.holding import held
-from planmethod.construct.referee import Precise
+from planmethod.construct.multiprecision import Precise
 from planmethod.construct.steps import PointName
+from planmethod.construct.triad_pose import solve_pose
 from planmethod.errors import AssemblyError, ProblemError
 from planmethod.mechanism.groups import triad_of
 from planmethod.mechanism.model import FRAME
@@ -32,7 +32,7 @@ from planmethod.plans.build import add_group, begin_positions
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.solved.assemblies import Assembled, assemblies, env_of
-from planmethod.solved.closings import choose_closings, drive_data
+from planmethod.solved.assembly_modes import choose_modes, drive_data
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.many.sweep import Sweep
@@ -188,7 +188,7 @@ def test_there_are_triads_with_two_four_and_six_assemblies() -> None:
 def test_without_a_rule_all_assemblies_are_named() -> None:
     problem = fixture("")
     with pytest.raises(ProblemError) as caught:
-        choose_closings(problem, analyse(problem.mechanism))
+        choose_modes(problem, analyse(problem.mechanism))
     (fault,) = caught.value.faults
     assert "can be assembled in 4 ways at phi = 50 deg" in fault.message
     for place in ("0.1096, 0.2329", "0.2065, 0.1546", "0.2356, 0.0801", "0.2381, 0.03163"):
@@ -228,14 +228,14 @@ def test_an_assembly_does_not_pass_into_the_one_that_it_meets() -> None:
     """The determinant of the legs' lines has one sign along it, to its very ends."""
     problem = fixture()
     made = not_chosen(problem)
-    (closing,) = choose_closings(problem, analyse(problem.mechanism)).values()
-    path, signs = closing.followed, set()
+    (closing,) = choose_modes(problem, analyse(problem.mechanism)).values()
+    path, signs = closing.tracked, set()
     for k, at in enumerate(path.places):
         env = env_of(made.step, made.read(np.array([at])), 0)
         start: dict[Any, float] = dict(
             zip(made.step.start, (path.x[k], path.y[k], path.turn[k]), strict=True)
         )
-        _, _, det = held(made.step, {**env, **start}, Single(), 1)
+        _, _, det = solve_pose(made.step, {**env, **start}, Single(), 1)
         signs.add(np.sign(det))
     assert len(signs) == 1
 

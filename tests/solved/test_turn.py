@@ -22,9 +22,9 @@ from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import PRIMES, extreme_construction
+from planmethod.solved.turn.cycle import CrankCycle, crank_cycle_of
 from planmethod.solved.turn.diagrams import smooth
 from planmethod.solved.turn.numbering import counting, number, numbered_positions
-from planmethod.solved.turn.turn import Turn, turn_of
 
 PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
 FOUR_BAR = """title = "Шарнирный четырёхзвенник"
@@ -212,7 +212,7 @@ def test_a_slider_above_its_crank_reaches_an_end_twice() -> None:
 def test_the_transfer_functions_of_the_analytic_example_are_those_printed() -> None:
     path = ROOT / "problems/levers/task12.toml"
     problem = load(path)
-    (found,) = analogue_records(Solution(problem)).plain()
+    (found,) = analogue_records(Solution(problem)).to_list()
     d, s3, third = found["D"], found["S3"], found["3"]
     published = {one.name: one.value for one in problem.published}
     numbers = {"ω_q3": third["1"], "ε_q3": third["2"]}
@@ -249,7 +249,7 @@ assembly = { B = "right of A" }
 @pytest.mark.parametrize("locus", CONSTRUCTED)
 def test_extremes_are_constructed_where_the_roots_are(locus: str) -> None:
     solution = Solution(loads(CONSTRUCTED[locus], name=locus))
-    made, turn = extreme_construction(solution), turn_of(solution)
+    made, turn = extreme_construction(solution), crank_cycle_of(solution)
     assert made is not None and made.locus.value == locus
     for k, phi in enumerate(made.phi):
         name = f"{made.pivot}{made.pin}{PRIMES[k]}"
@@ -294,9 +294,9 @@ slides = { on = "x-x", offset = 0.04 }
 """A slider-crank whose rod is square to the guide at 270 degrees, and passes on."""
 
 
-def square(phi: float = 0.0, omega: float = 10.0) -> Turn:
+def square(phi: float = 0.0, omega: float = 10.0) -> CrankCycle:
     text = SQUARE.replace("PHI", str(phi)).replace("OMEGA", str(omega))
-    return turn_of(Solution(loads(text, name="square")))
+    return crank_cycle_of(Solution(loads(text, name="square")))
 
 
 @each("omega", [10.0, -10.0])
@@ -323,7 +323,7 @@ def test_positions_of_two_turns_are_those_of_a_cycle_of_two(positions: Any) -> N
     problem = loads(SQUARE.replace("PHI", "[0, 90]").replace("OMEGA", "10"), name="square")
     counted = counting(problem, positions.tolist())
     solution = Solution(counted, positions=counted.numbered)
-    assert solution.positions == pytest.approx(positions) and turn_of(solution).turns == 2
+    assert solution.positions == pytest.approx(positions) and crank_cycle_of(solution).turns == 2
     exact = square().values(positions)
     assert np.abs(solution.points["B"].place.real - exact).max() < 1e-12
     with pytest.raises(LayoutError, match="even turns of 6 and more: --phi 0:720:30"):
@@ -331,7 +331,7 @@ def test_positions_of_two_turns_are_those_of_a_cycle_of_two(positions: Any) -> N
 
 
 def test_a_motion_of_one_turn_is_not_gone_through_twice() -> None:
-    turn = Turn(Solution(loads(SQUARE.replace("PHI", "0").replace("OMEGA", "1")
+    turn = CrankCycle(Solution(loads(SQUARE.replace("PHI", "0").replace("OMEGA", "1")
                                .replace("0.04", "0.03"), name="one")))  # fmt: skip
     assert (turn.period, turn.turns, turn.count) == (360.0, 1, 12)
 
@@ -448,7 +448,7 @@ def test_the_tightest_group_is_the_dyad_that_is_nearest_to_one_line(
     sides: dict[str, float], links: tuple[str, ...], at: float
 ) -> None:
     problem = loads(TWO_DYADS.format(**sides), name="two-dyads")
-    found = turn_of(Solution(problem)).tightest
+    found = crank_cycle_of(Solution(problem)).tightest
     assert found is not None
     assert found[0] == links
     assert (found[1] - at + 180.0) % 360.0 - 180.0 == pytest.approx(0.0, abs=1.5)

@@ -12,17 +12,17 @@ import numpy as np
 from cases import each, sampled, some, thinned
 from click.testing import CliRunner
 
+from planmethod.check.batch import compute_keys
 from planmethod.check.exchange.keyrecord import key_record
 from planmethod.check.key import key_of_task
 from planmethod.check.marks import DEFAULT
 from planmethod.check.task import Task
-from planmethod.check.together import keys_together
 from planmethod.cli import cli as main
 from planmethod.construct.drafting import PROFILES
 from planmethod.kinds import load_each
+from planmethod.note.columnar import to_builtins
 from planmethod.note.records.npz import solved_arrays, swept_arrays
 from planmethod.note.records.solution import batch_records, record_in_columns
-from planmethod.note.written import plain_of
 from planmethod.problem import loads, variant_names
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.statics import loads_on
@@ -78,7 +78,7 @@ def varied(file: Path, count: int) -> list[Problem]:
 
 
 def encoded(record: Any) -> bytes:
-    return msgspec.json.encode(plain_of(record))
+    return msgspec.json.encode(to_builtins(record))
 
 
 def together(problems: list[Problem]) -> dict[int, bytes]:
@@ -112,7 +112,7 @@ def test_loads_that_one_has_and_another_has_not_make_batches_of_their_own() -> N
     assert sorted(k for _, members in batches for k in members) == list(range(len(problems)))
     for batch, members in batches:
         kinds = {loads_on(Solution(problems[k])).kind for k in members}
-        assert kinds == {loads_on(batch.alone[0]).kind}
+        assert kinds == {loads_on(batch.solutions[0]).kind}
     assert len(batches) > 1
 
 
@@ -158,7 +158,7 @@ def test_arrays_of_few_positions_are_those_of_a_sweep() -> None:
 @each("file", sampled(thinned([PROBLEMS / "linkages" / "ex3.toml", *loaded_files()], 12), 2))
 def test_the_key_of_a_variant_is_the_same_among_others_and_alone(file: Path) -> None:
     problems = varied(file, 4)
-    found = keys_together(problems, DEFAULT)
+    found = compute_keys(problems, DEFAULT)
     assert len(found) > 1, file.name
     for k, key in found.items():
         alone = key_of_task(Task(Solution(problems[k])))

@@ -35,7 +35,7 @@ def the_file_with(text: str, name: str, key: tuple[str | int, ...], value: Any) 
     """Return a problem whose file has another number, by way of a variant."""
     problem = loads(text, name=name)
     if isinstance(key[-1], int):  # of a place that is a list
-        place: Any = problem.given
+        place: Any = problem.source_table
         for part in key[:-1]:
             place = place[part]
         value = [value if k == key[-1] else old for k, old in enumerate(place)]

@@ -25,7 +25,7 @@ def test_steel_runs_quicker_than_cast_iron() -> None:
     assert FlywheelTask(density=7200.0, speed=12.0).greatest_speed == 12.0
     usual = size_of(FlywheelTask(), INERTIA, OMEGA)
     assert usual is not None
-    assert not usual.held
+    assert not usual.is_speed_limited
     assert too_wide(FlywheelTask(), INERTIA, OMEGA) is None
 
 
@@ -48,7 +48,7 @@ def test_a_slight_limit_by_the_speed_of_the_rim_is_not_reported() -> None:
     task = FlywheelTask(speed=0.9 * free.speed)
     sizes = size_of(task, INERTIA, OMEGA)
     assert sizes is not None
-    assert sizes.held
+    assert sizes.is_speed_limited
     assert sizes.width < WIDEST * sizes.diameter
     assert too_wide(task, INERTIA, OMEGA) is None
     assert too_wide(SLOW, 0.0, OMEGA) is None

@@ -24,12 +24,12 @@ from click.testing import CliRunner
 from worked import PROBLEMS, ROOT
 
 from planmethod.cli import cli
-from planmethod.commands.studied import act
+from planmethod.commands.studio_jobs import act
 from planmethod.errors import OutputError
 from planmethod.render.sheets.compositions import SHIPPED
-from planmethod.studio.alone import begun
-from planmethod.studio.asking import WORKS
-from planmethod.studio.written import (
+from planmethod.studio.requests import WORKS
+from planmethod.studio.serverless import start_studio
+from planmethod.studio.static_export import (
     CORE,
     LOADED,
     OFFICIAL,
@@ -64,7 +64,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def answered(do: str, lang: str = "ru", **more: Any) -> tuple[Any, dict[str, Any]]:
-    alone = begun(act)
+    alone = start_studio(act)
     told = {"text": EX3.read_text("utf-8"), "name": "ex3", **more}
     body = json.dumps(told).encode()
     status, data = alone.answer("POST", f"api/do/{do}?lang={lang}", body, silent)
@@ -83,7 +83,7 @@ def test_its_answers_are_those_of_the_server(tmp_path: Path) -> None:
 
     from planmethod.commands.studio import settings_of
 
-    alone = begun(act)
+    alone = start_studio(act)
     with visiting(settings_of(None, False, None, 2), act, tmp_path / "s") as client:
         client.headers |= enter(client)
         for address in (
@@ -116,7 +116,7 @@ def test_made_files_are_served_and_no_others() -> None:
 
 
 def test_works_are_accepted_checked_and_deleted() -> None:
-    alone = begun(act)
+    alone = start_studio(act)
     text = "student;id;value;unit\nИванов;v_B;3.2;м/с\nПетров;v_B;3.0;м/с\n".encode()
     assert alone.answer("PUT", "api/works/a.csv?lang=ru", text, silent)[1] == b'["a.csv"]\n'
     status, said = alone.answer("PUT", "api/works/a.exe?lang=en", text, silent)
@@ -141,7 +141,7 @@ def test_a_request_beyond_the_memory_is_reported() -> None:
     def spent(asked: object, tell: object) -> dict[str, Any]:
         raise MemoryError
 
-    _, data = begun(spent).answer("POST", "api/do/sketched?lang=en", b"{}", silent)
+    _, data = start_studio(spent).answer("POST", "api/do/sketched?lang=en", b"{}", silent)
     assert "memory" in json.loads(data)["found"]["refused"]
 
 

@@ -32,7 +32,7 @@ from visiting import HOME, enter, visiting
 from waiting import wait_until
 from worked import ROOT
 
-from planmethod.studio.limits import OWN, STRANGERS
+from planmethod.studio.limits import LOCAL_LIMITS, PUBLIC_LIMITS
 from planmethod.studio.server import StudioSettings
 from planmethod.studio.sessions import Desk
 
@@ -46,7 +46,7 @@ def own(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     folder = tmp_path_factory.mktemp("own")
     (folder / "my.toml").write_text("mine = 1\n")
     settings = StudioSettings(
-        limits=replace(OWN, sessions=FEW), token=TOKEN, processes=1, desk=Desk(folder)
+        limits=replace(LOCAL_LIMITS, sessions=FEW), token=TOKEN, processes=1, desk=Desk(folder)
     )
     with visiting(settings, odd_acts.act, folder / "sessions") as client:
         yield client
@@ -55,7 +55,7 @@ def own(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
 @pytest.fixture(scope="module")
 def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     root = tmp_path_factory.mktemp("served") / "sessions"
-    settings = StudioSettings(limits=STRANGERS, served=True, token=TOKEN, processes=1)
+    settings = StudioSettings(limits=PUBLIC_LIMITS, served=True, token=TOKEN, processes=1)
     with visiting(settings, odd_acts.act, root) as client:
         yield client
 

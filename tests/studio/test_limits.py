@@ -22,14 +22,14 @@ pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
 
 from starlette.testclient import TestClient
 
-from planmethod.studio.limits import MB, OWN, STRANGERS, Bucket, StudioLimits
+from planmethod.studio.limits import LOCAL_LIMITS, MB, PUBLIC_LIMITS, Bucket, StudioLimits
 from planmethod.studio.server import StudioSettings
 from planmethod.studio.sessions import Desk, Sessions, StudioSession
 
 LIMITS = replace(
-    STRANGERS, seconds=PATIENCE, slow_seconds=PATIENCE, trusted_seconds=PATIENCE,
-    memory=500 * MB, text=4096, upload=2000, uploads=3000, waiting=6, own=2,
-    sessions=40, rate=0.001, burst=30.0, kept=3,
+    PUBLIC_LIMITS, seconds=PATIENCE, slow_seconds=PATIENCE, trusted_seconds=PATIENCE,
+    memory=500 * MB, text=4096, upload=2000, uploads=3000, waiting=6, session_waiting=2,
+    sessions=40, rate=0.001, burst=30.0, stored_results=3,
 )  # fmt: skip
 TOKEN = "a token of the instructor"
 
@@ -323,7 +323,7 @@ def test_sessions_end_and_leave_no_files(tmp_path: Path) -> None:
     sessions.clean()
     assert sessions.of(first.key) is None
     assert [path.name for path in tmp_path.iterdir()] == [second.folder.name]
-    assert OWN.idle < 7 * 24 * 3600  # also on one's own machine
+    assert LOCAL_LIMITS.idle < 7 * 24 * 3600  # also on one's own machine
 
 
 def test_for_one_session_more_than_there_may_be_the_oldest_idle_one_ends(tmp_path: Path) -> None:
@@ -354,7 +354,7 @@ def test_old_computations_go(tmp_path: Path) -> None:
     session = Sessions(tmp_path, LIMITS).enter("a", trusted=False)
     assert session is not None
     for _ in range(7):
-        session.new_folder(LIMITS.kept)
+        session.new_folder(LIMITS.stored_results)
     assert sorted(path.name for path in session.folder.iterdir()) == ["5", "6", "7", "works"]
 
 
@@ -371,7 +371,7 @@ def test_one_address_enters_no_more_than_a_class_does(tmp_path: Path) -> None:
 
 def test_a_bucket_leaks() -> None:
     bucket = Bucket()
-    taken = [bucket.takes(k * 0.1, rate=2.0, burst=3.0) for k in range(30)]
+    taken = [bucket.admit(k * 0.1, rate=2.0, burst=3.0) for k in range(30)]
     assert all(taken[:3])
     assert 3 + 2 * 2.9 - 1 <= sum(taken) <= 3 + 2 * 2.9 + 1
 

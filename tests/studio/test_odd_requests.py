@@ -25,10 +25,10 @@ from starlette.testclient import TestClient
 from visiting import enter, visiting
 from worked import PROBLEMS
 
-from planmethod.commands.studied import act
+from planmethod.commands.studio_jobs import act
 from planmethod.errors import ArgumentError
-from planmethod.studio.asking import ACTS, StudioRequest, asked_of, request_of
-from planmethod.studio.limits import OWN
+from planmethod.studio.limits import LOCAL_LIMITS
+from planmethod.studio.requests import ACTS, StudioRequest, build_job, request_of
 from planmethod.studio.server import StudioSettings
 from planmethod.studio.sessions import Desk
 
@@ -53,7 +53,7 @@ VALUES = (
 
 BODIES = (
     b"", b"[]", b"1", b'"a"', b"null", b"{", b"}", b"\xff", b"\x00", b'{"text": "\xff"}', b"{}{}",
-    b'{"text": "\xed\xa0\x80"}', b"[" * 5000, b'{"a": ' * 5000, b"x" * (OWN.text + 1),
+    b'{"text": "\xed\xa0\x80"}', b"[" * 5000, b'{"a": ' * 5000, b"x" * (LOCAL_LIMITS.text + 1),
     '{"text": "x"}'.encode("utf-16"),
 )  # fmt: skip
 
@@ -69,7 +69,10 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     if os.name != "nt":
         os.mkfifo(folder / "pipe.toml")
     settings = StudioSettings(
-        limits=replace(OWN, rate=1e9, kept=10**6), token="t", processes=2, desk=Desk(folder)
+        limits=replace(LOCAL_LIMITS, rate=1e9, stored_results=10**6),
+        token="t",
+        processes=2,
+        desk=Desk(folder),
     )
     with visiting(settings, odd_acts.act, folder / "sessions") as client:
         client.headers |= enter(client)
@@ -182,7 +185,7 @@ def test_no_work_and_no_text_causes_an_internal_error(tmp_path: Path, number: in
     told.append(("verdicts", {"text": EX3, "work": WORKS[number]}))
     for count, (do, more) in enumerate(told):
         request = request_of(json.dumps(more).encode())
-        asked = asked_of(do, request, lang="en", layouts=(), works=tmp_path, served=True)
+        asked = build_job(do, request, lang="en", layouts=(), works=tmp_path, served=True)
         assert asked is not None
         folder = tmp_path / str(count)
         folder.mkdir()

@@ -147,4 +147,4 @@ def test_a_newer_quick_job_of_a_session_takes_the_place_of_the_older_one(
     desk = asyncio.run(play())
     assert desk.begun == ["first", "faults", "other's"]
     assert desk.done[0] == {"superseded": True}
-    assert not desk.queue.is_asked_by("a")
+    assert not desk.queue.is_busy_for("a")

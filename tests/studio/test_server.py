@@ -22,11 +22,11 @@ pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
 from starlette.testclient import TestClient
 
 from planmethod.cli import cli
-from planmethod.commands.studied import LACKING, act
 from planmethod.commands.studio import settings_of
+from planmethod.commands.studio_jobs import LACKING, act
 from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import kind_of, load
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.problem.tasks import tasks
 from planmethod.studio.places import place_of
 
@@ -65,7 +65,7 @@ def test_the_page_is_in_a_language_and_admits_no_other_sources(
     client: TestClient, lang: str
 ) -> None:
     answer = client.get(f"/?lang={lang}")
-    words = language(lang).studio["page"]
+    words = get_language(lang).studio["page"]
     policy = answer.headers["content-security-policy"]
     assert "default-src 'none'" in policy
     assert "unsafe" not in policy
@@ -84,7 +84,7 @@ def test_every_word_of_the_page_is_used_and_every_word_it_uses_is_there() -> Non
     html = (folder / "studio.html").read_text("utf-8")
     used = {*re.findall(r"\{\{(\w+)\}\}", html), *re.findall(r"\bW\.(\w+)", scripts)}
     used |= {*re.findall(r'(?:say\(|tell\(|failed: |why = )"(\w+)"', scripts)}
-    known = {*language("ru").studio["page"]}
+    known = {*get_language("ru").studio["page"]}
     assert (used - known, known - used) == (set(), set())
 
 

@@ -18,17 +18,17 @@ from worked import ROOT
 
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
-from planmethod.construct.steps import NumberName, PointName, makes
+from planmethod.construct.steps import NumberName, PointName, result_kind
 from planmethod.note.formula import inlined
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.problem import Problem, loads
 from planmethod.render.control.sheet import inspect
-from planmethod.synthesis import KINDS, synthesize, takes
-from planmethod.synthesis.drawn import Drawn
-from planmethod.synthesis.measured import checks, problem_text
+from planmethod.synthesis import KINDS, options_of, synthesize
+from planmethod.synthesis.drawing import Drawn
 from planmethod.synthesis.model import Synthesis, scaled
 from planmethod.synthesis.sheet import synthesis_sheet
 from planmethod.synthesis.text import SynthesisNarrator, point_name
+from planmethod.synthesis.verification import checks, problem_text
 
 ROWS = ((0.0, 0.0, 0.0), (0.1, 0.05, 20.0), (0.25, 0.05, 50.0))
 PAIRS = ((40.0, 60.0), (65.0, 75.0), (90.0, 95.0))
@@ -58,8 +58,8 @@ ASKED: dict[str, tuple[str, dict[str, Any]]] = {
 
 
 def made(kind: str, asked: dict[str, Any]) -> tuple[Synthesis, Problem]:
-    found = synthesize(kind, {name: asked.get(name) for name in takes(kind)})
-    return found, loads(problem_text(found, "test", language("en")), name=kind)
+    found = synthesize(kind, {name: asked.get(name) for name in options_of(kind)})
+    return found, loads(problem_text(found, "test", get_language("en")), name=kind)
 
 
 def run(*args: str) -> Result:
@@ -175,10 +175,10 @@ def test_every_point_is_described_in_every_language(name: str) -> None:
     found, _ = made(*ASKED[name])
     for lang in LANGUAGES:
         told = " ".join(
-            SynthesisNarrator(Drawn(found, PROFILES["board"]), language(lang)).sentences()
+            SynthesisNarrator(Drawn(found, PROFILES["board"]), get_language(lang)).sentences()
         )
         for step in found.board.steps:
-            if makes(step) is PointName and step.out not in found.board.marks:
+            if result_kind(step) is PointName and step.out not in found.board.marks:
                 assert point_name(step.out) in told, (lang, step.out)
         assert "{" not in re.sub(r"[_^]\{[^}]*\}", "", inlined(told))
 
@@ -211,7 +211,7 @@ def test_the_norm_control_marks_at_most_empty_paper(name: str) -> None:
     sheet = synthesis_sheet(Drawn(found, PROFILES["board"]), problem, asked, measured)
     # Text and construction leave a band of an A3 empty: the remark on it is right.
     assert {one.code for one in inspect(sheet)} <= {"PM-D10"}
-    assert not sheet.is_cut_down
+    assert not sheet.has_omissions
     assert (sheet.width, sheet.height) == (420.0, 297.0)
 
 
@@ -292,7 +292,7 @@ def test_every_kind_describes_its_construction_and_is_documented() -> None:
     text = (ROOT / "docs" / "synthesis.md").read_text(encoding="utf-8")
     for kind in KINDS:
         assert f"| `{kind}` |" in text
-        assert all(f"--{name}" in text for name in takes(kind))
+        assert all(f"--{name}" in text for name in options_of(kind))
     done = run(
         "slider-crank", "--stroke", "0.2", "--K_v", "1.2", "--offset", "0.03", "--lang", "en"
     )

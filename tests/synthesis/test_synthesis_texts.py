@@ -18,12 +18,11 @@ from planmethod.construct import steps
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.document import Document
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import LANGUAGES, language
-from planmethod.note.writers.plain import plain_document
+from planmethod.note.wording import LANGUAGES, get_language
+from planmethod.note.writers.terminal import plain_document
 from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
 from planmethod.render.symbols.hatching import GROUND
-from planmethod.synthesis.drawn import Drawn
-from planmethod.synthesis.measured import checks
+from planmethod.synthesis.drawing import Drawn
 from planmethod.synthesis.model import Synthesis, place
 from planmethod.synthesis.sheet import synthesis_sheet
 from planmethod.synthesis.text import (
@@ -34,6 +33,7 @@ from planmethod.synthesis.text import (
     size_rows,
     synthesis_document,
 )
+from planmethod.synthesis.verification import checks
 
 BOARD = PROFILES["board"]
 
@@ -53,9 +53,10 @@ def sentences(name: str) -> Iterator[tuple[str, dict[str, complex]]]:
     at = {
         plain_text(point_name(step.out)): place(drawn.paper, step.out)
         for step in drawn.synthesis.board.steps
-        if steps.makes(step) is steps.PointName and step.out not in drawn.synthesis.board.marks
+        if steps.result_kind(step) is steps.PointName
+        and step.out not in drawn.synthesis.board.marks
     }
-    for sentence in SynthesisNarrator(drawn, language("en")).sentences():
+    for sentence in SynthesisNarrator(drawn, get_language("en")).sentences():
         yield plain_text(sentence), at
 
 
@@ -105,7 +106,7 @@ def test_an_arc_and_a_line_intersect_at_the_stated_point() -> None:
             if (found := re.search(r"we take the ([\w-]+) one: this is point (\S+?)\.", said))
         }
         for step in drawn.synthesis.board.steps:
-            if not isinstance(step, steps.MeetLineCircle):
+            if not isinstance(step, steps.IntersectLineCircle):
                 continue
             label = plain_text(point_name(step.out))
             if label not in told:
@@ -169,7 +170,7 @@ def test_points_are_laid_off_in_the_stated_directions() -> None:
 
 @each("name", ASKED)
 def test_the_table_of_sizes_has_exact_read_and_sigma_in_this_order(name: str) -> None:
-    drawn, words = drawn_of(name), language("en")
+    drawn, words = drawn_of(name), get_language("en")
     assert words.synthesis["columns"] == ("size", "exact, m", "read, m", "σ, m")
     lengths = drawn.synthesis.metres()
     for (length, metres), row in zip(lengths.items(), size_rows(drawn, words), strict=True):
@@ -184,10 +185,14 @@ def test_the_table_of_sizes_has_exact_read_and_sigma_in_this_order(name: str) ->
 
 def test_the_sizes_are_those_of_the_mechanism_by_hand() -> None:
     """sin(ψ/2)·l_0 is the crank of a slotted link; half a stroke that of a central slider."""
-    rows = {plain_text(r[0]): number(r[1]) for r in size_rows(drawn_of("shaper"), language("en"))}
+    rows = {
+        plain_text(r[0]): number(r[1]) for r in size_rows(drawn_of("shaper"), get_language("en"))
+    }
     assert rows["l_O1A"] == pytest.approx(0.4 * 0.3420201433, rel=1e-5)
     assert (rows["l_O1O3"], rows["l_BC"]) == (0.4, 0.2)
-    rows = {plain_text(r[0]): number(r[1]) for r in size_rows(drawn_of("central"), language("en"))}
+    rows = {
+        plain_text(r[0]): number(r[1]) for r in size_rows(drawn_of("central"), get_language("en"))
+    }
     assert rows["l_OA"] == pytest.approx(0.1)
     assert rows["l_AB"] == pytest.approx(0.1 / 0.3, rel=1e-5)
 
@@ -195,8 +200,8 @@ def test_the_sizes_are_those_of_the_mechanism_by_hand() -> None:
 def measured(name: str, lang: str = "en") -> dict[str, str]:
     found, problem = made(*ASKED[name])
     asked = {**checks(found, problem), **found.facts}
-    rows = check_rows(asked, language(lang))
-    keys = {text: key for key, text in language(lang).synthesis["checks"].items()}
+    rows = check_rows(asked, get_language(lang))
+    keys = {text: key for key, text in get_language(lang).synthesis["checks"].items()}
     return {keys[title]: plain_text(value) for title, value in rows}
 
 
@@ -228,7 +233,7 @@ def test_pressure_and_transmission_angle_are_complements_and_swings_are_degrees(
 def test_the_text_prints_the_table_under_its_heads() -> None:
     found, problem = made(*ASKED["shaper"])
     asked = {**checks(found, problem), **found.facts}
-    words = language("en")
+    words = get_language("en")
     nodes = synthesis_document(drawn_of("shaper"), ASKED["shaper"][1], asked, words)
     text = plain_document(Document.of(nodes), words)
     assert re.search(r"\nsize +exact, m +read, m +σ, m\n", text)
@@ -349,21 +354,21 @@ def test_the_angle_between_the_dead_positions_is_marked(name: str) -> None:
     (arc,) = (item for item in sheet.items if isinstance(item, Arc) and item.tag == "theta")
     ratio = asked["K_v"]
     assert degrees(arc.end - arc.start) == pytest.approx(180.0 * (ratio - 1.0) / (ratio + 1.0))
-    size = language("ru").say.given(round(180.0 * (ratio - 1.0) / (ratio + 1.0), 2))
+    size = get_language("ru").notation.as_input(round(180.0 * (ratio - 1.0) / (ratio + 1.0), 2))
     assert [t.text for t in sheet.items if isinstance(t, Text) and t.label == "theta"] == [
         f"θ = {size}°"
     ]
-    told = next(iter(SynthesisNarrator(Drawn(found, BOARD), language("ru")).sentences()))
+    told = next(iter(SynthesisNarrator(Drawn(found, BOARD), get_language("ru")).sentences()))
     assert told.endswith(f" = {size}°.")
 
 
 @each("seed", range(some(200, 40)))
 def test_an_angle_is_laid_off_by_a_mark_of_the_protractor_or_by_two_legs(seed: int) -> None:
-    words = language("en")
+    words = get_language("en")
     angle = random.Random(seed).uniform(0.4, 179.6)
     for value in (round(2 * angle) / 2, angle):
         told = plain_text(set_angle(value, 0.5, words))
-        assert told.startswith(f"{words.say.given(round(value, 2))}°")
+        assert told.startswith(f"{words.notation.as_input(round(value, 2))}°")
         legs = re.search(r"tan\s([\d.]+)° = ([\d.]+)\s:\s([\d.]+)", told)
         if value != angle:
             assert legs is None

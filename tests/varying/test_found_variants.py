@@ -29,9 +29,9 @@ from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
 from planmethod.varying.candidates import VariantCandidates
 from planmethod.varying.choice import VariantChoice, choose
-from planmethod.varying.judged import Judge, freed
-from planmethod.varying.sieve import Refusal, Refused
-from planmethod.varying.varied import Lots, overrides, usual, with_followers
+from planmethod.varying.evaluation import CandidateEvaluator, free_scales
+from planmethod.varying.parameters import ValueSampler, default_keys, overrides, with_followers
+from planmethod.varying.screening import Rejection, RejectionReason
 
 EX3 = path_of("linkages/ex3")
 SIX_LINK = path_of("levers/six-link")
@@ -147,25 +147,27 @@ def test_every_position_of_the_crank_is_judged_by_independent_formulas() -> None
     }
     problems = [one for one in source.read(places) if isinstance(one, Problem)]
     why = Counter[str]()
-    for problem, one in zip(problems, Judge(None, main, DEFAULT).judge(problems), strict=True):
+    for problem, one in zip(
+        problems, CandidateEvaluator(None, main, DEFAULT).evaluate(problems), strict=True
+    ):
         row = {"driver.phi": problem.drive.positions[0], "driver.omega": 50.0}
         lengths = {"links.1.AB": 0.064, "links.3.CD": 0.22}
         lengths["links.4.DE"] = abs(
             problem.bodies["4"].points["E"] - problem.bodies["4"].points["D"]
         )
         row |= lengths
-        reason = one.why if isinstance(one, Refused) else None
+        reason = one.reason if isinstance(one, Rejection) else None
         why[str(reason)] += 1
         try:
             list(ex3_segments({**row, "scales.mu_v": 1.0, "scales.mu_a": 1.0}))
         except (AssertionError, ValueError):
-            assert reason in (Refusal.MARGIN, Refusal.ASSEMBLY)
+            assert reason in (RejectionReason.MARGIN, RejectionReason.ASSEMBLY)
             continue
-        scales = Solution(freed(problem)).scales.values()
+        scales = Solution(free_scales(problem)).scales.values()
         row |= {f"scales.{scale.symbol}": scale.per_mm for scale in scales}
         shortest = min(mm for _, _, mm in ex3_segments(row))
-        assert (reason is Refusal.SHORT) is (shortest < 5), (row, one)
-    assert len(problems) == 216 and why[str(Refusal.SHORT)] > 10
+        assert (reason is RejectionReason.SHORT) is (shortest < 5), (row, one)
+    assert len(problems) == 216 and why[str(RejectionReason.SHORT)] > 10
 
 
 def test_the_program_reads_the_table_and_finds_the_same(of_ex3: tuple[Path, str]) -> None:
@@ -207,19 +209,21 @@ def test_a_mistake_that_a_variant_distinguishes_is_off_by_more_than_a_pencil(
 ) -> None:
     source, found = choose(EX3, count=4, seed=5)
     path = tmp_path / EX3.name
-    path.write_text(source.with_variants({one.name: one.own for one in found.variants}), "utf-8")
+    path.write_text(
+        source.with_variants({one.name: one.overrides for one in found.variants}), "utf-8"
+    )
     for one, task in zip(found.variants, tasks_of(path), strict=True):
-        key, (sheet,) = key_of_task(task), {task.sheet(item.position) for item in task.whole()}
+        key, (sheet,) = key_of_task(task), {task.sheet(item.position) for item in task.list_items()}
         seen, made = set(), set()
         for mistake in task.named(sheet):
-            made.add((mistake.code, mistake.where))
-            for entry, item in zip(key.entries, task.whole(), strict=True):
+            made.add((mistake.code, mistake.place))
+            for entry, item in zip(key.entries, task.list_items(), strict=True):
                 value = mistake.values[item.question.id]
                 off = abs(abs(value) - abs(entry.exact)) > max(entry.tolerance, 2.5 * entry.sigma)
                 if off or (entry.asks_sense and value * entry.exact < 0):
-                    seen.add((mistake.code, mistake.where))
-        assert made - set(one.untold) <= seen
-        assert len(made - set(one.untold)) >= found.family > 25
+                    seen.add((mistake.code, mistake.place))
+        assert made - set(one.indistinct) <= seen
+        assert len(made - set(one.indistinct)) >= found.family > 25
 
 
 # Loads -------------------------------------------------------------------------------------------
@@ -254,26 +258,30 @@ def test_a_linkage_with_loads_has_its_reactions_judged(tmp_path: Path) -> None:
 def test_candidates_judged_together_are_judged_as_alone(name: str) -> None:
     path = path_of(name)
     source = VariantCandidates(path, None)
-    chosen = with_followers(source.table, usual(source.table, 0.1))
-    lots = Lots(chosen, Random(3))
+    chosen = with_followers(source.table, default_keys(source.table, 0.1))
+    lots = ValueSampler(chosen, Random(3))
     drawn = [overrides(source.table, lots.with_followers(lots.draw())) for _ in range(60)]
     (main,) = source.read({})
     assert isinstance(main, Problem)
-    judge = Judge(None, main, DEFAULT)
+    judge = CandidateEvaluator(None, main, DEFAULT)
     read = source.read({str(k): own for k, own in enumerate(drawn)})
     problems = [one for one in read if isinstance(one, Problem)]
-    together = list(judge.judge(problems))
+    together = list(judge.evaluate(problems))
     for problem, found in sampled([*zip(problems, together, strict=True)], 3):
-        (alone,) = judge.judge([problem])
-        if isinstance(found, Refused) or isinstance(alone, Refused):
-            assert isinstance(found, Refused) and isinstance(alone, Refused)
+        (alone,) = judge.evaluate([problem])
+        if isinstance(found, Rejection) or isinstance(alone, Rejection):
+            assert isinstance(found, Rejection) and isinstance(alone, Rejection)
             # Among others, the motion of a loaded candidate is examined first, then its forces.
-            assert found.why is alone.why or problem.dynamics is not None, problem.variant
+            assert found.reason is alone.reason or problem.dynamics is not None, problem.variant
             continue
-        assert (found.told, found.made, found.scales) == (alone.told, alone.made, alone.scales)
+        assert (found.distinguished, found.possible, found.scales) == (
+            alone.distinguished,
+            alone.possible,
+            alone.scales,
+        )
         assert found.exact == pytest.approx(dict(alone.exact), rel=1e-9)
         assert found.allowed == pytest.approx(dict(alone.allowed), rel=1e-6)
-    assert any(not isinstance(one, Refused) for one in together)
+    assert any(not isinstance(one, Rejection) for one in together)
 
 
 def test_trains_are_coaxial_and_whole_by_their_teeth(tmp_path: Path) -> None:
@@ -302,7 +310,7 @@ def test_both_ways_to_a_wheel_of_a_planetary_stage_are_as_long(tmp_path: Path) -
 
 def test_numbers_of_formulas_vary_and_powers_do_not() -> None:
     _, found = choose(POINT, count=8, seed=7)
-    told = [one.own for one in found.variants]
+    told = [one.overrides for one in found.variants]
     assert len({repr(own) for own in told}) == 8
     for own in told:
         assert re.fullmatch(r"\d\*t\*exp\(t/\d\)", own["point.x"])
@@ -318,9 +326,9 @@ def found_by(seed: int) -> VariantChoice:
 
 def test_the_same_seed_gives_the_same_and_another_one_others() -> None:
     one, again, other = found_by(7), found_by(7), found_by(8)
-    assert [v.own for v in one.variants] == [v.own for v in again.variants]
-    assert one.refused == again.refused
-    assert [v.own for v in one.variants] != [v.own for v in other.variants]
+    assert [v.overrides for v in one.variants] == [v.overrides for v in again.variants]
+    assert one.rejections == again.rejections
+    assert [v.overrides for v in one.variants] != [v.overrides for v in other.variants]
 
 
 def test_rejected_candidates_add_up(of_ex3: tuple[Path, str]) -> None:
@@ -328,8 +336,8 @@ def test_rejected_candidates_add_up(of_ex3: tuple[Path, str]) -> None:
     thrown = sum(map(int, re.findall(r"(?m)^(\d+): ", of_ex3[1])))
     assert thrown + 6 == tried
     found = found_by(7)
-    assert sum(found.refused.values()) + len(found.variants) == found.tried
-    assert found.refused[Refusal.COAXIAL, ""]
+    assert sum(found.rejections.values()) + len(found.variants) == found.tried
+    assert found.rejections[RejectionReason.COAXIAL, ""]
 
 
 def test_a_russian_table_is_as_excel_has_it_and_is_read(tmp_path: Path) -> None:

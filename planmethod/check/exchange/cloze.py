@@ -14,13 +14,13 @@ from xml.etree.ElementTree import Element, tostring
 
 from msgspec import Struct
 
-from planmethod.check.exchange.quiz import QuizPart, whole_points
+from planmethod.check.exchange.quiz import QuizPart, integer_points
 from planmethod.check.model import KeyEntry
-from planmethod.check.pages.keypage import scales_told
-from planmethod.check.pages.speech import Speech
+from planmethod.check.pages.answer_format import AnswerFormatter
+from planmethod.check.pages.keypage import format_scales
 from planmethod.note.document import GivenFact
 from planmethod.note.formula import escape
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.html import clean, markup
 
 PICTURE = "scheme.png"
@@ -34,7 +34,7 @@ class QuizQuestion(Struct, frozen=True):
     title : str
         Of the problem, plain text: also the category.
     variant : str or None
-    given : tuple of GivenFact
+    given_facts : tuple of GivenFact
         What is given.
     scales : mapping of str to float
         Scales of the plans, unit per mm; empty if no plans are drawn.
@@ -45,22 +45,22 @@ class QuizQuestion(Struct, frozen=True):
 
     title: str
     variant: str | None
-    given: tuple[GivenFact, ...]
+    given_facts: tuple[GivenFact, ...]
     scales: Mapping[str, float]
     parts: tuple[QuizPart, ...]
     picture: bytes = b""
 
-    def name(self, words: Language) -> str:
+    def name(self, language: Language) -> str:
         """Return how the question is called in the bank."""
-        said: Words = words.check["key"]
+        texts: MessageTable = language.check["key"]
         return (
-            f"{self.title}. {said.variant.format(variant=self.variant)}"
+            f"{self.title}. {texts.variant.format(variant=self.variant)}"
             if self.variant
             else self.title
         )
 
 
-def moodle_xml(questions: Iterable[QuizQuestion], words: Language) -> bytes:
+def moodle_xml(questions: Iterable[QuizQuestion], language: Language) -> bytes:
     """Return a file for Moodle: a question for each variant, a category for each problem."""
     lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<quiz>"]
     category = None
@@ -73,14 +73,14 @@ def moodle_xml(questions: Iterable[QuizQuestion], words: Language) -> bytes:
                 f"<category><text>{path}</text></category>",
                 "</question>",
             ]
-        lines += _question(question, words)
+        lines += _question(question, language)
     return "\n".join([*lines, "</quiz>", ""]).encode()
 
 
-def _question(question: QuizQuestion, words: Language) -> Iterator[str]:
-    text = "\n".join(_text(question, words))
+def _question(question: QuizQuestion, language: Language) -> Iterator[str]:
+    text = "\n".join(_text(question, language))
     yield '<question type="cloze">'
-    yield f"<name><text>{html.escape(clean(question.name(words)))}</text></name>"
+    yield f"<name><text>{html.escape(clean(question.name(language)))}</text></name>"
     yield '<questiontext format="html">'
     yield f"<text>{_cdata(text)}</text>"
     if question.picture:
@@ -103,39 +103,39 @@ def _cdata(text: str) -> str:
     return f"<![CDATA[{text.replace(']]>', ']]]]><![CDATA[>')}]]>"
 
 
-def _text(question: QuizQuestion, words: Language) -> Iterator[str]:
+def _text(question: QuizQuestion, language: Language) -> Iterator[str]:
     """Yield the question as HTML with its gaps."""
-    say: Words = words.check["exchange"]
-    yield _paragraph(f"<strong>{_safe(markup(escape(question.name(words))))}</strong>")
-    if question.given:
-        told = "; ".join(fact.text for fact in question.given if fact.text)
-        given = words.note.given.format(given=told)
+    texts: MessageTable = language.check["exchange"]
+    yield _paragraph(f"<strong>{_safe(markup(escape(question.name(language))))}</strong>")
+    if question.given_facts:
+        text = "; ".join(fact.text for fact in question.given_facts if fact.text)
+        given = language.note.given.format(given=text)
         yield _paragraph(_safe(markup(given)))
     if question.picture:
-        yield _paragraph(_element("img", src=f"@@PLUGINFILE@@/{PICTURE}", alt=say.scheme))
+        yield _paragraph(_element("img", src=f"@@PLUGINFILE@@/{PICTURE}", alt=texts.scheme))
     if question.scales:
-        told = words.check["key"].scales.format(scales=scales_told(question.scales, words))
-        yield _paragraph(_safe(markup(told)))
+        text = language.check["key"].scales.format(scales=format_scales(question.scales, language))
+        yield _paragraph(_safe(markup(text)))
     several = len({part.entry.position for part in question.parts}) > 1
     asked: KeyEntry | None = None
     line = ""
-    for part, points in zip(question.parts, whole_points(question.parts), strict=True):
+    for part, points in zip(question.parts, integer_points(question.parts), strict=True):
         if part.entry is not asked and line:
             yield _paragraph(line)
         if several and (asked is None or part.entry.position != asked.position):
-            position = words.check["key"].position.format(position=part.entry.position)
+            position = language.check["key"].position.format(position=part.entry.position)
             yield _paragraph(f"<em>{_safe(markup(position))}</em>")
         if part.entry is not asked:
-            line = _safe(markup(Speech(words).letters(part.entry)))
+            line = _safe(markup(AnswerFormatter(language).letters(part.entry)))
             line += "" if part.choices else " ="
         asked = part.entry
         line += f" {gap(part, points)}"
-        unit = Speech(words).unit(part.entry)
+        unit = AnswerFormatter(language).unit(part.entry)
         if part.alternatives and unit:
             line += f" {_safe(markup(unit))}"
     if line:
         yield _paragraph(line)
-    yield _paragraph(_safe(markup(say.how)))
+    yield _paragraph(_safe(markup(texts.how)))
 
 
 def gap(part: QuizPart, points: int) -> str:
@@ -147,14 +147,14 @@ def gap(part: QuizPart, points: int) -> str:
         )
         return f"{{{points}:MULTICHOICE:{'~'.join(told)}}}"
     told = (
-        f"{_share(one.share)}{numbers(one.value, one.margin)}{_feedback(one.feedback)}"
+        f"{_format_fraction(one.fraction)}{numbers(one.value, one.margin)}{_feedback(one.feedback)}"
         for one in part.alternatives
     )
     return f"{{{points}:NUMERICAL:{'~'.join(told)}}}"
 
 
-def _share(share: float) -> str:
-    return "=" if share == 1.0 else f"%{100.0 * share:.5g}%"
+def _format_fraction(fraction: float) -> str:
+    return "=" if fraction == 1.0 else f"%{100.0 * fraction:.5g}%"
 
 
 def numbers(value: float, margin: float) -> str:

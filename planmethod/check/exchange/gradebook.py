@@ -8,18 +8,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from planmethod.check.model import CheckedWork
+from planmethod.check.model import GradedSubmission
 from planmethod.check.pages.files import file_names
 from planmethod.check.pages.listing import safe
-from planmethod.check.pages.results import told_mistakes
-from planmethod.note.wording import Language, Words
+from planmethod.check.pages.results import list_mistakes
+from planmethod.note.wording import Language, MessageTable
 
 
 def gradebook_csv(
-    works: Sequence[CheckedWork],
+    works: Sequence[GradedSubmission],
     marks: Sequence[str],
     addresses: Mapping[str, str],
-    words: Language,
+    language: Language,
 ) -> bytes:
     """Return the marks, a student a row: commas, decimal points, UTF-8.
 
@@ -30,8 +30,8 @@ def gradebook_csv(
     addresses : mapping of str to str
         E-mail by student: the gradebook's key of a student; empty for none.
     """
-    say: Words = words.check["exchange"]
-    heads = dict(say["gradebook"])
+    texts: MessageTable = language.check["exchange"]
+    heads = dict(texts["gradebook"])
     if not addresses:
         del heads["email"]
     text = io.StringIO(newline="")
@@ -46,23 +46,23 @@ def gradebook_csv(
             "of": f"{work.of:.10g}",
             "grade": f"{100.0 * work.points / work.of:.2f}" if work.of else "",
             "mark": mark,
-            "feedback": "; ".join(filter(None, _feedback(work, words))),
+            "feedback": "; ".join(filter(None, _feedback(work, language))),
         }
         writer.writerow(safe(cells[name]) for name in heads)
     return text.getvalue().encode()
 
 
-def _feedback(work: CheckedWork, words: Language) -> Iterator[str]:
-    say: Words = words.check["results"]
-    if work.failure is not None:
-        yield say.failure.format(why=work.failure.said)
-    if work.is_provisional:
-        yield say.open.format(count=len(work.open))
-    yield told_mistakes(work, words.check)
-    yield work.remark
+def _feedback(submission: GradedSubmission, language: Language) -> Iterator[str]:
+    texts: MessageTable = language.check["results"]
+    if submission.failure is not None:
+        yield texts.failure.format(why=submission.failure.message)
+    if submission.is_provisional:
+        yield texts.open.format(count=len(submission.open))
+    yield list_mistakes(submission, language.check)
+    yield submission.remark
 
 
-def feedback_zip(works: Sequence[CheckedWork], pages: Sequence[Path]) -> bytes:
+def feedback_zip(works: Sequence[GradedSubmission], pages: Sequence[Path]) -> bytes:
     """Return the pages in a folder for each student; the same pages give the same bytes.
 
     Parameters

@@ -6,7 +6,7 @@ from typing import Any
 
 from planmethod.check.key import Key
 from planmethod.check.model import KeyEntry
-from planmethod.check.pages.speech import told
+from planmethod.check.pages.answer_format import displayed_value
 from planmethod.note.numbers import finite_or_none
 
 
@@ -26,7 +26,7 @@ def _answer(entry: KeyEntry) -> dict[str, Any]:
         "id": entry.id,
         "what": entry.what,
         "letters": entry.label,
-        "value": finite_or_none(told(entry.exact, entry)),
+        "value": finite_or_none(displayed_value(entry.exact, entry)),
         "unit": entry.unit,
         "tolerance": finite_or_none(entry.tolerance),
         "mm": None if entry.mm is None else finite_or_none(entry.mm),
@@ -37,9 +37,9 @@ def _answer(entry: KeyEntry) -> dict[str, Any]:
         "asks_sense": entry.asks_sense,
         "signed": entry.signed,
         "sigma": finite_or_none(entry.sigma),
-        "seen": entry.seen,
+        "seen": entry.is_visible,
         "zero": entry.zero,
-        "asked": entry.asked or None,
+        "asked": entry.requested_unit or None,
         "per": entry.per,
         "hidden": list(entry.hidden),
     }

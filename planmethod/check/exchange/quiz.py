@@ -18,21 +18,21 @@ from planmethod.check.questions import Sign
 from planmethod.check.sheet import Sheet, is_right
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, MessageTable
 
-MOST = 12
+MAX_WRONG_VALUES = 12
 """Wrong values of a part that are named; the usual ones first."""
 
-APART = 2.0
+MIN_SEPARATION = 2.0
 """Tolerances within which a mistake cannot be distinguished from the right answer."""
 
-WIDEST = 0.1
+MAX_HALF_WIDTH = 0.1
 """Share of a wrong value that half of its interval is at most."""
 
-LEAST_SHARE = 0.3
+MIN_ERROR_FRACTION = 0.3
 """Minimum error scale of a value that a mistake makes small, relative to the right one."""
 
-TURNS, WAYS = (Sense.CCW, Sense.CW), (Sense.UP, Sense.DOWN, Sense.LEFT, Sense.RIGHT)
+TURNS, DIRECTIONS = (Sense.CCW, Sense.CW), (Sense.UP, Sense.DOWN, Sense.LEFT, Sense.RIGHT)
 
 
 class Alternative(Struct, frozen=True):
@@ -44,7 +44,7 @@ class Alternative(Struct, frozen=True):
         Value in the requested unit.
     margin : float
         Half of the interval.
-    share : float
+    fraction : float
         Of the points, 0 to 1.
     feedback : str
         Rich text; empty for none.
@@ -52,7 +52,7 @@ class Alternative(Struct, frozen=True):
 
     value: float
     margin: float
-    share: float = 1.0
+    fraction: float = 1.0
     feedback: str = ""
 
 
@@ -84,13 +84,13 @@ class QuizPart(Struct, frozen=True):
     choices: tuple[Choice, ...] = ()
 
 
-def quiz_of(task: Task, words: Language) -> list[QuizPart]:
+def quiz_of(task: Task, language: Language) -> list[QuizPart]:
     """Return the parts of the requested items of a variant, in the requested order."""
     parts: list[QuizPart] = []
-    for item in task.whole():
+    for item in task.list_items():
         sheet = task.sheet(item.position)
         limit = limit_of(sheet, item.question, task.settings, item.fixed)
-        parts += _Asked(task, item, sheet, limit, words).parts()
+        parts += _ItemParts(task, item, sheet, limit, language).parts()
     return parts
 
 
@@ -105,7 +105,7 @@ class GapName(Struct, frozen=True):
 def gaps_of(task: Task) -> list[GapName]:
     """Return what the gaps of a variant are of, in the order of `quiz_of`."""
     found: list[GapName] = []
-    for item in task.whole():
+    for item in task.list_items():
         limit = limit_of(task.sheet(item.position), item.question, task.settings, item.fixed)
         turned, share = has_sense(item, limit), task.settings.sense_share
         if not (turned and share == 1.0):
@@ -120,7 +120,7 @@ def has_sense(item: TaskItem, limit: Tolerance) -> bool:
     return item.asks_sense and not limit.zero and bool(limit.exact)
 
 
-def whole_points(parts: Sequence[QuizPart]) -> list[int]:
+def integer_points(parts: Sequence[QuizPart]) -> list[int]:
     """Return the points of parts in the smallest whole numbers of the same proportion."""
     for times in (1, 2, 4, 5, 10, 20, 25, 50, 100):
         scaled = [part.points * times for part in parts]
@@ -129,14 +129,14 @@ def whole_points(parts: Sequence[QuizPart]) -> list[int]:
     return [max(1, round(one)) if one > 0 else 0 for one in scaled]
 
 
-class _Asked(Struct, frozen=True):
+class _ItemParts(Struct, frozen=True):
     """One item of a task, as its parts."""
 
     task: Task
     item: TaskItem
     sheet: Sheet
     limit: Tolerance
-    words: Language
+    language: Language
 
     def parts(self) -> Iterator[QuizPart]:
         """Yield the part of the number, and that of the sense if it is requested."""
@@ -158,21 +158,23 @@ class _Asked(Struct, frozen=True):
         margin = outer = limit.tolerance()
         yield from (Alternative(value / per, margin / per) for value in right)
         wider: tuple[float, float, str] | None = None
-        if not limit.seen:
-            wider = (limit.spread, settings.unseen_share, self.words.check["key"].unseen)
+        if not limit.is_visible:
+            wider = (limit.spread, settings.unseen_share, self.language.check["key"].unseen)
         elif not limit.zero and settings.near > 1.0 and settings.near_share:
-            wider = (margin * settings.near, settings.near_share, self._near)
+            wider = (margin * settings.near, settings.near_share, self._near_feedback)
         if wider is not None and wider[0] > margin:
-            outer, share, said = wider
-            yield from (Alternative(value / per, outer / per, share, said) for value in right)
-        least = max(outer, APART * margin)
-        for value, room, codes in _apart(self._mistaken(), right, outer, least, margin, limit):
-            yield Alternative(value / per, room / per, 0.0, self._told(codes))
+            outer, share, phrase = wider
+            yield from (Alternative(value / per, outer / per, share, phrase) for value in right)
+        least = max(outer, MIN_SEPARATION * margin)
+        for value, room, codes in _separate_intervals(
+            self._mistaken(), right, outer, least, margin, limit
+        ):
+            yield Alternative(value / per, room / per, 0.0, self._describe_mistakes(codes))
 
     @property
-    def _near(self) -> str:
-        say: Words = self.words.check["exchange"]
-        near: str = say.near if self.limit.sigma else say.near_computed
+    def _near_feedback(self) -> str:
+        texts: MessageTable = self.language.check["exchange"]
+        near: str = texts.near if self.limit.sigma else texts.near_computed
         return near
 
     def _right(self) -> list[float]:
@@ -196,18 +198,18 @@ class _Asked(Struct, frozen=True):
             if math.isfinite(value):
                 yield one.code, value if strict else abs(value)
 
-    def _told(self, codes: Sequence[str]) -> str:
+    def _describe_mistakes(self, codes: Sequence[str]) -> str:
         """Return the feedback for a value that mistakes give."""
-        say, mistakes = self.words.check["student"], self.words.check["mistakes"]
+        say, mistakes = self.language.check["student"], self.language.check["mistakes"]
         known = [mistakes[code] for code in codes if code in mistakes]
         if not known:
             return ""
         if len(known) > 1:
             names = "; ".join(one.name for one in known)
-            said: str = say.one_of.format(names=names)
-            return said
-        told: str = say.mistake.format(value="", so=known[0].so, where="", advice=known[0].advice)
-        return told
+            phrase: str = say.one_of.format(names=names)
+            return phrase
+        text: str = say.mistake.format(value="", so=known[0].so, where="", advice=known[0].advice)
+        return text
 
     # Senses ------------------------------------------------------------------------------------
 
@@ -216,15 +218,15 @@ class _Asked(Struct, frozen=True):
         if not has_sense(self.item, self.limit):
             return
         turns = question.sign is Sign.TURN
-        for sense in TURNS if turns else WAYS:
+        for sense in TURNS if turns else DIRECTIONS:
             if turns:
                 right = (exact > 0) is (sense is Sense.CCW)
             elif (told := is_right(self.sheet, question, sense)) is not None:
                 right = told
             else:
                 right = entry.sense is not None  # it cannot be proved wrong
-            sign, name = self.words.check["senses"][sense.value]
-            turned = "" if right or not turns else self._told(self._reversing())
+            sign, name = self.language.check["senses"][sense.value]
+            turned = "" if right or not turns else self._describe_mistakes(self._reversing())
             yield Choice(sense, f"{sign} {name}", right, turned)
 
     def _reversing(self) -> list[str]:
@@ -237,11 +239,11 @@ class _Asked(Struct, frozen=True):
         return list(dict.fromkeys(codes)) or ["sign"]
 
 
-def _apart(
+def _separate_intervals(
     mistaken: Iterable[tuple[str, float]],
     right: Sequence[float],
     outer: float,
-    least: float,
+    min_distance: float,
     margin: float,
     limit: Tolerance,
 ) -> Iterator[tuple[float, float, list[str]]]:
@@ -251,16 +253,16 @@ def _apart(
     """
     found: list[tuple[float, float, list[str]]] = []
     for code, value in mistaken:
-        if min(abs(value - one) for one in right) <= least:
+        if min(abs(value - one) for one in right) <= min_distance:
             continue
-        share = max(abs(value / limit.exact), LEAST_SHARE) if limit.exact else 1.0
-        room = min(margin * share, WIDEST * abs(value) or margin)
+        share = max(abs(value / limit.exact), MIN_ERROR_FRACTION) if limit.exact else 1.0
+        room = min(margin * share, MAX_HALF_WIDTH * abs(value) or margin)
         same = next((one for one in found if abs(one[0] - value) <= max(room, one[1])), None)
         if same is None:
             found.append((value, room, [code]))
         elif code not in same[2]:
             same[2].append(code)
-    found = found[:MOST]
+    found = found[:MAX_WRONG_VALUES]
     for number, (value, room, codes) in enumerate(found):
         free = min(abs(value - one) for one in right) - outer
         others = [abs(value - one) / 2 for at, (one, *_) in enumerate(found) if at != number]

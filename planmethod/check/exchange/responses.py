@@ -13,15 +13,15 @@ from pathlib import Path
 from msgspec import Struct
 
 from planmethod.check.exchange.quiz import GapName
-from planmethod.check.model import Unread, Work
-from planmethod.check.works.answer import read_answer
-from planmethod.check.works.cells import HEADS, MAILS, NUMBERED, Cell, cut, key
-from planmethod.check.works.csv_file import csv_rows
-from planmethod.check.works.faults import WorksError, read_bytes
-from planmethod.check.works.gather import Gathering, WorkDraft
-from planmethod.check.works.table import HEAD_ROWS, Head, Row, read_quantity
+from planmethod.check.model import Submission, Unread
+from planmethod.check.submissions.answer import read_answer
+from planmethod.check.submissions.cells import HEADS, MAILS, NUMBERED, Cell, cut, key
+from planmethod.check.submissions.csv_file import csv_rows
+from planmethod.check.submissions.faults import SubmissionError, read_bytes
+from planmethod.check.submissions.gather import Gathering, SubmissionDraft
+from planmethod.check.submissions.table import HEAD_ROWS, Head, Row, read_quantity
 from planmethod.errors import ProblemError
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.problem.source import parse, read_source
 
 _NUMBERED = re.compile(r"([^\W\d]{1,40})\s{0,4}\d+")
@@ -44,12 +44,12 @@ class Responses(Struct, frozen=True):
 
     Attributes
     ----------
-    works : list of Work
+    submissions : list of Submission
     addresses : dict of str to str
         E-mail by student, where the export has it.
     """
 
-    works: list[Work]
+    submissions: list[Submission]
     addresses: dict[str, str]
 
 
@@ -59,11 +59,11 @@ def is_export(path: Path) -> bool:
         return False
     try:
         return _head(csv_rows(read_bytes(path), path), {}) is not None
-    except WorksError:
+    except SubmissionError:
         return False  # the reader of submissions reports the fault
 
 
-def read_columns(told: Iterable[str]) -> dict[str, str]:
+def read_columns(definitions: Iterable[str]) -> dict[str, str]:
     """Return the column definitions: ``Ответ 1=v_B3``, or a TOML file with such keys.
 
     Raises
@@ -72,7 +72,7 @@ def read_columns(told: Iterable[str]) -> dict[str, str]:
         It is neither.
     """
     found: dict[str, str] = {}
-    for one in told:
+    for one in definitions:
         head, equal, what = one.partition("=")
         if equal:
             found[head.strip()] = what.strip()
@@ -80,10 +80,10 @@ def read_columns(told: Iterable[str]) -> dict[str, str]:
         try:
             table = parse(read_source(Path(one)), name=one)
         except ProblemError as error:
-            raise WorksError(f"{one}: {'; '.join(map(str, error.faults))}") from None
+            raise SubmissionError(f"{one}: {'; '.join(map(str, error.faults))}") from None
         for head, what in table.items():
             if not isinstance(what, str):
-                raise WorksError(
+                raise SubmissionError(
                     "{}: '{}' must be a text: a quantity, or one of {}.",
                     one,
                     head,
@@ -116,20 +116,20 @@ def read_responses(
     rows = csv_rows(read_bytes(path), path, CELL_LIMIT)
     at = _head(rows, columns)
     if at is None:
-        raise WorksError(
+        raise SubmissionError(
             "{}: no header row with columns of answers: 'Response 1', 'Response 2'. It has "
             "{}. Specify the columns: --columns 'HEAD=v_B3'.",
             path,
-            _told(rows[0] if rows else ()),
+            _list_heads(rows[0] if rows else ()),
         )
     head = rows[at]
     told = {key(one): what for one, what in columns.items()}
     missing = [one for one in columns if key(one) not in {key(cell.text) for cell in head}]
     if missing:
-        raise WorksError("{}: no column '{}'. It has {}.", path, missing[0], _told(head))
+        raise SubmissionError("{}: no column '{}'. It has {}.", path, missing[0], _list_heads(head))
     for one, what in columns.items():
         if _column(one, told) == Head() and what != "-":
-            raise WorksError(
+            raise SubmissionError(
                 "{}: column '{}' is given as '{}', which is neither a quantity nor one of {}.",
                 path,
                 one,
@@ -139,7 +139,7 @@ def read_responses(
     export = _Export(path, [_column(cell.text, told) for cell in head], names, gaps)
     for row in rows[at + 1 :]:
         export.read(row)
-    return Responses(export.gathering.works(), export.addresses)
+    return Responses(export.gathering.submissions(), export.addresses)
 
 
 def _head(rows: Sequence[Row], columns: Mapping[str, str]) -> int | None:
@@ -151,13 +151,13 @@ def _head(rows: Sequence[Row], columns: Mapping[str, str]) -> int | None:
     return None
 
 
-def _told(row: Row) -> str:
+def _list_heads(row: Row) -> str:
     return ", ".join(f"'{cell.text}'" for cell in row if cell.text) or "—"
 
 
-def _column(text: str, told: Mapping[str, str]) -> Head:
+def _column(text: str, columns: Mapping[str, str]) -> Head:
     """Return the type of a column; an empty head for an ignored one."""
-    what = told.get(key(text))
+    what = columns.get(key(text))
     if what is not None:
         return Head(what) if what in FIELDS else read_quantity(what)
     name = key(text)
@@ -179,7 +179,7 @@ class _Export:
     def __init__(self, path: Path, heads: Sequence[Head], names: Sequence[str], gaps: Gaps) -> None:
         self.path, self.heads, self.names, self.gaps = path, heads, names, gaps
         self.gathering, self.addresses = Gathering(str(path)), dict[str, str]()
-        self._whose: dict[str, str] = {}
+        self._mail_by_name: dict[str, str] = {}
 
     def read(self, row: Row) -> None:
         """Read an attempt; the last row of a student counts."""
@@ -190,7 +190,7 @@ class _Export:
         if not name and not mail:
             if any(not cell.is_blank for cell in given):
                 line = cut(" ".join(cell.text for cell in row))
-                self.gathering.note(Unread.STUDENT, line, row[0].where)
+                self.gathering.note(Unread.STUDENT, line, row[0].location)
             return
         if not mail and all(cell.is_blank for cell in given) and self.addresses:
             return  # the line of averages
@@ -200,13 +200,13 @@ class _Export:
         draft.variant = self._variant(cells)
         for head, cell in cells:
             if head.name:
-                unit = {"unit": Cell(head.unit, cell.where)} if head.unit else {}
-                draft.put(read_answer({"what": Cell(head.name), head.field: cell, **unit}))
-        self._put_gaps(draft, [cell for head, cell in cells if head.field in ("answer", GAPS)])
+                unit = {"unit": Cell(head.unit, cell.location)} if head.unit else {}
+                draft.add_answer(read_answer({"what": Cell(head.name), head.field: cell, **unit}))
+        self._add_gaps(draft, [cell for head, cell in cells if head.field in ("answer", GAPS)])
 
     def _student(self, name: str, mail: str) -> str:
         student = name
-        if mail and self._whose.setdefault(name, mail) != mail:
+        if mail and self._mail_by_name.setdefault(name, mail) != mail:
             student = f"{name} ({mail})"  # another one of the same name
         if mail:
             self.addresses[student] = mail
@@ -218,15 +218,15 @@ class _Export:
             if head.field == "variant" and cell.text:
                 return cell.text
         texts = " ".join(cell.text for head, cell in cells if head.field == "question")
-        words = [str(language(one).check["key"].variant) for one in LANGUAGES]
+        words = [str(get_language(one).check["key"].variant) for one in LANGUAGES]
         for name in sorted(self.names, key=len, reverse=True):
             for word in words:
-                said = re.escape(word.format(variant=name))
-                if re.search(rf"{said}(?!\w)", texts, re.IGNORECASE):
+                phrase = re.escape(word.format(variant=name))
+                if re.search(rf"{phrase}(?!\w)", texts, re.IGNORECASE):
                     return name
         return None
 
-    def _put_gaps(self, draft: WorkDraft, cells: Sequence[Cell]) -> None:
+    def _add_gaps(self, draft: SubmissionDraft, cells: Sequence[Cell]) -> None:
         """Read the columns without a definition: gaps in one cell, or a column for each."""
         if not cells:
             return
@@ -237,12 +237,14 @@ class _Export:
             for cell in parted:
                 for number, text in _gaps(cell.text):
                     if 1 <= number <= len(names):
-                        _put(draft, names[number - 1], Cell(cut(text), f"{cell.where}, {number}"))
+                        _add_gap_answer(
+                            draft, names[number - 1], Cell(cut(text), f"{cell.location}, {number}")
+                        )
         elif len(cells) == len(names):
             for one, cell in zip(names, cells, strict=True):
-                _put(draft, one, cell)
+                _add_gap_answer(draft, one, cell)
         elif any(not cell.is_blank for cell in cells):
-            raise WorksError(
+            raise SubmissionError(
                 "{0}: {1} column{1:||s} of answers, but {2} gaps are expected: {3}. Specify "
                 "each column: --columns 'Response 1=v_B3'.",
                 self.path,
@@ -258,7 +260,7 @@ def _gaps(text: str) -> Iterator[tuple[int, str]]:
         yield int(match[1]), match[2].strip()
 
 
-def _put(draft: WorkDraft, gap: GapName, cell: Cell) -> None:
+def _add_gap_answer(draft: SubmissionDraft, gap: GapName, cell: Cell) -> None:
     field = "sense" if gap.sense else "value"
-    position = Cell(str(gap.position), cell.where)
-    draft.put(read_answer({"id": Cell(gap.id), field: cell, "position": position}))
+    position = Cell(str(gap.position), cell.location)
+    draft.add_answer(read_answer({"id": Cell(gap.id), field: cell, "position": position}))

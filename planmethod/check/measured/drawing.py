@@ -8,13 +8,13 @@ from pathlib import Path
 
 from msgspec import Struct, field
 
-from planmethod.check.works.cells import TEXT_LIMIT
-from planmethod.check.works.faults import WorksError
+from planmethod.check.submissions.cells import TEXT_LIMIT
+from planmethod.check.submissions.faults import SubmissionError
 
 LINES_LIMIT = 20_000
 TEXTS_LIMIT = 20_000
 
-HANDS = {".dxf": "cad", ".svg": "board"}
+PROFILE_BY_SUFFIX = {".dxf": "cad", ".svg": "board"}
 """Drafting profile by file suffix: planmethod's own sheets are read with a ruler."""
 
 STRAIGHT = 1e-4
@@ -26,7 +26,7 @@ REACH_LIMIT = 1e6
 
 def is_drawing(path: Path) -> bool:
     """Return whether a file is a drawing, by its ending."""
-    return path.suffix.lower() in HANDS
+    return path.suffix.lower() in PROFILE_BY_SUFFIX
 
 
 class DrawnLine(Struct, frozen=True):
@@ -69,7 +69,7 @@ class DrawnLetters(Struct, frozen=True):
     wide: float
     high: float
 
-    def apart(self, place: complex) -> float:
+    def distance_to(self, place: complex) -> float:
         """Return the distance of a place from the box of the letters, mm."""
         off = place - self.at
         return abs(
@@ -103,14 +103,14 @@ class MeasuredDrawing(Struct):
         """
         whole: list[complex] = []
         for corner in corners:
-            if whole and not (corner != whole[-1] and _is_near(corner, whole[-1])):
+            if whole and not (corner != whole[-1] and _is_on_sheet(corner, whole[-1])):
                 continue
             if len(whole) > 1 and _goes_on(whole[-2], whole[-1], corner):
                 whole.pop()
             whole.append(corner)
         for start, end in pairwise(whole):
             if len(self.lines) >= LINES_LIMIT:
-                raise WorksError("{}: over {} lines. Keep the plans.", self.path, LINES_LIMIT)
+                raise SubmissionError("{}: over {} lines. Keep the plans.", self.path, LINES_LIMIT)
             self.lines.append(DrawnLine(start, end, layer, colour))
 
     def text(self, text: str, at: complex, wide: float, high: float) -> None:
@@ -122,15 +122,17 @@ class MeasuredDrawing(Struct):
             There are too many.
         """
         told = " ".join(text[: 4 * TEXT_LIMIT].split())
-        if not told or not _is_near(at):
+        if not told or not _is_on_sheet(at):
             return
         if len(self.texts) >= TEXTS_LIMIT:
-            raise WorksError("{}: over {} inscriptions. Keep the plans.", self.path, TEXTS_LIMIT)
+            raise SubmissionError(
+                "{}: over {} inscriptions. Keep the plans.", self.path, TEXTS_LIMIT
+            )
         self.texts.append(DrawnLetters(told, at, wide, high))
 
     def point(self, at: complex, layer: str, colour: int) -> None:
         """Take a point, or the middle of a small circle."""
-        if _is_near(at) and len(self.points) < LINES_LIMIT:
+        if _is_on_sheet(at) and len(self.points) < LINES_LIMIT:
             self.points.append((at, layer, colour))
 
 
@@ -140,6 +142,6 @@ def _goes_on(one: complex, two: complex, three: complex) -> bool:
     return way.real > 0 and abs(way.imag) < STRAIGHT * way.real
 
 
-def _is_near(*places: complex) -> bool:
+def _is_on_sheet(*places: complex) -> bool:
     """Return whether places are numbers, and on a sheet."""
     return all(abs(place) < REACH_LIMIT for place in places)  # False for NaN

@@ -18,7 +18,7 @@ from typing import Any
 from msgspec import Struct
 
 from planmethod.check.measured.drawing import MeasuredDrawing
-from planmethod.check.works.faults import WorksError, read_bytes
+from planmethod.check.submissions.faults import SubmissionError, read_bytes
 
 SIZE_LIMIT = 8 * 1024 * 1024
 ENTITIES_LIMIT = 200_000
@@ -47,14 +47,14 @@ class _Letters(Struct):
     start: complex
     last: complex
     high: float
-    along: complex
+    direction: complex
 
-    def takes(self, at: complex, high: float, along: complex) -> bool:
+    def accepts(self, at: complex, high: float, direction: complex) -> bool:
         """Return whether a letter continues this run."""
-        step = (at - self.last) * along.conjugate()
+        step = (at - self.last) * direction.conjugate()
         tall = max(high, self.high)
         return (
-            abs(along - self.along) < 1e-3
+            abs(direction - self.direction) < 1e-3
             and 0.0 < step.real < GAP * tall
             and abs(step.imag) < 0.6 * tall
         )
@@ -70,11 +70,11 @@ def read_dxf(path: Path) -> MeasuredDrawing:
     """
     data = read_bytes(path, SIZE_LIMIT)
     if data.startswith(b"AC10"):
-        raise WorksError("{}: this is a DWG. Save it as DXF.", path)
+        raise SubmissionError("{}: this is a DWG. Save it as DXF.", path)
     if data.startswith(b"AutoCAD Binary DXF"):
-        raise WorksError("{}: this is a binary DXF. Save it as an ASCII one.", path)
+        raise SubmissionError("{}: this is a binary DXF. Save it as an ASCII one.", path)
     if find_spec("ezdxf") is None:
-        raise WorksError("{}: reading a DXF file requires ezdxf: pip install ezdxf", path)
+        raise SubmissionError("{}: reading a DXF file requires ezdxf: pip install ezdxf", path)
     return _Reader(path, _document(data, path)).read()
 
 
@@ -85,11 +85,13 @@ def _document(data: bytes, path: Path) -> Any:
     try:
         document, _ = recover.read(BytesIO(data), errors="ignore")
     except Exception as error:  # the library meets whatever a stranger has written
-        raise WorksError("{}: this is not a readable DXF file: {}.", path, _told(error)) from None
+        raise SubmissionError(
+            "{}: this is not a readable DXF file: {}.", path, _describe_error(error)
+        ) from None
     return document
 
 
-def _told(error: Exception) -> str:
+def _describe_error(error: Exception) -> str:
     return f"{type(error).__name__} {error}".strip()[:80]
 
 
@@ -105,27 +107,27 @@ class _Reader:
         if isinstance(code, int) and 0 < code <= 20:
             of = enums.InsertUnits
             self.mm = float(units.conversion_factor(of(code), of.Millimeters))
-        self.drawing, self.seen = MeasuredDrawing(path), 0
+        self.drawing, self.entity_count = MeasuredDrawing(path), 0
         self.run: _Letters | None = None
 
     def read(self) -> MeasuredDrawing:
         """Return the contents of the model space."""
         try:
             for entity in self.document.modelspace():
-                self._take(entity, "0", BY_LAYER, 0)
-        except WorksError:
+                self._read_entity(entity, "0", BY_LAYER, 0)
+        except SubmissionError:
             raise
         except Exception as error:  # as above: incomplete entities raise many kinds of exception
-            raise WorksError(
-                "{}: this is not a readable DXF file: {}.", self.path, _told(error)
+            raise SubmissionError(
+                "{}: this is not a readable DXF file: {}.", self.path, _describe_error(error)
             ) from None
         self._end_run()
         return self.drawing
 
-    def _take(self, entity: Any, layer: str, colour: int, depth: int) -> None:
-        self.seen += 1
-        if self.seen > ENTITIES_LIMIT or depth > DEPTH_LIMIT:
-            raise WorksError(
+    def _read_entity(self, entity: Any, layer: str, colour: int, depth: int) -> None:
+        self.entity_count += 1
+        if self.entity_count > ENTITIES_LIMIT or depth > DEPTH_LIMIT:
+            raise SubmissionError(
                 "{}: over {} entities, or blocks nested over {} deep. Keep the plans.",
                 self.path,
                 ENTITIES_LIMIT,
@@ -161,9 +163,9 @@ class _Reader:
         if any(word in name.upper() for word in _ARROWS):
             return
         for part in insert.virtual_entities():
-            self._take(part, layer, colour, depth + 1)
+            self._read_entity(part, layer, colour, depth + 1)
         for attribute in insert.attribs:
-            self._take(attribute, layer, colour, depth + 1)
+            self._read_entity(attribute, layer, colour, depth + 1)
 
     def _at(self, place: Any) -> complex:
         return complex(place[0], place[1]) * self.mm
@@ -202,7 +204,7 @@ class _Reader:
         at, high = self._at(insert.dxf.insert), abs(float(insert.dxf.xscale)) * self.mm
         along = exp(1j * math.radians(float(insert.dxf.get("rotation", 0.0))))
         run = self.run
-        if run is not None and run.takes(at, high, along):
+        if run is not None and run.accepts(at, high, along):
             gap = ((at - run.last) * along.conjugate()).real > 0.95 * max(high, run.high)
             run.text += f" {char}" if gap else char
             run.last = at
@@ -213,9 +215,9 @@ class _Reader:
     def _end_run(self) -> None:
         run, self.run = self.run, None
         if run is not None:
-            end = run.last + run.along * run.high * WIDE
-            middle = (run.start + end) / 2 + run.along * 0.5j * run.high
-            turn, wide = exp(1j * phase(run.along)), abs(end - run.start)
+            end = run.last + run.direction * run.high * WIDE
+            middle = (run.start + end) / 2 + run.direction * 0.5j * run.high
+            turn, wide = exp(1j * phase(run.direction)), abs(end - run.start)
             across = abs(turn.real) * wide + abs(turn.imag) * run.high
             up = abs(turn.imag) * wide + abs(turn.real) * run.high
             self.drawing.text(run.text, middle, across, up)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from planmethod.check.works.faults import WorksError
+from planmethod.check.submissions.faults import SubmissionError
 from planmethod.plans.model import PlanKind
 from planmethod.problem.names import fold
 from planmethod.render.backends.layers import FIGURES, VECTORS
@@ -44,7 +44,7 @@ _OF_COLOUR = {_key(word): number for word, number in COLOURS.items()}
 _COLOUR = tuple(map(_key, ("color", "colour", "цвет")))
 
 
-def read_layers(told: Iterable[str]) -> dict[str, str]:
+def read_layers(options: Iterable[str]) -> dict[str, str]:
     """Return the plan of each layer and colour: ``PLAN_V=velocity``, ``red=velocity``.
 
     Raises
@@ -53,24 +53,24 @@ def read_layers(told: Iterable[str]) -> dict[str, str]:
         Something is no such pair.
     """
     found: dict[str, str] = {}
-    for one in told:
+    for one in options:
         name, equal, plan = one.partition("=")
         kind = _OF_NAME.get(_key(plan), "") if equal else ""
         if not name.strip() or not kind:
-            raise WorksError(
+            raise SubmissionError(
                 "--layer {}: write NAME=velocity, NAME=acceleration or NAME=plans.", one[:60]
             )
         found[_key(name)] = kind
     return found
 
 
-def plan_of_layer(told: Mapping[str, str], layer: str, colour: int) -> str:
+def plan_of_layer(layers: Mapping[str, str], layer: str, colour: int) -> str:
     """Return which plan a line of a layer and colour belongs to; empty where it is of none."""
-    if plan := told.get(_key(layer)):
+    if plan := layers.get(_key(layer)):
         return plan
-    for name, plan in told.items():
+    for name, plan in layers.items():
         word, _, number = name.rpartition(" ")
         numbered = word in _COLOUR and number == str(colour)
         if colour and (numbered or _OF_COLOUR.get(name) == colour):
             return plan
-    return "" if told else _OF_NAME.get(_key(layer), "")
+    return "" if layers else _OF_NAME.get(_key(layer), "")

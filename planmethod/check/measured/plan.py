@@ -13,9 +13,14 @@ from pathlib import Path
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.check.letters import plain
-from planmethod.check.measured.asked import asked_of_drawing, vector_of
-from planmethod.check.measured.drawing import HANDS, DrawnLetters, DrawnLine, MeasuredDrawing
+from planmethod.check.letters import normalize
+from planmethod.check.measured.drawing import (
+    PROFILE_BY_SUFFIX,
+    DrawnLetters,
+    DrawnLine,
+    MeasuredDrawing,
+)
+from planmethod.check.measured.drawing_questions import list_drawing_items, vector_of
 from planmethod.check.measured.dxf_file import read_dxf
 from planmethod.check.measured.layers import PLANS, plan_of_layer
 from planmethod.check.measured.svg_file import read_svg
@@ -27,14 +32,14 @@ from planmethod.check.measured.vertices import (
     vertices_of,
     without_barbs,
 )
-from planmethod.check.model import Unread, Work, WrittenAnswer
+from planmethod.check.model import Submission, Unread, WrittenAnswer
 from planmethod.check.questions import Sign
 from planmethod.check.sheet import Sheet, point
+from planmethod.check.submissions.cells import Cell, mark_unreadable
+from planmethod.check.submissions.faults import SubmissionError
+from planmethod.check.submissions.gather import SubmissionDraft, scale_name
+from planmethod.check.submissions.units import read_number
 from planmethod.check.task import Task, TaskItem
-from planmethod.check.works.cells import Cell, refused
-from planmethod.check.works.faults import WorksError
-from planmethod.check.works.gather import WorkDraft, scale_name
-from planmethod.check.works.units import read_number
 from planmethod.construct.steps import PointName
 from planmethod.plans.model import FACTS, RATES, PlanKind, Vector, pole_letter
 
@@ -48,12 +53,12 @@ STEP_DEG = 0.01
 SAME_DEG = 2.0
 """Maximum difference of the rotations of vectors for the plan to be rotated as a whole."""
 
-TURNED_DEG = 5.0
-LEAST_MM = 5.0
+MIN_ROTATION_DEG = 5.0
+MIN_LENGTH_MM = 5.0
 DETAIL_MM = 20.0
 """Maximum distance between an enlarged detail and its scale, mm."""
 
-WHOLE = 3
+MIN_ROTATED_VECTORS = 3
 """Minimum number of vectors of sufficient length that must be rotated equally."""
 
 LIKE_DEG = 10.0
@@ -62,14 +67,14 @@ LIKE_DEG = 10.0
 READERS: Mapping[str, Callable[[Path], MeasuredDrawing]] = {".dxf": read_dxf, ".svg": read_svg}
 
 
-class FoundPlan(Struct):
+class DetectedPlan(Struct):
     """One plan of a drawing with its letters (найденный план)."""
 
     kind: PlanKind
     vertices: Vertices
     at: dict[PointName, list[int]]
     """Vertices of a point of the plan: its own first, then those next to its letter."""
-    doubtful: frozenset[PointName] = frozenset()
+    ambiguous: frozenset[PointName] = frozenset()
     """Points whose letters may name another vertex."""
 
     def vector(self, tail: PointName, head: PointName) -> complex | None:
@@ -86,7 +91,7 @@ class FoundPlan(Struct):
         return self.vertices.places[two] - self.vertices.places[one]
 
 
-def read_drawing(path: Path, layers: Mapping[str, str], task: Task) -> Work:
+def read_drawing(path: Path, layers: Mapping[str, str], task: Task) -> Submission:
     """Return the plans of a drawing as a submission: lengths in mm, directions in degrees.
 
     Parameters
@@ -102,20 +107,20 @@ def read_drawing(path: Path, layers: Mapping[str, str], task: Task) -> Work:
         The file cannot be read, or no layer of it is that of a plan.
     """
     drawing = READERS[path.suffix.lower()](path)
-    draft = WorkDraft(path.stem, str(path), variant=task.variant)
+    draft = SubmissionDraft(path.stem, str(path), variant=task.variant)
     _read_scales(draft, drawing.texts)
-    hand = HANDS[path.suffix.lower()]
-    items = asked_of_drawing(task)
+    hand = PROFILE_BY_SUFFIX[path.suffix.lower()]
+    items = list_drawing_items(task)
     sheet = task.sheet(task.first, drawn=hand)
     found = {plan.kind: plan for plan in _plans(drawing, layers, sheet, draft, task.count)}
     for kind in RATES:
         if kind not in found and any(item.question.plan is kind for item in items):
             draft.remark(Unread.PLAN, FACTS[kind].pole, path.name)
     answers = list(_answers(items, sheet, found, draft, path.name))
-    return replace(draft.work(), answers=tuple(answers), drawn=hand)
+    return replace(draft.build(), answers=tuple(answers), drawn=hand)
 
 
-def _read_scales(draft: WorkDraft, texts: Sequence[DrawnLetters]) -> None:
+def _read_scales(draft: SubmissionDraft, texts: Sequence[DrawnLetters]) -> None:
     """Read the scales written on the drawing: ``μ_v = 0,05 (м/с)/мм``."""
     for text in texts:
         name, equal, value = text.text.partition("=")
@@ -125,7 +130,7 @@ def _read_scales(draft: WorkDraft, texts: Sequence[DrawnLetters]) -> None:
         if per_unit := re.match(r"\s*([\d.,]{1,20})\s*(?:mm|мм)\s*/", value):
             number = read_number(per_unit[1])  # millimetres of a unit: the other convention
             value = f"{1.0 / number.value!r}" if number is not None and number.value else value
-        draft.put_scale(scale, Cell(value.strip(), f"{Path(draft.where).name}"), "")
+        draft.set_scale(scale, Cell(value.strip(), f"{Path(draft.location).name}"), "")
 
 
 # Which lines are a plan ----------------------------------------------------------------------
@@ -135,9 +140,9 @@ def _plans(
     drawing: MeasuredDrawing,
     layers: Mapping[str, str],
     sheet: Sheet,
-    draft: WorkDraft,
+    draft: SubmissionDraft,
     count: int,
-) -> Iterator[FoundPlan]:
+) -> Iterator[DetectedPlan]:
     own: dict[PlanKind, list[DrawnLine]] = {kind: [] for kind in RATES}
     mixed: list[DrawnLine] = []
     for line in drawing.lines:
@@ -148,14 +153,14 @@ def _plans(
             own[PlanKind(plan)].append(line)
     if not mixed and not any(own.values()):
         shown = ", ".join(dict.fromkeys(line.layer for line in drawing.lines)) or "—"
-        raise WorksError(
+        raise SubmissionError(
             "{}: no layer contains a plan. Layers with lines: {}. Name one: --layer "
             "NAME=velocity, NAME=acceleration, or NAME=plans for both plans.",
             drawing.path,
             shown[:300],
         )
     if len(mixed) + sum(map(len, own.values())) > PLAN_LINES:
-        raise WorksError(
+        raise SubmissionError(
             "{}: over {} lines are plans. Name their layers.", drawing.path, PLAN_LINES
         )
     parts: dict[PlanKind, list[list[DrawnLine]]] = {kind: [] for kind in RATES}
@@ -171,7 +176,7 @@ def _plans(
             at = sheet.questions.position
             lines = _in_order(several)[at] if len(several) == count else []
             if not lines:
-                where = f"{Path(draft.where).name}, {FACTS[kind].pole}"
+                where = f"{Path(draft.location).name}, {FACTS[kind].pole}"
                 draft.remark(Unread.SEVERAL, str(len(several)), where)
         if lines:
             marks = [
@@ -190,7 +195,7 @@ def _without_details(
     for text in texts:
         if re.search(r"\(\d{1,3}:1\)", text.text):
             apart = [
-                min(text.apart(end) for line in part for end in (line.start, line.end))
+                min(text.distance_to(end) for line in part for end in (line.start, line.end))
                 for part in left
             ]
             if min(apart, default=DETAIL_MM) < DETAIL_MM:
@@ -224,13 +229,13 @@ def _parts(lines: Sequence[DrawnLine]) -> list[list[DrawnLine]]:
 
 def _touch(one: DrawnLine, two: DrawnLine) -> bool:
     return any(
-        _apart(end, line) < SNAP_MM
+        _distance(end, line) < SNAP_MM
         for line, other in ((one, two), (two, one))
         for end in (other.start, other.end)
     )
 
 
-def _apart(place: complex, line: DrawnLine) -> float:
+def _distance(place: complex, line: DrawnLine) -> float:
     along = (line.end - line.start) / line.length
     on = (place - line.start) * along.conjugate()
     return abs(complex(on.real - min(max(on.real, 0.0), line.length), on.imag))
@@ -241,12 +246,14 @@ def _kind_of(part: Sequence[DrawnLine], texts: Sequence[DrawnLetters]) -> PlanKi
     vertices = vertices_of(part)
     poles = [text for text in texts if letters_in(text.text)[:1] in (["p"], ["π"])]
     near = letter(vertices, poles, {"p", "π", *(x for t in poles for x in letters_in(t.text))})
-    if "π" in near.own:
+    if "π" in near.by_letter:
         return PlanKind.ACCELERATION
-    if "p" not in near.own:
+    if "p" not in near.by_letter:
         return None
-    place = near.places[near.own["p"]]
-    text = min((t for t in poles if "p" in letters_in(t.text)), key=lambda t: t.apart(place)).text
+    place = near.places[near.by_letter["p"]]
+    text = min(
+        (t for t in poles if "p" in letters_in(t.text)), key=lambda t: t.distance_to(place)
+    ).text
     return PlanKind.ACCELERATION if text[1:2] in ("'", "′", "’") else PlanKind.VELOCITY
 
 
@@ -256,8 +263,8 @@ def _lettered(
     marks: Sequence[complex],
     texts: Sequence[DrawnLetters],
     sheet: Sheet,
-    draft: WorkDraft,
-) -> FoundPlan:
+    draft: SubmissionDraft,
+) -> DetectedPlan:
     known = sheet.questions.lettered(kind)
     plan = sheet.questions.construction.plan(kind)
     of = {at: name for name, at in known.items()}
@@ -267,25 +274,25 @@ def _lettered(
     vertices = letter(vertices_of(lines, marks), texts, known, joined)
     pole = plan.pole
     at: dict[PointName, list[int]] = {}
-    for name, vertex in vertices.own.items():
+    for name, vertex in vertices.by_letter.items():
         at.setdefault(known[name], []).append(vertex)
-    where = f"{Path(draft.where).name}, {FACTS[kind].pole}"
-    for name, beside in vertices.others.items():
+    where = f"{Path(draft.location).name}, {FACTS[kind].pole}"
+    for name, beside in vertices.unlabelled.items():
         at.setdefault(known[name], []).extend(beside)
         for vertex in (one for one in beside if one not in vertices.inner):
-            draft.remark(Unread.OPEN, f"{name}: {_told(vertices.places[vertex])}", where)
+            draft.remark(Unread.OPEN, f"{name}: {_format_point(vertices.places[vertex])}", where)
     if pole is not None and pole not in at and len(marks) == 1:  # a point without a letter
         at[pole] = [v for v, place in enumerate(vertices.places) if abs(place - marks[0]) < SNAP_MM]
         vertices.lone = [vertex for vertex in vertices.lone if vertex not in at[pole]]
     for vertex in vertices.lone:
-        draft.remark(Unread.VERTEX, _told(vertices.places[vertex]), where)
-    doubtful = frozenset(known[name] for name in vertices.doubtful)
-    return FoundPlan(
+        draft.remark(Unread.VERTEX, _format_point(vertices.places[vertex]), where)
+    doubtful = frozenset(known[name] for name in vertices.ambiguous)
+    return DetectedPlan(
         kind, vertices, {name: list(dict.fromkeys(v)) for name, v in at.items()}, doubtful
     )
 
 
-def _told(place: complex) -> str:
+def _format_point(place: complex) -> str:
     return f"({place.real:.1f}; {place.imag:.1f})"
 
 
@@ -295,20 +302,20 @@ def _told(place: complex) -> str:
 def _answers(
     items: Sequence[TaskItem],
     sheet: Sheet,
-    found: Mapping[PlanKind, FoundPlan],
-    draft: WorkDraft,
+    plans: Mapping[PlanKind, DetectedPlan],
+    draft: SubmissionDraft,
     name: str,
 ) -> Iterator[WrittenAnswer]:
     missing: dict[tuple[str, PlanKind], None] = {}
-    turns = {kind: _turns(plan, sheet) for kind, plan in found.items()}
-    both = _turn([turn for own in turns.values() for turn in own])
-    turned = {kind: both or _turn(own) for kind, own in turns.items()}
+    turns = {kind: _rotations(plan, sheet) for kind, plan in plans.items()}
+    both = _common_rotation([turn for own in turns.values() for turn in own])
+    turned = {kind: both or _common_rotation(own) for kind, own in turns.items()}
     for kind, turn in turned.items():
         if turn:
             draft.remark(Unread.TURNED, f"{turn:.1f}°", f"{name}, {FACTS[kind].pole}")
     for item in items:
         question = vector_of(sheet, item.question)
-        plan = None if question.plan is None else found.get(question.plan)
+        plan = None if question.plan is None else plans.get(question.plan)
         if plan is None or question.plan is None or question.ends is None:
             continue
         vector = plan.vector(*question.ends)
@@ -318,22 +325,22 @@ def _answers(
                     missing.setdefault((_letters(sheet, question.plan, end), question.plan))
             continue
         where = f"{name}, {item.id}"
-        if doubtful := plan.doubtful.intersection(question.ends):
+        if doubtful := plan.ambiguous.intersection(question.ends):
             shown = ", ".join(sorted(_letters(sheet, question.plan, end) for end in doubtful))
             base = WrittenAnswer(id=item.id, position=item.position)
-            yield refused(Unread.DOUBT, shown, where, base=base)
+            yield mark_unreadable(Unread.DOUBT, shown, where, base=base)
             continue
         if item.question.sign is not Sign.ANGLE:
             mm = round(abs(vector), 2)
             yield WrittenAnswer(
-                id=item.id, mm=mm, mm_step=STEP_MM, raw=f"{mm:g}", where=where,
+                id=item.id, mm=mm, mm_step=STEP_MM, raw=f"{mm:g}", location=where,
                 position=item.position,
             )  # fmt: skip
         elif abs(vector) > SNAP_MM:
-            degrees = math.degrees(phase(vector * question.way)) - turned[question.plan]
+            degrees = math.degrees(phase(vector * question.direction_sign)) - turned[question.plan]
             value = round((degrees + 180.0) % 360.0 - 180.0, 2)
             yield WrittenAnswer(
-                id=item.id, value=value, unit="°", step=STEP_DEG, raw=f"{value:g}°", where=where,
+                id=item.id, value=value, unit="°", step=STEP_DEG, raw=f"{value:g}°", location=where,
                 position=item.position,
             )  # fmt: skip
     for letters, kind in missing:
@@ -344,10 +351,10 @@ def _letters(sheet: Sheet, kind: PlanKind, point_name: PointName) -> str:
     plan = sheet.questions.construction.plan(kind)
     if point_name == plan.pole:
         return pole_letter(sheet.questions.solution.problem, kind)
-    return plain(plan.letters.get(point_name, str(point_name)))
+    return normalize(plan.letters.get(point_name, str(point_name)))
 
 
-def _turns(plan: FoundPlan, sheet: Sheet) -> list[float]:
+def _rotations(plan: DetectedPlan, sheet: Sheet) -> list[float]:
     """Return by how many degrees the vectors of a plan are turned."""
     turns: list[float] = []
     value = sheet.trace.value
@@ -356,7 +363,7 @@ def _turns(plan: FoundPlan, sheet: Sheet) -> list[float]:
         if drawn is None or tail not in value or head not in value:
             continue
         exact = point(value[head]) - point(value[tail])
-        if min(abs(drawn), abs(exact)) > LEAST_MM:
+        if min(abs(drawn), abs(exact)) > MIN_LENGTH_MM:
             turns.append(math.degrees(phase(drawn / exact)))
     return turns
 
@@ -365,11 +372,11 @@ def _vectors(sheet: Sheet, kind: PlanKind) -> Sequence[Vector]:
     return sheet.questions.construction.plan(kind).vectors
 
 
-def _turn(turns: Sequence[float]) -> float:
+def _common_rotation(turns: Sequence[float]) -> float:
     """Return by how many degrees vectors are turned as a whole; 0 where they are not."""
-    if len(turns) < WHOLE:
+    if len(turns) < MIN_ROTATED_VECTORS:
         return 0.0
     off = [(turn - turns[0] + 180.0) % 360.0 - 180.0 for turn in turns]
     mean = (turns[0] + math.fsum(off) / len(off) + 180.0) % 360.0 - 180.0
     alike = max(off) - min(off) < SAME_DEG
-    return mean if alike and TURNED_DEG < abs(mean) < 180.0 - LIKE_DEG else 0.0
+    return mean if alike and MIN_ROTATION_DEG < abs(mean) < 180.0 - LIKE_DEG else 0.0

@@ -11,7 +11,7 @@ from typing import Any
 from lxml import etree
 
 from planmethod.check.measured.drawing import MeasuredDrawing
-from planmethod.check.works.faults import WorksError, read_bytes
+from planmethod.check.submissions.faults import SubmissionError, read_bytes
 from planmethod.render.backends.layers import FIGURES, VECTORS, layer_of
 from planmethod.render.ink.drawing import Pen
 
@@ -43,18 +43,18 @@ def read_svg(path: Path) -> MeasuredDrawing:
     try:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
-        raise WorksError("{}: this is not an SVG file: {}.", path, str(error)[:80]) from None
+        raise SubmissionError("{}: this is not an SVG file: {}.", path, str(error)[:80]) from None
     if root.tag != f"{_SVG}svg" or not str(root.get("height", "")).endswith("mm"):
-        raise WorksError("{}: this is not an SVG sheet of planmethod. Save it as DXF.", path)
+        raise SubmissionError("{}: this is not an SVG sheet of planmethod. Save it as DXF.", path)
     drawing = MeasuredDrawing(path)
     try:
-        _take(root, drawing)
+        _read_elements(root, drawing)
     except ValueError as error:
-        raise WorksError("{}: this is not an SVG file: {}.", path, str(error)[:80]) from None
+        raise SubmissionError("{}: this is not an SVG file: {}.", path, str(error)[:80]) from None
     return drawing
 
 
-def _take(root: Any, drawing: MeasuredDrawing) -> None:
+def _read_elements(root: Any, drawing: MeasuredDrawing) -> None:
     held: tuple[str, list[complex]] | None = None
     for element in root.iter(f"{_SVG}path", f"{_SVG}text"):
         if element.tag == f"{_SVG}text":
@@ -82,10 +82,10 @@ def _to_tip(corners: list[complex], tip: complex) -> list[complex]:
     return [corners[0], tip] if near else corners
 
 
-def _corners(told: str) -> Iterator[complex]:
+def _corners(data: str) -> Iterator[complex]:
     """Yield the corners of a path of straight lines, y up; none from where it bends."""
     command, numbers, at, start = "", list[float](), 0j, 0j
-    for step in _STEP.finditer(told):
+    for step in _STEP.finditer(data):
         if step[1]:
             command = step[1]
             if command in "Zz":

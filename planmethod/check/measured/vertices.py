@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from msgspec import Struct, field
 
-from planmethod.check.letters import plain
+from planmethod.check.letters import normalize
 from planmethod.check.measured.drawing import DrawnLetters, DrawnLine
 
 SNAP_MM = 0.3
@@ -22,7 +22,7 @@ STRAIGHT = 2e-3
 BARB_MM, BARB_SINE = 6.0, 0.6
 """Strokes of an arrowhead: maximum length, and maximum sine of their angle."""
 
-BESIDE = 0.1
+MIDDLE_WEIGHT = 0.1
 """Weight of the distance to the middle of a letter, relative to that to its box."""
 
 JOINED = 4.0
@@ -33,7 +33,7 @@ DOUBT = 0.5
 
 ROUNDS = 100
 
-_APART = re.compile(r"[,;≡=\s]+")
+_SEPARATORS = re.compile(r"[,;≡=\s]+")
 
 
 class Vertices(Struct):
@@ -47,32 +47,32 @@ class Vertices(Struct):
         Vertices that a line joins, from the first to the second.
     longer : list of (int, int)
         The same of lines that go straight on from one another.
-    own : dict of str to int
+    by_letter : dict of str to int
         Vertex by its letter, as `plain` has it.
-    others : dict of str to list of int
+    unlabelled : dict of str to list of int
         Vertices without a letter that have this one next to them: where a line ends that does not
         meet the others.
     lone : list of int
         Vertices without a nearby letter.
     inner : set of int
         Vertices from which a line goes straight on.
-    doubtful : list of str
+    ambiguous : list of str
         Letters that may as well name another vertex.
     """
 
     places: list[complex]
     lines: list[tuple[int, int]]
     longer: list[tuple[int, int]] = field(default_factory=list)
-    own: dict[str, int] = field(default_factory=dict)
-    others: dict[str, list[int]] = field(default_factory=dict)
+    by_letter: dict[str, int] = field(default_factory=dict)
+    unlabelled: dict[str, list[int]] = field(default_factory=dict)
     lone: list[int] = field(default_factory=list)
     inner: set[int] = field(default_factory=set)
-    doubtful: list[str] = field(default_factory=list)
+    ambiguous: list[str] = field(default_factory=list)
 
 
 def letters_in(text: str) -> list[str]:
     """Return the letters of an inscription: ``p, a, c`` and ``e ≡ d`` are several."""
-    return [letter for letter in map(plain, _APART.split(text)) if letter]
+    return [letter for letter in map(normalize, _SEPARATORS.split(text)) if letter]
 
 
 def without_barbs(lines: Sequence[DrawnLine]) -> list[DrawnLine]:
@@ -129,22 +129,22 @@ def vertices_of(lines: Iterable[DrawnLine], marks: Iterable[complex] = ()) -> Ve
     return found
 
 
-def _lengthen(found: Vertices) -> None:
+def _lengthen(vertices: Vertices) -> None:
     """Add the joined line for lines that continue each other straight."""
     seen: set[tuple[int, int]] = set()
-    for middle in range(len(found.places)):
-        whole = [*found.lines, *found.longer]
+    for middle in range(len(vertices.places)):
+        whole = [*vertices.lines, *vertices.longer]
         ends = [one if two == middle else two for one, two in whole if middle in (one, two)]
         for number, one in enumerate(ends):
             for two in ends[:number]:
-                way = (found.places[one] - found.places[middle]) / (
-                    found.places[middle] - found.places[two]
+                way = (vertices.places[one] - vertices.places[middle]) / (
+                    vertices.places[middle] - vertices.places[two]
                 )
                 if way.real > 0 and abs(way.imag) < STRAIGHT * way.real:
-                    found.inner.add(middle)
+                    vertices.inner.add(middle)
                     if (pair := (min(one, two), max(one, two))) not in seen:
                         seen.add(pair)
-                        found.longer.append(pair)
+                        vertices.longer.append(pair)
 
 
 class _Placing:
@@ -153,49 +153,55 @@ class _Placing:
     def __init__(
         self,
         vertices: Vertices,
-        told: Sequence[tuple[DrawnLetters, list[str]]],
+        inscriptions: Sequence[tuple[DrawnLetters, list[str]]],
         joined: Collection[frozenset[str]],
     ) -> None:
         self.lines = {frozenset(pair) for pair in (*vertices.lines, *vertices.longer)}
         self.joined = joined
-        self.letters = [letters for _, letters in told]
-        self.apart: list[dict[int, float]] = []
-        for text, _ in told:
+        self.letters = [letters for _, letters in inscriptions]
+        self.distances: list[dict[int, float]] = []
+        for text, _ in inscriptions:
             near = max(NEAR_MM, NEAR_HEIGHTS * text.high)
-            found = ((v, text.apart(at), abs(text.at - at)) for v, at in enumerate(vertices.places))
-            self.apart.append({v: apart + BESIDE * far for v, apart, far in found if apart < near})
+            found = (
+                (v, text.distance_to(at), abs(text.at - at)) for v, at in enumerate(vertices.places)
+            )
+            self.distances.append(
+                {v: apart + MIDDLE_WEIGHT * far for v, apart, far in found if apart < near}
+            )
         self.at: dict[int, int] = {}
 
     def place(self) -> None:
         """Give inscriptions their vertices, the nearest first; then better ones while there are."""
-        pairs = sorted((d, n, v) for n, found in enumerate(self.apart) for v, d in found.items())
+        pairs = sorted(
+            (d, n, v) for n, found in enumerate(self.distances) for v, d in found.items()
+        )
         for _, number, vertex in pairs:
             if number not in self.at and vertex not in self.at.values():
                 self.at[number] = vertex
         for _ in range(ROUNDS):
-            better = [self._worse(at) for at in self._others()]
+            better = [self._worse(at) for at in self._alternatives()]
             least = min(better, key=lambda pair: pair[0], default=(0.0, self.at))
             if least[0] > -1e-9:
                 return
             self.at = least[1]
 
-    def doubtful(self) -> set[int]:
+    def find_ambiguous(self) -> set[int]:
         """Return the inscriptions for which another placement is nearly as good."""
         found: set[int] = set()
-        for at in self._others():
+        for at in self._alternatives():
             if self._worse(at)[0] < DOUBT:
                 found |= {number for number, vertex in at.items() if self.at[number] != vertex}
         return found
 
-    def _others(self) -> Iterator[dict[int, int]]:
+    def _alternatives(self) -> Iterator[dict[int, int]]:
         """Yield placings with two inscriptions exchanged, or one by a free vertex."""
         taken = {vertex: number for number, vertex in self.at.items()}
         for number, vertex in self.at.items():
-            for to in self.apart[number]:
+            for to in self.distances[number]:
                 other = taken.get(to)
                 if other is None:
                     yield {**self.at, number: to}
-                elif other < number and vertex in self.apart[other]:
+                elif other < number and vertex in self.distances[other]:
                     yield {**self.at, number: to, other: vertex}
 
     def _worse(self, at: dict[int, int]) -> tuple[float, dict[int, int]]:
@@ -208,7 +214,7 @@ class _Placing:
             for pair in self.joined
             if pair <= where.keys()
         )
-        return sum(self.apart[n][v] for n, v in at.items()) - JOINED * met
+        return sum(self.distances[n][v] for n, v in at.items()) - JOINED * met
 
 
 def letter(
@@ -233,26 +239,28 @@ def letter(
     placing.place()
     given = dict(placing.at)
     taken = {vertex: number for number, vertex in given.items()}
-    for number, found in enumerate(placing.apart):  # two inscriptions at one vertex
+    for number, found in enumerate(placing.distances):  # two inscriptions at one vertex
         for vertex, apart in sorted(found.items(), key=lambda pair: pair[1])[:1]:
             other = taken.get(vertex)
-            most = 0.0 if other is None else placing.apart[other][vertex] + told[number][0].high
+            most = 0.0 if other is None else placing.distances[other][vertex] + told[number][0].high
             if number not in given and apart < most:
                 given[number] = vertex
-    doubtful = placing.doubtful()
+    doubtful = placing.find_ambiguous()
     for number, vertex in given.items():
         for name in told[number][1]:
-            vertices.own.setdefault(name, vertex)
+            vertices.by_letter.setdefault(name, vertex)
             if number in doubtful:
-                vertices.doubtful.append(name)
+                vertices.ambiguous.append(name)
     for vertex in range(len(vertices.places)):
         if vertex in taken:
             continue
-        beside = [(found[vertex], n) for n, found in enumerate(placing.apart) if vertex in found]
+        beside = [
+            (found[vertex], n) for n, found in enumerate(placing.distances) if vertex in found
+        ]
         if not beside:
             if vertex not in vertices.inner:
                 vertices.lone.append(vertex)
             continue
         for name in told[min(beside)[1]][1]:
-            vertices.others.setdefault(name, []).append(vertex)
+            vertices.unlabelled.setdefault(name, []).append(vertex)
     return vertices

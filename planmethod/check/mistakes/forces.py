@@ -25,7 +25,7 @@ def inertia_along(scene: MistakeContext) -> Iterator[Change]:
     every: dict[Name, tuple[Step, ...]] = {}
     for given in _loads(scene, LoadKind.INERTIA):
         assert given.force is not None
-        carry = scene.made.get(given.force.head)
+        carry = scene.steps_by_name.get(given.force.head)
         step = scene.compute(carry.times) if isinstance(carry, steps.Carry) else None
         if step is not None:
             every[step.out] = times(step, -1.0)
@@ -82,7 +82,7 @@ def moments_in_mm(scene: MistakeContext) -> Iterator[Change]:
     changed: dict[Name, tuple[Step, ...]] = {}
     for step in scene.steps:
         if isinstance(step, steps.Compute) and any(
-            isinstance(scene.made[name], steps.MeasureArm) for name, _ in step.powers
+            isinstance(scene.steps_by_name[name], steps.MeasureArm) for name, _ in step.powers
         ):
             changed[step.out] = times(step, 1000.0) if (mu_l, 1) in step.powers else (step,)
     if changed:
@@ -111,9 +111,9 @@ def reaction_not_reversed(scene: MistakeContext) -> Iterator[Change]:
 def lever_not_turned(scene: MistakeContext) -> Iterator[Change]:
     """Z1: forces on the velocity plan that was not turned."""
     changed: dict[Name, tuple[Step, ...]] = {
-        step.out: (replace(step, turned=False),)
+        step.out: (replace(step, rotated=False),)
         for step in scene.steps
-        if isinstance(step, steps.Carry) and step.turned
+        if isinstance(step, steps.Carry) and step.rotated
     }
     if changed:
         yield Change("Z1", "", changed)
@@ -128,7 +128,7 @@ def couple_not_converted(scene: MistakeContext) -> Iterator[Change]:
         if not isinstance(step, steps.Compute) or len(step.powers) != 2:
             continue
         (one, _), (two, power) = step.powers
-        if one in couples and two in scene.rates and power == 1 and mu_v in scene.made:
+        if one in couples and two in scene.rates and power == 1 and mu_v in scene.steps_by_name:
             changed[step.out] = (replace(step, powers=((one, 1), (mu_v, 1))),)
     if changed:
         yield Change("Z2", "", changed)

@@ -22,7 +22,7 @@ from planmethod.construct.steps import (
 )
 from planmethod.plans.forces.board import ForceBoard
 from planmethod.plans.model import PlanKind
-from planmethod.plans.motion.leads import Turning
+from planmethod.plans.motion.legs import Turning
 from planmethod.plans.segments import Segments
 
 Powers = tuple[tuple[NumberName, int], ...]
@@ -34,7 +34,7 @@ class Change(Struct, frozen=True):
     Attributes
     ----------
     code : str
-    where : str
+    place : str
         Link, point or pair, as people write it.
     steps : mapping of Name to tuple of Step
         Steps that replace a step.
@@ -47,7 +47,7 @@ class Change(Struct, frozen=True):
     """
 
     code: str
-    where: str
+    place: str
     steps: Mapping[Name, tuple[Step, ...]] = field(default_factory=lambda: MappingProxyType({}))
     data: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
     prior: float = 1.0
@@ -67,10 +67,10 @@ class MistakeContext:
         self.sheet = sheet
         self.solution = sheet.questions.solution
         self.problem = self.solution.problem
-        self.kin = self.solution.construction.kinematics
+        self.kinematics = self.solution.construction.kinematics
         self.draft = sheet.questions.selecting.draft
         self.steps = sheet.program.steps
-        self.made = sheet.made
+        self.steps_by_name = sheet.steps_by_name
 
     @property
     def board(self) -> ForceBoard | None:
@@ -88,21 +88,21 @@ class MistakeContext:
 
     def turnings(self, plan: PlanKind) -> Iterator[tuple[str, Turning]]:
         """Yield the links whose ω (ε) is read from a plan of the sheet."""
-        rates = self.kin.rates(plan)
-        for (of, link), turning in self.kin.turnings.items():
-            if of is plan and rates.get(link) in self.made:
+        rates = self.kinematics.rates(plan)
+        for (of, link), turning in self.kinematics.turnings.items():
+            if of is plan and rates.get(link) in self.steps_by_name:
                 yield link, turning
 
     def compute(self, name: Name | None) -> Compute | None:
         """Return the step that computes a number; None where the sheet has no such step."""
-        step = None if name is None else self.made.get(name)
+        step = None if name is None else self.steps_by_name.get(name)
         return step if isinstance(step, Compute) else None
 
     @cached_property
     def rates(self) -> dict[NumberName, str]:
         """Angular velocities by their numbers, and a link that turns so."""
         found: dict[NumberName, str] = {}
-        for link, name in self.kin.omega.items():
+        for link, name in self.kinematics.omega.items():
             found.setdefault(name, link)
         return found
 

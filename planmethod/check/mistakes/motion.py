@@ -9,7 +9,7 @@ from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
-from planmethod.plans.motion.leads import Relative, Turning
+from planmethod.plans.motion.legs import Relative, Turning
 
 LITTLE = 0.05
 """Share of a component below which it is as good as forgotten."""
@@ -30,7 +30,7 @@ def _along_the_link(scene: MistakeContext, plan: PlanKind, code: str) -> Iterato
 
 def _is_ray(scene: MistakeContext, step: steps.Perpendicular, turning: Turning) -> bool:
     """Return whether a perpendicular is the line across a link that its turning is read along."""
-    line = scene.made[step.to]
+    line = scene.steps_by_name[step.to]
     ends = {turning.joint, turning.place}
     return (
         step.through == turning.start
@@ -53,7 +53,7 @@ def driver_reversed(scene: MistakeContext) -> Iterator[Change]:
     """V2: the driver moves the other way."""
     drive = scene.problem.drive
     name = NumberName(drive.coordinate.rates[0])
-    if name in scene.made and (rate := scene.exact(name)):
+    if name in scene.steps_by_name and (rate := scene.exact(name)):
         # One wrong sense alone does not indicate the driver.
         yield Change("V2", drive.link, data={name: -rate}, prior=0.04)
 
@@ -84,7 +84,7 @@ def _mirrored(step: steps.Similar) -> tuple[Step, ...]:
     return (
         steps.Join(line, step.link_b, step.link_c),
         steps.Perpendicular(across, step.link_s, line),
-        steps.MeetLines(foot, line, across),
+        steps.IntersectLines(foot, line, across),
         steps.Carry(image, foot, step.link_s, foot),
         steps.Similar(step.out, *ends, step.side, step.span, step.arm),
     )
@@ -94,7 +94,7 @@ def sliding_forgotten(scene: MistakeContext) -> Iterator[Change]:
     """V4: v_A3 taken as v_A1, the relative velocity forgotten."""
     for relative in _swinging(scene):
         head, start = relative.head, relative.start
-        if head not in scene.made:
+        if head not in scene.steps_by_name:
             continue
         changed: dict[Name, tuple[Step, ...]] = {head: (steps.Carry(head, start, start, start),)}
         for step in scene.steps:
@@ -111,15 +111,15 @@ def sliding_forgotten(scene: MistakeContext) -> Iterator[Change]:
 
 def _swinging(scene: MistakeContext) -> Iterator[Relative]:
     """Yield the slidings along guides that turn."""
-    for relative in scene.kin.relatives.values():
-        if relative.to != FRAME and relative.to in scene.kin.omega:
+    for relative in scene.kinematics.relatives.values():
+        if relative.to != FRAME and relative.to in scene.kinematics.omega:
             yield relative
 
 
 def arm_wrong(scene: MistakeContext) -> Iterator[Change]:
     """V5: ω by another arm: a given length of the link, or the distance of the pivots."""
     for link, turning in scene.turnings(V):
-        step = scene.compute(scene.kin.omega[link])
+        step = scene.compute(scene.kinematics.omega[link])
         if step is None or not scene.exact(step.out):
             continue
         value = step.powers[0]
@@ -150,10 +150,10 @@ def _arms(scene: MistakeContext, link: str, turning: Turning) -> set[float]:
 # Coriolis ------------------------------------------------------------------------------------
 
 
-def _turned(scene: MistakeContext) -> Iterator[tuple[Relative, steps.Compute]]:
+def _coriolis_terms(scene: MistakeContext) -> Iterator[tuple[Relative, steps.Compute]]:
     values = scene.segments(A).values
-    for relative in scene.kin.relatives.values():
-        start, end = relative.a_start, relative.a_turned
+    for relative in scene.kinematics.relatives.values():
+        start, end = relative.a_start, relative.a_coriolis
         if start is None or end is None or start == end:
             continue
         step = scene.compute(values.get((start, end)))
@@ -164,27 +164,27 @@ def _turned(scene: MistakeContext) -> Iterator[tuple[Relative, steps.Compute]]:
 def coriolis_by_factor(scene: MistakeContext) -> Iterator[Change]:
     """A1, A2, A3: no Coriolis acceleration, turned the other way, the factor 2 missing."""
     for code, factor, prior in (("A1", 0.0, 3.0), ("A2", -1.0, 2.0), ("A3", 0.5, 1.5)):
-        for relative, step in _turned(scene):
+        for relative, step in _coriolis_terms(scene):
             yield Change(code, relative.name, {step.out: times(step, factor)}, prior=prior)
             if not factor:
-                yield from _unlaid(scene, relative.a_turned, code, relative.name)
+                yield from _unlaid(scene, relative.a_coriolis, code, relative.name)
 
 
-def _unlaid(scene: MistakeContext, end: Name | None, code: str, where: str) -> Iterator[Change]:
+def _unlaid(scene: MistakeContext, end: Name | None, code: str, place: str) -> Iterator[Change]:
     """Yield a component that is computed and then not laid off."""
-    laid = None if end is None else scene.made.get(end)
-    length = scene.compute(laid.length) if isinstance(laid, steps.LayOff) else None
+    laid = None if end is None else scene.steps_by_name.get(end)
+    length = scene.compute(laid.length) if isinstance(laid, steps.LayOffLength) else None
     if length is not None:
-        yield Change(code, where, {length.out: times(length, 0.0)})
+        yield Change(code, place, {length.out: times(length, 0.0)})
 
 
 def coriolis_of_absolute(scene: MistakeContext) -> Iterator[Change]:
     """A4: an absolute velocity of the coincident points in place of the relative one."""
     velocities = scene.segments(V)
-    for relative, step in _turned(scene):
+    for relative, step in _coriolis_terms(scene):
         for head in (relative.head, relative.start):
-            speed = velocities.values.get((scene.kin.velocity.pole, head))
-            if speed in scene.made and speed is not None:
+            speed = velocities.values.get((scene.kinematics.velocity.pole, head))
+            if speed in scene.steps_by_name and speed is not None:
                 powers = (step.powers[0], (speed, 1))
                 made = scene.signed(step, powers, abs(step.factor))
                 yield Change("A4", relative.name, {step.out: (made,)})
@@ -193,22 +193,22 @@ def coriolis_of_absolute(scene: MistakeContext) -> Iterator[Change]:
 def coriolis_of_crank(scene: MistakeContext) -> Iterator[Change]:
     """A5: ω of the crank in place of the slotted link's, with its sense or without it."""
     drive = scene.problem.drive
-    rate = scene.kin.omega.get(drive.link)
-    for relative, step in _turned(scene):
-        if rate is not None and rate in scene.made and step.powers[0][0] != rate:
+    rate = scene.kinematics.omega.get(drive.link)
+    for relative, step in _coriolis_terms(scene):
+        if rate is not None and rate in scene.steps_by_name and step.powers[0][0] != rate:
             made = scene.signed(step, ((rate, 1), step.powers[1]), abs(step.factor))
             for turn in dict.fromkeys((1.0, step.factor / made.factor)):
                 yield Change("A5", relative.name, {step.out: times(made, turn)})
 
 
-def coriolis_for_nothing(scene: MistakeContext) -> Iterator[Change]:
+def spurious_coriolis(scene: MistakeContext) -> Iterator[Change]:
     """A6: a Coriolis acceleration where the guide does not turn."""
     scale = scene.segments(A).scale
-    for relative in scene.kin.relatives.values():
+    for relative in scene.kinematics.relatives.values():
         start, head = relative.a_start, relative.a_head
-        if start is None or start != relative.a_turned or relative.to in scene.kin.omega:
+        if start is None or start != relative.a_coriolis or relative.to in scene.kinematics.omega:
             continue
-        if relative.speed not in scene.made:  # not needed for any requested item
+        if relative.speed not in scene.steps_by_name:  # not needed for any requested item
             continue
         for line in scene.steps:
             if not isinstance(line, steps.Parallel) or line.through != start:
@@ -217,7 +217,7 @@ def coriolis_for_nothing(scene: MistakeContext) -> Iterator[Change]:
                 continue
             for rate, link in scene.rates.items():
                 if (
-                    rate not in scene.made
+                    rate not in scene.steps_by_name
                     or relative.point not in scene.problem.bodies[link].points
                 ):
                     continue
@@ -228,15 +228,15 @@ def coriolis_for_nothing(scene: MistakeContext) -> Iterator[Change]:
                     steps.Perpendicular(across, start, line.to),
                     steps.Compute(value, 2.0, ((rate, 1), (relative.speed, 1))),
                     steps.Compute(length, 1.0, ((value, 1), (scale, -1))),
-                    steps.LayOff(end, start, across, length),
+                    steps.LayOffLength(end, start, across, length),
                     steps.Parallel(line.out, end, line.to),
                 )
                 yield Change("A6", relative.name, {line.out: changed})
 
 
 def _meets(scene: MistakeContext, line: steps.Parallel, head: PointName | None) -> bool:
-    step = None if head is None else scene.made.get(head)
-    return isinstance(step, steps.MeetLines) and line.out in (step.first, step.second)
+    step = None if head is None else scene.steps_by_name.get(head)
+    return isinstance(step, steps.IntersectLines) and line.out in (step.first, step.second)
 
 
 # Normal and tangential components ------------------------------------------------------------
@@ -261,7 +261,7 @@ def normal_by_factor(scene: MistakeContext) -> Iterator[Change]:
 
 def normal_by_wrong_formula(scene: MistakeContext) -> Iterator[Change]:
     """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, v/l, or with another ω; negligible ones only if requested."""
-    asked = {question.name for question in scene.sheet.asked}
+    asked = {question.name for question in scene.sheet.requested}
     for where, step, _ in _normals(scene):
         rate, length = step.powers[0][0], step.powers[1:]
         inverse = tuple((name, -power) for name, power in length)
@@ -273,7 +273,9 @@ def normal_by_wrong_formula(scene: MistakeContext) -> Iterator[Change]:
             ((rate, 2), *length, *length, *length),
         ]
         wrong += [
-            ((other, 2), *length) for other in scene.rates if other != rate and other in scene.made
+            ((other, 2), *length)
+            for other in scene.rates
+            if other != rate and other in scene.steps_by_name
         ]
         for powers in wrong:
             made = steps.Compute(step.out, step.factor, powers, size=True)
@@ -282,11 +284,11 @@ def normal_by_wrong_formula(scene: MistakeContext) -> Iterator[Change]:
                 yield Change("N3", where, {step.out: (made,)})
 
 
-def epsilon_of_whole(scene: MistakeContext) -> Iterator[Change]:
+def epsilon_of_total(scene: MistakeContext) -> Iterator[Change]:
     """E2: ε by the whole acceleration in place of a^τ."""
-    motion = scene.kin.acceleration
+    motion = scene.kinematics.acceleration
     for link, turning in scene.turnings(A):
-        step = scene.compute(scene.kin.epsilon[link])
+        step = scene.compute(scene.kinematics.epsilon[link])
         if step is None:
             continue
         joint = motion.point.get((link, turning.joint), motion.pole)
@@ -306,7 +308,7 @@ def turning_reversed(scene: MistakeContext) -> Iterator[Change]:
     """Sense of one ω or ε, and all that follows from it."""
     for plan in (V, A):
         for link, _ in scene.turnings(plan):
-            step = scene.compute(scene.kin.rates(plan)[link])
+            step = scene.compute(scene.kinematics.rates(plan)[link])
             if step is not None:
                 yield Change("sign", link, {step.out: times(step, -1.0)})
 
@@ -320,10 +322,10 @@ MISTAKES = (
     coriolis_by_factor,
     coriolis_of_absolute,
     coriolis_of_crank,
-    coriolis_for_nothing,
+    spurious_coriolis,
     normal_by_factor,
     normal_by_wrong_formula,
     tangential_along_link,
-    epsilon_of_whole,
+    epsilon_of_total,
     turning_reversed,
 )

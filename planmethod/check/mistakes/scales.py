@@ -28,9 +28,11 @@ def _readings(scene: MistakeContext, plan: PlanKind) -> Iterator[steps.Compute]:
 
 
 def _swapped(
-    step: steps.Compute, scale: NumberName, other: tuple[tuple[NumberName, int], ...]
+    step: steps.Compute, scale: NumberName, replacement: tuple[tuple[NumberName, int], ...]
 ) -> steps.Compute:
-    powers = tuple(p for pair in step.powers for p in (other if pair == (scale, 1) else (pair,)))
+    powers = tuple(
+        p for pair in step.powers for p in (replacement if pair == (scale, 1) else (pair,))
+    )
     return steps.Compute(step.out, step.factor, powers, step.size)
 
 
@@ -52,7 +54,7 @@ def scale_of_another_plan(scene: MistakeContext) -> Iterator[Change]:
         readings = list(_readings(scene, plan))
         for other in MOTION:
             name = NumberName(FACTS[other].scale)
-            if other is plan or name not in scene.made or not readings:
+            if other is plan or name not in scene.steps_by_name or not readings:
                 continue
             changed: dict[Name, tuple[Step, ...]] = {
                 step.out: (_swapped(step, scale, ((name, 1),)),) for step in readings
@@ -72,7 +74,7 @@ def units_of_speed(scene: MistakeContext) -> Iterator[Change]:
     """S2: rev/min for 1/s, n/30 without π, degrees for radians."""
     drive = scene.problem.drive
     name = NumberName(drive.coordinate.rates[0])
-    if drive.pivot is None or name not in scene.made or not (rate := scene.exact(name)):
+    if drive.pivot is None or name not in scene.steps_by_name or not (rate := scene.exact(name)):
         return
     for factor in (30.0 / math.pi, 1.0 / math.pi, 180.0 / math.pi, math.pi / 30.0):
         yield Change("S2", drive.link, data={name: rate * factor})
@@ -104,7 +106,7 @@ def true_for_drawn(scene: MistakeContext) -> Iterator[Change]:
         if not isinstance(step, steps.Compute):
             continue
         powers = dict(step.powers)
-        read = any(isinstance(scene.made[name], READ) for name in powers)
+        read = any(isinstance(scene.steps_by_name[name], READ) for name in powers)
         if scale in powers and read:
             power = powers.pop(scale)
             made = steps.Compute(
@@ -120,20 +122,24 @@ def other_assembly(scene: MistakeContext) -> Iterator[Change]:
     for step in scene.steps:
         swapped: Step
         match step:
-            case steps.MeetCircles():
+            case steps.IntersectCircles():
                 other = Side.LEFT if step.side is Side.RIGHT else Side.RIGHT
                 swapped = replace(step, side=other)
-            case steps.MeetLineCircle():
-                way = steps.Way.BACKWARD if step.way is steps.Way.FORWARD else steps.Way.FORWARD
-                swapped = replace(step, way=way)
-            case steps.Hold():
+            case steps.IntersectLineCircle():
+                way = (
+                    steps.LineSense.BACKWARD
+                    if step.sense is steps.LineSense.FORWARD
+                    else steps.LineSense.FORWARD
+                )
+                swapped = replace(step, sense=way)
+            case steps.TriadPose():
                 yield from _other_poses(scene, step)
                 continue
             case _:
                 continue
         yield Change("P1", str(step.out), {step.out: (swapped,)})
     for step in scene.steps:  # an arm laid off on the other side of the pivot
-        if isinstance(step, steps.LayOff) and _is_arm(scene, step):
+        if isinstance(step, steps.LayOffLength) and _is_arm(scene, step):
             back = NumberName(f"{step.out} back")
             made = (
                 steps.Compute(back, -1.0, ((step.length, 1),)),
@@ -142,15 +148,15 @@ def other_assembly(scene: MistakeContext) -> Iterator[Change]:
             yield Change("P1", str(step.out), {step.out: made})
 
 
-def _is_arm(scene: MistakeContext, step: steps.LayOff) -> bool:
+def _is_arm(scene: MistakeContext, step: steps.LayOffLength) -> bool:
     """Return whether a joint of a link is laid off from its pivot by the line of its guide."""
-    line = scene.made.get(step.along)
+    line = scene.steps_by_name.get(step.line)
     guided = isinstance(line, steps.Parallel | steps.AtAngle) and line.to is not None
     bodies = scene.problem.bodies.values()
     return guided and sum(str(step.out) in body.points for body in bodies) > 1
 
 
-def _other_poses(scene: MistakeContext, step: steps.Hold) -> Iterator[Change]:
+def _other_poses(scene: MistakeContext, step: steps.TriadPose) -> Iterator[Change]:
     """P1: each of the other assemblies of a triad (сборки группы III класса)."""
     mu_l = scene.exact(NumberName(FACTS[PlanKind.POSITION].scale))
     here = complex(np.reshape(scene.sheet.trace.value[step.out][0], -1)[0])
@@ -164,8 +170,8 @@ def _other_poses(scene: MistakeContext, step: steps.Hold) -> Iterator[Change]:
 def other_angle(scene: MistakeContext) -> Iterator[Change]:
     """P1: the angle of the crank counted the other way, or from another axis."""
     drive = scene.problem.drive
-    name = drive.given[0]
-    if drive.pivot is None or name not in scene.made:
+    name = drive.program_inputs[0]
+    if drive.pivot is None or name not in scene.steps_by_name:
         return
     phi = scene.exact(NumberName(name))
     told: set[float] = {phi % 360.0}

@@ -17,7 +17,7 @@ from msgspec.structs import asdict, replace
 from planmethod.check.checking import failure_of
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
-from planmethod.check.model import CheckedWork, CheckFailure, Judged, WrittenAnswer
+from planmethod.check.model import CheckFailure, GradedAnswer, GradedSubmission, WrittenAnswer
 from planmethod.check.pages.folder import OVERRIDES, PAGES, RECORD, RunFolder, digest_of
 from planmethod.check.pages.grouppage import group_html
 from planmethod.check.pages.listing import csv_bytes
@@ -26,8 +26,8 @@ from planmethod.check.pages.results import results_xlsx
 from planmethod.check.pages.statistics import statistics_of
 from planmethod.check.pages.student import student_html, student_page, student_pdf
 from planmethod.errors import OutputError
-from planmethod.note.wording import Language, Words, language
-from planmethod.problem.head import KindProblem
+from planmethod.note.wording import Language, MessageTable, get_language
+from planmethod.problem.common import KindProblem
 from planmethod.problem.model import Problem
 from planmethod.render.backends.output import write
 from planmethod.solved.solution import Solution
@@ -66,7 +66,7 @@ def run_record(
             continue
         why, trace = (
             text.replace(str(path), name).replace(path.name, name)
-            for text in (unread[path].said, unread[path].trace)
+            for text in (unread[path].message, unread[path].trace)
         )
         missed.append({"name": name, "why": why, "trace": trace})
     return {
@@ -114,53 +114,53 @@ def hidden_name(student: str, salt: str) -> str:
     return "s-" + hashlib.sha256(f"{salt}\n{student}".encode()).hexdigest()[:8]
 
 
-def anonymous(works: Sequence[CheckedWork], salt: str) -> list[CheckedWork]:
+def anonymous(works: Sequence[GradedSubmission], salt: str) -> list[GradedSubmission]:
     """Return the submissions without the names of students and of their files."""
     return [_anonymous(checked, salt) for checked in works]
 
 
-def _anonymous(checked: CheckedWork, salt: str) -> CheckedWork:
+def _anonymous(checked: GradedSubmission, salt: str) -> GradedSubmission:
     work = checked.work
     hidden = hidden_name(work.student, salt)
-    file = Path(work.where).name
+    file = Path(work.location).name
 
-    def bare(text: str) -> str:
-        for name in (work.where, file, work.student):
+    def strip_names(text: str) -> str:
+        for name in (work.location, file, work.student):
             text = text.replace(name, hidden) if name else text
         return text
 
     def rewritten(written: WrittenAnswer) -> WrittenAnswer:
         return replace(
             written,
-            where=bare(written.where),
-            unreadable=bare(written.unreadable),
-            raw=bare(written.raw),
-            fault=bare(written.fault),
+            location=strip_names(written.location),
+            unreadable=strip_names(written.unreadable),
+            raw=strip_names(written.raw),
+            fault=strip_names(written.fault),
         )
 
-    def judged_of(judged: Judged) -> Judged:
-        written = None if judged.written is None else rewritten(judged.written)
-        return replace(judged, written=written, remark=bare(judged.remark))
+    def strip_answer(answer: GradedAnswer) -> GradedAnswer:
+        written = None if answer.written is None else rewritten(answer.written)
+        return replace(answer, written=written, remark=strip_names(answer.remark))
 
-    answers = tuple(map(judged_of, checked.answers))
+    answers = tuple(map(strip_answer, checked.answers))
     told = replace(
         work,
         student=hidden,
-        where="",
+        location="",
         answers=tuple(map(rewritten, work.answers)),
         remarks=tuple(map(rewritten, work.remarks)),
-        failure=bare(work.failure),
+        failure=strip_names(work.failure),
     )
-    alike = tuple(hidden_name(name, salt) for name in checked.alike)
+    alike = tuple(hidden_name(name, salt) for name in checked.similar_students)
     failure = checked.failure
     if failure is not None:
-        failure = CheckFailure(bare(failure.said), bare(failure.trace))
+        failure = CheckFailure(strip_names(failure.message), strip_names(failure.trace))
     return replace(
         checked,
         work=told,
         answers=answers,
-        remark=bare(checked.remark),
-        alike=alike,
+        remark=strip_names(checked.remark),
+        similar_students=alike,
         failure=failure,
     )
 
@@ -187,18 +187,20 @@ def file_names(students: Sequence[str]) -> list[str]:
     return names
 
 
-def marks_of(works: Sequence[CheckedWork], settings: Settings) -> list[str]:
+def marks_of(works: Sequence[GradedSubmission], settings: Settings) -> list[str]:
     """Return the marks of submissions; empty for one that is not marked."""
     return [settings.mark(work.points / work.of) if work.of else "" for work in works]
 
 
-def told_marks(works: Sequence[CheckedWork], marks: Sequence[str], words: Language) -> list[str]:
+def format_marks(
+    works: Sequence[GradedSubmission], marks: Sequence[str], language: Language
+) -> list[str]:
     """Return the displayed marks, with notes for provisional and missing ones."""
-    say: Words = words.check["results"]
+    texts: MessageTable = language.check["results"]
     return [
-        say.provisional.format(mark=mark)
+        texts.provisional.format(mark=mark)
         if work.is_provisional
-        else say.unmarked
+        else texts.unmarked
         if work.failure is not None
         else mark
         for work, mark in zip(works, marks, strict=True)
@@ -232,7 +234,7 @@ Table: TypeAlias = Callable[[Sequence[str], Sequence[Path]], bytes]
 
 def write_all(
     out: Path,
-    checked: Sequence[CheckedWork],
+    checked: Sequence[GradedSubmission],
     keys: Mapping[str | None, Key],
     settings: Settings,
     inputs: Sequence[Path],
@@ -252,7 +254,7 @@ def write_all(
     ----------
     out : Path
         Folder of the files; the pages go to ``pages`` in it.
-    checked : sequence of CheckedWork
+    checked : sequence of GradedSubmission
         Submissions with the overrides, and with the names hidden if requested.
     keys : mapping
         By the variant of a submission; without a key there is no page.
@@ -272,18 +274,18 @@ def write_all(
     OutputError
     """
     run = run_record(settings, inputs, lang, len(checked), hidden=hidden, unread=unread)
-    words, marks = language(lang), marks_of(checked, settings)
-    shown = told_marks(checked, marks, words)
+    language, marks = get_language(lang), marks_of(checked, settings)
+    shown = format_marks(checked, marks, language)
     group = statistics_of(checked, marks, [mark for _, mark in settings.marks])
     told = settings_rows(run)
     files = {
-        "results.xlsx": results_xlsx(checked, words, marks=shown, settings=told, group=group),
+        "results.xlsx": results_xlsx(checked, language, marks=shown, settings=told, group=group),
         "results.csv": csv_bytes(checked),
     }
     if group is not None:
         title = next((key.problem.title for key in keys.values()), "")
-        files["group.html"] = group_html(group, checked, title, words).encode()
-    folder, pages = RunFolder(out), StudentPages(keys, settings, words)
+        files["group.html"] = group_html(group, checked, title, language).encode()
+    folder, pages = RunFolder(out), StudentPages(keys, settings, language)
     by_hand = overrides_file(out / OVERRIDES, checked, is_ours=folder.owns(OVERRIDES))
     names = file_names([work.work.student for work in checked])
     endings = [f"{PAGES}/{name}.{ending}" for name in names for ending in ("html", "pdf")]
@@ -291,7 +293,7 @@ def write_all(
     paths = [folder.write(name, data) for name, data in files.items()]
     if by_hand is not None:
         data, is_own = by_hand
-        write(out / OVERRIDES, data, within=out)
+        write(out / OVERRIDES, data, output_root=out)
         if is_own:
             folder.files[OVERRIDES] = digest_of(data)
         paths.append(out / OVERRIDES)
@@ -314,7 +316,7 @@ def write_all(
     paths += [folder.write(name, table(shown, told_pages)) for name, table in tables.items()]
     failed = [(one.work.student, one.failure) for one in checked if one.failure is not None]
     run["failures"] = [
-        {"student": student, "why": failure.said, "trace": failure.trace}
+        {"student": student, "why": failure.message, "trace": failure.trace}
         for student, failure in (*failed, *failures)
     ]
     run["pages"] = {student: path.relative_to(out).as_posix() for student, path in made.items()}
@@ -325,30 +327,32 @@ def write_all(
 class StudentPages:
     """Pages of students, each by the key of its variant (листы студентов)."""
 
-    def __init__(self, keys: Mapping[str | None, Key], settings: Settings, words: Language) -> None:
-        self.keys, self.values, self.words = keys, settings.values, words
+    def __init__(
+        self, keys: Mapping[str | None, Key], settings: Settings, language: Language
+    ) -> None:
+        self.keys, self.values, self.language = keys, settings.values, language
         self._solved: dict[str | None, Solution | KindProblem] = {}
 
-    def of(self, work: CheckedWork, mark: str) -> dict[str, bytes]:
+    def of(self, submission: GradedSubmission, mark: str) -> dict[str, bytes]:
         """Return the page of a submission by file extension; none if it is not marked."""
-        key = self.keys.get(work.variant)
-        if key is None or work.failure is not None:  # reported in the tables
+        key = self.keys.get(submission.variant)
+        if key is None or submission.failure is not None:  # reported in the tables
             return {}
-        if work.variant not in self._solved:
+        if submission.variant not in self._solved:
             problem = key.problem
             found = Solution(problem) if isinstance(problem, Problem) else problem
-            self._solved[work.variant] = found
-        solved = self._solved[work.variant]
+            self._solved[submission.variant] = found
+        solved = self._solved[submission.variant]
         page = student_page(
-            work,
+            submission,
             solved,
-            self.words,
+            self.language,
             scales=key.scales,
             mark=mark,
             hidden=tuple(key.hidden),
-            values=self.values == "always" or (self.values == "decided" and not work.open),
+            values=self.values == "always" or (self.values == "decided" and not submission.open),
         )
         return {
-            "html": student_html(page, solved, self.words).encode(),
-            "pdf": student_pdf(page, solved, self.words),
+            "html": student_html(page, solved, self.language).encode(),
+            "pdf": student_pdf(page, solved, self.language),
         }

@@ -59,7 +59,7 @@ class RunFolder:
         OutputError
         """
         path = self.out / name
-        write(path, data, within=self.out)
+        write(path, data, output_root=self.out)
         self.files[name] = digest_of(data)
         return path
 
@@ -104,7 +104,7 @@ class RunFolder:
     def _write_record(self, record: Mapping[str, Any]) -> None:
         text = json.dumps(record, ensure_ascii=False, allow_nan=False, indent=1)
         data = f"{text}\n".encode("utf-8", "replace")
-        write(self.out / RECORD, data, within=self.out)
+        write(self.out / RECORD, data, output_root=self.out)
 
 
 def digest_of(data: bytes) -> str:

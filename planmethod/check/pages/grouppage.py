@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from planmethod.check.model import CheckedWork
+from planmethod.check.model import GradedSubmission
+from planmethod.check.pages.answer_format import quoted
 from planmethod.check.pages.results import by_code
-from planmethod.check.pages.speech import quoted
 from planmethod.check.pages.statistics import WEAK, GroupStatistics
 from planmethod.note.document import (
     Chapter,
@@ -19,7 +19,7 @@ from planmethod.note.document import (
     table_of,
 )
 from planmethod.note.formula import escape
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.html import html_document
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke
@@ -33,54 +33,55 @@ COMMONEST = 10
 
 
 def group_html(
-    found: GroupStatistics, works: Sequence[CheckedWork], title: str, words: Language
+    statistics: GroupStatistics, works: Sequence[GradedSubmission], title: str, language: Language
 ) -> str:
     """Return the page of a group as one HTML file."""
-    say: Words = words.check["statistics"]
-    written = Document.of(_nodes(found, works, title, words))
-    return html_document(written, title=say.title, lang=words.lang)
+    texts: MessageTable = language.check["statistics"]
+    written = Document.of(_nodes(statistics, works, title, language))
+    return html_document(written, title=texts.title, lang=language.lang)
 
 
 def _nodes(
-    found: GroupStatistics, works: Sequence[CheckedWork], title: str, words: Language
+    statistics: GroupStatistics, works: Sequence[GradedSubmission], title: str, language: Language
 ) -> Iterator[Node]:
-    say: Words = words.check["statistics"]
-    yield Title(f"{say.title}. {escape(title)}")
+    texts: MessageTable = language.check["statistics"]
+    yield Title(f"{texts.title}. {escape(title)}")
     yield Paragraph(
-        say.facts.format(
-            count=len(found.shares),
-            mean=percent(found.mean, words),
-            median=percent(found.median, words),
-            deviation=percent(found.deviation, words),
+        texts.facts.format(
+            count=len(statistics.fractions),
+            mean=percent(statistics.mean, language),
+            median=percent(statistics.median, language),
+            deviation=percent(statistics.deviation, language),
         )
     )
-    yield Chapter(say.marks)
-    counted = [(escape(mark) or "—", float(count), str(count)) for mark, count in found.marks]
+    yield Chapter(texts.marks)
+    counted = [(escape(mark) or "—", float(count), str(count)) for mark, count in statistics.marks]
     yield Figure(DrawingView(bars(counted)))
-    if found.provisional:
-        yield Note(say.provisional.format(count=found.provisional))
-    yield Chapter(say.questions)
+    if statistics.provisional:
+        yield Note(texts.provisional.format(count=statistics.provisional))
+    yield Chapter(texts.questions)
     shares = [
-        (words.say.symbol(q.symbol), q.share, percent(q.share, words)) for q in found.questions
+        (language.notation.symbol(q.symbol), q.mean_fraction, percent(q.mean_fraction, language))
+        for q in statistics.questions
     ]
-    yield Figure(DrawingView(bars(shares, whole=1.0)), say.shares)
+    yield Figure(DrawingView(bars(shares, maximum=1.0)), texts.shares)
     yield table_of(
-        say["columns"],
+        texts["columns"],
         (
             (
-                words.say.symbol(one.symbol),
-                str(one.asked),
-                percent(one.share, words),
-                number(one.discrimination, words),
+                language.notation.symbol(one.symbol),
+                str(one.submissions),
+                percent(one.mean_fraction, language),
+                number(one.discrimination, language),
             )
-            for one in found.questions
+            for one in statistics.questions
         ),
     )
-    yield Note(say.note.format(weak=words.say.number(f"{WEAK:g}")))
-    mistakes = [row for row in by_code(works, words.check) if row[2] or row[3]][:COMMONEST]
+    yield Note(texts.note.format(weak=language.notation.number(f"{WEAK:g}")))
+    mistakes = [row for row in by_code(works, language.check) if row[2] or row[3]][:COMMONEST]
     if mistakes:
-        yield Chapter(say.mistakes)
-        results: Words = words.check["results"]
+        yield Chapter(texts.mistakes)
+        results: MessageTable = language.check["results"]
         yield table_of(
             results["by_code"],
             ([escape(str(cell)) for cell in row[:4]] + [quoted_all(row[4])] for row in mistakes),
@@ -93,27 +94,27 @@ def quoted_all(students: str) -> str:
     return ", ".join(quoted(name) for name in students.split(", "))
 
 
-def percent(share: float, words: Language) -> str:
+def percent(fraction: float, language: Language) -> str:
     """Return a share in per cent."""
-    return f"{words.say.number(f'{100.0 * share:.0f}')} %"
+    return f"{language.notation.number(f'{100.0 * fraction:.0f}')} %"
 
 
-def number(value: float | None, words: Language) -> str:
+def number(value: float | None, language: Language) -> str:
     """Return a number to two digits; a dash for None."""
-    return "—" if value is None else words.say.number(f"{value:.2f}")
+    return "—" if value is None else language.notation.number(f"{value:.2f}")
 
 
-def bars(rows: Sequence[tuple[str, float, str]], *, whole: float | None = None) -> Drawing:
+def bars(rows: Sequence[tuple[str, float, str]], *, maximum: float | None = None) -> Drawing:
     """Return horizontal bars, from the top down.
 
     Parameters
     ----------
     rows : sequence of (str, float, str)
         Letters on the left as rich text, length, and text on the right.
-    whole : float, optional
+    maximum : float, optional
         Value of the longest bar. Default: the largest of the rows.
     """
-    most = whole or max((length for _, length, _ in rows), default=0.0) or 1.0
+    most = maximum or max((length for _, length, _ in rows), default=0.0) or 1.0
     left = [typeset(text, LETTERS) for text, _, _ in rows]
     right = [typeset(told, LETTERS) for _, _, told in rows]
     start = EDGE + max(one.width for one in left) + 3.0

@@ -7,8 +7,8 @@ import io
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from planmethod.check.model import CheckedWork, Diagnosis, Judged, KeyEntry
-from planmethod.check.pages.speech import told
+from planmethod.check.model import Diagnosis, GradedAnswer, GradedSubmission, KeyEntry
+from planmethod.check.pages.answer_format import displayed_value
 from planmethod.note.numbers import finite_or_none
 
 COLUMNS = (
@@ -20,7 +20,7 @@ COLUMNS = (
 _FORMULA = "=+-@\t\r"
 
 
-def record(checked: CheckedWork) -> dict[str, Any]:
+def record(checked: GradedSubmission) -> dict[str, Any]:
     """Return a graded submission as plain data: SI, full precision, None for missing values."""
     return {
         "student": checked.work.student,
@@ -30,44 +30,45 @@ def record(checked: CheckedWork) -> dict[str, Any]:
         "points": finite_or_none(checked.points),
         "of": finite_or_none(checked.of),
         "suspicious": checked.suspicious,
-        "alike": list(checked.alike),
+        "alike": list(checked.similar_students),
         "remark": checked.remark or None,
-        "by_hand": checked.by_hand,
+        "by_hand": checked.is_manual,
         "provisional": checked.is_provisional,
         "failure": None
         if checked.failure is None
-        else {"why": checked.failure.said, "trace": checked.failure.trace or None},
+        else {"why": checked.failure.message, "trace": checked.failure.trace or None},
         "unreadable": [
-            {"where": written.where, "what": written.unreadable} for written in checked.work.remarks
+            {"where": written.location, "what": written.unreadable}
+            for written in checked.work.remarks
         ],
     }
 
 
-def _answer(judged: Judged) -> dict[str, Any]:
-    key, written = judged.key, judged.written
+def _answer(answer: GradedAnswer) -> dict[str, Any]:
+    key, written = answer.key, answer.written
     sense = None if written is None or written.sense is None else written.sense.value
     return {
-        "id": judged.id,
-        "verdict": judged.verdict.value,
-        "from": judged.follows or None,
-        "value": _told(judged.value, key),
-        "exact": None if key is None else _told(key.exact, key),
-        "tolerance": _number(judged.tolerance),
+        "id": answer.id,
+        "verdict": answer.verdict.value,
+        "from": answer.follows or None,
+        "value": _displayed_or_none(answer.value, key),
+        "exact": None if key is None else _displayed_or_none(key.exact, key),
+        "tolerance": _number(answer.tolerance),
         "mm": None if written is None else _number(written.mm),
         "exact_mm": None if key is None else _number(key.mm),
-        "points": _number(judged.points),
-        "where": judged.where or None,
+        "points": _number(answer.points),
+        "where": answer.location or None,
         "unit": None if key is None else key.unit,
-        "of": _number(judged.of),
+        "of": _number(answer.of),
         "position": None if key is None else key.position,
-        "local": _told(judged.local, key),
+        "local": _displayed_or_none(answer.local, key),
         "sense": sense,
         "exact_sense": None if key is None or key.sense is None else key.sense.value,
-        "sense_right": judged.sense_right,
-        "slip": judged.slip,
+        "sense_right": answer.sense_right,
+        "slip": answer.slip,
         "unreadable": None if written is None else written.unreadable or None,
-        "remark": judged.remark or None,
-        "by_hand": judged.by_hand,
+        "remark": answer.remark or None,
+        "by_hand": answer.is_manual,
     }
 
 
@@ -76,21 +77,21 @@ def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
         "codes": list(diagnosis.codes),
         "sure": diagnosis.sure,
         "roots": list(diagnosis.roots),
-        "where": diagnosis.where or None,
+        "where": diagnosis.place or None,
     }
 
 
-def _told(value: float | None, key: KeyEntry | None) -> float | None:
-    return _number(value if value is None or key is None else told(value, key))
+def _displayed_or_none(value: float | None, key: KeyEntry | None) -> float | None:
+    return _number(value if value is None or key is None else displayed_value(value, key))
 
 
 def _number(value: float | None) -> float | None:
     return None if value is None else finite_or_none(value)
 
 
-def codes_of(checked: CheckedWork, judged: Judged) -> tuple[str, ...]:
+def codes_of(checked: GradedSubmission, answer: GradedAnswer) -> tuple[str, ...]:
     """Return the codes of the mistakes that begin at an answer."""
-    found = [code for d in checked.diagnosis if judged.id in d.roots for code in d.codes]
+    found = [code for d in checked.diagnosis if answer.id in d.roots for code in d.codes]
     return tuple(dict.fromkeys(found))
 
 
@@ -99,7 +100,7 @@ def safe(text: str) -> str:
     return f"'{text}" if text[:1] and text[0] in _FORMULA else text
 
 
-def csv_bytes(works: Iterable[CheckedWork]) -> bytes:
+def csv_bytes(works: Iterable[GradedSubmission]) -> bytes:
     """Return ``results.csv``: an answer a row, semicolons, decimal points, UTF-8 with a mark."""
     text = io.StringIO(newline="")
     writer = csv.writer(text, delimiter=";", lineterminator="\r\n")
@@ -109,7 +110,7 @@ def csv_bytes(works: Iterable[CheckedWork]) -> bytes:
     return text.getvalue().encode("utf-8-sig")
 
 
-def _rows(checked: CheckedWork) -> Iterator[list[str]]:
+def _rows(checked: GradedSubmission) -> Iterator[list[str]]:
     for judged in checked.answers:
         cells = _answer(judged) | {
             "student": checked.work.student,

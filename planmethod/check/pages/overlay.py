@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from msgspec import Struct
 
-from planmethod.check.model import CheckedWork, Diagnosis, Judged, Verdict
+from planmethod.check.model import Diagnosis, GradedAnswer, GradedSubmission, Verdict
 from planmethod.construct.steps import PointName
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language
@@ -16,7 +16,7 @@ from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.planview import plan_picture, plan_places
 from planmethod.render.symbols import vector_arrow
-from planmethod.solved.reading import remembered
+from planmethod.solved.reading import memoized
 from planmethod.solved.solution import Solution
 
 OFF = (Verdict.WRONG, Verdict.NEAR, Verdict.INHERITED)
@@ -27,7 +27,7 @@ LARGEST = 2.5
 """Length limit of a drawn segment, in sizes of the true plan: longer ones would dwarf it."""
 
 
-class Own(Struct, frozen=True):
+class StudentSegment(Struct, frozen=True):
     """A segment as the student has it, mm of the drawing (отрезок студента).
 
     ``number`` is that of its answer in the table, None for a vector of a mistake's plan only.
@@ -58,7 +58,7 @@ class Overlay(Struct, frozen=True):
         Position of the driver, from 0.
     drawing : Drawing
         The true plan.
-    own : tuple of Own
+    student_segments : tuple of Own
     bounds : Bounds
         Visible part of the drawing's plane, mm.
     scale : str
@@ -70,7 +70,7 @@ class Overlay(Struct, frozen=True):
     kind: PlanKind
     index: int
     drawing: Drawing
-    own: tuple[Own, ...]
+    student_segments: tuple[StudentSegment, ...]
     bounds: Bounds
     scale: str
     mistake: str = ""
@@ -82,14 +82,14 @@ class Overlay(Struct, frozen=True):
         return right - left, high - low
 
 
-def overlays(solution: Solution, checked: CheckedWork, words: Language) -> list[Overlay]:
+def overlays(solution: Solution, checked: GradedSubmission, language: Language) -> list[Overlay]:
     """Return the plans of velocities and accelerations in the position where trouble begins."""
     index = _position(checked, len(solution.positions))
-    made = (_overlay(solution, checked, kind, index, words) for kind in RATES)
+    made = (_overlay(solution, checked, kind, index, language) for kind in RATES)
     return [overlay for overlay in made if overlay is not None]
 
 
-def _position(checked: CheckedWork, count: int) -> int:
+def _position(checked: GradedSubmission, count: int) -> int:
     """Return the drawn position: that of the first root, else of the first wrong answer."""
     roots = {id for diagnosis in checked.diagnosis for id in diagnosis.roots}
     told = [judged for judged in checked.answers if judged.key is not None]
@@ -104,7 +104,7 @@ def _position(checked: CheckedWork, count: int) -> int:
     return 0
 
 
-@remembered
+@memoized
 def true_plan(solution: Solution, kind: PlanKind, index: int) -> tuple[Drawing, complex]:
     """Return a plan alone as a drawing, and the place of its pole there."""
     picture: Picture = plan_picture(solution, kind, index)
@@ -114,35 +114,35 @@ def true_plan(solution: Solution, kind: PlanKind, index: int) -> tuple[Drawing, 
     return drawing, pole
 
 
-@remembered
+@memoized
 def ends_by_letters(solution: Solution, kind: PlanKind) -> Mapping[str, PointName]:
     """Return the points of a plan by their letters without markup: ``b3``, ``n_CB`` as ``nCB``."""
     plan = solution.construction.plan(kind)
     found: dict[str, PointName] = {}
     for point, letters in plan.letters.items():
         for letter in letters.split(", "):
-            found.setdefault(_bare(letter), point)
+            found.setdefault(_strip_markup(letter), point)
     assert plan.pole is not None
     found[FACTS[kind].pole] = found[str(plan.pole)[:1]] = plan.pole
     return found
 
 
-def _bare(letter: str) -> str:
+def _strip_markup(letter: str) -> str:
     return letter.replace("_{", "").replace("_", "").rstrip("}")
 
 
 def _overlay(
-    solution: Solution, checked: CheckedWork, kind: PlanKind, index: int, words: Language
+    solution: Solution, checked: GradedSubmission, kind: PlanKind, index: int, language: Language
 ) -> Overlay | None:
     drawing, pole = true_plan(solution, kind, index)
     at = plan_places(solution, kind, index)
     if max(abs(p - q) for p in at.values() for q in at.values()) < 1.0:
         return None  # no motion there
     mistaken = next((d for d in checked.diagnosis if d.sure and d.codes and d.places), None)
-    scale = solution.own_scale(kind, index)
-    wrong_at = _moved(solution, kind, at, scale.per_mm, mistaken)
+    scale = solution.plan_scale(kind, index)
+    wrong_at = _mistaken_places(solution, kind, at, scale.per_mm, mistaken)
     room = LARGEST * max(drawing.width, drawing.height)
-    own: list[Own] = []
+    own: list[StudentSegment] = []
     letters = ends_by_letters(solution, kind)
     for number, judged in enumerate(checked.answers, 1):
         if judged.key is None or judged.key.position != index:
@@ -160,7 +160,9 @@ def _overlay(
             continue
         turned = -1.0 if judged.sense_right is False else 1.0
         tail = places[ends[0]] + pole
-        own.append(Own(tail, tail + turned * length * along / abs(along), is_right, number))
+        own.append(
+            StudentSegment(tail, tail + turned * length * along / abs(along), is_right, number)
+        )
     if wrong_at is not None:
         own += _plan_of_mistake(solution, kind, at, wrong_at, pole)
     sheet = Fill((0j, complex(drawing.width, drawing.height)))
@@ -171,7 +173,7 @@ def _overlay(
         drawing,
         tuple(own),
         _widened(bounds, (0.0, 0.0, drawing.width, drawing.height)),
-        scale_inscription(scale, solution.problem.scales.convention, words.say),
+        scale_inscription(scale, solution.problem.scales.convention, language.notation),
         "" if wrong_at is None or mistaken is None else mistaken.codes[0],
     )
 
@@ -188,23 +190,23 @@ def _widened(bounds: Bounds, sheet: Bounds) -> Bounds:
 
 
 def _ends(
-    judged: Judged, kind: PlanKind, letters: Mapping[str, PointName]
+    answer: GradedAnswer, kind: PlanKind, letters: Mapping[str, PointName]
 ) -> tuple[PointName, PointName] | None:
     """Return the ends of the segment that an answer measures directly; None if there is none.
 
     A number that follows from a segment (ω from v) is not as long as the student's segment.
     """
-    key = judged.key
+    key = answer.key
     if key is None or key.mm is None or key.scale != FACTS[kind].scale:
         return None
     if key.unit not in ("mm", FACTS[kind].unit):
         return None
     tail, _, head = key.segment.partition("-")
-    found = letters.get(_bare(tail)), letters.get(_bare(head))
+    found = letters.get(_strip_markup(tail)), letters.get(_strip_markup(head))
     return None if found[0] is None or found[1] is None else (found[0], found[1])
 
 
-def _moved(
+def _mistaken_places(
     solution: Solution,
     kind: PlanKind,
     at: Mapping[PointName, complex],
@@ -227,11 +229,13 @@ def _plan_of_mistake(
     solution: Solution,
     kind: PlanKind,
     at: Mapping[PointName, complex],
-    moved: Mapping[PointName, complex],
+    places: Mapping[PointName, complex],
     pole: complex,
-) -> Iterator[Own]:
+) -> Iterator[StudentSegment]:
     """Yield the vectors of a mistake's plan that differ from those of the true one."""
     for vector in solution.construction.plan(kind).vectors:
         ends = vector.tail, vector.head
-        if all(end in moved for end in ends) and max(abs(moved[e] - at[e]) for e in ends) > 0.3:
-            yield Own(moved[ends[0]] + pole, moved[ends[1]] + pole, is_right=False, number=None)
+        if all(end in places for end in ends) and max(abs(places[e] - at[e]) for e in ends) > 0.3:
+            yield StudentSegment(
+                places[ends[0]] + pole, places[ends[1]] + pole, is_right=False, number=None
+            )

@@ -14,10 +14,10 @@ from planmethod.check.pages.overlay import Overlay, true_plan
 from planmethod.plans.model import PlanKind
 from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options, draw_sheet
-from planmethod.render.backends.pdf import OnPage, registered
+from planmethod.render.backends.pdf import PageCanvas, registered
 from planmethod.render.ink.drawing import Fill, Ink, Pen, Stroke, shifted
 from planmethod.render.ink.lettering import STYLES, OutlineLettering
-from planmethod.solved.reading import remembered
+from planmethod.solved.reading import memoized
 from planmethod.solved.solution import Solution
 
 LETTERING = OutlineLettering(STYLES["B-upright"])
@@ -55,7 +55,7 @@ class OverlayView(Struct, frozen=True):
         left, _, _, high = plan.bounds
         width, height = plan.size
         wide, tall = self.size
-        own = "".join(_own_svg(plan))
+        own = "".join(_student_svg(plan))
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
             f'role="img" width="{wide:.2f}mm" height="{tall:.2f}mm" '
@@ -68,20 +68,20 @@ class OverlayView(Struct, frozen=True):
         canvas.scale(self.factor, self.factor)
         canvas.translate(-self.plan.bounds[0], -self.plan.bounds[1])
         draw_sheet(self.plan.drawing, _GreyCanvas(canvas))
-        _draw_own(canvas, self.plan)
+        _draw_student(canvas, self.plan)
 
     def png(self, dpi: float) -> bytes:
         """Return both as black pixels: the student's segments are the thick lines."""
         plan = self.plan
         width, height = plan.size
         left, low, _, _ = plan.bounds
-        own = [item for one in plan.own for item in one.items()]
+        own = [item for one in plan.student_segments for item in one.items()]
         items = list(shifted([*plan.drawing.items, *own], -complex(left, low)))
         drawing = replace(plan.drawing, width=width, height=height, items=items, views=[])
         return render(drawing, "png", options=Options(dpi=dpi * self.factor))
 
 
-@remembered
+@memoized
 def true_svg(solution: Solution, kind: PlanKind, index: int) -> str:
     """Return the contents of the SVG of a plan alone."""
     text = render(true_plan(solution, kind, index)[0], "svg").decode("utf-8")
@@ -89,37 +89,37 @@ def true_svg(solution: Solution, kind: PlanKind, index: int) -> str:
     return text[start : text.rindex("</svg>")]
 
 
-def _own_svg(plan: Overlay) -> Iterator[str]:
+def _student_svg(plan: Overlay) -> Iterator[str]:
     def path(points: tuple[complex, ...]) -> str:
         return "M" + "L".join(f"{p.real:.2f} {plan.drawing.height - p.imag:.2f}" for p in points)
 
-    for own in plan.own:
+    for own in plan.student_segments:
         kind = "right" if own.is_right else "off" if own.number else "off mistaken"
         for item in own.items():
             if isinstance(item, Stroke):
                 yield f'<path class="own {kind}" d="{path(item.points)}"/>'
             elif isinstance(item, Fill):
                 yield f'<path class="own head {kind}" d="{path(item.points)}Z"/>'
-    for own in plan.own:
+    for own in plan.student_segments:
         if own.number is not None and not own.is_right:
             x, y = own.label_at.real, plan.drawing.height - own.label_at.imag
             yield f'<circle class="tag" cx="{x:.2f}" cy="{y:.2f}" r="3"/>'
             yield f'<text class="number" x="{x:.2f}" y="{y:.2f}">{own.number}</text>'
 
 
-class _GreyCanvas(OnPage):
+class _GreyCanvas(PageCanvas):
     """Draws a plan in grey."""
 
-    def _take_pen(self, pen: Pen) -> None:
-        super()._take_pen(pen)
+    def _set_pen(self, pen: Pen) -> None:
+        super()._set_pen(pen)
         self._pdf.setStrokeGray(0.61)
 
-    def _take_ink(self, ink: Ink) -> None:
+    def _set_ink(self, ink: Ink) -> None:
         self._pdf.setFillGray(1.0 if ink is Ink.WHITE else 0.5)
 
 
-def _draw_own(sheet: Any, plan: Overlay) -> None:
-    for own in plan.own:
+def _draw_student(sheet: Any, plan: Overlay) -> None:
+    for own in plan.student_segments:
         colour = RIGHT if own.is_right else OFF
         sheet.setStrokeColor(colour)
         sheet.setFillColor(colour)
@@ -134,7 +134,7 @@ def _draw_own(sheet: Any, plan: Overlay) -> None:
                 fill = isinstance(item, Fill)
                 sheet.drawPath(path, stroke=int(not fill), fill=int(fill))
     sheet.setDash([])
-    for own in plan.own:
+    for own in plan.student_segments:
         if own.number is not None and not own.is_right:
             at = own.label_at
             sheet.setFillColor("#ffffff")

@@ -15,7 +15,7 @@ from typing import TypeVar
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.check.model import CheckedWork, Judged
+from planmethod.check.model import GradedAnswer, GradedSubmission
 from planmethod.check.pages.listing import safe
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.problem.formula import read_decimal
@@ -26,9 +26,9 @@ INFORMATION_COLUMNS = ("of", "written", "where")
 """Further columns of a file written by a run: they describe an open answer, and are not read."""
 
 HEAD = (*COLUMNS, *INFORMATION_COLUMNS)
-MOST_BYTES = 1_000_000
-MOST_ROWS = 10_000
-T = TypeVar("T", CheckedWork, Judged)
+MAX_BYTES = 1_000_000
+MAX_ROWS = 10_000
+T = TypeVar("T", GradedSubmission, GradedAnswer)
 
 
 class OverridesError(PlanMethodError):
@@ -48,7 +48,7 @@ class Override(Struct, frozen=True):
     points : float or None
         None where only a remark is made.
     remark : str
-    where : str
+    location : str
         ``overrides.csv:4``.
     """
 
@@ -56,7 +56,7 @@ class Override(Struct, frozen=True):
     id: str
     points: float | None
     remark: str
-    where: str
+    location: str
 
 
 def read_overrides(path: Path) -> tuple[Override, ...]:
@@ -80,11 +80,11 @@ def students_of(path: Path) -> frozenset[str]:
     rows, _ = _rows(path)
     at = [cell.strip().lower() for cell in rows[0]].index("student") if rows else 0
     cells = (row[at].strip() for row in rows[1:] if at < len(row))
-    return frozenset(map(_bare, filter(None, cells)))
+    return frozenset(map(_strip_guard, filter(None, cells)))
 
 
 def overrides_file(
-    path: Path, works: Sequence[CheckedWork], *, is_ours: bool
+    path: Path, works: Sequence[GradedSubmission], *, is_ours: bool
 ) -> tuple[bytes, bool] | None:
     """Return a file of overrides with a row for every open answer, to be filled in.
 
@@ -106,11 +106,11 @@ def overrides_file(
     number = {name: at for at, name in enumerate(head)}
 
     def cell(row: Sequence[str], name: str) -> str:
-        return _bare(row[number[name]].strip()) if number[name] < len(row) else ""
+        return _strip_guard(row[number[name]].strip()) if number[name] < len(row) else ""
 
     there = {(cell(row, "student"), cell(row, "id")) for row in rows[1:]}
     found = _lines(rows, mark)
-    size, room = len(found.encode()), MOST_ROWS - len(rows)
+    size, room = len(found.encode()), MAX_ROWS - len(rows)
     more: list[str] = []
     for student, judged in _open(works):
         if (student, judged.id) in there:
@@ -121,11 +121,11 @@ def overrides_file(
             "id": safe(judged.id),
             "of": f"{judged.of:g}",
             "written": "" if written is None else safe(written.raw or written.fault),
-            "where": safe(judged.where),
+            "where": safe(judged.location),
         }
         line = _lines([[told.get(name, "") for name in head]], mark)
         size += len(line.encode())
-        if size > MOST_BYTES or len(more) >= room:
+        if size > MAX_BYTES or len(more) >= room:
             break  # what a run reads again: the others come when these are decided
         more.append(line)
     if not more and not is_own:
@@ -139,11 +139,11 @@ def _lines(rows: Sequence[Sequence[str]], mark: str) -> str:
     return text.getvalue()
 
 
-def _open(works: Sequence[CheckedWork]) -> Iterator[tuple[str, Judged]]:
+def _open(works: Sequence[GradedSubmission]) -> Iterator[tuple[str, GradedAnswer]]:
     """Yield the open answers of marked submissions, each once."""
     for work in works:
         if work.is_provisional:
-            once: dict[str, Judged] = {}
+            once: dict[str, GradedAnswer] = {}
             for judged in work.open:
                 if judged.of > once.setdefault(judged.id, judged).of:
                     once[judged.id] = judged
@@ -162,14 +162,14 @@ def _rows(path: Path) -> tuple[list[list[str]], str]:
         if not stat.S_ISREG(path.stat().st_mode):
             raise OverridesError("{}: this is not a file. Name another with --overrides.", path)
         with path.open("rb") as file:
-            data = file.read(MOST_BYTES + 1)
+            data = file.read(MAX_BYTES + 1)
     except FileNotFoundError:
         return [], ";"
     except OSError as error:
         raise OverridesError("Cannot read {}: {}.", path, error.strerror) from error
-    if len(data) > MOST_BYTES:
+    if len(data) > MAX_BYTES:
         raise OverridesError(
-            "{} is larger than {} bytes. Keep only the overrides.", path, MOST_BYTES
+            "{} is larger than {} bytes. Keep only the overrides.", path, MAX_BYTES
         )
     text = table_text(data)
     head = text.partition("\n")[0]
@@ -185,13 +185,13 @@ def _overrides(rows: Sequence[Sequence[str]], path: Path) -> Iterator[Override]:
     if not rows:
         return
     head = [cell.strip().lower() for cell in rows[0]]
-    if len(rows) > MOST_ROWS or not {"student", "points"} <= set(head):
+    if len(rows) > MAX_ROWS or not {"student", "points"} <= set(head):
         raise OverridesError(
             "{}: expected columns {} and at most {} rows. Delete the file to have an "
             "empty one made.",
             path,
             ", ".join(COLUMNS),
-            MOST_ROWS,
+            MAX_ROWS,
         )
     for number, row in enumerate(rows[1:], 2):
         told = dict(zip(head, (cell.strip() for cell in row), strict=False))
@@ -201,26 +201,28 @@ def _overrides(rows: Sequence[Sequence[str]], path: Path) -> Iterator[Override]:
         if not student and (points is not None or remark):
             raise OverridesError("{}: no student is named. Fill in the column student.", where)
         if points is not None or remark:
-            yield Override(_bare(student), _bare(told.get("id", "")), points, remark, where)
+            yield Override(
+                _strip_guard(student), _strip_guard(told.get("id", "")), points, remark, where
+            )
 
 
-def _points(text: str, where: str) -> float | None:
+def _points(text: str, location: str) -> float | None:
     if not text:
         return None
     points = read_decimal(text.replace(",", "."))
     if points is None or not 0 <= points <= 10**6:
-        raise OverridesError("{}: points are a number from 0, got {!r}.", where, text[:40])
+        raise OverridesError("{}: points are a number from 0, got {!r}.", location, text[:40])
     return float(points)
 
 
-def _bare(text: str) -> str:
+def _strip_guard(text: str) -> str:
     """Return a text without the sign that keeps table programs from taking it for a formula."""
     return text[1:] if text[:1] == "'" and text[1:2] in ("=", "+", "-", "@") else text
 
 
-def overridden(
-    works: Sequence[CheckedWork], overrides: Sequence[Override]
-) -> tuple[list[CheckedWork], tuple[str, ...]]:
+def apply_overrides(
+    works: Sequence[GradedSubmission], overrides: Sequence[Override]
+) -> tuple[list[GradedSubmission], tuple[str, ...]]:
     """Return the submissions with the overrides, and the rows without a submission or answer."""
     used: set[str] = set()
     changed = []
@@ -231,29 +233,31 @@ def overridden(
         now = replace(checked, answers=answers, points=checked.points + gained)
         for override in own:
             if not override.id:
-                used.add(override.where)
-                now = _by_hand(now, override)
+                used.add(override.location)
+                now = _apply_override(now, override)
         changed.append(now)
-    return changed, tuple(o.where for o in overrides if o.where not in used)
+    return changed, tuple(o.location for o in overrides if o.location not in used)
 
 
 def _answers(
-    answers: Sequence[Judged], own: Sequence[Override], used: set[str]
-) -> tuple[Judged, ...]:
+    answers: Sequence[GradedAnswer], overrides: Sequence[Override], used: set[str]
+) -> tuple[GradedAnswer, ...]:
     """Return answers with the overrides; a duplicate answer is decided once."""
     found = list(answers)
-    for override in (override for override in own if override.id):
+    for override in (override for override in overrides if override.id):
         same = [n for n, judged in enumerate(found) if judged.id == override.id]
         counts = [n for n in same if found[n].of] or same[:1]
         for n in same:
             decided = override if n in counts else replace(override, points=found[n].points)
-            found[n] = _by_hand(found[n], decided)
-            used.add(override.where)
+            found[n] = _apply_override(found[n], decided)
+            used.add(override.location)
     return tuple(found)
 
 
-def _by_hand(found: T, override: Override) -> T:
+def _apply_override(target: T, override: Override) -> T:
     """Return a submission, or an answer, with the points and the remark that were set by hand."""
-    points = found.points if override.points is None else override.points
-    by_hand = found.by_hand or override.points is not None
-    return replace(found, points=points, by_hand=by_hand, remark=override.remark or found.remark)
+    points = target.points if override.points is None else override.points
+    by_hand = target.is_manual or override.points is not None
+    return replace(
+        target, points=points, is_manual=by_hand, remark=override.remark or target.remark
+    )

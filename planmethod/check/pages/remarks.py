@@ -6,9 +6,16 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from msgspec import Struct
 
-from planmethod.check.model import CheckedWork, Diagnosis, Judged, Sense, Verdict, WrittenAnswer
-from planmethod.check.pages.speech import Speech, quoted
-from planmethod.note.wording import Words
+from planmethod.check.model import (
+    Diagnosis,
+    GradedAnswer,
+    GradedSubmission,
+    Sense,
+    Verdict,
+    WrittenAnswer,
+)
+from planmethod.check.pages.answer_format import AnswerFormatter, quoted
+from planmethod.note.wording import MessageTable
 from planmethod.plans.model import FACTS, RATES
 
 PLANS = {FACTS[kind].scale: kind for kind in RATES}
@@ -23,8 +30,8 @@ class Remarks(Struct, frozen=True):
 
     Attributes
     ----------
-    speech : Speech
-    checked : CheckedWork
+    formatter : AnswerFormatter
+    checked : GradedSubmission
     scales : mapping of str to float
         Scales of the key, used if the student states none.
     hidden : tuple of str
@@ -33,34 +40,39 @@ class Remarks(Struct, frozen=True):
         Whether the right values are shown.
     """
 
-    speech: Speech
-    checked: CheckedWork
+    formatter: AnswerFormatter
+    checked: GradedSubmission
     scales: Mapping[str, float]
     hidden: tuple[str, ...] = ()
     values: bool = True
 
     @property
-    def say(self) -> Words:
+    def texts(self) -> MessageTable:
         """Words of a student's page."""
-        said: Words = self.speech.say["student"]
-        return said
+        texts: MessageTable = self.formatter.texts["student"]
+        return texts
 
     def _wording(self, name: str) -> str:
         """Return a sentence with the right value in it, or that which goes without."""
-        said: str = self.say[name] if self.values else self.say["without"][name]
-        return said
+        phrase: str = self.texts[name] if self.values else self.texts["without"][name]
+        return phrase
 
     def sentences(self) -> list[str]:
         """Return all remarks; one that all is right where it is."""
-        told = [*self._by_hand(), *self._causes(), *self._unexplained(), *self._inherited()]
+        told = [
+            *self._instructor_remark(),
+            *self._causes(),
+            *self._unexplained(),
+            *self._inherited(),
+        ]
         told += [*self._singly(), *self._missing()]
-        return [*(told or [self.say.all_right]), *self._hidden()]
+        return [*(told or [self.texts.all_right]), *self._hidden()]
 
     def _hidden(self) -> Iterator[str]:
         """Yield which mistakes may be there and do not show."""
-        names = [self.speech.say["mistakes"][c].name for c in self.hidden if c in self._codes]
+        names = [self.formatter.texts["mistakes"][c].name for c in self.hidden if c in self._codes]
         if names:
-            yield self.say.hidden.format(names="; ".join(names))
+            yield self.texts.hidden.format(names="; ".join(names))
 
     def redraw(self) -> list[str]:
         """Return the segments to redraw: those where mistakes begin, else the wrong ones."""
@@ -78,14 +90,18 @@ class Remarks(Struct, frozen=True):
                 continue
             plan = PLANS.get(key.scale)
             # A number derived from a segment does not show that the segment is wrong.
-            if plan is None or key.unit not in (FACTS[plan].unit, "mm") or self._fits(judged):
+            if (
+                plan is None
+                or key.unit not in (FACTS[plan].unit, "mm")
+                or self._is_within_tolerance(judged)
+            ):
                 continue
             lines.setdefault(
                 (key.segment, key.scale),
                 self._wording("redraw_line").format(
                     segment=segment_letters(key.segment),
-                    plan=self.say["plan_names"][plan.value],
-                    right=self.speech.mm(key.mm),
+                    plan=self.texts["plan_names"][plan.value],
+                    right=self.formatter.mm(key.mm),
                 ),
             )
         return list(lines.values())
@@ -101,120 +117,133 @@ class Remarks(Struct, frozen=True):
             first, others = roots[0], roots[1:]
             if diagnosis.codes == ("slip",) and first.slip and not others:
                 continue  # included in the remark on the student's own numbers
-            parts = [self._compared(first), self._why(diagnosis, first)]
+            parts = [self._compared(first), self._cause_text(diagnosis, first)]
             if others:  # the same remark applies to them
-                parts.append(self.say.also.format(answers=self._listed(others)))
+                parts.append(self.texts.also.format(answers=self._listed(others)))
             yield " ".join(filter(None, parts))
 
-    def _why(self, diagnosis: Diagnosis, root: Judged) -> str:
-        words = [self.speech.say["mistakes"][c] for c in diagnosis.codes if c in self._codes]
+    def _cause_text(self, diagnosis: Diagnosis, root: GradedAnswer) -> str:
+        words = [self.formatter.texts["mistakes"][c] for c in diagnosis.codes if c in self._codes]
         if not words:
             return self._not_known(root)
-        if diagnosis.codes == ("slip",) and not diagnosis.where:
+        if diagnosis.codes == ("slip",) and not diagnosis.place:
             return ""  # included in the remark on the student's own numbers
         if not diagnosis.sure or len(words) > 1:
             names = "; ".join(word.name for word in words)
-            end = self.say.one_of_end.format(answer=self.speech.symbol(root))
-            return f"{self.say.one_of.format(names=names)} {end}"
+            end = self.texts.one_of_end.format(answer=self.formatter.symbol(root))
+            return f"{self.texts.one_of.format(names=names)} {end}"
         gives = diagnosis.values.get(root.id)
-        many = "" if gives is None else self.speech.close_to(gives, root)
-        so_many = f" ({many})" if self.values and many and many not in self.speech.own(root) else ""
-        return self.say.mistake.format(
+        many = "" if gives is None else self.formatter.close_to(gives, root)
+        so_many = (
+            f" ({many})"
+            if self.values and many and many not in self.formatter.student_value(root)
+            else ""
+        )
+        return self.texts.mistake.format(
             value=so_many,
             so=words[0].so,
-            where=self._where(diagnosis.where),
+            where=self._place_text(diagnosis.place),
             advice=words[0].advice,
         )
 
-    def _where(self, where: str) -> str:
-        if not where:
+    def _place_text(self, place: str) -> str:
+        if not place:
             return ""
-        if " ≠ " in where:  # a formula in place of another one
-            wrong, right = where.split(" ≠ ")
-            return str(self.say.mistake_instead.format(wrong=wrong, right=right))
-        kind = "pair" if "/" in where else "link" if where.isdigit() else ""
-        said: str = self.say["mistake_here"][kind]
-        return said.format(where=place_letters(where))
+        if " ≠ " in place:  # a formula in place of another one
+            wrong, right = place.split(" ≠ ")
+            return str(self.texts.mistake_instead.format(wrong=wrong, right=right))
+        kind = "pair" if "/" in place else "link" if place.isdigit() else ""
+        phrase: str = self.texts["mistake_here"][kind]
+        return phrase.format(where=place_letters(place))
 
-    def _not_known(self, judged: Judged) -> str:
-        if judged.miscomputed and judged.local is not None:
+    def _not_known(self, answer: GradedAnswer) -> str:
+        if answer.miscomputed and answer.local is not None:
             return self._wording("recompute").format(
-                local=self.speech.close_to(judged.local, judged)
+                local=self.formatter.close_to(answer.local, answer)
             )
-        if judged.key is None or judged.key.mm is None or not judged.key.segment:
-            return self.say.unknown_computed
-        return self.say.unknown.format(segment=segment_letters(judged.key.segment))
+        if answer.key is None or answer.key.mm is None or not answer.key.segment:
+            return self.texts.unknown_computed
+        return self.texts.unknown.format(segment=segment_letters(answer.key.segment))
 
     def _unexplained(self) -> Iterator[str]:
         """Yield a remark on each wrong answer that no diagnosis speaks of."""
         spoken = {id for diagnosis in self.checked.diagnosis for id in diagnosis.roots}
-        follow: list[Judged] = []
+        follow: list[GradedAnswer] = []
         for judged in self._of(Verdict.WRONG):
             if judged.id in spoken:
                 continue
             if self._is_consequence(judged):
                 follow.append(judged)
-            elif judged.sense_right is False and self._fits(judged):
+            elif judged.sense_right is False and self._is_within_tolerance(judged):
                 continue  # said of its sense
             elif not judged.slip:
                 yield f"{self._compared(judged)} {self._not_known(judged)}"
         if follow:
-            yield self.say.follow.format(answers=self._listed(follow))
+            yield self.texts.follow.format(answers=self._listed(follow))
 
-    def _is_consequence(self, judged: Judged) -> bool:
+    def _is_consequence(self, answer: GradedAnswer) -> bool:
         """Return whether a mistake that has a name gives this answer, too."""
-        if judged.value is None:
+        if answer.value is None:
             return False
         return any(
-            abs(abs(judged.value) - abs(d.values[judged.id])) <= (judged.tolerance or 0.0)
+            abs(abs(answer.value) - abs(d.values[answer.id])) <= (answer.tolerance or 0.0)
             for d in self.checked.diagnosis
-            if d.sure and judged.id in d.values
+            if d.sure and answer.id in d.values
         )
 
     @staticmethod
-    def _fits(judged: Judged) -> bool:
-        key = judged.key
-        if key is None or judged.value is None:
+    def _is_within_tolerance(answer: GradedAnswer) -> bool:
+        key = answer.key
+        if key is None or answer.value is None:
             return False
-        allowed = judged.tolerance or key.tolerance
-        return abs(abs(judged.value) - abs(key.exact)) <= allowed
+        allowed = answer.tolerance or key.tolerance
+        return abs(abs(answer.value) - abs(key.exact)) <= allowed
 
     # What follows ------------------------------------------------------------------------------
 
     def _inherited(self) -> Iterator[str]:
-        groups: dict[str, list[Judged]] = {}
+        groups: dict[str, list[GradedAnswer]] = {}
         for judged in self._of(Verdict.INHERITED):
             groups.setdefault(judged.follows, []).append(judged)
         for source, judged_here in groups.items():
             told = self._known((source,))
-            yield self.say.inherited.format(
+            yield self.texts.inherited.format(
                 answers=self._listed(judged_here),
-                source=self.speech.symbol(told[0]) if told else quoted(source),
+                source=self.formatter.symbol(told[0]) if told else quoted(source),
                 points=self._points(judged_here),
             )
 
-    def _points(self, judged: Iterable[Judged]) -> str:
-        listed = [one for one in judged if not lacks_sense(one)]
+    def _points(self, answers: Iterable[GradedAnswer]) -> str:
+        listed = [one for one in answers if not lacks_sense(one)]
         points, of = sum(j.points for j in listed), sum(j.of for j in listed)
         if points >= of - 1e-9:
-            return self.say.kept
-        return self.say.reduced.format(points=self.speech.share(points), of=self.speech.share(of))
+            return self.texts.kept
+        return self.texts.reduced.format(
+            points=self.formatter.points(points), of=self.formatter.points(of)
+        )
 
     # One by one --------------------------------------------------------------------------------
 
     def _singly(self) -> Iterator[str]:
-        say, speech = self.say, self.speech
+        texts, speech = self.texts, self.formatter
         for judged in self.checked.answers:
             key, places = judged.key, {"answer": speech.symbol(judged)}
             if key is None:
                 continue
-            places |= {"own": speech.own(judged), "right": speech.right(key, judged.tolerance)}
+            places |= {
+                "own": speech.student_value(judged),
+                "right": speech.right(key, judged.tolerance),
+            }
             local = None if judged.local is None else speech.close_to(judged.local, judged)
             if judged.verdict is Verdict.NEAR:
-                yield self._wording("near").format(**places, points=self._lost(judged))
+                yield self._wording("near").format(**places, points=self._lost_points(judged))
             elif judged.verdict is Verdict.INCONSISTENT and local:
-                yield say.inconsistent.format(**places, local=local)
-            if judged.sense_right is False and self._fits(judged) and not self._is_root(judged):
+                yield texts.inconsistent.format(**places, local=local)
+            if (
+                judged.sense_right is False
+                and self._is_within_tolerance(judged)
+                and not self._is_root(judged)
+            ):
                 yield self._wording("sense").format(**places | {"right": self._sense(key.sense)})
             if judged.slip:
                 yield self._slipped(judged)
@@ -222,104 +251,104 @@ class Remarks(Struct, frozen=True):
                 yield f"{places['answer']}: {quoted(judged.remark)}"
 
     def _sense(self, sense: Sense | None) -> str:
-        return "" if sense is None else " ".join(self.speech.say["senses"][sense.value])
+        return "" if sense is None else " ".join(self.formatter.texts["senses"][sense.value])
 
-    def _lost(self, judged: Judged) -> str:
-        if judged.points >= judged.of:
+    def _lost_points(self, answer: GradedAnswer) -> str:
+        if answer.points >= answer.of:
             return ""
-        share = self.speech.share
-        return self.say.near_points.format(points=share(judged.points), of=share(judged.of))
+        share = self.formatter.points
+        return self.texts.near_points.format(points=share(answer.points), of=share(answer.of))
 
-    def _slipped(self, judged: Judged) -> str:
-        key, written = judged.key, judged.written
+    def _slipped(self, answer: GradedAnswer) -> str:
+        key, written = answer.key, answer.written
         assert key is not None
         per_mm = self.checked.work.scales.get(key.scale) or self.scales.get(key.scale)
-        if written is None or written.mm is None or not per_mm or judged.value is None:
-            return self.say.slip_bare.format(
-                answer=self.speech.symbol(judged), own=self.speech.own(judged)
+        if written is None or written.mm is None or not per_mm or answer.value is None:
+            return self.texts.slip_bare.format(
+                answer=self.formatter.symbol(answer), own=self.formatter.student_value(answer)
             )
-        return self.say.slip.format(
-            answer=self.speech.symbol(judged),
-            mm=self.speech.number(written.mm),
-            scale=self.speech.number(per_mm),
-            product=self.speech.si(written.mm * per_mm, key),
-            own=self.speech.own(judged),
+        return self.texts.slip.format(
+            answer=self.formatter.symbol(answer),
+            mm=self.formatter.number(written.mm),
+            scale=self.formatter.number(per_mm),
+            product=self.formatter.si(written.mm * per_mm, key),
+            own=self.formatter.student_value(answer),
         )
 
     def _missing(self) -> Iterator[str]:
         unseen = list(self._of(Verdict.UNSEEN))
         if unseen:
-            yield self.say.unseen.format(answers=self._listed(unseen))
+            yield self.texts.unseen.format(answers=self._listed(unseen))
         senseless = [judged for judged in self.checked.answers if lacks_sense(judged)]
         if senseless:
-            yield self.say.no_sense.format(answers=self._listed(senseless))
+            yield self.texts.no_sense.format(answers=self._listed(senseless))
         blank = list(self._of(Verdict.BLANK))
         if blank:
-            yield self.say.blank.format(answers=self._listed(blank))
+            yield self.texts.blank.format(answers=self._listed(blank))
         for judged in self._of(Verdict.UNREADABLE):
-            said = self.say.unreadable if judged in self.checked.open else ""
-            yield (said or self.say.unreadable_decided).format(
-                answer=self.speech.symbol(judged),
-                reason="" if judged.written is None else self.speech.unread(judged.written),
-                where=self._cell(judged.where),
-                points=self.speech.share(judged.points),
-                of=self.speech.share(judged.of),
+            phrase = self.texts.unreadable if judged in self.checked.open else ""
+            yield (phrase or self.texts.unreadable_decided).format(
+                answer=self.formatter.symbol(judged),
+                reason="" if judged.written is None else self.formatter.unread(judged.written),
+                where=self._cell(judged.location),
+                points=self.formatter.points(judged.points),
+                of=self.formatter.points(judged.of),
             )
         for written in self.checked.work.remarks:
-            yield self.say.unreadable_other.format(
-                reason=self.speech.unread(written), where=self._cell(written.where)
+            yield self.texts.unreadable_other.format(
+                reason=self.formatter.unread(written), where=self._cell(written.location)
             )
 
-    def _cell(self, where: str) -> str:
-        return f" ({quoted(where)})" if where else ""
+    def _cell(self, location: str) -> str:
+        return f" ({quoted(location)})" if location else ""
 
-    def _by_hand(self) -> Iterator[str]:
+    def _instructor_remark(self) -> Iterator[str]:
         if self.checked.remark:
-            yield self.say.remark.format(remark=quoted(self.checked.remark))
+            yield self.texts.remark.format(remark=quoted(self.checked.remark))
 
     # Pieces ------------------------------------------------------------------------------------
 
     @property
     def _codes(self) -> Mapping[str, object]:
-        said: Words = self.speech.say["mistakes"]
-        return said
+        texts: MessageTable = self.formatter.texts["mistakes"]
+        return texts
 
-    def _compared(self, judged: Judged) -> str:
-        if judged.key is None:
-            return self.speech.symbol(judged)
+    def _compared(self, answer: GradedAnswer) -> str:
+        if answer.key is None:
+            return self.formatter.symbol(answer)
         return self._wording("compared").format(
-            answer=self.speech.symbol(judged),
-            own=self.speech.own(judged) or "—",
-            right=self.speech.right(judged.key, judged.tolerance),
+            answer=self.formatter.symbol(answer),
+            own=self.formatter.student_value(answer) or "—",
+            right=self.formatter.right(answer.key, answer.tolerance),
         )
 
-    def _known(self, ids: Iterable[str]) -> list[Judged]:
+    def _known(self, ids: Iterable[str]) -> list[GradedAnswer]:
         by_id = {judged.id: judged for judged in self.checked.answers}
         return [by_id[id] for id in ids if id in by_id]
 
-    def _of(self, verdict: Verdict) -> Iterator[Judged]:
+    def _of(self, verdict: Verdict) -> Iterator[GradedAnswer]:
         return (judged for judged in self.checked.answers if judged.verdict is verdict)
 
-    def _is_root(self, judged: Judged) -> bool:
-        return any(judged.id in diagnosis.roots for diagnosis in self.checked.diagnosis)
+    def _is_root(self, answer: GradedAnswer) -> bool:
+        return any(answer.id in diagnosis.roots for diagnosis in self.checked.diagnosis)
 
-    def _listed(self, answers: Iterable[Judged]) -> str:
-        return ", ".join(self.speech.symbol(judged) for judged in answers)
+    def _listed(self, answers: Iterable[GradedAnswer]) -> str:
+        return ", ".join(self.formatter.symbol(judged) for judged in answers)
 
 
-def what_stands(written: WrittenAnswer) -> str:
+def quote_unread(written: WrittenAnswer) -> str:
     """Return the unreadable text as it was written."""
     return quoted(written.raw or written.fault or written.unreadable)
 
 
-def lacks_sense(judged: Judged) -> bool:
+def lacks_sense(answer: GradedAnswer) -> bool:
     """Return whether the requested sense of an answer is missing, at the cost of points."""
-    key, written = judged.key, judged.written
-    if key is None or written is None or not key.asks_sense or judged.by_hand:
+    key, written = answer.key, answer.written
+    if key is None or written is None or not key.asks_sense or answer.is_manual:
         return False
-    is_right = judged.verdict not in (Verdict.WRONG, Verdict.BLANK, Verdict.UNREADABLE)
-    missing = written.sense is None and judged.sense_right is None
-    return is_right and missing and judged.points < judged.of
+    is_right = answer.verdict not in (Verdict.WRONG, Verdict.BLANK, Verdict.UNREADABLE)
+    missing = written.sense is None and answer.sense_right is None
+    return is_right and missing and answer.points < answer.of
 
 
 def segment_letters(segment: str) -> str:
@@ -337,6 +366,6 @@ def scale_letters(name: str) -> str:
     return f"μ_{{{name.removeprefix('mu_')}}}"
 
 
-def place_letters(where: str) -> str:
+def place_letters(place: str) -> str:
     """Return where a mistake was made, as it is written: a scale with its letter."""
-    return scale_letters(where) if where.startswith("mu_") else quoted(where)
+    return scale_letters(place) if place.startswith("mu_") else quoted(place)

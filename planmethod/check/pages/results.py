@@ -6,12 +6,19 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from planmethod.check.model import CheckedWork, Diagnosis, Judged, KeyEntry, Sense, Verdict
+from planmethod.check.model import (
+    Diagnosis,
+    GradedAnswer,
+    GradedSubmission,
+    KeyEntry,
+    Sense,
+    Verdict,
+)
+from planmethod.check.pages.answer_format import AnswerFormatter, displayed_value
 from planmethod.check.pages.listing import codes_of
-from planmethod.check.pages.speech import Speech, told
 from planmethod.check.pages.statistics import GroupStatistics
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.workbook import Filled, add_bars, add_sheet, new_workbook, saved
 
 if TYPE_CHECKING:
@@ -27,12 +34,12 @@ COLOURS: Mapping[Verdict, str] = {
     Verdict.BLANK: "E4E4E4",
     Verdict.UNREADABLE: "D9D2E9",
 }
-POINTS, SHARE, VALUE, LENGTH = "0.##", "0%", "0.0000", "0.0"
+POINTS, PERCENT, VALUE, LENGTH = "0.##", "0%", "0.0000", "0.0"
 
 
 def results_xlsx(
-    works: Sequence[CheckedWork],
-    words: Language,
+    works: Sequence[GradedSubmission],
+    language: Language,
     *,
     marks: Sequence[str] = (),
     settings: Mapping[str, str | float] | None = None,
@@ -49,60 +56,67 @@ def results_xlsx(
     group : GroupStatistics, optional
         Statistics for a separate sheet, with charts. Default: none.
     """
-    say: Words = words.check["results"]
-    first, second, third, fourth = say["sheets"]
-    verdicts = [words.check["verdicts"][verdict.value] for verdict in Verdict]
+    texts: MessageTable = language.check["results"]
+    first, second, third, fourth = texts["sheets"]
+    verdicts = [language.check["verdicts"][verdict.value] for verdict in Verdict]
     book = new_workbook()
     add_sheet(
         book,
         first,
-        [*say["summary"][:6], *verdicts, *say["summary"][6:]],
-        list(_summary(works, marks, words)),
-        formats={2: POINTS, 3: POINTS, 4: SHARE},
+        [*texts["summary"][:6], *verdicts, *texts["summary"][6:]],
+        list(_summary(works, marks, language)),
+        formats={2: POINTS, 3: POINTS, 4: PERCENT},
     )
     add_sheet(
         book,
         second,
-        say["answers"],
-        list(_answers(works, words)),
+        texts["answers"],
+        list(_answers(works, language)),
         frozen=3,
         formats={5: VALUE, 6: VALUE, 7: VALUE, 9: LENGTH, 10: LENGTH, 13: VALUE, 14: POINTS},
     )
-    counted = list(by_code(works, words.check))
-    add_sheet(book, third, say["by_code"], counted)
+    counted = list(by_code(works, language.check))
+    add_sheet(book, third, texts["by_code"], counted)
     add_sheet(
         book,
         third,
-        say["by_answer"],
+        texts["by_answer"],
         list(_by_answer(works)),
-        formats={3: SHARE},
+        formats={3: PERCENT},
         row=len(counted) + 3,
     )
     if group is not None:
-        _add_statistics(book, group, words)
-    add_sheet(book, fourth, say["settings"], list((settings or {}).items()))
+        _add_statistics(book, group, language)
+    add_sheet(book, fourth, texts["settings"], list((settings or {}).items()))
     return saved(book)
 
 
-def _add_statistics(book: Workbook, group: GroupStatistics, words: Language) -> None:
+def _add_statistics(book: Workbook, group: GroupStatistics, language: Language) -> None:
     """Add the sheet of the statistics: marks and questions, each with its picture."""
-    say: Words = words.check["statistics"]
+    texts: MessageTable = language.check["statistics"]
     rows: list[list[Any]] = [list(row) for row in group.marks]
-    add_sheet(book, say.sheet, say["mark_columns"], rows, frozen=0)
-    facts = [[say.mean, group.mean], [say.median, group.median], [say.deviation, group.deviation]]
+    add_sheet(book, texts.sheet, texts["mark_columns"], rows, frozen=0)
+    facts = [
+        [texts.mean, group.mean],
+        [texts.median, group.median],
+        [texts.deviation, group.deviation],
+    ]
     at = len(rows) + 3
-    add_sheet(book, say.sheet, [say.facts_head, "%"], facts, formats={1: SHARE}, row=at)
-    asked = [[one.label, one.asked, one.share, one.discrimination] for one in group.questions]
+    add_sheet(book, texts.sheet, [texts.facts_head, "%"], facts, formats={1: PERCENT}, row=at)
+    asked = [
+        [one.label, one.submissions, one.mean_fraction, one.discrimination]
+        for one in group.questions
+    ]
     below = at + len(facts) + 2
-    formats = {2: SHARE, 3: "0.00"}
-    sheet = add_sheet(book, say.sheet, say["columns"], asked, formats=formats, row=below)
+    formats = {2: PERCENT, 3: "0.00"}
+    sheet = add_sheet(book, texts.sheet, texts["columns"], asked, formats=formats, row=below)
     last = below + len(asked)
-    add_bars(sheet, say.marks, (1, 2), (1, len(rows) + 1), "F1")
-    add_bars(sheet, say.shares, (1, 3), (below, last), "F12", lying=True)
+    add_bars(sheet, texts.marks, (1, 2), (1, len(rows) + 1), "F1")
+    add_bars(sheet, texts.shares, (1, 3), (below, last), "F12", lying=True)
 
 
 def _summary(
-    works: Sequence[CheckedWork], marks: Sequence[str], words: Language
+    works: Sequence[GradedSubmission], marks: Sequence[str], language: Language
 ) -> Iterator[list[Any]]:
     for number, checked in enumerate(works):
         counts = Counter(judged.verdict for judged in checked.answers)
@@ -114,34 +128,34 @@ def _summary(
             checked.points / checked.of if checked.of else None,
             marks[number] if marks else None,
             *(Filled(counts[v], COLOURS[v]) if counts[v] else None for v in Verdict),
-            told_mistakes(checked, words.check),
-            "; ".join(_notes(checked, words)),
+            list_mistakes(checked, language.check),
+            "; ".join(_notes(checked, language)),
         ]
 
 
-def told_mistakes(checked: CheckedWork, say: Words) -> str:
+def list_mistakes(checked: GradedSubmission, texts: MessageTable) -> str:
     """Return the mistakes of a submission: codes and names, with the answers where they begin."""
     labels = _labels(checked)
     begins: dict[str, list[str]] = {}
     for diagnosis in checked.diagnosis:
         roots = (labels.get(root, root) for root in diagnosis.roots)
-        begins.setdefault(_name(diagnosis, say), []).extend(roots)
+        begins.setdefault(_name(diagnosis, texts), []).extend(roots)
     return "; ".join(
         f"{name} ({', '.join(dict.fromkeys(roots))})" if roots else name
         for name, roots in begins.items()
     )
 
 
-def _labels(checked: CheckedWork) -> dict[str, str]:
+def _labels(checked: GradedSubmission) -> dict[str, str]:
     return {judged.id: judged.key.label for judged in checked.answers if judged.key is not None}
 
 
-def _name(diagnosis: Diagnosis, say: Words) -> str:
-    results: Words = say["results"]
+def _name(diagnosis: Diagnosis, texts: MessageTable) -> str:
+    results: MessageTable = texts["results"]
     names = [
         # Mistakes of the catalogue bear a code; those of writing, "sign", have their name alone.
-        " ".join([*[code] * code[-1].isdigit(), say["mistakes"][code].name])
-        if code in say["mistakes"]
+        " ".join([*[code] * code[-1].isdigit(), texts["mistakes"][code].name])
+        if code in texts["mistakes"]
         else code
         for code in diagnosis.codes
     ]
@@ -150,63 +164,64 @@ def _name(diagnosis: Diagnosis, say: Words) -> str:
     return " / ".join(names) if diagnosis.sure else f"{results.perhaps}: {' / '.join(names)}"
 
 
-def _notes(checked: CheckedWork, words: Language) -> Iterator[str]:
-    say = words.check
+def _notes(checked: GradedSubmission, language: Language) -> Iterator[str]:
+    texts = language.check
     if checked.failure is not None:
-        yield say["results"].failure.format(why=checked.failure.said)
+        yield texts["results"].failure.format(why=checked.failure.message)
     if checked.is_provisional:
-        yield say["results"].open.format(count=len(checked.open))
+        yield texts["results"].open.format(count=len(checked.open))
     if checked.suspicious:
-        yield say["results"].suspicious
-    if checked.alike:
-        yield say["results"].alike.format(students=", ".join(checked.alike))
-    if checked.by_hand or any(judged.by_hand for judged in checked.answers):
-        yield say["results"].by_hand
+        yield texts["results"].suspicious
+    if checked.similar_students:
+        yield texts["results"].alike.format(students=", ".join(checked.similar_students))
+    if checked.is_manual or any(judged.is_manual for judged in checked.answers):
+        yield texts["results"].by_hand
     if checked.remark:
         yield checked.remark
     for written in checked.work.remarks:
-        yield f"{say['verdicts']['unreadable']}: {written.where} {Speech(words).unread(written)}"
+        unread = AnswerFormatter(language).unread(written)
+        yield f"{texts['verdicts']['unreadable']}: {written.location} {unread}"
 
 
-def _answers(works: Sequence[CheckedWork], words: Language) -> Iterator[list[Any]]:
-    say = words.check
+def _answers(works: Sequence[GradedSubmission], language: Language) -> Iterator[list[Any]]:
+    texts = language.check
     for checked in works:
         labels = _labels(checked)
         for judged in checked.answers:
             key, written = judged.key, judged.written
             codes = " ".join(codes_of(checked, judged))
-            wrong = "" if written is None else Speech(words).unread(written)
+            wrong = "" if written is None else AnswerFormatter(language).unread(written)
             yield [
                 checked.work.student,
                 checked.variant,
                 judged.id if key is None else key.label,
-                Filled(say["verdicts"][judged.verdict.value], COLOURS[judged.verdict]),
+                Filled(texts["verdicts"][judged.verdict.value], COLOURS[judged.verdict]),
                 labels.get(judged.follows, judged.follows),
                 judged.value if key is None else _size(judged.value, key),
-                None if key is None else told(key.exact, key),
+                None if key is None else displayed_value(key.exact, key),
                 judged.tolerance,
-                "" if key is None else plain_text(words.say.units.get(key.unit, key.unit)),
+                "" if key is None else plain_text(language.notation.units.get(key.unit, key.unit)),
                 None if written is None else written.mm,
                 None if key is None else key.mm,
-                _sign(None if written is None else written.sense, say),
-                _sign(None if key is None else key.sense, say),
+                _sign(None if written is None else written.sense, texts),
+                _sign(None if key is None else key.sense, texts),
                 judged.local if key is None else _size(judged.local, key),
                 judged.points,
                 judged.of,
-                judged.where,
+                judged.location,
                 "; ".join(part for part in (codes, wrong, judged.remark) if part),
             ]
 
 
 def _size(value: float | None, key: KeyEntry) -> float | None:
-    return None if value is None else told(value, key)
+    return None if value is None else displayed_value(value, key)
 
 
-def _sign(sense: Sense | None, say: Words) -> str:
-    return "" if sense is None else say["senses"][sense.value][0]
+def _sign(sense: Sense | None, texts: MessageTable) -> str:
+    return "" if sense is None else texts["senses"][sense.value][0]
 
 
-def by_code(works: Sequence[CheckedWork], say: Words) -> Iterator[list[Any]]:
+def by_code(works: Sequence[GradedSubmission], texts: MessageTable) -> Iterator[list[Any]]:
     """Yield the mistakes by how many made them, a student once for each."""
     sure: dict[str, list[str]] = {}
     perhaps: dict[str, list[str]] = {}
@@ -220,19 +235,19 @@ def by_code(works: Sequence[CheckedWork], say: Words) -> Iterator[list[Any]]:
                     known.setdefault(code, []).append(checked.work.student)
     codes = {*sure, *perhaps}
     for code in sorted(codes, key=lambda c: (-len(sure.get(c, ())), -len(perhaps.get(c, ())), c)):
-        words = say["mistakes"].get(code)
+        words = texts["mistakes"].get(code)
         yield [
             code or "—",
-            say["results"].unknown if words is None else words.name,
+            texts["results"].unknown if words is None else words.name,
             len(sure.get(code, ())),
             len(perhaps.get(code, ())),
             ", ".join([*sure.get(code, ()), *(f"{who}?" for who in perhaps.get(code, ()))]),
         ]
 
 
-def _by_answer(works: Sequence[CheckedWork]) -> Iterator[list[Any]]:
+def _by_answer(works: Sequence[GradedSubmission]) -> Iterator[list[Any]]:
     """Yield the answers: how many gave them, how many got points, which share of the points."""
-    found: dict[str, list[Judged]] = {}
+    found: dict[str, list[GradedAnswer]] = {}
     for checked in works:
         for judged in checked.answers:
             is_told = judged.verdict is not Verdict.BLANK and not judged.is_open

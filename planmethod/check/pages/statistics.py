@@ -8,9 +8,9 @@ from collections.abc import Sequence
 
 from msgspec import Struct
 
-from planmethod.check.model import CheckedWork
+from planmethod.check.model import GradedSubmission
 
-LEAST = 3
+MIN_SUBMISSIONS = 3
 """Minimum number of submissions for a correlation."""
 
 WEAK = 0.2
@@ -24,9 +24,9 @@ class QuestionStatistics(Struct, frozen=True):
     ----------
     label, symbol : str
         Letters as plain text, and as rich text.
-    asked : int
+    submissions : int
         Number of submissions in which it is graded.
-    share : float
+    mean_fraction : float
         Mean share of its points, 0 to 1: the smaller, the harder.
     discrimination : float or None
         Correlation of its fraction with that of all other answers of a submission, -1 to 1; None
@@ -35,8 +35,8 @@ class QuestionStatistics(Struct, frozen=True):
 
     label: str
     symbol: str
-    asked: int
-    share: float
+    submissions: int
+    mean_fraction: float
     discrimination: float | None
 
 
@@ -47,7 +47,7 @@ class GroupStatistics(Struct, frozen=True):
     ----------
     marks : tuple of (str, int)
         Number of submissions with each mark, the best first.
-    shares : tuple of float
+    fractions : tuple of float
         Fraction of the points of each submission, 0 to 1.
     questions : tuple of QuestionStatistics
         In the requested order.
@@ -56,28 +56,28 @@ class GroupStatistics(Struct, frozen=True):
     """
 
     marks: tuple[tuple[str, int], ...]
-    shares: tuple[float, ...]
+    fractions: tuple[float, ...]
     questions: tuple[QuestionStatistics, ...]
     provisional: int = 0
 
     @property
     def mean(self) -> float:
         """Mean share of the points."""
-        return statistics.fmean(self.shares)
+        return statistics.fmean(self.fractions)
 
     @property
     def median(self) -> float:
         """Fraction of the points that half of the submissions reach."""
-        return statistics.median(self.shares)
+        return statistics.median(self.fractions)
 
     @property
     def deviation(self) -> float:
         """Standard deviation of the group's fractions (of a population, not a sample)."""
-        return statistics.pstdev(self.shares)
+        return statistics.pstdev(self.fractions)
 
 
 def statistics_of(
-    works: Sequence[CheckedWork], marks: Sequence[str], scale: Sequence[str]
+    works: Sequence[GradedSubmission], marks: Sequence[str], scale: Sequence[str]
 ) -> GroupStatistics | None:
     """Return the statistics of a group; None for fewer than two graded submissions.
 
@@ -127,7 +127,7 @@ def statistics_of(
 
 def _correlation(pairs: Sequence[tuple[float, float]]) -> float | None:
     """Return Pearson's correlation; None where it has no meaning."""
-    if len(pairs) < LEAST:
+    if len(pairs) < MIN_SUBMISSIONS:
         return None
     own, rest = [one for one, _ in pairs], [one for _, one in pairs]
     if max(own) - min(own) < 1e-9 or max(rest) - min(rest) < 1e-9:

@@ -6,11 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec import Struct
 
-from planmethod.check.model import CheckedWork, Judged, Verdict
+from planmethod.check.model import GradedAnswer, GradedSubmission, Verdict
+from planmethod.check.pages.answer_format import AnswerFormatter, quoted
 from planmethod.check.pages.overlay import Overlay, overlays
 from planmethod.check.pages.overlayview import LETTERING, STYLE, OverlayView
-from planmethod.check.pages.remarks import Remarks, what_stands
-from planmethod.check.pages.speech import Speech, quoted
+from planmethod.check.pages.remarks import Remarks, quote_unread
 from planmethod.note.document import (
     Caption,
     Chapter,
@@ -25,11 +25,11 @@ from planmethod.note.document import (
 )
 from planmethod.note.formula import escape
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.html import html_document
 from planmethod.note.writers.pdf import pdf_document
 from planmethod.plans.model import FACTS
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 from planmethod.render.backends.pdf import registered
 from planmethod.solved.solution import Solution
 
@@ -88,7 +88,7 @@ class Page(Struct, frozen=True):
     lang: str
     values: bool = True
 
-    def shares(self) -> list[float]:
+    def scale_factors(self) -> list[float]:
         """Return by how much each plan is shrunk.
 
         They are side by side, equally reduced, or one under the other if that were too small.
@@ -104,44 +104,44 @@ class Page(Struct, frozen=True):
         return [min(1.0, width / w, height / h) for w, h in sizes]
 
 
-def student_document(page: Page, solved: Solution | KindProblem, words: Language) -> Document:
+def student_document(page: Page, solved: Solution | KindProblem, language: Language) -> Document:
     """Return the page as a document."""
-    return Document.of(_nodes(page, solved, words))
+    return Document.of(_nodes(page, solved, language))
 
 
-def student_html(page: Page, solved: Solution | KindProblem, words: Language) -> str:
+def student_html(page: Page, solved: Solution | KindProblem, language: Language) -> str:
     """Return the page as one HTML file."""
-    written = student_document(page, solved, words)
+    written = student_document(page, solved, language)
     return html_document(written, title=page.facts[0], lang=page.lang, style=STYLE)
 
 
-def student_pdf(page: Page, solved: Solution | KindProblem, words: Language) -> bytes:
+def student_pdf(page: Page, solved: Solution | KindProblem, language: Language) -> bytes:
     """Return the page as PDF, with the name of the student at the foot of each sheet."""
     whose = plain_text(page.facts[0])
-    say: Words = words.check["student"]
+    texts: MessageTable = language.check["student"]
     return pdf_document(
-        student_document(page, solved, words),
+        student_document(page, solved, language),
         title=whose,
         font=registered(LETTERING),
-        foot=lambda number: say.page.format(student=whose, page=number),
+        footer=lambda number: texts.page.format(student=whose, page=number),
     )
 
 
-def _nodes(page: Page, solved: Solution | KindProblem, words: Language) -> Iterator[Node]:
-    say: Words = words.check["student"]
+def _nodes(page: Page, solved: Solution | KindProblem, language: Language) -> Iterator[Node]:
+    texts: MessageTable = language.check["student"]
     yield Title(page.title)
     yield Paragraph(page.subtitle)
     yield Caption(" · ".join(page.facts))
     yield Paragraph(page.counted)
-    yield Chapter(say.remarks, numbered=False)
+    yield Chapter(texts.remarks, numbered=False)
     yield from map(Item, page.remarks)
     if page.redraw:
-        yield Chapter(say.redraw, numbered=False)
+        yield Chapter(texts.redraw, numbered=False)
         yield from map(Item, page.redraw)
-    yield Chapter(say.answers, numbered=False)
-    columns = [n for n in range(len(say["columns"])) if page.values or n not in RIGHT_VALUES]
+    yield Chapter(texts.answers, numbered=False)
+    columns = [n for n in range(len(texts["columns"])) if page.values or n not in RIGHT_VALUES]
     yield Table(
-        tuple(say["columns"][n] for n in columns),
+        tuple(texts["columns"][n] for n in columns),
         tuple(tuple(line.cells[n] for n in columns) for line in page.lines),
         names=len(columns),
         right=tuple(columns.index(n) for n in (0, 4) if n in columns),
@@ -150,17 +150,19 @@ def _nodes(page: Page, solved: Solution | KindProblem, words: Language) -> Itera
     )
     yield Note(page.tolerance)
     if isinstance(solved, Solution) and page.plans:
-        yield Chapter(say.plans, numbered=False)
-        for plan, share, caption in zip(page.plans, page.shares(), page.captions, strict=True):
+        yield Chapter(texts.plans, numbered=False)
+        for plan, share, caption in zip(
+            page.plans, page.scale_factors(), page.captions, strict=True
+        ):
             yield Figure(OverlayView(plan, share, solved), caption)
         if page.legend:
             yield Note(page.legend)
 
 
 def student_page(
-    checked: CheckedWork,
+    checked: GradedSubmission,
     solved: Solution | KindProblem,
-    words: Language,
+    language: Language,
     *,
     scales: Mapping[str, float],
     mark: str = "",
@@ -182,96 +184,100 @@ def student_page(
     values : bool
         Whether the right values, and the true plans, are shown.
     """
-    speech = Speech(words)
-    say: Words = words.check["student"]
+    speech = AnswerFormatter(language)
+    texts: MessageTable = language.check["student"]
     solution = solved if isinstance(solved, Solution) else None
     problem = solved.problem if isinstance(solved, Solution) else solved
     remarks = Remarks(speech, checked, scales, hidden, values)
-    facts = [f"{say.student}: {quoted(checked.work.student)}"]
+    facts = [f"{texts.student}: {quoted(checked.work.student)}"]
     if checked.variant:
-        facts.append(f"{say.variant}: {quoted(checked.variant)}")
+        facts.append(f"{texts.variant}: {quoted(checked.variant)}")
     facts.append(
-        say.points.format(points=speech.share(checked.points), of=speech.share(checked.of))
+        texts.points.format(points=speech.points(checked.points), of=speech.points(checked.of))
     )
     if mark:
-        facts.append(say.mark.format(mark=mark))
-    plans = overlays(solution, checked, words) if solution is not None and values else []
+        facts.append(texts.mark.format(mark=mark))
+    plans = overlays(solution, checked, language) if solution is not None and values else []
     positions = 1 if solution is None else len(solution.positions)
     right = sum(judged.points > 0.0 for judged in checked.answers)
-    tolerance = say.computed if solution is None else say.tolerance
-    tolerance = say.tolerance_drawn if checked.work.drawn == "cad" else tolerance
+    tolerance = texts.computed if solution is None else texts.tolerance
+    tolerance = texts.tolerance_drawn if checked.work.drawn == "cad" else tolerance
     if not values:
-        tolerance = say.undecided if checked.open else say.no_values
+        tolerance = texts.undecided if checked.open else texts.no_values
     return Page(
-        title=say.title,
+        title=texts.title,
         subtitle=escape(problem.title or problem.name),
         facts=tuple(facts),
-        counted=say.counted.format(right=right, count=len(checked.answers)),
+        counted=texts.counted.format(right=right, count=len(checked.answers)),
         remarks=tuple(remarks.sentences()),
         redraw=tuple(remarks.redraw()),
         lines=tuple(lines(checked.answers, speech)),
         plans=tuple(plans),
-        captions=tuple(_caption(plan, positions, words) for plan in plans),
-        legend=_legend(plans, words),
+        captions=tuple(_caption(plan, positions, language) for plan in plans),
+        legend=_legend(plans, language),
         tolerance=tolerance,
-        lang=words.lang,
+        lang=language.lang,
         values=values,
     )
 
 
-def lines(answers: Sequence[Judged], speech: Speech) -> list[AnswerLine]:
+def lines(answers: Sequence[GradedAnswer], formatter: AnswerFormatter) -> list[AnswerLine]:
     """Return the answers as rows of the table with the heads ``check.student.columns``."""
-    symbols = {judged.id: speech.symbol(judged) for judged in answers}
+    symbols = {judged.id: formatter.symbol(judged) for judged in answers}
     return [
-        AnswerLine((str(number), *_cells(judged, speech, symbols)), judged.verdict)
+        AnswerLine((str(number), *_cells(judged, formatter, symbols)), judged.verdict)
         for number, judged in enumerate(answers, 1)
     ]
 
 
-def _cells(judged: Judged, speech: Speech, symbols: Mapping[str, str]) -> tuple[str, ...]:
-    key, written, say = judged.key, judged.written, speech.say
-    own = speech.own(judged)
-    if judged.verdict is Verdict.UNREADABLE and written is not None:
-        own = say["student"].quoted.format(text=what_stands(written))
-    verdict = say["verdicts"][judged.verdict.value]
-    if judged.follows in symbols:
-        verdict = say["student"].source.format(source=symbols[judged.follows])
+def _cells(
+    answer: GradedAnswer, formatter: AnswerFormatter, symbols: Mapping[str, str]
+) -> tuple[str, ...]:
+    key, written, texts = answer.key, answer.written, formatter.texts
+    own = formatter.student_value(answer)
+    if answer.verdict is Verdict.UNREADABLE and written is not None:
+        own = texts["student"].quoted.format(text=quote_unread(written))
+    verdict = texts["verdicts"][answer.verdict.value]
+    if answer.follows in symbols:
+        verdict = texts["student"].source.format(source=symbols[answer.follows])
     return (
-        speech.symbol(judged),
+        formatter.symbol(answer),
         own or "—",
-        "—" if key is None else speech.right(key, judged.tolerance),
-        _lengths(judged, speech),
+        "—" if key is None else formatter.right(key, answer.tolerance),
+        _lengths(answer, formatter),
         verdict,
-        say["student"].share.format(points=speech.share(judged.points), of=speech.share(judged.of)),
+        texts["student"].share.format(
+            points=formatter.points(answer.points), of=formatter.points(answer.of)
+        ),
     )
 
 
-def _lengths(judged: Judged, speech: Speech) -> str:
+def _lengths(answer: GradedAnswer, formatter: AnswerFormatter) -> str:
     """Return the student's millimetres next to the true ones."""
-    key, written = judged.key, judged.written
+    key, written = answer.key, answer.written
     own = None if written is None else written.mm
     true = None if key is None else key.mm
     follows = key is not None and key.unit not in ("mm", *(facts.unit for facts in FACTS.values()))
     if own is None and (true is None or follows):
         return ""
-    his = "—" if own is None else speech.number(own)
-    return f"{his} / {'—' if true is None else speech.mm(true, unit=False)}"
+    his = "—" if own is None else formatter.number(own)
+    return f"{his} / {'—' if true is None else formatter.mm(true, unit=False)}"
 
 
-def _caption(plan: Overlay, positions: int, words: Language) -> str:
-    say: Words = words.check["student"]
-    name = say["plan_names"][plan.kind.value]
-    caption = say.plan_title.format(plan=name[:1].upper() + name[1:], scale=plan.scale)
+def _caption(plan: Overlay, positions: int, language: Language) -> str:
+    texts: MessageTable = language.check["student"]
+    name = texts["plan_names"][plan.kind.value]
+    caption = texts.plan_title.format(plan=name[:1].upper() + name[1:], scale=plan.scale)
     if positions > 1:
-        caption += f", {say.position.format(position=plan.index)}"
+        caption += f", {texts.position.format(position=plan.index)}"
     return caption
 
 
-def _legend(plans: Sequence[Overlay], words: Language) -> str:
-    say: Words = words.check["student"]
-    if not any(plan.own for plan in plans):
+def _legend(plans: Sequence[Overlay], language: Language) -> str:
+    texts: MessageTable = language.check["student"]
+    if not any(plan.student_segments for plan in plans):
         return ""
     code = next((plan.mistake for plan in plans if plan.mistake), "")
-    if code in words.check["mistakes"]:
-        return say.legend_mistake.format(name=words.check["mistakes"][code].name)
-    return say.legend
+    if code in language.check["mistakes"]:
+        return texts.legend_mistake.format(name=language.check["mistakes"][code].name)
+    return texts.legend

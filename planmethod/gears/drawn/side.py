@@ -11,8 +11,8 @@ from msgspec import Struct
 
 from planmethod.gears.arrangement import Arrangement, AxisPart, Stub
 from planmethod.gears.model import PARALLEL, MeshKind
-from planmethod.gears.picture import ContactKind, ContactPoint
-from planmethod.gears.scheme import Across, Rim, Worm
+from planmethod.gears.scheme import Rim, TransverseBody, Worm
+from planmethod.gears.velocity_diagrams import ContactKind, ContactPoint
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
@@ -35,7 +35,7 @@ from planmethod.render.symbols.gears import (
     wheel_profile,
 )
 
-STEP, NEAR = 14.0, 10.0
+STEP, INNER_STEP = 14.0, 10.0
 """Between two columns; between a column and its own web or arm, mm."""
 
 SLOT = 13.0
@@ -44,7 +44,7 @@ SLOT = 13.0
 WALL = 1.7
 """From a shaft to the hollow one about it, mm."""
 
-ASIDE = 3.5
+SENSE_OFFSET = 3.5
 """From a wheel to the arrow of its sense, mm."""
 
 HALF_SENSE = 6.0
@@ -83,7 +83,7 @@ class SideView(Struct, frozen=True, dict=True):
     def _height(self, body: str) -> float:
         return self.arrangement.scheme.heights[body]
 
-    def _room(self, gap: int) -> float:
+    def _gap_width(self, gap: int) -> float:
         """Return the width of a gap, mm."""
         stubs = max((len(own) for _, own in self._gaps.get(gap, ())), default=0)
         stations = self.arrangement.stations
@@ -93,21 +93,21 @@ class SideView(Struct, frozen=True, dict=True):
         own = one.column == other.column
         if own and (one.part is AxisPart.APEX or other.part is AxisPart.APEX or one.offset):
             return other.offset - one.offset
-        return max(NEAR if own else STEP, SLOT * stubs + 3.0)
+        return max(INNER_STEP if own else STEP, SLOT * stubs + 3.0)
 
     @cached_property
     def places(self) -> tuple[float, ...]:
         """Positions of the stations along the axes, mm."""
         places = [0.0]
         for gap in range(len(self.arrangement.stations) - 1):
-            places.append(places[-1] + self._room(gap))
+            places.append(places[-1] + self._gap_width(gap))
         return tuple(places)
 
     def _slot(self, stub: Stub) -> float:
         """Return the position of the bearing of a stub, mm."""
         axes = self._gaps[stub.gap]
         own = next(stubs for _, stubs in axes if stub in stubs)
-        room = self._room(stub.gap)
+        room = self._gap_width(stub.gap)
         start = -room if stub.gap < 0 else self.places[stub.gap]
         return start + room * (own.index(stub) + 0.5) / len(own)
 
@@ -142,7 +142,14 @@ class SideView(Struct, frozen=True, dict=True):
         shafts = [item for body in self.arrangement.reach for item in self._shaft(body)]
         stations = [item for k in range(len(self.places)) for item in self._station(k)]
         return before_links(
-            [*self._axes(), *stations, *shafts, *self._wide(), *self._others(), *self._dots()]
+            [
+                *self._axes(),
+                *stations,
+                *shafts,
+                *self._wide(),
+                *self._belts_racks_worms(),
+                *self._dots(),
+            ]
         )
 
     def _axes(self) -> Iterator[Item]:
@@ -176,8 +183,8 @@ class SideView(Struct, frozen=True, dict=True):
 
     def _station(self, number: int) -> Iterator[Item]:
         station, x = self.arrangement.stations[number], self.places[number]
-        if station.across is not None:
-            yield from self._across(station.across, x)
+        if station.transverse is not None:
+            yield from self._transverse_items(station.transverse, x)
         if self._is_conic(number):
             return  # drawn with its mate
         if station.part is AxisPart.ARM:
@@ -185,12 +192,12 @@ class SideView(Struct, frozen=True, dict=True):
         elif station.part is AxisPart.WEB:
             (ring,) = station.rims
             column = self._column(station.column)
-            for way in ring.ways:
+            for way in ring.mesh_sides:
                 yield from bell_profile(
                     complex(column, ring.centre),
                     ring.reach(way),
                     web=x - column,
-                    way=way,
+                    side=way,
                     bore=self._bore(ring.body),
                     tag=f"link {ring.body}",
                 )
@@ -202,26 +209,26 @@ class SideView(Struct, frozen=True, dict=True):
                 ways = self._halves(number, rim)
                 bore, tag = self._bore(rim.body), f"link {rim.body}"
                 if not rim.reaches:
-                    yield from wheel_profile(at, rim.radius, ways=ways, bore=bore, tag=tag)
+                    yield from wheel_profile(at, rim.radius, sides=ways, bore=bore, tag=tag)
                 for way in ways if rim.reaches else ():
-                    yield from wheel_profile(at, rim.reach(way), ways=(way,), bore=bore, tag=tag)
+                    yield from wheel_profile(at, rim.reach(way), sides=(way,), bore=bore, tag=tag)
             elif rim.body in self.arrangement.scheme.motion.train.fixed:
-                for way in rim.ways:
-                    yield from ring_profile(at, rim.reach(way), stem=4.0, way=way)
+                for way in rim.mesh_sides:
+                    yield from ring_profile(at, rim.reach(way), support=4.0, side=way)
 
     def _is_conic(self, number: int) -> bool:
         column = self.arrangement.stations[number].column
         return column >= len(self.arrangement.scheme.columns)
 
-    def _across(self, across: Across, x: float) -> Iterator[Item]:
+    def _transverse_items(self, transverse: TransverseBody, x: float) -> Iterator[Item]:
         """Yield a transverse body, and the level bevel wheels that it meshes with."""
-        column = next(s for s in self.arrangement.stations if s.across == across).column
-        tag, levels = f"link {across.body}", []
+        column = next(s for s in self.arrangement.stations if s.transverse == transverse).column
+        tag, levels = f"link {transverse.body}", []
         for station, at in zip(self.arrangement.stations, self.places, strict=True):
             if station.column != column or station.part is not AxisPart.RIMS:
                 continue
             (rim,) = station.rims
-            cone = next(c for c in across.cones if c.rim == rim)
+            cone = next(c for c in transverse.cones if c.rim == rim)
             side = 1 if at > x else -1
             apex = complex(x, rim.centre)
             along = unit(complex(side * cone.radius, rim.radius))
@@ -241,32 +248,32 @@ class SideView(Struct, frozen=True, dict=True):
                     yield Stroke((complex(at, rim.centre), foot), tag=own)
             height = (touch - out).imag
             levels.append(height)
-            hub = WALL if across.carrier else 0.0
+            hub = WALL if transverse.carrier else 0.0
             for way in (1, -1):
                 near = [touch - out + z - apex for z in (-bar, bar)]
                 both = tuple(apex + complex(way * z.real, z.imag) for z in near)
                 yield Stroke(both, tag=tag)
                 rim_end = complex(x + way * abs((touch - out).real - x), height)
                 yield Stroke((complex(x + way * hub, height), rim_end), tag=tag)
-            if not across.carrier:
-                yield from self._sense(rim, at + side * ASIDE)
-                if cone == across.cones[0]:
-                    middle = complex(x - side * 0.5 * cone.radius, height - ASIDE)
-                    yield from self._sense_across(rim, side, middle, cone.radius)
+            if not transverse.carrier:
+                yield from self._sense(rim, at + side * SENSE_OFFSET)
+                if cone == transverse.cones[0]:
+                    middle = complex(x - side * 0.5 * cone.radius, height - SENSE_OFFSET)
+                    yield from self._transverse_sense(rim, side, middle, cone.radius)
         low, high = min(levels), max(levels)
-        if across.carrier:
+        if transverse.carrier:
             for way in (1, -1):
                 hub_x = x + way * WALL
                 yield Stroke((complex(hub_x, low - BUSH), complex(hub_x, high + BUSH)), tag=tag)
-            start = self._height(across.carrier) + self._bore(across.carrier)
+            start = self._height(transverse.carrier) + self._bore(transverse.carrier)
             pin = (complex(x, start), complex(x, high + BUSH + 1.5))
-            yield Stroke(pin, tag=f"link {across.carrier}")
+            yield Stroke(pin, tag=f"link {transverse.carrier}")
         else:
             top = complex(x, high + SLOT / 2 + 2.0)
             yield Stroke((complex(x, low), top + 1j * SLOT / 2), tag=tag)
             yield from guide_plates(top, angle=90, length=SIZES.bearing, width=SIZES.shaft)
 
-    def _others(self) -> Iterator[Item]:
+    def _belts_racks_worms(self) -> Iterator[Item]:
         """Yield belts, racks, and worms seen along their axes."""
         scheme = self.arrangement.scheme
         for mesh in scheme.motion.train.meshes:
@@ -294,10 +301,14 @@ class SideView(Struct, frozen=True, dict=True):
                 yield from revolute(at)
                 yield from self._thread(worm.rim)
             yield from self._sense(
-                worm.rim, self._column(self._column_with(worm.rim.label)) - ASIDE
+                worm.rim, self._column(self._column_with(worm.rim.label)) - SENSE_OFFSET
             )
             speed = scheme.motion.speeds[scheme.motion.train.body_of[worm.label]]
-            turned = worm.radius - ASIDE if worm.radius > 2 * ASIDE else worm.radius + ASIDE
+            turned = (
+                worm.radius - SENSE_OFFSET
+                if worm.radius > 2 * SENSE_OFFSET
+                else worm.radius + SENSE_OFFSET
+            )
             yield from turn_arrow(
                 at, turned, _sign(speed), middle=225.0, sweep=min(110.0, 900.0 / turned),
                 tag=SENSE,
@@ -316,7 +327,9 @@ class SideView(Struct, frozen=True, dict=True):
             yield from vector_arrow(middle - half, middle + half, pen=Pen.THIN, length=SMALL,
                                     tag=SENSE)  # fmt: skip
 
-    def _sense_across(self, rim: Rim, side: int, middle: complex, radius: float) -> Iterator[Item]:
+    def _transverse_sense(
+        self, rim: Rim, side: int, middle: complex, radius: float
+    ) -> Iterator[Item]:
         """Yield the arrow of the wheel across: both arrows point to the pitch point, or from it.
 
         The near side of the level wheel, whose pitch point is above, moves down if it turns
@@ -360,9 +373,9 @@ class SideView(Struct, frozen=True, dict=True):
 
     def _halves(self, number: int, rim: Rim) -> tuple[int, ...]:
         """Return which halves of a wheel are drawn: also the one that meshes with none, if free."""
-        if len(rim.ways) == 2:
-            return rim.ways
-        way = -rim.ways[0]
+        if len(rim.mesh_sides) == 2:
+            return rim.mesh_sides
+        way = -rim.mesh_sides[0]
         low, high = sorted((rim.centre, rim.centre + way * (rim.radius + SIZES.mesh)))
         others = (
             span
@@ -372,7 +385,7 @@ class SideView(Struct, frozen=True, dict=True):
         )
         taken = any(a < high and low < b for a, b in others)
         crossed = any(self.arrangement.crosses(number, low, high, rim.body))
-        return rim.ways if taken or crossed else (*rim.ways, way)
+        return rim.mesh_sides if taken or crossed else (*rim.mesh_sides, way)
 
     def _arm(self, carrier: str, x: float) -> Iterator[Item]:
         """Yield an arm with the bushes of the axes that it carries."""
@@ -400,7 +413,7 @@ class SideView(Struct, frozen=True, dict=True):
         for label, places in found.items():
             for (x0, one), (x1, rim) in pairwise(places):
                 inside = -1 if not rim.ring else 1
-                for way in {*one.ways, *rim.ways}:
+                for way in {*one.mesh_sides, *rim.mesh_sides}:
                     ends = [
                         complex(x, r.centre + way * (r.reach(way) + inside * SIZES.mesh / 2))
                         for x, r in ((x0, one), (x1, rim))
@@ -421,7 +434,9 @@ class SideView(Struct, frozen=True, dict=True):
                 if mesh.first in rims and mesh.second in rims:
                     own = rims[mesh.first]
                     other = rims[mesh.second]
-                    levels = [[r.centre + w * r.reach(w) for w in r.ways] for r in (own, other)]
+                    levels = [
+                        [r.centre + w * r.reach(w) for w in r.mesh_sides] for r in (own, other)
+                    ]
                     level = min(levels[0], key=lambda a: min(abs(a - b) for b in levels[1]))
                     found[ContactPoint(ContactKind.PITCH, mesh.name)] = complex(x, level)
         for body in self.arrangement.reach:
@@ -441,8 +456,8 @@ class SideView(Struct, frozen=True, dict=True):
         for number, (station, x) in enumerate(
             zip(self.arrangement.stations, self.places, strict=True)
         ):
-            if station.across is not None:
-                yield from self._across_labels(station.across, x, height)
+            if station.transverse is not None:
+                yield from self._transverse_labels(station.transverse, x, height)
             if station.part is AxisPart.ARM:
                 foot = self._height(station.body)
                 near = min(self.arrangement.arms(station.body), key=lambda h: abs(h - foot))
@@ -452,7 +467,7 @@ class SideView(Struct, frozen=True, dict=True):
                 if rim.label in told:
                     continue
                 told.add(rim.label)
-                ways = rim.ways if rim.ring else self._halves(number, rim)
+                ways = rim.mesh_sides if rim.ring else self._halves(number, rim)
                 way = ways[-1]
                 at = complex(x, rim.centre + way * 0.6 * rim.radius)
                 if rim.ring:
@@ -472,22 +487,24 @@ class SideView(Struct, frozen=True, dict=True):
         for point, at in self.points.items():
             if point in self.letters and point.kind is ContactKind.PITCH:
                 letter, name = typeset(self.letters[point].upper(), height), f"at {point.name}"
-                yield Label(letter, at, prefer=1 + 0.2j, gap=1.4, name=name, manner=BUSY)
+                yield Label(letter, at, prefer=1 + 0.2j, gap=1.4, name=name, style=BUSY)
 
-    def _across_labels(self, across: Across, x: float, height: float) -> Iterator[Label]:
-        for label in dict.fromkeys(cone.label for cone in across.cones):
-            cone = next(c for c in across.cones if c.label == label)
+    def _transverse_labels(
+        self, transverse: TransverseBody, x: float, height: float
+    ) -> Iterator[Label]:
+        for label in dict.fromkeys(cone.label for cone in transverse.cones):
+            cone = next(c for c in transverse.cones if c.label == label)
             at = complex(x + 0.5 * cone.radius, cone.rim.centre + cone.rim.radius)
             yield self._label(label, at, 1j, height)
-        if across.carrier:
-            low = self._height(across.carrier)
-            top = min(cone.rim.centre + cone.rim.radius for cone in across.cones)
-            yield self._label(across.carrier, complex(x, (low + top) / 2), 1, height)
+        if transverse.carrier:
+            low = self._height(transverse.carrier)
+            top = min(cone.rim.centre + cone.rim.radius for cone in transverse.cones)
+            yield self._label(transverse.carrier, complex(x, (low + top) / 2), 1, height)
 
     def _label(self, text: str, at: complex, prefer: complex, height: float) -> Label:
         return Label(
             typeset(text, height), at, prefer=prefer, gap=1.2, priority=1, name=f"wheel {text}",
-            manner=BUSY,
+            style=BUSY,
         )  # fmt: skip
 
     def projections(self, x: float) -> Iterator[Item]:
@@ -503,6 +520,6 @@ def _sign(speed: Fraction) -> int:
     return (speed > 0) - (speed < 0)
 
 
-def _mirrored(vector: complex, way: int) -> complex:
+def _mirrored(vector: complex, side: int) -> complex:
     """Return a vector, or its mirror image in the level."""
-    return vector if way > 0 else vector.conjugate()
+    return vector if side > 0 else vector.conjugate()

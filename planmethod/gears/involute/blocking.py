@@ -42,7 +42,7 @@ class BlockingLimit(Struct, frozen=True):
     kind : LimitKind
     wheel : int or None
         0 or 1; None for a limit of the pair.
-    least : float
+    min_value : float
         Least thickness at the tip in modules, or least contact ratio.
     hard : bool
         Beyond it the pair does not work; other limits are advice.
@@ -50,7 +50,7 @@ class BlockingLimit(Struct, frozen=True):
 
     kind: LimitKind
     wheel: int | None
-    least: float = 0.0
+    min_value: float = 0.0
     hard: bool = False
 
     def value(self, pair: Pair) -> Reals:
@@ -81,7 +81,7 @@ class BlockingLimit(Struct, frozen=True):
             case LimitKind.BASE:
                 return np.asarray(np.abs(pair.d_b[self.wheel]) / pair.m)
             case _:
-                return np.asarray(self.least)
+                return np.asarray(self.min_value)
 
     def margin(self, pair: Pair) -> Reals:
         """Return the margin to the limit, positive where it is met; NaN where no pair exists."""
@@ -109,13 +109,13 @@ BASES = tuple(BlockingLimit(LimitKind.BASE, k, hard=True) for k in (0, 1))
 """Limits beyond which a tooth has no involute: they bound the contour, not a real pair."""
 
 
-def is_kept(pair: Pair, asked: tuple[BlockingLimit, ...]) -> Reals:
+def meets_limits(pair: Pair, required: tuple[BlockingLimit, ...]) -> Reals:
     """Return where all of some limits are met."""
     with np.errstate(all="ignore"):
-        return np.asarray(np.all([one.margin(pair) >= 0 for one in asked], axis=0))
+        return np.asarray(np.all([one.margin(pair) >= 0 for one in required], axis=0))
 
 
-def tried(total: float | None, side: int = 1) -> Reals:
+def candidate_shifts(total: float | None, side: int = 1) -> Reals:
     """Return all shifts that are compared, shape (2, ...).
 
     With ``total``, only those of that sum; with ``side`` -1, of that difference x₂ − x₁.
@@ -126,7 +126,7 @@ def tried(total: float | None, side: int = 1) -> Reals:
 
 def choose(
     pair: Pair,
-    asked: tuple[BlockingLimit, ...],
+    required: tuple[BlockingLimit, ...],
     total: float | None = None,
     aim: ShiftAim = ShiftAim.BLOCKING,
 ) -> tuple[float, float] | None:
@@ -147,7 +147,7 @@ def choose(
     (float, float) or None
         None where no shifts meet all limits.
     """
-    x = tried(total, pair.side)
+    x = candidate_shifts(total, pair.side)
     if aim is ShiftAim.SLIDING:
         x = _equal(pair, x)
     every = pair.shifted(x)
@@ -155,7 +155,7 @@ def choose(
         worst = np.max(np.abs(every.theta_p), axis=0)
         if aim is ShiftAim.OVERLAP:
             worst = -every.epsilon
-        worst = np.where(is_kept(every, asked), worst, np.inf)
+        worst = np.where(meets_limits(every, required), worst, np.inf)
     worst = np.where(np.isnan(worst), np.inf, worst)
     if not np.any(np.isfinite(worst)):
         return None
@@ -169,18 +169,20 @@ def _equal(pair: Pair, x: Reals) -> Reals:
     Along the first axis of the grid the difference of the slidings changes its sign there.
     """
 
-    def apart(at: Reals) -> Reals:
+    def sliding_difference(at: Reals) -> Reals:
         with np.errstate(all="ignore"):
             one, two = np.abs(pair.shifted(at).theta_p)
         return np.asarray(one - two)
 
-    here = apart(x)
+    here = sliding_difference(x)
     between = here[1:] * here[:-1] <= 0  # of NaN it is not
     low, high = x[:, :-1][:, between], x[:, 1:][:, between]
-    start = apart(low)
+    start = sliding_difference(low)
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        is_low = apart(middle) * start > 0
+        is_low = sliding_difference(middle) * start > 0
         low, high = np.where(is_low, middle, low), np.where(is_low, high, middle)
     found = (low + high) / 2
-    return np.asarray(found[:, np.abs(apart(found)) < _SAME])  # no jump through infinity
+    return np.asarray(
+        found[:, np.abs(sliding_difference(found)) < _SAME]
+    )  # no jump through infinity

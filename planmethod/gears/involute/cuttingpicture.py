@@ -20,7 +20,7 @@ from planmethod.gears.involute.profile import Points
 from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import BUSY, CROWDED, Label
+from planmethod.render.labels import BUSY, SERIES, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead, dimension, unit, vector_arrow
@@ -94,7 +94,7 @@ def cutting_view(cutting: RackCutting, width: float, height: float) -> CuttingVi
     return CuttingView(cutting, nearest_scale(max(most, 1e-9)))
 
 
-def cutting_picture(view: CuttingView, words: Language, letter: float) -> Picture:
+def cutting_picture(view: CuttingView, language: Language, letter: float) -> Picture:
     """Return the picture with its letters; ``letter`` is their height, mm."""
     items: list[Item] = []
     for number in (-1, 0, 1):
@@ -104,7 +104,7 @@ def cutting_picture(view: CuttingView, words: Language, letter: float) -> Pictur
     items += _circles(view)
     items += _line_of_action(view)
     labels = [*_points(view, letter), *_circle_letters(view, letter)]
-    for drawn, label in _dimensions(view, words, letter):
+    for drawn, label in _dimensions(view, language, letter):
         items += drawn
         labels.append(label)
     return lettered(items, labels)
@@ -135,7 +135,7 @@ def _positions(view: CuttingView) -> Iterator[Item]:
     )
     tip = cutting.tooth.size("d_a") / 2 + 0.15 * cutting.m
     for shift in cutting.shifts(POSITIONS):
-        placed = cutting.turned(fine, float(shift))
+        placed = cutting.to_wheel(fine, float(shift))
         inside = np.flatnonzero(np.abs(placed) <= tip)
         if len(inside) > 1:
             points = view.of_wheel(placed[inside[0] : inside[-1] + 1], 1)
@@ -193,12 +193,12 @@ def _circles(view: CuttingView) -> Iterator[Item]:
         radius = view.size(name)
         yield Arc(view.centre, radius, *_arc(view, radius), pen, tag="circle")
     top = (view.cutting.tooth.pair.rack.ha + 1.5) * view.cutting.m * view.scale
-    low = min(view.size("d_f") - view.size("d") - 1.4 * _OVER, -_shown(view) - _OVER)
+    low = min(view.size("d_f") - view.size("d") - 1.4 * _OVER, -_visible_depth(view) - _OVER)
     yield from axis_line(complex(0, low), complex(0, top), 0j, tag="line of centres")
     yield Disc(0j, _DOT, Ink.BLACK)
 
 
-def _shown(view: CuttingView) -> float:
+def _visible_depth(view: CuttingView) -> float:
     """Return the distance of the point N below P₀; 0 where it is too far to be shown."""
     depth = -view.of_line(0.0).imag
     return depth if depth < 1.2 * (view.size("d_a") - view.size("d_f")) else 0.0
@@ -209,12 +209,12 @@ def _line_of_action(view: CuttingView) -> Iterator[Item]:
     cutting = view.cutting
     low, high = max(cutting.boundary, 0.0), cutting.tooth.rho_high
     start, end = view.of_line(low), view.of_line(high)
-    first = min(cutting.boundary, 0.0) if _shown(view) else cutting.boundary
+    first = min(cutting.boundary, 0.0) if _visible_depth(view) else cutting.boundary
     beyond = unit(end - start) * _OVER / 2
     yield Stroke((view.of_line(first) - beyond, start), Pen.THIN, tag="line of action")
     yield Stroke((start, end), Pen.MAIN, tag="active line")
     yield Stroke((end, end + beyond), Pen.THIN, tag="line of action")
-    if _shown(view):
+    if _visible_depth(view):
         foot = view.of_line(0.0)
         inward = unit(view.centre - foot)
         yield Stroke((foot, foot + 1.5 * _OVER * inward), Pen.THIN, tag="base radius")
@@ -239,7 +239,7 @@ def _cut_point(view: CuttingView) -> complex | None:
 
 
 def _dimensions(
-    view: CuttingView, words: Language, letter: float
+    view: CuttingView, language: Language, letter: float
 ) -> Iterator[tuple[list[Item], Label]]:
     """Yield dimensions with their labels: p, h, c, x·m, s, e."""
     cutting, scale = view.cutting, view.scale
@@ -248,8 +248,8 @@ def _dimensions(
     left, right = _ends(view)
     flank = view.of_rack(np.array([cutting.displacement + 0.25j * cutting.pitch]))[0]
 
-    def told(symbol: str, value: float) -> str:
-        return f"{symbol} = {words.say.number(f'{value:.3f}')}"
+    def equation(symbol: str, value: float) -> str:
+        return f"{symbol} = {language.notation.number(f'{value:.3f}')}"
 
     def label(text: str, one: complex, two: complex, side: complex) -> Label:
         return Label(typeset(text, letter), (one + two) / 2, (one, two), side, 1.0, name=text)
@@ -258,34 +258,34 @@ def _dimensions(
     one, two = complex(flank), complex(flank) + view.pitch
     yield (
         dimension(one, two, lift, gap=1.0, tag="dimension"),
-        label(told("p", cutting.pitch), one + lift, two + lift, 1j),
+        label(equation("p", cutting.pitch), one + lift, two + lift, 1j),
     )
     low, high = (view.level(x - part, right, right)[0] for part in (rack.ha + rack.c, rack.ha))
-    text = told("c", rack.c * cutting.m)
+    text = equation("c", rack.c * cutting.m)
     yield (
         dimension(low, high, complex(_OVER), tag="dimension"),
         Label(typeset(text, letter), low + _OVER, prefer=1 - 1j, gap=2.0, name=text,
-              manner=BUSY),
+              style=BUSY),
     )  # fmt: skip
     if abs(cutting.displacement) * scale > _MERGED:
         low, high = (view.level(part, left, left)[0] for part in (0.0, x))
-        text = told(f"x_{{{number}}}·m", cutting.displacement)
+        text = equation(f"x_{{{number}}}·m", cutting.displacement)
         yield (
             dimension(low, high, complex(-0.6 * _OVER), tag="dimension"),
             Label(typeset(text, letter), high - 0.6 * _OVER, prefer=-1 + 1j, gap=2.0, name=text,
-                  manner=BUSY),
+                  style=BUSY),
         )  # fmt: skip
     for name, value, start, end in _arcs(view):
-        text = told(f"{name}_{{{number}}}", value)
+        text = equation(f"{name}_{{{number}}}", value)
         drawn, middle = _arc_dimension(view, start, end)
         away = unit(view.centre - middle)
-        yield drawn, Label(typeset(text, letter), middle, prefer=away, name=text, manner=BUSY)
+        yield drawn, Label(typeset(text, letter), middle, prefer=away, name=text, style=BUSY)
     if not tooth.pair.beta:  # the tip of a helical wheel's rack is not an arc
-        text = told("ρ_{f}", rack.rho * cutting.m)
+        text = equation("ρ_{f}", rack.rho * cutting.m)
         drawn, centre = _tip_radius(view)
-        yield drawn, Label(typeset(text, letter), centre, prefer=1 + 1j, name=text, manner=BUSY)
+        yield drawn, Label(typeset(text, letter), centre, prefer=1 + 1j, name=text, style=BUSY)
     yield _height(
-        view, told(f"h_{{{number}}}", (tooth.size("d_a") - tooth.size("d_f")) / 2), letter
+        view, equation(f"h_{{{number}}}", (tooth.size("d_a") - tooth.size("d_f")) / 2), letter
     )
 
 
@@ -337,19 +337,19 @@ def _height(view: CuttingView, text: str, letter: float) -> tuple[list[Item], La
     items += arrowhead(one, -way, length=_HEAD, tag="dimension")
     items += arrowhead(two, way, length=_HEAD, tag="dimension")
     middle = (one + two) / 2
-    return items, Label(typeset(text, letter), middle, prefer=1 + 0j, name=text, manner=BUSY)
+    return items, Label(typeset(text, letter), middle, prefer=1 + 0j, name=text, style=BUSY)
 
 
 def _points(view: CuttingView, letter: float) -> Iterator[Label]:
     number = view.cutting.tooth.wheel + 1
     named = [("P_{0}", 0j, 1 - 1j), ("B_{l}", view.of_line(view.cutting.boundary), -1 - 0.3j)]
-    if _shown(view):
+    if _visible_depth(view):
         named.append((f"N_{{{number}}}", view.of_line(0.0), -0.3 - 1j))
     cut = _cut_point(view)
     if cut is not None:
         named.append(("U", cut, -1 - 1j))
     for letters, at, way in named:
-        yield Label(typeset(letters, letter), at, prefer=way, gap=2.0, name=letters, manner=BUSY)
+        yield Label(typeset(letters, letter), at, prefer=way, gap=2.0, name=letters, style=BUSY)
 
 
 def _circle_letters(view: CuttingView, letter: float) -> Iterator[Label]:
@@ -360,4 +360,4 @@ def _circle_letters(view: CuttingView, letter: float) -> Iterator[Label]:
         at = view.centre + radius * complex(np.exp(1j * _arc(view, radius)[1]))
         text = f"d_{{{index}{number}}}"
         yield Label(typeset(text, letter), at, prefer=-1 + 0j, gap=1.0, name=text,
-                    manner=CROWDED, series="cut circles")  # fmt: skip
+                    style=SERIES, series="cut circles")  # fmt: skip

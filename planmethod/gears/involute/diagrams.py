@@ -12,7 +12,7 @@ from msgspec import Struct
 from shapely import Polygon, contains_xy, prepare, union_all
 
 from planmethod.construct.scale import series_near
-from planmethod.gears.involute.blocking import BASES, BlockingLimit, LimitKind, is_kept
+from planmethod.gears.involute.blocking import BASES, BlockingLimit, LimitKind, meets_limits
 from planmethod.gears.involute.meshpicture import nearest_scale
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import Reals
@@ -41,7 +41,7 @@ _MARGIN = 0.05  # of the window: white around the contour
 _INSIDE = 1e-3  # gradients from a curve at which other margins end to where they are
 _POLISHED = 8  # steps that bring a point of the grid's curve to the curve itself
 _NAMED = 14.0  # mm: shorter parts of a curve have no name
-_BEYOND = 1.2  # length of the drawn line of action of an internal pair over its active end
+_OVERRUN = 1.2  # length of the drawn line of action of an internal pair over its active end
 _HEAD = 4.0
 _TICK = 1.2
 _STEPS = (1.0, 2.0, 5.0)  # of the numbers of an axis, times a power of ten
@@ -125,7 +125,7 @@ def curves(
             if limit in BASES:  # the other margins end there as well: no grid leads up to it
                 within = points + _INSIDE * _slope(solved, limit, points)
                 near = ragged
-            shown = is_kept(solved.pair.shifted(within), others).astype(bool)
+            shown = meets_limits(solved.pair.shifted(within), others).astype(bool)
             shown &= contains_xy(near, *points)
             edges = np.flatnonzero(np.diff(shown.astype(int))) + 1
             runs = np.split(np.arange(points.shape[1]), edges)
@@ -188,7 +188,7 @@ class Contour(Struct, frozen=True):
 
 
 def contour_picture(
-    contour: Contour, words: Language, width: float, height: float, letter: float
+    contour: Contour, language: Language, width: float, height: float, letter: float
 ) -> Picture:
     """Return the blocking contour with the chosen point; only letters may exceed the area."""
     solved, window = contour.solved, contour.window
@@ -199,9 +199,9 @@ def contour_picture(
     def at(x: Reals) -> complex:
         return complex(x[0], x[1]) * per_unit
 
-    step = _step(window, per_unit, words.say, letter)
+    step = _step(window, per_unit, language.notation, letter)
     items: list[Item] = list(_axes(window, per_unit, step, letter))
-    labels = _axis_numbers(window, per_unit, step, words.say, letter)
+    labels = _axis_numbers(window, per_unit, step, language.notation, letter)
     for limit, parts in contour.parts:
         pen = Pen.MAIN if limit.hard else Pen.THIN
         tag = f"{CONTOUR} {limit.kind.value}"
@@ -211,11 +211,11 @@ def contour_picture(
             if _length(points) < _NAMED:
                 continue
             middle = points[len(points) // 2]
-            text = typeset(_sign(limit, words.say), letter)
-            name = f"{limit.kind.value} {limit.wheel} {limit.least} {k}"
+            text = typeset(_sign(limit, language.notation), letter)
+            name = f"{limit.kind.value} {limit.wheel} {limit.min_value} {k}"
             out = middle - complex(window.left + wide / 2, window.low + tall / 2) * per_unit
             way = out / abs(out) * (1 if limit.hard else -1) if abs(out) > 1.0 else 1j
-            labels.append(Label(text, middle, prefer=way, gap=1.5, name=name, manner=BUSY))
+            labels.append(Label(text, middle, prefer=way, gap=1.5, name=name, style=BUSY))
     point = at(np.array(solved.problem.x))
     for foot in (complex(point.real, 0.0), complex(0.0, point.imag)):
         if abs(point - foot) > 2.0:
@@ -223,9 +223,9 @@ def contour_picture(
                 Stroke((point, foot), Pen.HIDDEN if abs(point - foot) > 12.0 else Pen.THIN)
             )
     items.append(Disc(point, 1.3, Ink.BLACK, tag=CONTOUR))
-    shown = "; ".join(words.say.number(f"{x + 0.0:.2f}") for x in solved.problem.x)
+    shown = "; ".join(language.notation.number(f"{x + 0.0:.2f}") for x in solved.problem.x)
     labels.append(
-        Label(typeset(f"({shown})", letter), point, gap=2.0, priority=1, name="x", manner=BUSY)
+        Label(typeset(f"({shown})", letter), point, gap=2.0, priority=1, name="x", style=BUSY)
     )
     return lettered(items, labels)
 
@@ -234,7 +234,7 @@ def _length(points: tuple[complex, ...]) -> float:
     return sum(abs(end - start) for start, end in pairwise(points))
 
 
-def _sign(limit: BlockingLimit, say: Notation) -> str:
+def _sign(limit: BlockingLimit, notation: Notation) -> str:
     """Return what a curve is called, rich text."""
     number = "" if limit.wheel is None else limit.wheel + 1
     match limit.kind:
@@ -243,23 +243,24 @@ def _sign(limit: BlockingLimit, say: Notation) -> str:
         case LimitKind.INTERFERENCE:
             return f"ρ_{{p{number}}} = ρ_{{l{number}}}"
         case LimitKind.TIP:
-            share = f"{say.given(limit.least)}m" if limit.least else "0"
+            share = f"{notation.as_input(limit.min_value)}m" if limit.min_value else "0"
             return f"s_{{a{number}}} = {share}"
         case LimitKind.BASE:
             return f"d_{{a{number}}} = d_{{b{number}}}"
         case LimitKind.TIPS:
             return "Δφ = 0"
         case LimitKind.OVERLAP:
-            return f"ε_{{α}} = {say.given(limit.least)}"
+            return f"ε_{{α}} = {notation.as_input(limit.min_value)}"
 
 
-def _step(window: Window, per_unit: float, say: Notation, letter: float) -> float:
+def _step(window: Window, per_unit: float, notation: Notation, letter: float) -> float:
     """Return the step of both axes, by the millimetres that the widest number takes."""
     apart = 2.0 * letter
     while True:
         step = series_near(apart / per_unit, up=True, series=_STEPS)
         taken = [
-            label.inscription.width for label in _axis_numbers(window, per_unit, step, say, letter)
+            label.inscription.width
+            for label in _axis_numbers(window, per_unit, step, notation, letter)
         ]
         wide = max(taken, default=0.0) + letter
         if wide <= step * per_unit + 1e-9:
@@ -293,13 +294,13 @@ def _ticks(low: float, high: float, per_unit: float, step: float) -> Iterator[tu
 
 
 def _axis_numbers(
-    window: Window, per_unit: float, step: float, say: Notation, letter: float
+    window: Window, per_unit: float, step: float, notation: Notation, letter: float
 ) -> list[Label]:
     size = max(2.5, 0.7 * letter)
     spans = ((1 + 0j, window.left, window.right), (1j, window.low, window.high))
     return [
         Label(
-            typeset(say.number(trimmed(number, 3)), size),
+            typeset(notation.number(trimmed(number, 3)), size),
             turn * place,
             prefer=turn * (-1j if turn == 1 else 1j),
             gap=2.2,
@@ -334,11 +335,11 @@ def _floor(solved: SolvedMeshing) -> float:
 def _line(solved: SolvedMeshing) -> float:
     """Return how long the line of action is drawn, mm: of a ring there is no N₂ on this side."""
     line = float(solved.pair.line)
-    return line if line > 0 else _BEYOND * solved.contact.end
+    return line if line > 0 else _OVERRUN * solved.contact.end
 
 
 def sliding_picture(
-    solved: SolvedMeshing, words: Language, width: float, height: float, letter: float
+    solved: SolvedMeshing, language: Language, width: float, height: float, letter: float
 ) -> Picture:
     """Return the diagram of specific sliding along the line of action from N₁ to N₂.
 
@@ -373,7 +374,7 @@ def sliding_picture(
         marks["N_{2}"] = line
     return diagram_picture(
         Abscissae("ρ_{1}", tuple(rho * scale for rho in marks.values()), tuple(marks)),
-        Ordinates("ϑ", per_mm, words.say),
+        Ordinates("ϑ", per_mm, language.notation),
         drawn,
         letter_height=letter,
         name="sliding",

@@ -381,7 +381,7 @@ def sizes_of(problem: MeshingProblem) -> tuple[list[GearSize], list[GearSize], l
     if not problem.beta:
         return list(_OF_PAIR), list(_OF_WHEELS), list(_OF_CONTACT)
 
-    def own(one: GearSize) -> GearSize:
+    def helical(one: GearSize) -> GearSize:
         symbol, formula, numbers = _HELICAL.get(one.key, ("", "", ""))
         return replace(
             one,
@@ -393,5 +393,7 @@ def sizes_of(problem: MeshingProblem) -> tuple[list[GearSize], list[GearSize], l
     at = next(k for k, one in enumerate(_OF_PAIR) if one.key == "z_min")
     pair = (*_OF_PAIR[:at], *_OF_HELIX, *_OF_PAIR[at:])
     contact = (*_OF_CONTACT, *(_OF_WIDTH if problem.width is not None else ()))
-    one, two, three = (list(map(own, group)) for group in (pair, _OF_WHEELS + _OF_TEETH, contact))
+    one, two, three = (
+        list(map(helical, group)) for group in (pair, _OF_WHEELS + _OF_TEETH, contact)
+    )
     return one, two, three

@@ -51,7 +51,7 @@ class RackCutting(Struct, frozen=True):
         return self.tooth.size("rho_l")
 
     @property
-    def least(self) -> float:
+    def min_displacement(self) -> float:
         """Displacement below which undercut begins: the boundary line passes through N."""
         return self.tooth.size("x_min") * self.m
 
@@ -83,7 +83,7 @@ class RackCutting(Struct, frozen=True):
         half = self.rack_half(count)
         return np.concatenate([half[::-1].conj(), half[1:]])
 
-    def turned(self, points: Points, shift: float) -> Points:
+    def to_wheel(self, points: Points, shift: float) -> Points:
         """Carry points of the rack, shifted along it, into the wheel, whose tooth has axis 0."""
         placed = self.radius + points + 1j * shift
         return np.asarray(placed * np.exp(-1j * (shift / self.radius + pi / self.tooth.z)))

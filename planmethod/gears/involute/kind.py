@@ -33,19 +33,19 @@ class Meshings(ProblemKind["MeshingProblem"]):
 
         return record(problem, lang)
 
-    def solved_document(self, problem: MeshingProblem, words: Language) -> Document:
+    def solved_document(self, problem: MeshingProblem, language: Language) -> Document:
         """Return what ``solve`` prints."""
         from planmethod.gears.involute.text import solved_document
 
-        return Document.of(solved_document(problem, words))
+        return Document.of(solved_document(problem, language))
 
     def protocol_document(
-        self, problem: MeshingProblem, words: Language, profile: Profile
+        self, problem: MeshingProblem, language: Language, profile: Profile
     ) -> Document:
         """Return what ``protocol`` prints."""
         from planmethod.gears.involute.protocol import protocol_document
 
-        return Document.of(protocol_document(problem, words, profile))
+        return Document.of(protocol_document(problem, language, profile))
 
     def drawings(
         self,
@@ -61,9 +61,9 @@ class Meshings(ProblemKind["MeshingProblem"]):
 
         return drawings(problem, fields=fields, profile=profile, before=before, total=total)
 
-    def given(self, problem: MeshingProblem, words: Language) -> list[GivenFact]:
+    def given_facts(self, problem: MeshingProblem, language: Language) -> list[GivenFact]:
         """Return the given facts; the file can be rebuilt from their data."""
         from planmethod.gears.involute.quantities import SolvedMeshing
-        from planmethod.gears.involute.text import given
+        from planmethod.gears.involute.text import given_facts
 
-        return given(SolvedMeshing(problem), words)
+        return given_facts(SolvedMeshing(problem), language)

@@ -28,10 +28,10 @@ TAG = "dimension"
 
 _DOWN = (9.0, 18.0)  # mm: from the root circle to the dimensions of s and e, and to that of p
 _TAIL = 1.5  # mm: of an extension line beyond the dimension line
-_ASIDE = 4.0  # mm: from the outermost tooth to the dimension of its height
+_HEIGHT_OFFSET = 4.0  # mm: from the outermost tooth to the dimension of its height
 _BREAK = 16.0  # mm: length of a line of break
 _HEAD = 2.5  # mm: arrowhead of a radius
-_WITHIN = 3.6  # half pitches: distance of the tip radius from the line of centres, times 1.5
+_RADIUS_REACH = 3.6  # half pitches: distance of the tip radius from the line of centres, times 1.5
 _NAMED = {"f": 0.55, "a": 0.4}  # places of letters along their radii
 _OUT = 9.0  # mm: from the line of centres to the dimension of the clearance
 
@@ -46,8 +46,8 @@ def mesh_dimensions(view: MeshView, height: float) -> tuple[list[Item], list[Lab
     for wheel in (0, 1):
         items += _breaks(view, wheel)
     labels = [
-        Label(typeset(said, height), at, prefer=way, gap=1.2, name=f"size {said}", manner=BUSY)
-        for said, at, way in named
+        Label(typeset(phrase, height), at, prefer=way, gap=1.2, name=f"size {phrase}", style=BUSY)
+        for phrase, at, way in named
     ]
     return items, labels
 
@@ -85,7 +85,7 @@ def _height(view: MeshView) -> tuple[list[Item], Named]:
     """Return the height of a tooth of wheel 2, beside its teeth."""
     tooth = view.solved.teeth[1]
     ends = [_radius(view, 1, name) for name in ("d_a", "d_f")]
-    beside = 3 * pi / tooth.z + _ASIDE / min(ends)
+    beside = 3 * pi / tooth.z + _HEIGHT_OFFSET / min(ends)
     turn = view.axis(1) - tooth.side * beside
     way = complex(np.exp(1j * turn))
     start, end = (view.centre(1) + radius * way for radius in ends)
@@ -122,7 +122,7 @@ def _radii(view: MeshView) -> Iterator[tuple[list[Item], Named]]:
             named.append((f"r_{{b{number}}}", (centre + foot) / 2, beside))
         items: list[Item] = []
         for name, share in (("f", 1 / 3), ("a", 2 / 3)):
-            least = min(share * abs(turn), _WITHIN * share * pi / tooth.z)
+            least = min(share * abs(turn), _RADIUS_REACH * share * pi / tooth.z)
             way = -centre / abs(centre) * np.exp(1j * np.sign(turn) * least)
             tip = centre + _radius(view, wheel, f"d_{name}") * complex(way)
             items.append(Stroke((centre, tip), Pen.THIN, tag=TAG))

@@ -18,7 +18,7 @@ from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import BUSY, CROWDED, Label
+from planmethod.render.labels import BUSY, SERIES, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead, turn_arrow
@@ -44,7 +44,7 @@ _BAND = 2.0  # mm: width of the hatched band of an active flank
 _DOT = 1.0  # mm: radius of a point's dot
 _HEAD = 4.0  # mm: arrowhead of a dimension
 _SHORTEST = 150.0  # mm: length of a broken line of centres
-_ASIDE = 22.0  # mm: from the circles to the dimension of the centre distance
+_DISTANCE_OFFSET = 22.0  # mm: from the circles to the dimension of the centre distance
 _OVER = 14.0  # mm: overhang of circles and lines beyond the teeth
 
 
@@ -99,15 +99,15 @@ class MeshView(Struct, frozen=True):
         return np.asarray(self.centre(wheel) + self.scale * np.asarray(points) * turn)
 
     @property
-    def along(self) -> complex:
+    def action_direction(self) -> complex:
         """Direction of the line of action, from N₁ to N₂."""
         alpha_w = float(self.solved.pair.alpha_w)
         return complex(cos(alpha_w), sin(alpha_w))
 
     def on_line(self, rho: float) -> complex:
         """Return the point of the line of action at a radius of curvature of wheel 1, mm."""
-        start = -self.radii[0] * self.along.imag
-        return self.along * (start + rho * self.scale)
+        start = -self.radii[0] * self.action_direction.imag
+        return self.action_direction * (start + rho * self.scale)
 
     @property
     def half_width(self) -> float:
@@ -122,9 +122,9 @@ class MeshView(Struct, frozen=True):
         return wide
 
 
-def nearest_scale(most: float) -> float:
-    """Return the largest scale of GOST 2.302 that is not larger than ``most``."""
-    return max((scale for scale in SCALES if scale <= most * (1 + 1e-9)), default=SCALES[0])
+def nearest_scale(limit: float) -> float:
+    """Return the largest scale of GOST 2.302 that is not larger than ``limit``."""
+    return max((scale for scale in SCALES if scale <= limit * (1 + 1e-9)), default=SCALES[0])
 
 
 def view_for(solved: SolvedMeshing, width: float, height: float) -> MeshView:
@@ -140,12 +140,12 @@ def view_for(solved: SolvedMeshing, width: float, height: float) -> MeshView:
     ring = pair.cutter != 0
     tall = max(abs(float(d)) for d in pair.d_w) / 2 if ring else float(pair.a_w)
     whole = nearest_scale((height - 4 * _OVER) / tall)
-    scale = min(whole, nearest_scale(max(width - 2 * _ASIDE - 4 * _OVER, 20.0) / wide))
+    scale = min(whole, nearest_scale(max(width - 2 * _DISTANCE_OFFSET - 4 * _OVER, 20.0) / wide))
     if scale * tooth >= LEAST:
         most = nearest_scale(1.4 * HIGH / tooth)
         scale = min(scale, most)
         return MeshView(solved, scale, MeshView(solved, scale, (0.0, 0.0)).radii)
-    limit = min(HIGH / tooth, max(width - 2 * _ASIDE - 4 * _OVER, 20.0) / wide)
+    limit = min(HIGH / tooth, max(width - 2 * _DISTANCE_OFFSET - 4 * _OVER, 20.0) / wide)
     scale = nearest_scale(limit)
     one, two = MeshView(solved, scale, (0.0, 0.0)).radii
     room = height - 4 * _OVER
@@ -160,7 +160,7 @@ def view_for(solved: SolvedMeshing, width: float, height: float) -> MeshView:
 
 def meshing_picture(
     view: MeshView,
-    words: Language,
+    language: Language,
     letter: float,
     sizes: Sequence[Item] = (),
     named: Sequence[Label] = (),
@@ -179,7 +179,7 @@ def meshing_picture(
     items += _centres(view)
     items += _angle(view)
     items += sizes
-    items += _distance(view, ink_bounds(items)[0] - _ASIDE, words, letter)
+    items += _distance(view, ink_bounds(items)[0] - _DISTANCE_OFFSET, language, letter)
     return lettered(items, [*_letters(view, letter), *_circle_letters(view, letter), *named])
 
 
@@ -278,9 +278,9 @@ def _arc_ends(view: MeshView, wheel: int, radius: float) -> tuple[float, float]:
 def _line_of_action(view: MeshView) -> Iterator[Item]:
     """Yield the line of action with its active part, and the common tangent in P."""
     contact = view.solved.contact
-    start, end = (_near(view, wheel) for wheel in (0, 1))
+    start, end = (_visible_end(view, wheel) for wheel in (0, 1))
     for wheel, tip in ((0, start), (1, end)):
-        beyond = view.along * (-_OVER if wheel == 0 else _OVER) / 2
+        beyond = view.action_direction * (-_OVER if wheel == 0 else _OVER) / 2
         yield Stroke((tip, tip + beyond), Pen.THIN, tag="line of action")
         if shows_end(view, wheel):
             foot = view.drawn_centre(wheel)
@@ -288,7 +288,7 @@ def _line_of_action(view: MeshView) -> Iterator[Item]:
                 way = view.centre(wheel) - tip
                 foot = tip + way / abs(way) * min(2.5 * _OVER, abs(way))
             yield Stroke((tip, foot), Pen.THIN, tag="base radius")
-            yield from _square(tip, view.along * (1 if wheel == 0 else -1), foot - tip)
+            yield from _square(tip, view.action_direction * (1 if wheel == 0 else -1), foot - tip)
     a, b = view.on_line(contact.start), view.on_line(contact.end)
     yield Stroke((start, a), Pen.THIN, tag="line of action")
     yield Stroke((a, b), Pen.MAIN, tag="active line")
@@ -297,11 +297,11 @@ def _line_of_action(view: MeshView) -> Iterator[Item]:
     yield Stroke((complex(-0.5 * wide), complex(wide)), Pen.THIN, tag="tangent")
 
 
-def _near(view: MeshView, wheel: int) -> complex:
+def _visible_end(view: MeshView, wheel: int) -> complex:
     """Return the end of the line of action, N₁ or N₂; a nearer point where it is far away."""
     full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
     if wheel and view.solved.pair.side < 0:  # N₂ of a ring is beyond N₁
-        return view.along * _farthest(view)
+        return view.action_direction * _farthest(view)
     if shows_end(view, wheel):
         return full
     return full / abs(full) * _farthest(view)
@@ -347,7 +347,7 @@ def _centres(view: MeshView) -> Iterator[Item]:
     yield Disc(0j, _DOT, Ink.BLACK)
 
 
-def _distance(view: MeshView, x: float, words: Language, letter: float) -> Iterator[Item]:
+def _distance(view: MeshView, x: float, language: Language, letter: float) -> Iterator[Item]:
     """Yield the dimension of the centre distance at an abscissa (межосевое расстояние)."""
     low, high = view.drawn_centre(0), view.drawn_centre(1)
     for centre in (low, high):
@@ -356,14 +356,14 @@ def _distance(view: MeshView, x: float, words: Language, letter: float) -> Itera
     yield Stroke((ends[0] + 1j * _HEAD / 2, ends[1] - 1j * _HEAD / 2), Pen.THIN, tag="dimension")
     yield from arrowhead(ends[0], -1j, length=_HEAD, tag="dimension")
     yield from arrowhead(ends[1], 1j, length=_HEAD, tag="dimension")
-    shown = words.say.number(f"{abs(float(view.solved.pair.a_w)):.3f}")
+    shown = language.notation.number(f"{abs(float(view.solved.pair.a_w)):.3f}")
     text = typeset(f"a_{{w}} = {shown}", letter)
     at = complex(x - text.descent - 1.2, (low.imag + high.imag) / 2)
     yield from text.at(at, anchor="centre", angle=90.0)
 
 
 def _angle_radius(view: MeshView) -> float:
-    end = abs(_near(view, 1)) - 14.0
+    end = abs(_visible_end(view, 1)) - 14.0
     return min(view.half_width + 1.2 * _OVER, end)
 
 
@@ -373,8 +373,8 @@ def _angle(view: MeshView) -> Iterator[Item]:
     lean = _HEAD / radius / 2
     yield Arc(0j, radius, lean, angle - lean, Pen.THIN, tag="dimension")
     yield from arrowhead(complex(radius), -1j + lean, length=_HEAD, tag="dimension")
-    tip = radius * view.along
-    yield from arrowhead(tip, view.along * (1j + lean), length=_HEAD, tag="dimension")
+    tip = radius * view.action_direction
+    yield from arrowhead(tip, view.action_direction * (1j + lean), length=_HEAD, tag="dimension")
 
 
 # Letters ------------------------------------------------------------------------------------------
@@ -390,12 +390,16 @@ def _letters(view: MeshView, height: float) -> list[Label]:
         ("O_{2}", view.drawn_centre(1), 1 + 0.3j),
     ]
     named += [
-        (f"N_{{{wheel + 1}}}", _near(view, wheel), view.along * (1 if wheel else -1))
+        (
+            f"N_{{{wheel + 1}}}",
+            _visible_end(view, wheel),
+            view.action_direction * (1 if wheel else -1),
+        )
         for wheel in (0, 1)
         if shows_end(view, wheel)
     ]
     labels = [
-        Label(typeset(letters, height), at, prefer=way, gap=2.0, name=letters, manner=BUSY)
+        Label(typeset(letters, height), at, prefer=way, gap=2.0, name=letters, style=BUSY)
         for letters, at, way in named
     ]
     middle = _angle_radius(view) * np.exp(0.5j * float(view.solved.pair.alpha_w))
@@ -404,7 +408,7 @@ def _letters(view: MeshView, height: float) -> list[Label]:
     for wheel in (0, 1):
         at = view.drawn_centre(wheel) + 11 * view.up(wheel)
         sign = typeset(f"ω_{{{wheel + 1}}}", height)
-        labels.append(Label(sign, at, prefer=1 + 0j, gap=3.0, name=f"ω_{wheel + 1}", manner=BUSY))
+        labels.append(Label(sign, at, prefer=1 + 0j, gap=3.0, name=f"ω_{wheel + 1}", style=BUSY))
     return labels
 
 
@@ -424,7 +428,7 @@ def _circle_letters(view: MeshView, height: float) -> list[Label]:
                     prefer=away,
                     gap=1.0,
                     name=f"{letters}",
-                    manner=CROWDED,
+                    style=SERIES,
                     series=f"circles {wheel + 1}",
                 )
             )

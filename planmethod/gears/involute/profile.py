@@ -126,8 +126,8 @@ class Tooth(Struct, frozen=True, dict=True):
             angle = atan2(across.imag, abs(end) ** 2 + across.real) - turned
             return squared, angle - _lag(-beyond) - _lag(sqrt(max(squared, 0.0)))
 
-        lowest = halved(lambda back: at(back)[0] > 0, 0.0, last)
-        back = halved(lambda back: at(back)[1] < 0, 0.0, lowest)
+        lowest = bisect_condition(lambda back: at(back)[0] > 0, 0.0, last)
+        back = bisect_condition(lambda back: at(back)[1] < 0, 0.0, lowest)
         return last - back, base * sqrt(max(at(back)[0], 0.0))
 
     @property
@@ -153,7 +153,7 @@ class Tooth(Struct, frozen=True, dict=True):
         top = self.size("rho_a")
         if self.half(top) >= 0:
             return top
-        return halved(lambda rho: bool(self.half(rho) > 0), self.rho_low, top)
+        return bisect_condition(lambda rho: bool(self.half(rho) > 0), self.rho_low, top)
 
     @property
     def is_cut(self) -> bool:
@@ -161,7 +161,7 @@ class Tooth(Struct, frozen=True, dict=True):
         return self.side > 0 and self.size("rho_l") < 0
 
     @property
-    def stands(self) -> bool:
+    def exists(self) -> bool:
         """True if a tooth remains: its two fillets do not meet."""
         angles = np.angle(self.fillet(np.linspace(0.0, self.theta, 200)))
         return bool(np.all(angles < 0) and self.rho_low < self.rho_high)
@@ -191,11 +191,11 @@ def _lag(roll: float) -> float:
     return roll * sum(-((-square) ** k) / (2 * k + 1) for k in range(1, 9))
 
 
-def halved(holds: Callable[[float], bool], low: float, high: float) -> float:
+def bisect_condition(condition: Callable[[float], bool], low: float, high: float) -> float:
     """Return the point between two bounds at which a condition ceases to hold."""
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        low, high = (middle, high) if holds(middle) else (low, middle)
+        low, high = (middle, high) if condition(middle) else (low, middle)
     return (low + high) / 2
 
 

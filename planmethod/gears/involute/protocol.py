@@ -13,18 +13,20 @@ from planmethod.note.document import Caption, Chapter, Formula, Item, Node, Para
 from planmethod.note.wording import Language
 
 
-def protocol_document(problem: MeshingProblem, words: Language, profile: Profile) -> Iterator[Node]:
+def protocol_document(
+    problem: MeshingProblem, language: Language, profile: Profile
+) -> Iterator[Node]:
     """Yield the calculation formula by formula, as the note has it; no hand draws in it."""
-    solved, say = SolvedMeshing(problem), words.meshing
-    fields = solved.fields(words.say)
-    yield from head(solved, words)
-    for key, formulas in groupby(solved.formulas(words), lambda one: one[0]):
-        if key in say["steps"]:
-            yield Chapter(say["steps"][key])
-        if key in say["beside"]:
-            yield Paragraph(say["beside"][key].format(**fields))
+    solved, texts = SolvedMeshing(problem), language.meshing
+    fields = solved.fields(language.notation)
+    yield from head(solved, language)
+    for key, formulas in groupby(solved.formulas(language), lambda one: one[0]):
+        if key in texts["steps"]:
+            yield Chapter(texts["steps"][key])
+        if key in texts["beside"]:
+            yield Paragraph(texts["beside"][key].format(**fields))
         yield from (Formula(formula) for _, formula in formulas)
-    yield Chapter(say.cutting)
-    yield from map(Item, cutting(solved, words))
-    yield Caption(say.checked)
-    yield from map(Item, quality(solved, words))
+    yield Chapter(texts.cutting)
+    yield from map(Item, cutting(solved, language))
+    yield Caption(texts.checked)
+    yield from map(Item, quality(solved, language))

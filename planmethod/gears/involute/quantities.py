@@ -27,17 +27,17 @@ _ANGLES = ("alpha_w", "alpha_a", "beta", "alpha_t", "beta_b")
 """Quantities that `Pair` has in radians."""
 
 
-class Told(Struct, frozen=True):
+class SizedQuantity(Struct, frozen=True):
     """A quantity with its value: one, or those of both wheels."""
 
     quantity: GearSize
     values: tuple[float, ...]
 
-    def shown(self, say: Notation) -> list[str]:
+    def format_values(self, notation: Notation) -> list[str]:
         """Return the values as text, a dash for a value that does not exist."""
         places = self.quantity.unit.places
         return [
-            say.number(f"{value + 0.0:.{places}f}") if np.isfinite(value) else "—"
+            notation.number(f"{value + 0.0:.{places}f}") if np.isfinite(value) else "—"
             for value in self.values
         ]
 
@@ -84,10 +84,15 @@ class SolvedMeshing:
             found = found * pair.side
         return np.asarray(np.degrees(found) if key in _ANGLES else found)
 
-    def told(self) -> tuple[list[Told], list[Told], list[Told]]:
+    def sized_quantities(
+        self,
+    ) -> tuple[list[SizedQuantity], list[SizedQuantity], list[SizedQuantity]]:
         """Return the quantities of the pair, of both wheels, and of their contact."""
         one, two, three = (
-            [Told(q, tuple(float(v) for v in np.atleast_1d(self._value(q.key)))) for q in group]
+            [
+                SizedQuantity(q, tuple(float(v) for v in np.atleast_1d(self._value(q.key))))
+                for q in group
+            ]
             for group in sizes_of(self.problem)
         )
         if self.problem.cutter:
@@ -95,7 +100,7 @@ class SolvedMeshing:
             one[at] = replace(one[at], quantity=replace(one[at].quantity, symbol="x_{d}"))
         return one, two, three
 
-    def fields(self, say: Notation) -> dict[str, str]:
+    def fields(self, notation: Notation) -> dict[str, str]:
         """Return the numbers that formulas are filled with, by their names; ``x1`` of a wheel."""
         rack, alpha_w = self.pair.rack, float(self.pair.alpha_w)
         alpha_t, beta = self.pair.alpha_t, self.pair.beta
@@ -116,7 +121,7 @@ class SolvedMeshing:
             pair = self.pair
             values |= {"a_w0": float(pair.a_w0), "d_a0": pair.d_a0}
             values |= {"sin_w0": np.sin(pair.alpha_w0), "sin_a0": np.sin(pair.alpha_a0)}
-        for group in self.told():
+        for group in self.sized_quantities():
             for one in group:
                 ends = ("",) if len(one.values) == 1 else ("1", "2")
                 values |= {one.quantity.key + e: v for e, v in zip(ends, one.values, strict=True)}
@@ -128,36 +133,36 @@ class SolvedMeshing:
         return angle | {
             name: f"({shown})" if value < 0 else shown
             for name, value in values.items()
-            for shown in [say.number(trimmed(float(value), 6))]
+            for shown in [notation.number(trimmed(float(value), 6))]
         }
 
-    def formulas(self, words: Language) -> Iterator[tuple[str, str]]:
+    def formulas(self, language: Language) -> Iterator[tuple[str, str]]:
         """Yield keys and formulas with their numbers and results, rich text, in order."""
-        say, fields = words.say, self.fields(words.say)
-        tan = words.meshing.tan
-        for group in self.told():
+        notation, fields = language.notation, self.fields(language.notation)
+        tan = language.meshing.tan
+        for group in self.sized_quantities():
             for one in group:
                 q = one.quantity
-                for k, shown in enumerate(one.shown(say)) if q.formula else ():
+                for k, shown in enumerate(one.format_values(notation)) if q.formula else ():
                     if not np.isfinite(one.values[k]) and self.problem.cutter:
                         continue  # a ring has no least shift
                     own, other = ("1", "2") if k == 0 else ("2", "1")
 
-                    def put(text: str, own: str = own, other: str = other) -> str:
-                        text = text.replace("#", own).replace("@", other)
-                        return text.replace("0,5", say.number("0.5"))
+                    def substitute(text: str, index: str = own, mate: str = other) -> str:
+                        text = text.replace("#", index).replace("@", mate)
+                        return text.replace("0,5", notation.number("0.5"))
 
                     unit = "°" if q.unit is Unit.DEGREE else ""
-                    unit = f" {words.meshing['units']['mm']}" if q.unit is Unit.MM else unit
+                    unit = f" {language.meshing['units']['mm']}" if q.unit is Unit.MM else unit
                     ring = (
                         RING_FORMULAS.get(q.key, (None, None))[k] if self.problem.cutter else None
                     )
                     formula, filled = ring or (q.formula, q.numbers)
-                    letters = put(formula).replace("{tan}", tan)
-                    numbers = put(filled).format_map(fields | {"tan": tan})
-                    yield q.key, f"{put(q.symbol)} = {letters} = {numbers} = {shown}{unit}"
+                    letters = substitute(formula).replace("{tan}", tan)
+                    numbers = substitute(filled).format_map(fields | {"tan": tan})
+                    yield q.key, f"{substitute(q.symbol)} = {letters} = {numbers} = {shown}{unit}"
 
-    def judged(self) -> Iterator[tuple[BlockingLimit, float, float]]:
+    def evaluated_limits(self) -> Iterator[tuple[BlockingLimit, float, float]]:
         """Yield every limit with the value compared with it, and its bound.
 
         The contact ratio is that of the teeth as cut. Radii of a ring are negative.
@@ -169,27 +174,31 @@ class SolvedMeshing:
                     value = self.contact.overlap(self.pair)
                 yield one, value, float(one.bound(self.pair))
 
-    def shown(self, limit: BlockingLimit, value: float, bound: float) -> tuple[float, float]:
+    def standard_values(
+        self, limit: BlockingLimit, value: float, bound: float
+    ) -> tuple[float, float]:
         """Return value and bound with the signs of the standard: radii of a ring are positive."""
         if limit.kind is LimitKind.INTERFERENCE and limit.wheel == 1:
             return self.pair.side * value, self.pair.side * bound
         return value, bound
 
-    def sentences(self, words: Language) -> list[tuple[BlockingLimit, bool, str]]:
+    def sentences(self, language: Language) -> list[tuple[BlockingLimit, bool, str]]:
         """Return every limit, whether it is met, and its sentence as rich text."""
-        say, found = words.meshing, []
-        for one, value, bound in self.judged():
+        texts, found = language.meshing, []
+        for one, value, bound in self.evaluated_limits():
             number = "" if one.wheel is None else str(one.wheel + 1)
             shown = {
-                k: words.say.number(f"{v + 0.0:.3f}")
-                for k, v in zip(("value", "bound"), self.shown(one, value, bound), strict=True)
+                k: language.notation.number(f"{v + 0.0:.3f}")
+                for k, v in zip(
+                    ("value", "bound"), self.standard_values(one, value, bound), strict=True
+                )
             }
             holds = value >= bound
-            turned = self.shown(one, 1.0, 1.0)[0] < 0
+            turned = self.standard_values(one, 1.0, 1.0)[0] < 0
             sign = ("≤" if turned else "≥") if holds else (">" if turned else "<")
             name = one.kind.value
             if self.pair.beta and one.kind is LimitKind.TIP:
                 name = "tip_helical"
-            text = say["conditions"][name].format(wheel=number, sign=sign, **shown)
+            text = texts["conditions"][name].format(wheel=number, sign=sign, **shown)
             found.append((one, holds, text))
         return found

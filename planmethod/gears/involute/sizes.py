@@ -23,7 +23,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from planmethod.gears.angles import angle_of_involute, involute, tips_apart
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 
 Reals: TypeAlias = NDArray[np.float64]
 
@@ -102,7 +102,7 @@ class MeshingProblem(KindProblem, frozen=True, kw_only=True):
         Least tooth thickness at the tip, in modules.
     overlap : float
         Least contact ratio.
-    alone : int or None
+    shift_wheel : int or None
         Wheel whose shift the file gives beside the centre distance: 0 or 1.
     """
 
@@ -117,7 +117,7 @@ class MeshingProblem(KindProblem, frozen=True, kw_only=True):
     cutter: int = 0
     beta: float = 0.0
     width: float | None = None
-    alone: int | None = None
+    shift_wheel: int | None = None
 
     @property
     def chosen(self) -> bool:

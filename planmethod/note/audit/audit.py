@@ -14,10 +14,10 @@ from msgspec.structs import replace
 from planmethod.languages import LANGUAGES
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.numbers import significant
-from planmethod.note.plaintext import fixed, given, spoken
-from planmethod.note.wording import language, wording
+from planmethod.note.plaintext import fixed, input_text, localized
+from planmethod.note.wording import get_language, wording
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.head import KindProblem, Published
+from planmethod.problem.common import KindProblem, Published
 from planmethod.problem.model import Problem, Scales
 from planmethod.problem.selector import FORCES, MACHINE, Selector, parse_selector
 from planmethod.solved.selectors.steps import PLANS, NoValue, NoValueError
@@ -37,14 +37,14 @@ _WORDS = tuple(map(wording, LANGUAGES))
 
 UNITS = {
     written: symbol
-    for words in _WORDS
+    for texts in _WORDS
     for unit, symbol in (("m", "mu_l"), ("m/s", "mu_v"), ("m/s²", "mu_a"))
-    for written in (words["units"][unit], words["units"][unit].replace("²", "^2"))
+    for written in (texts["units"][unit], texts["units"][unit].replace("²", "^2"))
 }
 """Plan to which a scale ``per_mm`` belongs, by the unit of its value, in any language."""
 
 NEWTONS, METRES, RADIANS = (
-    tuple(words["units"][unit] for words in _WORDS) for unit in ("N", "m", "rad")
+    tuple(texts["units"][unit] for texts in _WORDS) for unit in ("N", "m", "rad")
 )
 
 
@@ -63,7 +63,7 @@ class Audited(Struct, frozen=True):
     Attributes
     ----------
     exact : float or None
-        In the unit of the value; None when it cannot be computed, and ``why`` says why.
+        In the unit of the value; None when it cannot be computed, and ``reason`` says why.
     read : float or None
         What the segments read with the ruler give; None for an angle.
     per_mm : float or None
@@ -74,7 +74,7 @@ class Audited(Struct, frozen=True):
     exact: float | None = None
     read: float | None = None
     per_mm: float | None = None
-    why: NoValue | None = None
+    reason: NoValue | None = None
 
     @property
     def difference(self) -> float | None:
@@ -197,9 +197,9 @@ def _audited(places: Sequence[SelectorValues], scales: Scales, value: Published)
         exact, read = at.exact(selector) * unit, at.read(selector)
         per_mm = value.per_mm or _per_mm(at, selector, scales, unit)
     except NoValueError as error:
-        return Audited(value, why=error.why)
+        return Audited(value, reason=error.reason)
     if is_angle(selector) and selector.over is None:
-        exact = value.value - _nearest_turn((value.value - exact) / unit) * unit
+        exact = value.value - _wrap_degrees((value.value - exact) / unit) * unit
     return Audited(value, exact, None if read is None else read * unit, per_mm)
 
 
@@ -228,7 +228,7 @@ def _per_mm(at: SelectorValues, selector: Selector, scales: Scales, unit: float)
     """Return what a millimetre of its plan is worth in an angle or a rate."""
     if selector.kind in FORCES:
         told = is_angle(selector) and selector.over is None and at.mu_f is not None
-        return at.forces.turn(selector) * unit if told else None
+        return at.forces.rotation_per_mm(selector) * unit if told else None
     lever = at.lever(selector)
     if lever is None:
         return None
@@ -239,7 +239,7 @@ def _per_mm(at: SelectorValues, selector: Selector, scales: Scales, unit: float)
 
 def _selector(value: Published, scales: Scales) -> Selector:
     if not value.what:
-        raise NoValueError(NoValue.NO_WHAT)
+        raise NoValueError(NoValue.NO_QUANTITY)
     selector = parse_selector(value.what)
     for part in (selector, selector.over):
         plan = _drawn_on(part) if part else None
@@ -258,7 +258,7 @@ def _position(value: Published, count: int) -> int:
     return value.position
 
 
-def _nearest_turn(degrees: float) -> float:
+def _wrap_degrees(degrees: float) -> float:
     """Return an angle's difference without full turns, which a protractor does not show."""
     return degrees - 360.0 * round(degrees / 360.0)
 
@@ -271,7 +271,7 @@ def count(items: Iterable[Audited]) -> dict[AuditVerdict, int]:
     return found
 
 
-NONE = "—"
+DASH = "—"
 DIGITS = 5
 """Significant digits of an exact and of a read value."""
 
@@ -292,15 +292,15 @@ class AuditDocument:
     """
 
     def __init__(self, lang: str, ruler: float) -> None:
-        found = language(lang)
-        self.words, self.says = found.note, found.audit
+        found = get_language(lang)
+        self.texts, self.says = found.note, found.audit
         self.ruler = ruler
 
     def markdown(self, audits: Sequence[tuple[KindProblem, Sequence[Audited]]]) -> str:
         """Return the whole document: what the columns mean, the counts, a table a problem."""
         limits = {
-            "ruler": given(self.ruler, self.words),
-            "limit": given(DRAFTING_MM, self.words),
+            "ruler": input_text(self.ruler, self.texts),
+            "limit": input_text(DRAFTING_MM, self.texts),
         }
         parts = [f"# {self.says.title}", *(text.format(**limits) for text in self.says["intro"])]
         if len(audits) > 1:
@@ -311,16 +311,16 @@ class AuditDocument:
     def _counts(self, audits: Sequence[tuple[KindProblem, Sequence[Audited]]]) -> str:
         says = self.says
         rows = [
-            [_plain(name(problem)), str(len(items)), *map(str, count(items).values())]
+            [_strip_markup(name(problem)), str(len(items)), *map(str, count(items).values())]
             for problem, items in audits
         ]
         return _table([says.problem, says.how_many, *says["counted"].values()], rows, "lrrrrr")
 
     def _section(self, problem: KindProblem, items: Sequence[Audited]) -> str:
         says = self.says
-        head = [f"## {_plain(name(problem))}: {_plain(problem.title)}"]
+        head = [f"## {_strip_markup(name(problem))}: {_strip_markup(problem.title)}"]
         if problem.source:
-            head.append(f"{says.source}: {_plain(problem.source)}.")
+            head.append(f"{says.source}: {_strip_markup(problem.source)}.")
         if not items:
             return "\n\n".join([*head, says.nothing])
         counts = {verdict.value: number for verdict, number in count(items).items()}
@@ -348,26 +348,26 @@ class AuditDocument:
 
     def _row(self, item: Audited) -> list[str]:
         published, says = item.published, self.says
-        reasons = [says["whys"][item.why.value] if item.why else "", published.note]
+        reasons = [says["whys"][item.reason.value] if item.reason else "", published.note]
         return [
-            _plain(published.name),
-            _plain(published.unit),
-            given(published.value, self.words, 12),
+            _strip_markup(published.name),
+            _strip_markup(published.unit),
+            input_text(published.value, self.texts, 12),
             self._number(item.exact, DIGITS),
             self._number(item.read, DIGITS),
             self._number(item.difference, 2),
             self._hundredths(item.percent),
             self._hundredths(item.mm),
             says["verdicts"][item.verdict.value],
-            _plain("; ".join(reason for reason in reasons if reason)),
+            _strip_markup("; ".join(reason for reason in reasons if reason)),
         ]
 
     def _number(self, value: float | None, digits: int) -> str:
-        return NONE if value is None else spoken(significant(value, digits), self.words)
+        return DASH if value is None else localized(significant(value, digits), self.texts)
 
     def _hundredths(self, value: float | None) -> str:
         # Rounded first: a value that rounds to zero has no minus.
-        return NONE if value is None else fixed(round(value, 2), self.words)
+        return DASH if value is None else fixed(round(value, 2), self.texts)
 
 
 def name(problem: KindProblem) -> str:
@@ -375,7 +375,7 @@ def name(problem: KindProblem) -> str:
     return problem.name if problem.variant is None else f"{problem.name}, {problem.variant}"
 
 
-def _plain(text: str) -> str:
+def _strip_markup(text: str) -> str:
     """Return an untrusted text in one line, with the special characters of Markdown escaped."""
     return re.sub(r"([\\`*|<>\[\]#])", r"\\\1", " ".join(text.split()))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from msgspec.structs import replace
 
-from planmethod.note.numbers import is_nothing
+from planmethod.note.numbers import is_negligible
 from planmethod.problem.machine_records import FlywheelMethod, Quadrature, WeightSigns
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import Selector
@@ -30,9 +30,9 @@ def machine_value(solution: Solution, selector: Selector) -> tuple[float, float 
     drawing, kind = drawing_of(flywheel, solution.profile), selector.kind.partition(" ")[2]
     if selector.names:
         return _in_position(flywheel, kind, selector.names), None
-    segment = drawing.made.segment
+    segment = drawing.construction.segment
     if kind == segment:
-        readings = drawing.exact, drawing.by_hand
+        readings = drawing.exact, drawing.ruler_reading
         exact, read = (float(reading.number(segment)[0]) for reading in readings)
         return exact, read
     if kind == "J_f":
@@ -50,7 +50,7 @@ def machine_value(solution: Solution, selector: Selector) -> tuple[float, float 
     if sizes is not None:
         values |= {"D": sizes.diameter, "m": sizes.mass, "b": sizes.width}
     if kind not in values:
-        raise NoValueError(NoValue.NO_WHAT)
+        raise NoValueError(NoValue.NO_QUANTITY)
     return values[kind], None
 
 
@@ -65,7 +65,7 @@ def _in_position(flywheel: Flywheel, kind: str, names: tuple[str, ...]) -> float
     else:
         column = {"M": rows.moment, "J": rows.inertia, "T": rows.inertia * half}[kind]
     value = float(column[number])
-    return 0.0 if is_nothing(value, float(np.max(np.abs(column))) * 1e-7) else value
+    return 0.0 if is_negligible(value, float(np.max(np.abs(column))) * 1e-7) else value
 
 
 def chain(problem: Problem) -> list[tuple[str, float]]:

@@ -9,7 +9,7 @@ from planmethod.note.document import Equation, Term
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.letters import SIGN
 from planmethod.note.narrate.naming import Names
-from planmethod.note.plaintext import given
+from planmethod.note.plaintext import input_text
 from planmethod.plans.forces.polygons import Edge
 from planmethod.plans.model import Direction, Relation, Vector, VectorEquation
 
@@ -19,14 +19,14 @@ def direction_note(names: Names, direction: Direction | None) -> str:
     if direction is None:
         return ""
     match direction.relation:
-        case Relation.STILL:
+        case Relation.ZERO:
             return "= 0"
         case Relation.TOWARDS:
             return " → ".join(direction.points)
         case Relation.ANGLED:
-            angle = given(float(f"{direction.angle:.4g}"), names.words)
+            angle = input_text(float(f"{direction.angle:.4g}"), names.texts)
             return f"∠ {angle}° {''.join(direction.points)}"
-        case Relation.ALONG | Relation.ACROSS:
+        case Relation.PARALLEL | Relation.PERPENDICULAR:
             return f"{SIGN[direction.relation]} {names.base(direction)}"
 
 

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from planmethod.construct.steps import Compute, LineName, Name, NumberName, PointName
 from planmethod.note.formula import fraction
 from planmethod.note.narrate.naming import SCALE_KIND, Names
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import Language, get_language
 from planmethod.plans.model import FACTS, PlanKind, Vector
 from planmethod.problem.names import fold
-from planmethod.solved.enlarging import Knot
+from planmethod.solved.detail_views import DetailView
 from planmethod.solved.solution import Solution
 
 SHORTEST_MM = 1e-9
@@ -25,15 +25,15 @@ class Formulas:
 
     def __init__(self, solution: Solution, names: Names, index: int) -> None:
         self.solution, self.names, self.index = solution, names, index
-        self.words = names.words
-        self.language = language(names.words.lang)
-        self.notation = self.language.say
+        self.texts = names.texts
+        self.language = get_language(names.texts.lang)
+        self.notation = self.language.notation
 
     # Values ----------------------------------------------------------------------------------
 
     def number(self, name: NumberName) -> float:
         """Return a number as the hand has it."""
-        return float(self.solution.by_hand.number(name)[self.index])
+        return float(self.solution.ruler_reading.number(name)[self.index])
 
     def exact(self, name: NumberName) -> float:
         """Return a number without the error of reading."""
@@ -46,20 +46,20 @@ class Formulas:
 
     def readable(self, name: Name) -> bool:
         """Return whether the hand has a value: not where it divides by a reading of 0."""
-        return bool(self.solution.by_hand.has(name)[self.index])
+        return bool(self.solution.ruler_reading.has(name)[self.index])
 
     def place(self, point: PointName) -> complex:
         """Return a point of the exact drawing, mm."""
         column = self.solution.paper.point(point)
         return complex(column[self.index])
 
-    def course(self, line: LineName) -> complex:
+    def direction_vector(self, line: LineName) -> complex:
         """Return a vector along a line of the exact drawing."""
-        return complex(self.solution.paper.course(line)[self.index])
+        return complex(self.solution.paper.line_vector(line)[self.index])
 
     def per_mm(self, kind: PlanKind) -> float:
         """Return the scale of a plan, unit per mm."""
-        return self.solution.own_scale(kind, self.index).per_mm
+        return self.solution.plan_scale(kind, self.index).per_mm
 
     # Formulas --------------------------------------------------------------------------------
 
@@ -71,8 +71,8 @@ class Formulas:
         """Return the exact value in brackets; empty on a sheet, whose table has it."""
         if self.names.on_sheet:
             return ""
-        told = f"{self.notation.found(value)} {unit}".rstrip()
-        return self.words.exact.format(value=told)
+        text = f"{self.notation.computed(value)} {unit}".rstrip()
+        return self.texts.exact.format(value=text)
 
     def product(
         self,
@@ -99,7 +99,7 @@ class Formulas:
         above: list[tuple[str, str]] = []
         below: list[tuple[str, str]] = []
         if factor != 1.0:
-            above.append((self.notation.given(factor),) * 2)
+            above.append((self.notation.as_input(factor),) * 2)
         for symbol, value, power, is_scale in factors:
             if is_scale and self.names.is_inverse_scale():
                 value, power = 1.0 / value, -power
@@ -118,7 +118,9 @@ class Formulas:
         parts = [symbol, *(side for side in sides if side != number), f"{number} {self.unit(unit)}"]
         return " = ".join(parts) + more
 
-    def laid(self, step: Compute, segment: str, kind: PlanKind, vector: Vector | None) -> list[str]:
+    def laid_off_formulas(
+        self, step: Compute, segment: str, kind: PlanKind, vector: Vector | None
+    ) -> list[str]:
         """Return how a length to be laid off on a plan is computed: the quantity, then the length.
 
         On a sheet, a quantity that is not given covers both.
@@ -135,7 +137,7 @@ class Formulas:
         symbol = vector.symbol if vector else self.names.symbol(value)
         made, lines = self.names.step[value], []
         sides: tuple[str, ...] = self.fraction(
-            [(symbol, _shown(length * mu), 1, False), (self.names.symbol(scale), mu, -1, True)]
+            [(symbol, _as_written(length * mu), 1, False), (self.names.symbol(scale), mu, -1, True)]
         )
         if isinstance(made, Compute):
             product = self.product(made.powers, made.factor)
@@ -150,13 +152,13 @@ class Formulas:
         powers = step.powers[::-1] if self.names.is_inverse_scale() else step.powers
         exact, unit = abs(self.exact(step.out)), FACTS[kind].unit
         if not self.readable(step.out):
-            told = self.exactly(exact, self.unit(unit))
-            return f"{symbol} {self.language.sheets.unreadable}{told}"
+            text = self.exactly(exact, self.unit(unit))
+            return f"{symbol} {self.language.sheets.unreadable}{text}"
         value, product = abs(self.number(step.out)), self.product(powers)
-        told = self._read_on(step) + self.exactly(exact)
+        text = self._read_on(step) + self.exactly(exact)
         if value == 0.0 < exact:  # no enlargement of GOST 2.302 shows it
-            return f"{symbol} = {product[0]} ≈ 0{told}"
-        return self.formula(symbol, product, value, unit, told)
+            return f"{symbol} = {product[0]} ≈ 0{text}"
+        return self.formula(symbol, product, value, unit, text)
 
     def _read_on(self, step: Compute) -> str:
         """Return the detail view on which a quantity's segment is read; empty for others."""
@@ -167,24 +169,26 @@ class Formulas:
         return f" ({self.language.sheets.read_on.format(view=view_name(knot, self.language))})"
 
 
-def view_name(knot: Knot, words: Language) -> str:
+def view_name(detail_view: DetailView, language: Language) -> str:
     """Return the name of a detail view: ``А (10:1)``."""
-    ratio = words.say.short(knot.times)
-    return words.sheets.enlarged.format(letter=knot_letter(knot, words), ratio=ratio)
+    ratio = language.notation.short(detail_view.times)
+    return language.sheets.enlarged.format(
+        letter=detail_view_letter(detail_view, language), ratio=ratio
+    )
 
 
-def knot_letter(knot: Knot, words: Language) -> str:
+def detail_view_letter(detail_view: DetailView, language: Language) -> str:
     """Return the letter of a detail view, none that looks like that of a point.
 
     Where the letters are too few they start again with a number: ``Б1``.
     """
-    every: tuple[str, ...] = words.sheets["knots"]
-    letters = [one for one in every if fold(one) not in knot.initials] or every
-    again, which = divmod(knot.number, len(letters))
+    every: tuple[str, ...] = language.sheets["knots"]
+    letters = [one for one in every if fold(one) not in detail_view.initials] or every
+    again, which = divmod(detail_view.number, len(letters))
     return f"{letters[which]}{again or ''}"
 
 
-def _shown(value: float) -> float:
+def _as_written(value: float) -> float:
     """Return a number as just written, so that the next formula uses the same digits."""
     return float(f"{value:.4g}")
 

@@ -7,10 +7,10 @@ from planmethod.note.numbers import Notation
 from planmethod.plans.model import Direction, Plan, Relation, is_primed, pole_letter
 from planmethod.problem.model import Problem
 
-SIGN = {Relation.ALONG: "∥", Relation.ACROSS: "⊥"}
+SIGN = {Relation.PARALLEL: "∥", Relation.PERPENDICULAR: "⊥"}
 
 
-def shown_letters(problem: Problem, plan: Plan) -> dict[PointName, list[str]]:
+def plan_letters(problem: Problem, plan: Plan) -> dict[PointName, list[str]]:
     """Return the letters of every plan point; those of the pole begin with the pole's own."""
     primed = is_primed(problem, plan.kind)
     letters = {
@@ -47,12 +47,12 @@ def direction_text(direction: Direction | None, say: Notation | None = None) -> 
         return ""
     base = direction.guide or mark(*direction.points)
     match direction.relation:
-        case Relation.STILL:
+        case Relation.ZERO:
             return "= 0"
         case Relation.TOWARDS:
             return " → ".join(mark(point) for point in direction.points)
         case Relation.ANGLED:
             degrees = f"{direction.angle:.4g}"
             return f"∠ {say.number(degrees) if say else degrees}° {base}"
-        case Relation.ALONG | Relation.ACROSS:
+        case Relation.PARALLEL | Relation.PERPENDICULAR:
             return f"{SIGN[direction.relation]} {base}"

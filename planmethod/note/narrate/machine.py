@@ -12,16 +12,16 @@ from planmethod.construct.scale import Scale
 from planmethod.note import formula
 from planmethod.note.document import GivenFact
 from planmethod.note.narrate.forces.statement import load_facts, mass_lines
-from planmethod.note.narrate.given import given, of_turn, turns_symbol
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import alike, half_up
-from planmethod.note.wording import Language, Words
+from planmethod.note.narrate.statement import angle_with_positions, given_facts, turns_symbol
+from planmethod.note.numbers import format_column, half_up
+from planmethod.note.wording import Language, MessageTable
 from planmethod.problem.machine_records import ConstantMoment, Quadrature, WeightSigns
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
 from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
 from planmethod.solved.machine.motor import machine_power
-from planmethod.solved.machine.runup import MOST_CYCLES, NEAR, RunUp, TimeCourse, run_up_of
+from planmethod.solved.machine.runup import MAX_CYCLES, NEAR, RunUp, TimeMotion, run_up_of
 from planmethod.solved.machine.sizes import (
     DISC_WIDTH,
     RIM_BORE,
@@ -37,25 +37,25 @@ from planmethod.solved.reading import Reals
 _Column: TypeAlias = tuple[str, str, list[str]]
 
 
-class MachineTeller:
+class MachineNarrator:
     """Narrates a machine and the choice of its flywheel in a language (рассказ о маховике).
 
     Parameters
     ----------
     drawing : FlywheelDrawing
-    words : Language
+    language : Language
     """
 
-    def __init__(self, drawing: FlywheelDrawing, words: Language) -> None:
-        self.drawing, self.words, self.say = drawing, words, words.say
+    def __init__(self, drawing: FlywheelDrawing, language: Language) -> None:
+        self.drawing, self.language, self.notation = drawing, language, language.notation
         self.flywheel: Flywheel = drawing.flywheel
-        self.said: Words = words.machine
+        self.texts: MessageTable = language.machine
         resisting = self.flywheel.machine.constant is ConstantMoment.DRIVING
         self.changes, self.keeps = ("resisting", "driving")[:: 1 if resisting else -1]
 
     def letter(self, name: str) -> str:
         """Return the letters of a quantity."""
-        return self.say.symbol(name)
+        return self.notation.symbol(name)
 
     @property
     def moment(self) -> str:
@@ -69,14 +69,14 @@ class MachineTeller:
 
     def unit(self, name: str) -> str:
         """Return the letters of a unit."""
-        return self.say.units[name]
+        return self.notation.units[name]
 
     def scale(self, letter: str, per_mm: float, unit: str) -> str:
         """Return the inscription of a scale; one that follows from others with four digits."""
         if letter in ("A", "T", "φ"):
             per_mm = float(f"{per_mm:.4g}")
         return scale_inscription(Scale(f"mu_{letter}", per_mm, unit), Convention.UNIT_PER_MM,
-                                 self.say)  # fmt: skip
+                                 self.notation)  # fmt: skip
 
     def _value(self, letter: str, per_mm: float, unit: str) -> str:
         """Return the value of a scale as it is inscribed."""
@@ -84,25 +84,25 @@ class MachineTeller:
 
     # Given and wanted ------------------------------------------------------------------------
 
-    def given(self) -> list[GivenFact]:
+    def given_facts(self) -> list[GivenFact]:
         """Return the given facts, without a position: the machine goes through all of them."""
         machine, problem = self.flywheel.machine, self.flywheel.problem
         assert problem.dynamics is not None
-        _, *lines = given(problem, self.words, [self.flywheel.turn.start_deg])
-        lines += mass_lines(problem, self.words) + load_facts(problem, self.words)
+        _, *lines = given_facts(problem, self.language, [self.flywheel.turn.start_deg])
+        lines += mass_lines(problem, self.language) + load_facts(problem, self.language)
         if machine.crank_inertia:
-            inertia = self.say.given(machine.crank_inertia)
-            told = f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}"
-            lines.append(GivenFact(told, {"machine.J_crank": machine.crank_inertia}))
+            inertia = self.notation.as_input(machine.crank_inertia)
+            text = f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}"
+            lines.append(GivenFact(text, {"machine.J_crank": machine.crank_inertia}))
         lines.append(GivenFact(f"δ = {self.delta}", {"machine.delta": machine.delta}))
-        speed = self.say.found(abs(problem.drive.rate))
-        mean = self.said["means"][machine.mean.value]
-        told = f"{self.letter('mean speed')} = {mean.format()} = {speed} {self.unit('1/s')}"
-        lines.append(GivenFact(told, {"machine.mean": machine.mean.value}))
+        speed = self.notation.computed(abs(problem.drive.rate))
+        mean = self.texts["means"][machine.mean.value]
+        text = f"{self.letter('mean speed')} = {mean.format()} = {speed} {self.unit('1/s')}"
+        lines.append(GivenFact(text, {"machine.mean": machine.mean.value}))
         constant = f"{self.letter(f'{self.keeps} moment')} = const"
         lines.append(GivenFact(constant, {"machine.constant": machine.constant.value}))
         if machine.signs is WeightSigns.SOURCE:
-            lines.append(GivenFact(self.said.source_signs, {"machine.signs": "source"}))
+            lines.append(GivenFact(self.texts.source_signs, {"machine.signs": "source"}))
         return lines
 
     @property
@@ -112,22 +112,22 @@ class MachineTeller:
         inverse = 1.0 / delta
         if abs(inverse - round(inverse)) < 1e-9 * inverse:
             return formula.fraction("1", str(round(inverse)))
-        return self.say.given(delta)
+        return self.notation.as_input(delta)
 
-    def wanted(self) -> str:
+    def unknowns(self) -> str:
         """Return the unknowns."""
-        return self.said.wanted.format(flywheel=self.letter("flywheel"))
+        return self.texts.wanted.format(flywheel=self.letter("flywheel"))
 
     # Construction ----------------------------------------------------------------------------
 
     def by_method(self, key: str, **places: str) -> str:
         """Return what a key of the catalogue says of the file's method."""
-        return str(self.said[key][self.flywheel.machine.method.value]).format(**places)
+        return str(self.texts[key][self.flywheel.machine.method.value]).format(**places)
 
     def steps(self) -> list[str]:
         """Return the sentences of the construction, in order."""
         drawing, machine, mm = self.drawing, self.flywheel.machine, self.unit("mm")
-        scales, (top, bottom) = drawing.scales, self.found_in
+        scales, (top, bottom) = drawing.scales, self.tangent_positions
         middle = machine.ordinates is Quadrature.MIDDLE
         constant = float(drawing.points.work[-1]) / self.flywheel.cycle
         places = {
@@ -140,25 +140,25 @@ class MachineTeller:
             "mu_M": self.scale("M", scales.moment, "N·m"),
             "mu_A": self.scale("A", scales.work, "J"),
             "mu_J": self.scale("J", scales.inertia, "kg·m²"),
-            "pole": f"{self.say.given(half_up(drawing.pole, 2))} {mm}",
-            "way": self.said.by_middle if middle else self.said.by_trapezoid,
-            "constant": f"{self.say.found(constant)} {self.unit('N·m')}",
+            "pole": f"{self.notation.as_input(half_up(drawing.pole, 2))} {mm}",
+            "way": self.texts.by_middle if middle else self.texts.by_trapezoid,
+            "constant": f"{self.notation.computed(constant)} {self.unit('N·m')}",
             "psi_max": self._angle(drawing.psi[0]),
             "psi_min": self._angle(drawing.psi[1]),
             "top": top,
             "bottom": bottom,
-            "segment": f"{self.say.ruled(self.segment)} {mm}",
+            "segment": f"{self.notation.measured(self.segment)} {mm}",
             "T_II": self.letter("second energy"),
             "T_I": self.letter("first energy"),
         }
         if drawing.by_mertsalov:
             places["ordinate"] = self.sought_formulas()[1]
-        said = self.said["steps"]
+        said = self.texts["steps"]
         sentences = (*said["all"], *said[machine.method.value])
         return [sentence.format(**places) for sentence in sentences]
 
     @property
-    def found_in(self) -> tuple[int, int]:
+    def tangent_positions(self) -> tuple[int, int]:
         """Numbers of the positions in which the tangents touch, or A and B are."""
         drawing, numbers = self.drawing, self.flywheel.turn.numbers(self.drawing.count)
         step, tangents = self.flywheel.cycle / drawing.count, drawing.points.tangents
@@ -167,24 +167,26 @@ class MachineTeller:
     @property
     def segment(self) -> float:
         """KL or AB as it is measured, mm."""
-        return float(self.drawing.by_hand.number(self.drawing.made.segment)[0])
+        return float(self.drawing.ruler_reading.number(self.drawing.construction.segment)[0])
 
     def _angle(self, value: float) -> str:
-        return self.say.number(f"{value:.2f}")
+        return self.notation.number(f"{value:.2f}")
 
     def scale_formulas(self) -> list[str]:
         """Return the scales with numbers."""
-        drawing, say = self.drawing, self.say
+        drawing, notation = self.drawing, self.notation
         scales, mm = drawing.scales, self.unit("mm")
-        turn, pole = degrees(self.flywheel.cycle), say.given(half_up(drawing.pole, 2))
+        turn, pole = degrees(self.flywheel.cycle), notation.as_input(half_up(drawing.pole, 2))
         angles = [
             self._value("φ", degrees(scales.phi), "deg"), self._value("φ", scales.phi, "rad"),
         ]  # fmt: skip
-        axis = formula.fraction(say.given(turn), say.given(half_up(drawing.length, 2)))
+        axis = formula.fraction(
+            notation.as_input(turn), notation.as_input(half_up(drawing.length, 2))
+        )
         lines = [" = ".join(["μ_{φ}", axis, *angles])]
-        parts = f"{say.given(scales.moment)}·{{}}{say.found(scales.phi)}"
+        parts = f"{notation.as_input(scales.moment)}·{{}}{notation.computed(scales.phi)}"
         if self.flywheel.machine.pole_mm is None:
-            above, below = say.given(float(f"{scales.work:.4g}")), parts.format("")
+            above, below = notation.as_input(float(f"{scales.work:.4g}")), parts.format("")
             lines += [
                 f"μ_{{A}} = μ_{{T}} = {self._value('A', scales.work, 'J')}",
                 f"H_{{A}} = {formula.fraction('μ_{A}', 'μ_{M}·μ_{φ}')} = "
@@ -204,7 +206,7 @@ class MachineTeller:
             return self._energies(omega)
         lines = []
         for name, factor, psi in zip(("max", "min"), "+−", self.drawing.psi, strict=True):
-            tangent = self.say.found(float(np.tan(np.radians(psi))))
+            tangent = self.notation.computed(float(np.tan(np.radians(psi))))
             sought = formula.fraction(f"μ_{{J}}·{omega}^{{2}}·(1 {factor} δ)", "2μ_{T}")
             lines.append(
                 f"tg ψ_{{{name}}} = {sought} = {tangent}, ψ_{{{name}}} = {self._angle(psi)}°"
@@ -212,16 +214,16 @@ class MachineTeller:
         return lines
 
     def _energies(self, omega: str) -> list[str]:
-        J, say, mm = self.letter("reduced inertia"), self.say, self.unit("mm")  # noqa: N806
+        J, notation, mm = self.letter("reduced inertia"), self.notation, self.unit("mm")  # noqa: N806
         first, second = self.letter("first energy"), self.letter("second energy")
         work, start = self.drawing.scales.work, self.drawing.second_start
-        speed = say.found(self.flywheel.middle_speed)
-        shown = say.given(float(f"{work:.4g}"))
+        speed = notation.computed(self.flywheel.middle_speed)
+        shown = notation.as_input(float(f"{work:.4g}"))
         above = "" if not start else " − T_{0}"
-        begins = f", T_{{0}} = {say.short(start, 4)} {self.unit('J')}" if start else ""
-        per_unit = say.found(self.flywheel.middle_speed**2 / (2.0 * work))
+        begins = f", T_{{0}} = {notation.short(start, 4)} {self.unit('J')}" if start else ""
+        per_unit = notation.computed(self.flywheel.middle_speed**2 / (2.0 * work))
         factor = formula.fraction(f"{speed}^{{2}}", f"2·{shown}")
-        less = f" − {say.short(start / work, 4)}" if start else ""
+        less = f" − {notation.short(start / work, 4)}" if start else ""
         return [
             f"{second} = {formula.fraction(f'{J}·{omega}^{{2}}', '2')}{begins}",
             f"y_{{II}} = {formula.fraction(f'{second}{above}', 'μ_{T}')} = {factor}·{J}{less} = "
@@ -231,20 +233,20 @@ class MachineTeller:
 
     def formulas(self) -> list[str]:
         """Return scales, angles or energies and the flywheel by the construction, with numbers."""
-        drawing, say, made = self.drawing, self.say, self.drawing.made
+        drawing, notation, made = self.drawing, self.notation, self.drawing.construction
         lines = [*self.scale_formulas(), *self.sought_formulas()]
         exact = float(drawing.exact.number(made.segment)[0])
-        told = f"{made.segment} = {say.ruled(self.segment)} {self.unit('mm')}"
-        lines.append(self.said.read.format(text=told, exact=say.number(f"{exact:.2f}")))
+        text = f"{made.segment} = {notation.measured(self.segment)} {self.unit('mm')}"
+        lines.append(self.texts.read.format(text=text, exact=notation.number(f"{exact:.2f}")))
         if drawing.by_mertsalov:
             lines.append(self.largest_change())
         lines.append(
-            self.said.construction.format(
+            self.texts.construction.format(
                 symbol=self.letter("flywheel"),
                 segment=made.segment,
                 omega=self.letter("mean speed"),
-                value=say.found(drawing.read_inertia),
-                sigma=say.short(drawing.sigma, 2),
+                value=notation.computed(drawing.read_inertia),
+                sigma=notation.short(drawing.sigma, 2),
                 unit=self.unit("kg·m²"),
             )
         )
@@ -252,44 +254,46 @@ class MachineTeller:
 
     def largest_change(self) -> str:
         """Return the largest change of the flywheel's energy, of AB as it is measured."""
-        value = self.say.found(self.drawing.scales.work * self.segment)
+        value = self.notation.computed(self.drawing.scales.work * self.segment)
         symbol = self.letter("largest first energy")
-        return f"{symbol} = μ_{{T}}·{self.drawing.made.segment} = {value} {self.unit('J')}"
+        return f"{symbol} = μ_{{T}}·{self.drawing.construction.segment} = {value} {self.unit('J')}"
 
     def conclusions(self) -> list[str]:
         """Return the exact flywheel, what the construction is off by, and the check."""
-        flywheel, say, said = self.flywheel, self.say, self.said
+        flywheel, notation, texts = self.flywheel, self.notation, self.texts
         exact, unit = flywheel.exact.inertia, self.unit("kg·m²")
-        delta = say.number(f"{flywheel.delta_reached:.6f}")
+        delta = notation.number(f"{flywheel.delta_reached:.6f}")
         if exact <= 0.0:
-            return [said.not_needed.format(delta=delta)]
+            return [texts.not_needed.format(delta=delta)]
         letters = {
             "symbol": self.letter("flywheel"),
             "omega": self.letter("mean speed"),
             "T_II": self.letter("second energy"),
             "T_I": self.letter("first energy"),
         }
-        lines = [self.by_method("exact", value=say.found(exact), unit=unit, **letters)]
+        lines = [self.by_method("exact", value=notation.computed(exact), unit=unit, **letters)]
         parts = split(self.drawing)
 
         def percent(value: float) -> str:
-            return say.number(f"{100.0 * value / exact:+.2f}")
+            return notation.number(f"{100.0 * value / exact:+.2f}")
 
         if self.drawing.by_mertsalov:
-            told = [said.method.format(value=percent(parts.method), **letters)]
+            told = [texts.method.format(value=percent(parts.method), **letters)]
         else:
-            told = [said.slopes.format(value=percent(parts.slopes))]
-        told.append(said.positions.format(count=self.drawing.count, value=percent(parts.positions)))
-        told.append(said.pencil.format(value=percent(parts.pencil)))
+            told = [texts.slopes.format(value=percent(parts.slopes))]
+        told.append(
+            texts.positions.format(count=self.drawing.count, value=percent(parts.positions))
+        )
+        told.append(texts.pencil.format(value=percent(parts.pencil)))
         whole = self.drawing.read_inertia - exact
-        lines.append(said.parts.format(whole=percent(whole), parts="; ".join(told)))
+        lines.append(texts.parts.format(whole=percent(whole), parts="; ".join(told)))
         high, low = flywheel.integrated
         per_second = self.unit("1/s")
         lines.append(
-            said.reached.format(
+            texts.reached.format(
                 delta=delta,
-                high=f"{say.found(high.value)} {per_second}",
-                low=f"{say.found(low.value)} {per_second}",
+                high=f"{notation.computed(high.value)} {per_second}",
+                low=f"{notation.computed(low.value)} {per_second}",
                 at_high=self.speed_extreme(high),
                 at_low=self.speed_extreme(low),
             )
@@ -298,23 +302,24 @@ class MachineTeller:
 
     def power_formulas(self) -> list[str]:
         """Return the mean power over the cycle, and that of the motor, with numbers."""
-        flywheel, say, watt = self.flywheel, self.say, self.unit("W")
+        flywheel, notation, watt = self.flywheel, self.notation, self.unit("W")
         power = machine_power(flywheel)
-        minutes, turning = 60 * flywheel.turns, turns_symbol(flywheel.problem, self.words)
-        n = say.found(flywheel.middle_speed * 30.0 / pi)
-        work = say.found(flywheel.work_per_cycle)
+        minutes, turning = 60 * flywheel.turns, turns_symbol(flywheel.problem, self.language)
+        n = notation.computed(flywheel.middle_speed * 30.0 / pi)
+        work = notation.computed(flywheel.work_per_cycle)
         at_crank, at_motor = self.letter("power"), self.letter("motor power")
         lines = [
             f"{at_crank} = {formula.fraction(f'{self.work}·{turning}', str(minutes))} = "
-            f"{formula.fraction(f'{work}·{n}', str(minutes))} = {say.found(power.at_crank)} {watt}"
+            f"{formula.fraction(f'{work}·{n}', str(minutes))} = "
+            f"{notation.computed(power.at_crank)} {watt}"
         ]
         if power.at_motor is None or power.efficiency is None:
             return lines
-        share = say.found(power.efficiency)
+        share = notation.computed(power.efficiency)
         lines.append(
             f"{at_motor} = {formula.fraction(at_crank, 'η')} = "
-            f"{formula.fraction(say.found(power.at_crank), share)} = "
-            f"{say.found(power.at_motor)} {watt}"
+            f"{formula.fraction(notation.computed(power.at_crank), share)} = "
+            f"{notation.computed(power.at_motor)} {watt}"
         )
         return lines
 
@@ -323,20 +328,20 @@ class MachineTeller:
         rated = machine_power(self.flywheel).rated
         if rated is None:
             return []
-        power = f"{self.say.given(rated / 1000.0)} {self.unit('kW')}"
-        return [self.said.motor_chosen.format(power=power)]
+        power = f"{self.notation.as_input(rated / 1000.0)} {self.unit('kW')}"
+        return [self.texts.motor_chosen.format(power=power)]
 
     def speed_extreme(self, extreme: SpeedExtreme) -> str:
         """Return the angle of the crank of an extreme speed."""
-        phi = self.flywheel.turn.sense * degrees(extreme.turned) + self.flywheel.turn.start_deg
-        angle = self.said.extreme.format(angle=self.say.number(f"{phi % 360.0:.1f}"))
-        return of_turn(self.flywheel.problem, phi, angle, self.words)
+        phi = self.flywheel.turn.sense * degrees(extreme.rotation) + self.flywheel.turn.start_deg
+        angle = self.texts.extreme.format(angle=self.notation.number(f"{phi % 360.0:.1f}"))
+        return angle_with_positions(self.flywheel.problem, phi, angle, self.language)
 
     # Table -----------------------------------------------------------------------------------
 
     def columns(self) -> list[_Column]:
         """Return the table by positions: heads, units and cells of its columns, rich text."""
-        flywheel, say = self.flywheel, self.say
+        flywheel, notation = self.flywheel, self.notation
         rows, lever = flywheel.rows, flywheel.lever(flywheel.machine.count)
         order = np.argsort(flywheel.turn.numbers(flywheel.machine.count)[:-1])
 
@@ -344,8 +349,8 @@ class MachineTeller:
             values = values[order]
             peak = float(np.max(np.abs(values)))
             clean = np.where(np.abs(values) < 1e-9 * peak, 0.0, values)
-            told = [say.number(text) for text in alike(clean.tolist(), digits)]
-            return head, say.in_head(unit), told
+            told = [notation.number(text) for text in format_column(clean.tolist(), digits)]
+            return head, notation.in_head(unit), told
 
         energies = []
         if self.drawing.by_mertsalov:
@@ -355,11 +360,11 @@ class MachineTeller:
                 column(self.letter("first energy"), rows.gain - second, "J"),
             ]
         return [
-            (self.words.note.number, "", [str(k) for k in range(len(order))]),
+            (self.language.note.number, "", [str(k) for k in range(len(order))]),
             (
                 f"φ_{{{flywheel.problem.drive.link}}}",
-                say.in_head("deg"),
-                [*map(say.turned, rows.phi_deg[order].tolist())],
+                notation.in_head("deg"),
+                [*map(notation.crank_angle, rows.phi_deg[order].tolist())],
             ),
             column(self.moment, flywheel.sign * rows.moment, "N·m"),
             column(self.letter("moment by lever"), flywheel.sign * lever, "N·m"),
@@ -395,45 +400,51 @@ class MachineTeller:
 
     def size_formulas(self) -> list[str]:
         """Return the formulas of the diameter, the mass and the width, with numbers."""
-        found, sizes, wheel, say = (
-            self.calculated, self.sizes, self.flywheel.machine.wheel, self.say,
+        found, sizes, wheel, notation = (
+            self.calculated, self.sizes, self.flywheel.machine.wheel, self.notation,
         )  # fmt: skip
         assert found is not None and sizes is not None
-        J, inertia = self.letter("flywheel"), say.found(sizes.inertia)  # noqa: N806
-        J = J if wheel.ratio == 1.0 else f"J_{{{self.said.own}}}"  # noqa: N806
-        density, metre, kg = say.found(density_of(wheel)), self.unit("m"), self.unit("kg")
-        hollow, share = bool(sizes.bore), say.given(RIM_WIDTH if sizes.bore else DISC_WIDTH)
-        if found.held:
+        J, inertia = self.letter("flywheel"), notation.computed(sizes.inertia)  # noqa: N806
+        J = J if wheel.ratio == 1.0 else f"J_{{{self.texts.own}}}"  # noqa: N806
+        density, metre, kg = notation.computed(density_of(wheel)), self.unit("m"), self.unit("kg")
+        hollow, share = bool(sizes.bore), notation.as_input(RIM_WIDTH if sizes.bore else DISC_WIDTH)
+        if found.is_speed_limited:
             omega = self.letter("mean speed")
-            turning = omega if wheel.ratio == 1.0 else f"{say.given(wheel.ratio)}·{omega}"
+            turning = omega if wheel.ratio == 1.0 else f"{notation.as_input(wheel.ratio)}·{omega}"
             speeds = "v", turning
-            numbers = say.given(wheel.greatest_speed), say.found(2 * found.speed / found.diameter)
+            numbers = (
+                notation.as_input(wheel.greatest_speed),
+                notation.computed(2 * found.speed / found.diameter),
+            )
             diameter = " = ".join(formula.fraction(f"2·{a}", b) for a, b in (speeds, numbers))
         elif hollow or wheel.density is not None:
-            rest = f"·(1 − {say.given(RIM_BORE)}^{{4}})" if hollow else ""
+            rest = f"·(1 − {notation.as_input(RIM_BORE)}^{{4}})" if hollow else ""
             diameter = " = ".join(
                 f"({formula.fraction(f'32·{a}', f'π·{share}·{b}{rest}')})^{{1/5}}"
                 for a, b in ((J, "ρ"), (inertia, density))
             )
         else:
-            factor = say.given(STEEL_FACTOR)
+            factor = notation.as_input(STEEL_FACTOR)
             diameter = f"{factor}·{J}^{{1/5}} = {factor}·{inertia}^{{1/5}}"
         lines = [
-            self.said.diameter.format(
-                formula=f"D = {diameter} = {say.found(found.diameter)} {metre}",
-                value=f"D = {say.given(sizes.diameter)} {metre}",
+            self.texts.diameter.format(
+                formula=f"D = {diameter} = {notation.computed(found.diameter)} {metre}",
+                value=f"D = {notation.as_input(sizes.diameter)} {metre}",
             )
         ]
-        D, bore = say.given(sizes.diameter), say.given(round(sizes.bore, 6))  # noqa: N806
+        D, bore = notation.as_input(sizes.diameter), notation.as_input(round(sizes.bore, 6))  # noqa: N806
         if hollow:
-            lines.append(f"D_{{1}} = {say.given(RIM_BORE)}·D = {bore} {metre}")
+            lines.append(f"D_{{1}} = {notation.as_input(RIM_BORE)}·D = {bore} {metre}")
         plus = ("D^{2} + D_{1}^{2}", f"{D}^{{2}} + {bore}^{{2}}")
         minus = (f"π·ρ·({plus[0].replace('+', '−')})",
                  f"π·{density}·({plus[1].replace('+', '−')})")  # fmt: skip
         if not hollow:
             plus, minus = ("D^{2}", f"{D}^{{2}}"), ("π·ρ·D^{2}", f"π·{density}·{D}^{{2}}")
-        mass, width = f"{say.found(sizes.mass)} {kg}", f"{say.found(sizes.width)} {metre}"
-        above = (f"8·{J}", f"8·{inertia}"), ("4·m", f"4·{say.found(sizes.mass)}")
+        mass, width = (
+            f"{notation.computed(sizes.mass)} {kg}",
+            f"{notation.computed(sizes.width)} {metre}",
+        )
+        above = (f"8·{J}", f"8·{inertia}"), ("4·m", f"4·{notation.computed(sizes.mass)}")
         masses, widths = ("m", above[0], plus, mass), ("b", above[1], minus, width)
         for letter, tops, bottoms, value in (masses, widths):
             parts = (formula.fraction(*pair) for pair in zip(tops, bottoms, strict=True))
@@ -442,16 +453,17 @@ class MachineTeller:
 
     def size_lines(self, sizes: FlywheelSizes) -> list[str]:
         """Return the sizes of a flywheel with numbers."""
-        say, metre = self.say, self.unit("m")
-        lines = [f"D = {say.given(sizes.diameter)} {metre}"]
+        notation, metre = self.notation, self.unit("m")
+        lines = [f"D = {notation.as_input(sizes.diameter)} {metre}"]
         if sizes.bore:
-            lines.append(f"D_{{1}} = {say.given(round(sizes.bore, 6))} {metre}")
-        lines.append(f"b = {say.found(sizes.width)} {metre}")
-        lines.append(f"m = {say.found(sizes.mass)} {self.unit('kg')}")
-        lines.append(f"v = {say.found(sizes.speed)} {self.unit('m/s')}")
-        if sizes.held:
-            limit = f"{say.given(self.flywheel.machine.wheel.greatest_speed)} {self.unit('m/s')}"
-            lines.append(self.said.held.format(speed=limit))
+            lines.append(f"D_{{1}} = {notation.as_input(round(sizes.bore, 6))} {metre}")
+        lines.append(f"b = {notation.computed(sizes.width)} {metre}")
+        lines.append(f"m = {notation.computed(sizes.mass)} {self.unit('kg')}")
+        lines.append(f"v = {notation.computed(sizes.speed)} {self.unit('m/s')}")
+        if sizes.is_speed_limited:
+            speed = notation.as_input(self.flywheel.machine.wheel.greatest_speed)
+            limit = f"{speed} {self.unit('m/s')}"
+            lines.append(self.texts.held.format(speed=limit))
         return lines
 
 
@@ -459,116 +471,118 @@ ROWS = 13
 """Rows of a table of a run-up or a stop."""
 
 
-def asks_run_up(tell: MachineTeller) -> bool:
+def has_run_up(narrator: MachineNarrator) -> bool:
     """Return whether the file has a motor or a brake."""
-    machine = tell.flywheel.machine
+    machine = narrator.flywheel.machine
     return machine.motor is not None or machine.brake is not None
 
 
-def motor_line(tell: MachineTeller) -> list[str]:
+def motor_line(narrator: MachineNarrator) -> list[str]:
     """Return the motor's characteristic with numbers."""
-    motor, say = tell.flywheel.machine.motor, tell.say
+    motor, notation = narrator.flywheel.machine.motor, narrator.notation
     if motor is None:
         return []
     slip = motor.critical_slip
-    said = tell.said.line if slip is None else tell.said.kloss
+    phrase = narrator.texts.line if slip is None else narrator.texts.kloss
     places = {
-        "M": tell.letter("motor moment"),
-        "moment": f"{say.found(motor.moment)} {tell.unit('N·m')}",
-        "slip": "" if slip is None else say.found(slip),
-        "idle": f"{say.found(motor.idle)} {tell.unit('1/s')}",
+        "M": narrator.letter("motor moment"),
+        "moment": f"{notation.computed(motor.moment)} {narrator.unit('N·m')}",
+        "slip": "" if slip is None else notation.computed(slip),
+        "idle": f"{notation.computed(motor.idle)} {narrator.unit('1/s')}",
     }
-    return [said.format(**places)]
+    return [phrase.format(**places)]
 
 
-def run_up_lines(tell: MachineTeller) -> list[str]:
+def run_up_lines(narrator: MachineNarrator) -> list[str]:
     """Return the run-up, the steady motion with the motor, and the stop, with numbers."""
-    run, say, said = run_up_of(tell.flywheel), tell.say, tell.said
-    lines = motor_line(tell)
-    if tell.flywheel.machine.motor is not None:
-        lines += _driven(run, tell)
+    run, notation, texts = run_up_of(narrator.flywheel), narrator.notation, narrator.texts
+    lines = motor_line(narrator)
+    if narrator.flywheel.machine.motor is not None:
+        lines += _driven(run, narrator)
     places = {
-        "M": tell.letter("braking moment"),
-        "brake": f"{say.given(run.machine.brake or 0.0)} {tell.unit('N·m')}",
+        "M": narrator.letter("braking moment"),
+        "brake": f"{notation.as_input(run.machine.brake or 0.0)} {narrator.unit('N·m')}",
     }
     if run.machine.motor is not None and run.failure is not None:
         return lines
     if run.stop is None:
-        return [*lines, said.not_stopped.format(count=MOST_CYCLES)]
-    template = said.braked if run.machine.brake else said.coasted
-    return [*lines, template.format(**places, **_ends(run.stop, tell))]
+        return [*lines, texts.not_stopped.format(count=MAX_CYCLES)]
+    template = texts.braked if run.machine.brake else texts.coasted
+    return [*lines, template.format(**places, **_ends(run.stop, narrator))]
 
 
-def _ends(course: TimeCourse, tell: MachineTeller) -> dict[str, str]:
-    turned = float(course.turned[-1])
+def _ends(course: TimeMotion, narrator: MachineNarrator) -> dict[str, str]:
+    turned = float(course.rotation[-1])
     return {
-        "time": f"{tell.say.found(float(course.time[-1]))} {tell.unit('s')}",
-        "angle": tell.say.number(f"{degrees(turned):.1f}"),
-        "turns": tell.say.number(f"{turned / (2.0 * pi):.2f}"),
+        "time": f"{narrator.notation.computed(float(course.time[-1]))} {narrator.unit('s')}",
+        "angle": narrator.notation.number(f"{degrees(turned):.1f}"),
+        "turns": narrator.notation.number(f"{turned / (2.0 * pi):.2f}"),
     }
 
 
-def _driven(run: RunUp, tell: MachineTeller) -> list[str]:
-    say, said, failure = tell.say, tell.said, run.failure
-    unit, per_second = tell.unit("kg·m²"), tell.unit("1/s")
+def _driven(run: RunUp, narrator: MachineNarrator) -> list[str]:
+    notation, texts, failure = narrator.notation, narrator.texts, run.failure
+    unit, per_second = narrator.unit("kg·m²"), narrator.unit("1/s")
     motor = run.machine.motor
     assert motor is not None
     if failure is not None:
         if isinf(failure.time):
-            return [said.not_steady.format(count=MOST_CYCLES)]
-        if failure.turned == 0.0:
-            moment = float(tell.flywheel.moment.value([0.0])[0])
+            return [texts.not_steady.format(count=MAX_CYCLES)]
+        if failure.rotation == 0.0:
+            moment = float(narrator.flywheel.moment.value([0.0])[0])
             places = {
-                "M": tell.letter("motor moment"),
-                "R": tell.moment,
-                "motor": f"{say.found(motor.at(0.0))} {tell.unit('N·m')}",
-                "resists": f"{say.found(moment)} {tell.unit('N·m')}",
+                "M": narrator.letter("motor moment"),
+                "R": narrator.moment,
+                "motor": f"{notation.computed(motor.at(0.0))} {narrator.unit('N·m')}",
+                "resists": f"{notation.computed(moment)} {narrator.unit('N·m')}",
             }
-            return [said.stays.format(**places)]
-        time = f"{say.found(failure.time)} {tell.unit('s')}"
-        angle = say.number(f"{degrees(failure.turned):.1f}")
-        return [said.stalled.format(time=time, angle=angle)]
-    wheel = f"{tell.letter('flywheel')} = "
-    fitted, wanted = tell.flywheel.fitted, run.wanted
+            return [texts.stays.format(**places)]
+        time = f"{notation.computed(failure.time)} {narrator.unit('s')}"
+        angle = notation.number(f"{degrees(failure.rotation):.1f}")
+        return [texts.stalled.format(time=time, angle=angle)]
+    wheel = f"{narrator.letter('flywheel')} = "
+    fitted, wanted = narrator.flywheel.steady_inertia, run.required_inertia
     high, low = run.steady(fitted).extremes
     lines = [
-        said.ran_up.format(
-            J=f"{wheel}{say.found(fitted)} {unit}",
-            near=say.given(100.0 * NEAR),
-            **_ends(run.run_up, tell),
+        texts.ran_up.format(
+            J=f"{wheel}{notation.computed(fitted)} {unit}",
+            near=notation.as_input(100.0 * NEAR),
+            **_ends(run.run_up, narrator),
         ),
-        said.steady.format(
-            high=f"{say.found(high)} {per_second}",
-            low=f"{say.found(low)} {per_second}",
-            delta=say.number(f"{run.irregularity(fitted):.6f}"),
+        texts.steady.format(
+            high=f"{notation.computed(high)} {per_second}",
+            low=f"{notation.computed(low)} {per_second}",
+            delta=notation.number(f"{run.irregularity(fitted):.6f}"),
         ),
     ]
     if wanted is not None:
-        found = f"{wheel}{say.found(wanted)} {unit}"
-        delta = say.number(f"{run.machine.delta:.6f}")
-        lines.append(said.by_motor.format(wanted=delta, J=found))
+        found = f"{wheel}{notation.computed(wanted)} {unit}"
+        delta = notation.number(f"{run.machine.delta:.6f}")
+        lines.append(texts.by_motor.format(wanted=delta, J=found))
     return lines
 
 
-def courses(tell: MachineTeller) -> list[tuple[str, TimeCourse]]:
+def courses(narrator: MachineNarrator) -> list[tuple[str, TimeMotion]]:
     """Return run-up and stop, as far as they exist, with their titles."""
-    run, found = run_up_of(tell.flywheel), []
+    run, found = run_up_of(narrator.flywheel), []
     if run.machine.motor is not None and run.failure is None:
-        found.append((tell.said.run_up_table, run.run_up))
+        found.append((narrator.texts.run_up_table, run.run_up))
     if run.stop is not None:
-        found.append((tell.said.stop_table, run.stop))
+        found.append((narrator.texts.stop_table, run.stop))
     return found
 
 
-def course_columns(course: TimeCourse, tell: MachineTeller) -> list[tuple[str, str, list[str]]]:
+def course_columns(
+    course: TimeMotion, narrator: MachineNarrator
+) -> list[tuple[str, str, list[str]]]:
     """Return a run-up or a stop by even times: heads, units and cells of its columns."""
     time, turned, omega = course.rows(ROWS)
     columns = (("t", "s", time), ("φ", "deg", turned * 180.0 / pi), ("ω", "1/s", omega))
     return [
         (
             head,
-            tell.say.in_head(unit),
-            [tell.say.number(text) for text in alike(values.tolist())],
+            narrator.notation.in_head(unit),
+            [narrator.notation.number(text) for text in format_column(values.tolist())],
         )
         for head, unit, values in columns
     ]

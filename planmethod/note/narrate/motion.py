@@ -6,7 +6,7 @@ from functools import cached_property
 
 from planmethod.construct.steps import (
     Compute,
-    LayOff,
+    LayOffLength,
     LineName,
     MeasureAlong,
     NumberName,
@@ -18,10 +18,10 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.letters import SIGN
 from planmethod.note.narrate.naming import SCALE_KIND, Names
-from planmethod.note.plaintext import given
+from planmethod.note.plaintext import input_text
 from planmethod.plans.legend import Quantity
 from planmethod.plans.model import RATES, PlanKind, Relation, Vector, VectorKind
-from planmethod.plans.motion.leads import Relative
+from planmethod.plans.motion.legs import Relative
 from planmethod.solved.solution import Solution
 
 UNDRAWN = 0.1
@@ -37,12 +37,17 @@ COLLINEAR = 1e-9
 class MotionNarrator:
     """Narrates the steps that lay vectors off and read them."""
 
-    def __init__(self, solution: Solution, names: Names, say: Formulas) -> None:
-        self.solution, self.names, self.say, self.words = solution, names, say, names.words
-        self.kin = names.kin
+    def __init__(self, solution: Solution, names: Names, formulas: Formulas) -> None:
+        self.solution, self.names, self.formulas, self.texts = (
+            solution,
+            names,
+            formulas,
+            names.texts,
+        )
+        self.kinematics = names.kinematics
         self._values = {
             number: motion.kind
-            for motion in (self.kin.velocity, self.kin.acceleration)
+            for motion in (self.kinematics.velocity, self.kinematics.acceleration)
             for number in motion.segments.values.values()
         }
 
@@ -50,105 +55,108 @@ class MotionNarrator:
         """Return base and angle of a line; the equation's own note says them best."""
         stated = None if ray is None else ray.direction
         if stated is not None and stated.relation in SIGN:
-            across = stated.relation is Relation.ACROSS
+            across = stated.relation is Relation.PERPENDICULAR
             return self.names.base(stated), 90.0 if across else 0.0
         found = self.names.direction(line)
         return self.names.axis(found.base), found.angle
 
     def coincide(self, point: PointName) -> str:
         """Return in brackets the further points that a plan point represents."""
-        others = self.names.others(point)
-        return self.words.meet_coincide.format(points=", ".join(others)) if others else ""
+        others = self.names.further_letters(point)
+        return self.texts.meet_coincide.format(points=", ".join(others)) if others else ""
 
-    def lay_off(self, step: LayOff) -> list[str]:
+    def lay_off(self, step: LayOffLength) -> list[str]:
         """Describe the laying off of a vector from its known data."""
-        names, words = self.names, self.words
+        names, texts = self.names, self.texts
         vector, point = names.vector(step.origin, step.out), names.point(step.out)
-        segment, length = names.segment(step.origin, step.out), abs(self.say.number(step.length))
+        segment, length = (
+            names.segment(step.origin, step.out),
+            abs(self.formulas.number(step.length)),
+        )
         if length < SHORTEST_MM:
             symbol, of = vector.symbol if vector else segment, names.of(step.origin)
-            return [words.zero_length.format(symbol=symbol, point=point, of=of)]
+            return [texts.zero_length.format(symbol=symbol, point=point, of=of)]
         if length < self.solution.profile.ruler * UNDRAWN:
-            small = words.small_length.format(
+            small = texts.small_length.format(
                 segment=segment,
-                length=given(length, words, 2),
+                length=input_text(length, texts, 2),
                 point=point,
                 of=names.of(step.origin),
                 coincide=self.coincide(step.out),
             )
-            return [*self.laid(step), small]
+            return [*self.laid_off_formulas(step), small]
         direction, sense = self._sense(step, vector)
-        text = words.lay_off_vector.format(
+        text = texts.lay_off_vector.format(
             of=names.of(step.origin),
             direction=direction,
             segment=segment,
-            length=given(length, words, 4),
+            length=input_text(length, texts, 4),
             sense=sense,
             point=point,
             coincide=self.coincide(step.out),
         )
-        return [*self.laid(step), text]
+        return [*self.laid_off_formulas(step), text]
 
-    def laid(self, step: LayOff) -> list[str]:
+    def laid_off_formulas(self, step: LayOffLength) -> list[str]:
         """Return the formulas of a vector that is laid off, and of its length."""
-        plan, made = self.names.plan_of(step.out), self._made(step)
+        plan, made = self.names.plan_of(step.out), self._length_step(step)
         assert plan is not None
         segment = self.names.segment(step.origin, step.out)
         vector = self.names.vector(step.origin, step.out)
-        return self.say.laid(made, f"({segment})", plan.kind, vector)
+        return self.formulas.laid_off_formulas(made, f"({segment})", plan.kind, vector)
 
-    def _made(self, step: LayOff) -> Compute:
+    def _length_step(self, step: LayOffLength) -> Compute:
         made = self.names.step[step.length]
         assert isinstance(made, Compute)
         return made
 
-    def _sense(self, step: LayOff, vector: Vector | None) -> tuple[str, str]:
+    def _sense(self, step: LayOffLength, vector: Vector | None) -> tuple[str, str]:
         """Return direction and sense of a vector that is laid off."""
-        words, names = self.words, self.names
-        value = self.say.number(step.length)
-        known = names.step[self._made(step).powers[0][0]]
+        texts, names = self.texts, self.names
+        value = self.formulas.number(step.length)
+        known = names.step[self._length_step(step).powers[0][0]]
         powers = known.powers if isinstance(known, Compute) else ()
         if vector is not None and vector.kind is VectorKind.NORMAL:
             assert vector.direction is not None
             place, joint = vector.direction.points
-            base = words.parallel.format(base=names.axis(place + joint))
-            return words.sense_normal.format(base=base, tail=place, head=joint), ""
-        base, angle = self.direction(step.along, vector)
-        template = words.perpendicular if abs(angle) == 90.0 else words.parallel
+            base = texts.parallel.format(base=names.axis(place + joint))
+            return texts.sense_normal.format(base=base, tail=place, head=joint), ""
+        base, angle = self.direction(step.line, vector)
+        template = texts.perpendicular if abs(angle) == 90.0 else texts.parallel
         direction = template.format(base=base)
         turning = next(
-            (n for n, _ in powers if n in (*self.kin.omega.values(), *self._epsilons)),
+            (n for n, _ in powers if n in (*self.kinematics.omega.values(), *self._epsilons)),
             None,
         )
         if turning is None:
-            return direction, "" if value > 0 else words.backwards
-        said = {"sense": self._turn(self.say.number(turning))}
+            return direction, "" if value > 0 else texts.backwards
+        said = {"sense": self._sense_word(self.formulas.number(turning))}
         symbol = names.symbol(turning)
         if vector is not None and vector.kind is VectorKind.CORIOLIS:
             speed = next(n for n, _ in powers if n in self._speeds)
             relative = names.symbol(speed)
-            return direction, words.sense_coriolis.format(relative=relative, omega=symbol, **said)
-        return direction, words.sense_of.format(symbol=symbol, **said)
+            return direction, texts.sense_coriolis.format(relative=relative, omega=symbol, **said)
+        return direction, texts.sense_of.format(symbol=symbol, **said)
 
     @property
     def _epsilons(self) -> tuple[NumberName, ...]:
-        return tuple(self.kin.epsilon.values())
+        return tuple(self.kinematics.epsilon.values())
 
     @property
     def _speeds(self) -> tuple[NumberName, ...]:
-        return tuple(relative.speed for relative in self.kin.relatives.values())
+        return tuple(relative.speed for relative in self.kinematics.relatives.values())
 
-    def _turn(self, value: float) -> str:
-        return self.words.ccw if value > 0 else self.words.cw
+    def _sense_word(self, value: float) -> str:
+        return self.texts.ccw if value > 0 else self.texts.cw
 
     def compute(self, step: Compute) -> list[str]:
         """Describe a number that is a result; one that is laid off is described there.
 
         A reading is a formula of a list; another value is a sentence.
         """
-        kind = self._turned(step)
+        kind = self._rate_plan(step)
         if kind is not None:
-            return self._turning(step, kind)
+            return self._turning_lines(step, kind)
         formulas = self.value(step)
         return formulas if self.is_reading(step) else [f"{formula}." for formula in formulas]
 
@@ -161,29 +169,34 @@ class MotionNarrator:
     @cached_property
     def _results(self) -> dict[NumberName, Quantity]:
         """Quantities that follow from others and are not segments, by their numbers."""
-        drawn = {*self._values, *self._epsilons, *self.kin.omega.values()}
+        drawn = {*self._values, *self._epsilons, *self.kinematics.omega.values()}
         steps = self.solution.construction.program.steps
-        drawn |= {step.length for step in steps if isinstance(step, LayOff)}
+        drawn |= {step.length for step in steps if isinstance(step, LayOffLength)}
         every = self.solution.legend.values()
         return {q.size: q for q in every if q.size is not None and q.size not in drawn}
 
     def _result(self, step: Compute, quantity: Quantity) -> str:
         """Return the formula of a quantity that follows from others."""
-        value, sides = self.say.number(step.out), self.say.product(step.powers, step.factor)
-        more = self.say.exactly(self.say.exact(step.out))
-        return self.say.formula(quantity.symbol, sides, value, quantity.kind.unit, more)
+        value, sides = (
+            self.formulas.number(step.out),
+            self.formulas.product(step.powers, step.factor),
+        )
+        more = self.formulas.exactly(self.formulas.exact(step.out))
+        return self.formulas.formula(quantity.symbol, sides, value, quantity.kind.unit, more)
 
-    def _turned(self, step: Compute) -> PlanKind | None:
+    def _rate_plan(self, step: Compute) -> PlanKind | None:
         """Return the plan that gives a step as the rate of a link; None for other steps."""
-        return next((kind for kind in RATES if step.out in self.kin.rates(kind).values()), None)
+        return next(
+            (kind for kind in RATES if step.out in self.kinematics.rates(kind).values()), None
+        )
 
-    def found(self, step: Compute) -> list[str]:
+    def result_formulas(self, step: Compute) -> list[str]:
         """Return the formulas of a number that is a result, without sentences."""
-        kind = self._turned(step)
+        kind = self._rate_plan(step)
         if kind is None:
             return self.value(step)
         symbol = self.names.symbol(step.out)
-        alike = [f"{own} = {symbol}" for _, own in self._alike(step, kind)]
+        alike = [f"{own} = {symbol}" for _, own in self._equal_links(step, kind)]
         return [self._turning_formula(step), *alike]
 
     def value(self, step: Compute) -> list[str]:
@@ -196,14 +209,17 @@ class MotionNarrator:
         if not self.is_value(step):
             return []
         plan = self._values[step.out]
-        text = self.say.read(step, plan)
-        for relative in self.kin.relatives.values():
-            if relative.to == FRAME and step.out in (relative.speed, self._along(relative)):
+        text = self.formulas.read(step, plan)
+        for relative in self.kinematics.relatives.values():
+            if relative.to == FRAME and step.out in (
+                relative.speed,
+                self._relative_acceleration(relative),
+            ):
                 # On a fixed guide the relative motion is the whole one.
                 ends = (relative.start, relative.head)
                 if plan is PlanKind.ACCELERATION:
-                    assert relative.a_turned is not None and relative.a_head is not None
-                    ends = (relative.a_turned, relative.a_head)
+                    assert relative.a_coriolis is not None and relative.a_head is not None
+                    ends = (relative.a_coriolis, relative.a_head)
                 vector, whole = self.names.vector(*ends), self.names.symbol(step.out)
                 own = vector.symbol if vector else whole
                 return [text.replace(whole, f"{whole} = {own}", 1) if own != whole else text]
@@ -213,74 +229,74 @@ class MotionNarrator:
         """Return whether a step is the quantity that a plan segment's length represents."""
         return step.out in self._values and step.powers[0][0] in SCALE_KIND
 
-    def _along(self, relative: Relative) -> NumberName | None:
+    def _relative_acceleration(self, relative: Relative) -> NumberName | None:
         """Return the number of a relative acceleration."""
         return self.solution.legend[relative.label("ar")].size
 
-    def _turning(self, step: Compute, kind: PlanKind) -> list[str]:
-        words, link = self.words, self.names.owner(step.out)
-        symbol, value = self.names.symbol(step.out), self.say.number(step.out)
-        read = self.kin.turnings[kind, link]
+    def _turning_lines(self, step: Compute, kind: PlanKind) -> list[str]:
+        texts, link = self.texts, self.names.owner(step.out)
+        symbol, value = self.names.symbol(step.out), self.formulas.number(step.out)
+        read = self.kinematics.turnings[kind, link]
         segment = self.names.segment(read.start, read.head)
         if value == 0:
-            lines = [words.turning_zero.format(symbol=symbol, segment=segment)]
+            lines = [texts.turning_zero.format(symbol=symbol, segment=segment)]
         else:
-            sense = self._turn(value)
+            sense = self._sense_word(value)
             said = {"place": read.place, "joint": read.joint, "link": link, "sense": sense}
             lines = [
                 f"{self._turning_formula(step)}.",
-                words.turning.format(segment=f"({segment})", **said),
+                texts.turning.format(segment=f"({segment})", **said),
             ]
         group_of = self.solution.structure.group_of
         return lines + [
-            words.shared_turning.format(link=other, other=link, symbol=own, same=symbol)
-            for other, own in self._alike(step, kind)
+            texts.shared_turning.format(link=other, other=link, symbol=own, same=symbol)
+            for other, own in self._equal_links(step, kind)
             if group_of(other) == group_of(link)
         ]
 
     def _turning_formula(self, step: Compute) -> str:
         """Return the rate of rotation of a link, and its sense unless it is zero."""
-        value = self.say.number(step.out)
-        more = self.say.exactly(abs(self.say.exact(step.out)))
-        sides = self.say.product(step.powers, step.factor)
+        value = self.formulas.number(step.out)
+        more = self.formulas.exactly(abs(self.formulas.exact(step.out)))
+        sides = self.formulas.product(step.powers, step.factor)
         unit = self.solution.legend[str(step.out)].kind.unit
-        more += f", {self._turn(value)}" if value else ""
-        return self.say.formula(self.names.symbol(step.out), sides, abs(value), unit, more)
+        more += f", {self._sense_word(value)}" if value else ""
+        return self.formulas.formula(self.names.symbol(step.out), sides, abs(value), unit, more)
 
-    def _alike(self, step: Compute, kind: PlanKind) -> list[tuple[str, str]]:
+    def _equal_links(self, step: Compute, kind: PlanKind) -> list[tuple[str, str]]:
         """Return the other links that turn so, and the symbols of that."""
-        table = self.kin.rates(kind)
+        table = self.kinematics.rates(kind)
         own, letter = self.names.owner(step.out), self.names.symbol(step.out)[0]
         others = [k for k, number in table.items() if number == step.out and k != own]
         return [(other, f"{letter}_{{{other}}}") for other in others]
 
     def similar(self, step: Similar) -> list[str]:
         """Describe a point found by similarity."""
-        names, words = self.names, self.words
+        names, texts = self.names, self.texts
         point, coincide = names.point(step.out), self.coincide(step.out)
         b, c = names.point(step.plan_b), names.point(step.plan_c)
         ratio, parts = self._ratio(step), self.parts(step)
-        if abs(ratio) < COLLINEAR or self.say.number(step.side) == 0:
-            return [words.similar_same.format(point=point, other=b, coincide=coincide)]
+        if abs(ratio) < COLLINEAR or self.formulas.number(step.side) == 0:
+            return [texts.similar_same.format(point=point, other=b, coincide=coincide)]
         if abs(ratio - 1) < COLLINEAR:
-            return [words.similar_same.format(point=point, other=c, coincide=coincide)]
+            return [texts.similar_same.format(point=point, other=c, coincide=coincide)]
         said = {"point": point, "coincide": coincide}
         if len(parts) > 1:
             plan, link = self.triangles(step)
-            text = words.similar_triangle.format(plan=plan, link=link, **said)
+            text = texts.similar_triangle.format(plan=plan, link=link, **said)
             return [parts[0] + ",", parts[1] + ".", text]
         said |= {"of": names.of(step.plan_b), "part": names.segment(step.plan_b, step.out)}
         if 0 < ratio.real < 1:
-            return [parts[0] + ".", words.similar_on.format(segment=f"{b}{c}", **said)]
+            return [parts[0] + ".", texts.similar_on.format(segment=f"{b}{c}", **said)]
         ends = (f"{b}{c}", c) if ratio.real > 1 else (f"{c}{b}", b)
         return [
             parts[0] + ".",
-            words.similar_beyond.format(segment=ends[0], beyond=ends[1], **said),
+            texts.similar_beyond.format(segment=ends[0], beyond=ends[1], **said),
         ]
 
     def _ratio(self, step: Similar) -> complex:
         """Return the vector to a point of a link over that along the side it is found from."""
-        s, b, c = (self.say.place(point) for point in (step.link_s, step.link_b, step.link_c))
+        s, b, c = (self.formulas.place(point) for point in (step.link_s, step.link_b, step.link_c))
         return (s - b) / (c - b)
 
     def parts(self, step: Similar) -> list[str]:
@@ -290,9 +306,9 @@ class MotionNarrator:
         for start in (step.plan_b, step.plan_c)[: 1 + is_corner]:
             made = self.names.step[self._length(start, step.out)]
             assert isinstance(made, Compute)
-            sides, length = self.say.product(made.powers), abs(self.say.number(made.out))
+            sides, length = self.formulas.product(made.powers), abs(self.formulas.number(made.out))
             segment = f"({self.names.segment(start, step.out)})"
-            lines.append(self.say.formula(segment, sides, length, "mm"))
+            lines.append(self.formulas.formula(segment, sides, length, "mm"))
         return lines
 
     def triangles(self, step: Similar) -> tuple[str, str]:
@@ -303,15 +319,15 @@ class MotionNarrator:
 
     def _length(self, tail: PointName, head: PointName) -> NumberName:
         """Return the number of a segment's length."""
-        motions = (self.kin.velocity, self.kin.acceleration)
+        motions = (self.kinematics.velocity, self.kinematics.acceleration)
         lengths = next(m.segments for m in motions if (tail, head) in m.segments.lengths)
         return lengths.drawn((tail, head))
 
-    def without_coriolis(self, made: set[PointName]) -> list[str]:
+    def without_coriolis(self, points: set[PointName]) -> list[str]:
         """Return which Coriolis accelerations vanish because the guide does not turn."""
         lines = []
-        for relative in self.kin.relatives.values():
-            if relative.a_head not in made or relative.to in self.kin.omega:
+        for relative in self.kinematics.relatives.values():
+            if relative.a_head not in points or relative.to in self.kinematics.omega:
                 continue
             head = self.names.vector(relative.start, relative.head)
             if head is None:
@@ -320,10 +336,10 @@ class MotionNarrator:
             symbol = f"a^{{k}}_{{{index}}}"
             if relative.to == FRAME:
                 lines.append(
-                    self.words.no_coriolis_frame.format(symbol=symbol, guide=self._track(head))
+                    self.texts.no_coriolis_frame.format(symbol=symbol, guide=self._track(head))
                 )
             else:
-                lines.append(self.words.no_coriolis_link.format(symbol=symbol, link=relative.to))
+                lines.append(self.texts.no_coriolis_link.format(symbol=symbol, link=relative.to))
         return lines
 
     def _index(self, start: PointName, head: PointName) -> str:

@@ -10,14 +10,14 @@ from msgspec import Struct
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.letters import shown_letters
-from planmethod.note.plaintext import given, plain_text
-from planmethod.note.wording import Words
+from planmethod.note.narrate.letters import plan_letters
+from planmethod.note.plaintext import input_text, plain_text
+from planmethod.note.wording import MessageTable
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import (
     FACTS,
     MOTION,
-    STILL,
+    ZERO_VECTOR,
     Direction,
     Plan,
     PlanKind,
@@ -52,22 +52,22 @@ class Names:
     Parameters
     ----------
     solution : Solution
-    words : Words
+    texts : MessageTable
     on_sheet : bool
         For formulas that are lettered: an index is lowered there, so that the ``3`` of ``O3`` is
         one as well, and no dash need keep the ends of a segment apart.
     """
 
-    def __init__(self, solution: Solution, words: Words, *, on_sheet: bool = False) -> None:
-        self.solution, self.words, self.on_sheet = solution, words, on_sheet
+    def __init__(self, solution: Solution, texts: MessageTable, *, on_sheet: bool = False) -> None:
+        self.solution, self.texts, self.on_sheet = solution, texts, on_sheet
         self.construction = solution.construction
-        self.kin = solution.construction.kinematics
+        self.kinematics = solution.construction.kinematics
         problem = solution.problem
         self.step: dict[Name, Step] = {step.out: step for step in self.construction.program.steps}
         self.letters: dict[PointName, list[str]] = {}
         self.poles: set[PointName] = set()
         for plan in self.construction.plans:
-            for at, letters in shown_letters(problem, plan).items():
+            for at, letters in plan_letters(problem, plan).items():
                 self.letters[at] = letters
             assert plan.pole is not None
             self.poles.add(plan.pole)
@@ -101,15 +101,15 @@ class Names:
             return self.letters[name][0]
         foot_of = self.construction.draft.feet.get(name)
         if foot_of is not None:
-            return self._own(name, foot_of + "′")
+            return self._auxiliary_name(name, foot_of + "′")
         if isinstance(self.step.get(name), steps.Touch):
-            return self._own(name, "T")
+            return self._auxiliary_name(name, "T")
         return self.guides.get(name) or self._lowered(name)
 
     def _lowered(self, name: str) -> str:
         return re.sub(_DIGITS, r"_{\g<0>}", name) if self.on_sheet else name
 
-    def _own(self, name: PointName, text: str) -> str:
+    def _auxiliary_name(self, name: PointName, text: str) -> str:
         """Return the name of an auxiliary point, with primes that make it unique."""
         if name not in self._auxiliary:
             while text in self._auxiliary.values() or text in self.solution.points:
@@ -117,18 +117,18 @@ class Names:
             self._auxiliary[name] = text
         return self._auxiliary[name]
 
-    def others(self, name: PointName) -> list[str]:
+    def further_letters(self, name: PointName) -> list[str]:
         """Return the further letters of a plan point: of points that move alike."""
         return self.letters.get(name, [""])[1:]
 
     def of(self, name: PointName) -> str:
         """Return a point in the genitive: "точки b", "полюса p"."""
-        words = self.words
+        texts = self.texts
         if name in self.poles:
-            return words.of_pole.format(point=self.point(name))
+            return texts.of_pole.format(point=self.point(name))
         if name in self.guides:
-            return words.of_guide_start.format(guide=self.guides[name])
-        return words.of_point.format(point=self.point(name))
+            return texts.of_guide_start.format(guide=self.guides[name])
+        return texts.of_point.format(point=self.point(name))
 
     def segment(self, tail: PointName, head: PointName) -> str:
         """Return a segment by its ends: ``bc``, ``BC``, ``b–n_CB``."""
@@ -146,7 +146,7 @@ class Names:
         """
         if text in self._slots:
             link = self._slots[text]
-            return self.words.slot_of.format(link=link) if link else self.words.slot
+            return self.texts.slot_of.format(link=link) if link else self.texts.slot
         return self._given.get(text, text)
 
     def base(self, direction: Direction) -> str:
@@ -176,11 +176,11 @@ class Names:
                 guide = self.guide(line)
                 if guide is not None:
                     return LineDirection(guide, 0.0)
-                if angle == self.solution.problem.drive.given[0]:
+                if angle == self.solution.problem.drive.program_inputs[0]:
                     drive = self.solution.problem.bodies[self.solution.problem.drive.link]
                     if drive.axis is not None:
                         return LineDirection("".join(drive.axis), 0.0)
-                return LineDirection(self.words.x_axis, self.value_of(angle))
+                return LineDirection(self.texts.x_axis, self.value_of(angle))
             case steps.AtAngle(_, _, to, angle):
                 assert to is not None
                 found = self.direction(to)
@@ -207,19 +207,19 @@ class Names:
             return f"∥ {self.axis(found.base)}"
         if abs(found.angle) == 90.0:
             return f"⊥ {self.axis(found.base)}"
-        angle = given(abs(found.angle), self.words)
-        return self.words.at_angle.format(angle=angle, base=found.base)
+        angle = input_text(abs(found.angle), self.texts)
+        return self.texts.at_angle.format(angle=angle, base=found.base)
 
     def line(self, line: LineName) -> str:
         """Return a drawn line in the genitive."""
-        words, step = self.words, self.step[line]
+        texts, step = self.texts, self.step[line]
         guide = self.guide(line)
         if guide is not None:
-            return words.line_guide.format(guide=guide)
+            return texts.line_guide.format(guide=guide)
         if isinstance(step, steps.Join):
-            return words.line_join.format(base=self.direction(line).base)
+            return texts.line_join.format(base=self.direction(line).base)
         assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle)
-        return words.line_through.format(of=self.of(step.through), direction=self.relation(line))
+        return texts.line_through.format(of=self.of(step.through), direction=self.relation(line))
 
     # Numbers ---------------------------------------------------------------------------------
 
@@ -230,13 +230,13 @@ class Names:
             pin = self.solution.problem.slides[drive.link].pin
             yield NumberName("v"), f"v_{{{pin}}}"
             yield NumberName("a"), f"a_{{{pin}}}"
-        for letter, table in (("ω", self.kin.omega), ("ε", self.kin.epsilon)):
+        for letter, table in (("ω", self.kinematics.omega), ("ε", self.kinematics.epsilon)):
             seen: set[NumberName] = set()
             for link, number in table.items():
                 if self.owner(number) == link and number not in seen:
                     seen.add(number)
                     yield number, f"{letter}_{{{link}}}"
-        for motion in (self.kin.velocity, self.kin.acceleration):
+        for motion in (self.kinematics.velocity, self.kinematics.acceleration):
             for ends, number in motion.segments.lengths.items():
                 yield number, f"({self.segment(*ends)})"
             for ends, number in motion.segments.values.items():
@@ -247,8 +247,8 @@ class Names:
 
     def owner(self, number: NumberName) -> str:
         """Return the link whose own angular velocity or acceleration a number is."""
-        for (kind, link), _ in self.kin.turnings.items():
-            if self.kin.rates(kind).get(link) == number:
+        for (kind, link), _ in self.kinematics.turnings.items():
+            if self.kinematics.rates(kind).get(link) == number:
                 return link
         return self.solution.problem.drive.link
 
@@ -293,7 +293,7 @@ class Names:
             return None
         terms = [term for equation in plan.equations for term in equation.right]
         found = [v for v in (*plan.vectors, *terms) if (v.tail, v.head) == (tail, head)]
-        stated = [v for v in found if v.direction not in (None, STILL)]
+        stated = [v for v in found if v.direction not in (None, ZERO_VECTOR)]
         return next(iter(stated or found), None)
 
     def absolute(self, head: PointName) -> str:
@@ -318,7 +318,7 @@ class Names:
         return next(
             (
                 term
-                for head in self._met(line)
+                for head in self._intersections(line)
                 for equation in plan.equations
                 for term in equation.right
                 if (term.tail, term.head) == (step.through, head) and term.direction
@@ -326,7 +326,7 @@ class Names:
             None,
         )
 
-    def _met(self, line: LineName) -> Iterator[PointName]:
+    def _intersections(self, line: LineName) -> Iterator[PointName]:
         for step in self.construction.program.steps:
             if line in (getattr(step, "first", None), getattr(step, "second", None)):
                 yield PointName(step.out)

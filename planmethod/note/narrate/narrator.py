@@ -12,8 +12,8 @@ from typing import Protocol, TypeAlias, assert_never
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, NumberName, PointName, Step
 from planmethod.note.formula import Rich
-from planmethod.note.plaintext import fixed, given
-from planmethod.note.wording import Words
+from planmethod.note.plaintext import fixed, input_text
+from planmethod.note.wording import MessageTable
 
 Line: TypeAlias = steps.Join | steps.Parallel | steps.Perpendicular | steps.AtAngle
 Reading: TypeAlias = steps.Measure | steps.MeasureAlong
@@ -40,7 +40,7 @@ class Naming(Protocol):
     def line(self, name: LineName) -> Rich:
         """Return a drawn line in the genitive."""
 
-    def course(self, name: LineName) -> complex:
+    def direction_vector(self, name: LineName) -> complex:
         """Return a vector along a line of the exact drawing."""
 
     def length(self, name: NumberName) -> Rich:
@@ -50,27 +50,27 @@ class Naming(Protocol):
 class StepNarrator:
     """Narrates steps; a step that another step describes gives no lines."""
 
-    def tell(self, step: Step) -> list[Rich]:
+    def narrate(self, step: Step) -> list[Rich]:
         """Return sentences and formulas of a step; none if another step describes it."""
         match step:
-            case steps.Given():
-                return self.given(step)
+            case steps.GivenPoint():
+                return self.given_point(step)
             case steps.GivenNumber():
                 return []
             case steps.Join() | steps.Parallel() | steps.Perpendicular() | steps.AtAngle():
                 return self.line(step)
-            case steps.LayOff():
+            case steps.LayOffLength():
                 return self.lay_off(step)
-            case steps.MeetLines():
+            case steps.IntersectLines():
                 return self.meet(step)
-            case steps.MeetLineCircle():
+            case steps.IntersectLineCircle():
                 return self.arc_and_line(step)
-            case steps.MeetCircles():
+            case steps.IntersectCircles():
                 return self.two_arcs(step)
             case steps.Touch():
                 return self.touch(step)
-            case steps.Hold():
-                return self.hold(step)
+            case steps.TriadPose():
+                return self.triad(step)
             case steps.Spot():
                 return []  # described with its link
             case steps.Similar():
@@ -84,7 +84,7 @@ class StepNarrator:
             case _:
                 assert_never(step)
 
-    def given(self, step: steps.Given) -> list[Rich]:
+    def given_point(self, step: steps.GivenPoint) -> list[Rich]:
         """Describe a given point."""
         return []
 
@@ -92,19 +92,19 @@ class StepNarrator:
         """Describe a line: most are described by the points found on them."""
         return []
 
-    def lay_off(self, step: steps.LayOff) -> list[Rich]:
+    def lay_off(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a length that is laid off."""
         return []
 
-    def meet(self, step: steps.MeetLines) -> list[Rich]:
+    def meet(self, step: steps.IntersectLines) -> list[Rich]:
         """Describe the intersection of two lines."""
         return []
 
-    def arc_and_line(self, step: steps.MeetLineCircle) -> list[Rich]:
+    def arc_and_line(self, step: steps.IntersectLineCircle) -> list[Rich]:
         """Describe the intersection of an arc and a line."""
         return []
 
-    def two_arcs(self, step: steps.MeetCircles) -> list[Rich]:
+    def two_arcs(self, step: steps.IntersectCircles) -> list[Rich]:
         """Describe the intersection of two arcs."""
         return []
 
@@ -112,7 +112,7 @@ class StepNarrator:
         """Describe a tangent."""
         return []
 
-    def hold(self, step: steps.Hold) -> list[Rich]:
+    def triad(self, step: steps.TriadPose) -> list[Rich]:
         """Describe how three legs determine the pose of a link."""
         return []
 
@@ -132,13 +132,13 @@ class StepNarrator:
 class BoardNarrator(StepNarrator):
     """Narrates steps drawn with compasses and ruler alike in every construction."""
 
-    def __init__(self, naming: Naming, words: Words) -> None:
-        self.naming, self.words = naming, words
+    def __init__(self, naming: Naming, texts: MessageTable) -> None:
+        self.naming, self.texts = naming, texts
 
-    def meet(self, step: steps.MeetLines) -> list[Rich]:
+    def meet(self, step: steps.IntersectLines) -> list[Rich]:
         """Describe the intersection of two lines."""
         return [
-            self.words.meet.format(
+            self.texts.meet.format(
                 first=self.naming.line(step.first),
                 second=self.naming.line(step.second),
                 point=self.naming.point(step.out),
@@ -150,16 +150,16 @@ class BoardNarrator(StepNarrator):
         """Return which other points are in the same place."""
         return ""
 
-    def arc_and_line(self, step: steps.MeetLineCircle) -> list[Rich]:
+    def arc_and_line(self, step: steps.IntersectLineCircle) -> list[Rich]:
         """Describe the intersection of an arc and a line."""
-        words, naming = self.words, self.naming
-        course = naming.course(step.line) * step.way.value * self._sign(step.branch)
+        texts, naming = self.texts, self.naming
+        course = naming.direction_vector(step.line) * step.sense.value * self._sign(step.branch)
         if abs(course.real) >= abs(course.imag):
-            which = words.rightmost if course.real > 0 else words.leftmost
+            which = texts.rightmost if course.real > 0 else texts.leftmost
         else:
-            which = words.upper if course.imag > 0 else words.lower
+            which = texts.upper if course.imag > 0 else texts.lower
         return [
-            words.arc_and_line.format(
+            texts.arc_and_line.format(
                 centre=naming.point(step.centre),
                 radius=naming.length(step.radius),
                 line=naming.line(step.line),
@@ -168,11 +168,11 @@ class BoardNarrator(StepNarrator):
             )
         ]
 
-    def two_arcs(self, step: steps.MeetCircles) -> list[Rich]:
+    def two_arcs(self, step: steps.IntersectCircles) -> list[Rich]:
         """Describe the intersection of two arcs."""
         naming = self.naming
         return [
-            self.words.two_arcs.format(
+            self.texts.two_arcs.format(
                 one=naming.point(step.centre1),
                 first=naming.length(step.radius1),
                 two=naming.point(step.centre2),
@@ -186,7 +186,7 @@ class BoardNarrator(StepNarrator):
         """Describe a tangent."""
         naming = self.naming
         return [
-            self.words.touch.format(
+            self.texts.touch.format(
                 centre=naming.point(step.centre),
                 radius=naming.length(step.radius),
                 source=naming.point(step.source),
@@ -200,17 +200,17 @@ class BoardNarrator(StepNarrator):
         return [
             self.measured(step).format(
                 segment=self.naming.segment(step.tail, step.head),
-                length=given(abs(self.naming.number(step.out)), self.words, 5),
-                exact=fixed(abs(self.naming.exact(step.out)), self.words),
+                length=input_text(abs(self.naming.number(step.out)), self.texts, 5),
+                exact=fixed(abs(self.naming.exact(step.out)), self.texts),
             )
         ]
 
     def measured(self, step: Reading) -> str:
         """Return the sentence for a reading."""
-        return self.words.measure
+        return self.texts.measure
 
     def _sign(self, branch: NumberName | None) -> float:
         return 1.0 if branch is None else self.naming.number(branch)
 
     def _side(self, side: float) -> str:
-        return self.words.left if side > 0 else self.words.right
+        return self.texts.left if side > 0 else self.texts.right

@@ -10,8 +10,8 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.note.formula import Rich, fraction
-from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.numbers import MINUS, alike
+from planmethod.note.narrate.machine import MachineNarrator
+from planmethod.note.numbers import MINUS, format_column
 from planmethod.problem.load_records import SizeTable
 from planmethod.problem.machine_records import WeightSigns
 from planmethod.solved.forces.loads import external
@@ -20,7 +20,7 @@ from planmethod.solved.reading import Complexes, Reals
 
 _Column: TypeAlias = tuple[str, str, list[str]]
 
-_STILL = 1e-9  # share of the largest value of a column below which a value is rounded zero
+_ZERO_RATIO = 1e-9  # share of the largest value of a column below which a value is rounded zero
 
 
 class ReducedTerm(Struct, frozen=True):
@@ -51,11 +51,11 @@ class ReducedTerm(Struct, frozen=True):
     counted: float = 1.0
 
 
-class ReductionTeller:
+class ReductionNarrator:
     """Narrates the reduction of the loads and masses of a machine to its crank."""
 
-    def __init__(self, tell: MachineTeller) -> None:
-        self.tell, self.say, self.flywheel = tell, tell.say, tell.flywheel
+    def __init__(self, narrator: MachineNarrator) -> None:
+        self.narrator, self.notation, self.flywheel = narrator, narrator.notation, narrator.flywheel
         flywheel = self.flywheel
         self.problem, self.count = flywheel.problem, flywheel.machine.count
         self.motion = flywheel.solved(self.count)
@@ -96,38 +96,44 @@ class ReductionTeller:
             speed = self.motion.points[mass.centre].velocity
             weight = mass.mass * dynamics.gravity
             moment = sign * weight * speed.imag / rate
-            if np.abs(speed).max() > _STILL * rate:
+            if np.abs(speed).max() > _ZERO_RATIO * rate:
                 size = np.full(speed.shape, -1j * weight)
                 yield ReducedTerm(f"G_{{{link}}}", mass.centre, link, size, speed, moment, sign)
 
     # Moments ---------------------------------------------------------------------------------
 
-    def _told(self, values: Reals, digits: int = 4) -> list[str]:
+    def _format_column(self, values: Reals, digits: int = 4) -> list[str]:
         values = values[self.order]
         peak = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
-        clean = np.where(np.abs(values) < _STILL * peak, 0.0, values)
-        told = iter(alike(clean[np.isfinite(clean)].tolist(), digits))
-        return ["—" if np.isnan(one) else self.say.number(next(told)) for one in clean.tolist()]
+        clean = np.where(np.abs(values) < _ZERO_RATIO * peak, 0.0, values)
+        told = iter(format_column(clean[np.isfinite(clean)].tolist(), digits))
+        return [
+            "—" if np.isnan(one) else self.notation.number(next(told)) for one in clean.tolist()
+        ]
 
     def _column(self, head: Rich, values: Reals, unit: str, digits: int = 4) -> _Column:
-        return head, self.say.in_head(unit) if unit else "", self._told(values, digits)
+        return (
+            head,
+            self.notation.in_head(unit) if unit else "",
+            self._format_column(values, digits),
+        )
 
     def _speed(self, term: ReducedTerm) -> Rich:
         return f"ω_{{{term.link}}}" if term.point is None else f"v_{{{term.point}}}"
 
     def _angle(self, term: ReducedTerm) -> Rich:
-        return f"α_{{{_plain(term.name)}}}"
+        return f"α_{{{_index_text(term.name)}}}"
 
-    def _leads(self) -> Iterator[_Column]:
-        yield self.tell.words.note.number, "", [str(k) for k in range(len(self.order))]
+    def _number_columns(self) -> Iterator[_Column]:
+        yield self.narrator.language.note.number, "", [str(k) for k in range(len(self.order))]
 
     def moments(self) -> list[_Column]:
         """Return the table of the reduced moment: loads, velocities, angles, reduced moments."""
-        columns, speeds = [*self._leads()], set[str]()
+        columns, speeds = [*self._number_columns()], set[str]()
         for term in self.terms:
             size = np.abs(term.size)
             peak = self._peaks.get(term.name, float(size.max()))
-            if float(np.ptp(size)) > _STILL * peak:
+            if float(np.ptp(size)) > _ZERO_RATIO * peak:
                 name, index, end = term.name.partition("_{")
                 most = f"{name}_{{{end.removesuffix('}')}{' ' if index else ''}max}}"
                 columns.append(self._column(fraction(term.name, most), size / peak, ""))
@@ -141,16 +147,16 @@ class ReductionTeller:
                 columns.append(self._column(self._angle(term), self.angle(term), "deg"))
         sign = self.flywheel.sign
         for term in self.terms:
-            head = f"M_{{{_plain(term.name)}}}"
+            head = f"M_{{{_index_text(term.name)}}}"
             columns.append(self._column(head, sign * term.moment, "N·m"))
-        columns.append(self._column(self.tell.moment, sign * self.flywheel.rows.moment, "N·m"))
+        columns.append(self._column(self.narrator.moment, sign * self.flywheel.rows.moment, "N·m"))
         return columns
 
     @staticmethod
     def angle(term: ReducedTerm) -> Reals:
         """Return the angle between a force and the velocity, degrees; NaN where either is zero."""
         size, speed = np.abs(term.size), np.abs(term.speed)
-        there = (size > _STILL * size.max()) & (speed > _STILL * speed.max())
+        there = (size > _ZERO_RATIO * size.max()) & (speed > _ZERO_RATIO * speed.max())
         turned = np.abs(np.degrees(np.angle(term.size * term.speed.conjugate())))
         return np.where(there, np.round(turned, 9), np.nan)
 
@@ -166,7 +172,7 @@ class ReductionTeller:
             text += f" {sign} {'·'.join(factors)}" if text or minus else "·".join(factors)
         text = text.strip()
         text = f"{MINUS}{text[2:]}" if text.startswith(f"{MINUS} ") else text
-        return f"{self.tell.moment} = {fraction(text, self.omega)}"
+        return f"{self.narrator.moment} = {fraction(text, self.omega)}"
 
     # Energies --------------------------------------------------------------------------------
 
@@ -182,12 +188,12 @@ class ReductionTeller:
 
     def energy_columns(self) -> list[_Column]:
         """Return the table of the energies and of the reduced moment of inertia."""
-        columns = [*self._leads()]
+        columns = [*self._number_columns()]
         for link, energy in self.energies().items():
             columns.append(self._column(f"T_{{{link}}}", energy, "J"))
         rows, half = self.flywheel.rows, self.problem.drive.rate**2 / 2.0
         columns.append(self._column("T", rows.inertia * half, "J"))
-        columns.append(self._column(self.tell.letter("reduced inertia"), rows.inertia, "kg·m²"))
+        columns.append(self._column(self.narrator.letter("reduced inertia"), rows.inertia, "kg·m²"))
         return columns
 
     def energy_formulas(self) -> list[Rich]:
@@ -204,13 +210,13 @@ class ReductionTeller:
             if mass is not None and mass.inertia and np.any(self.motion.links[link].omega):
                 parts.append(fraction(f"J_{{S{link}}}·{omega}", "2"))
             if link == self.problem.drive.link and self.flywheel.machine.crank_inertia:
-                parts.append(fraction(f"{self.tell.letter('crank inertia')}·{omega}", "2"))
+                parts.append(fraction(f"{self.narrator.letter('crank inertia')}·{omega}", "2"))
             lines.append(f"T_{{{link}}} = {' + '.join(parts)}")
         lines.append(f"T = {' + '.join(f'T_{{{link}}}' for link in links)}")
-        inertia = self.tell.letter("reduced inertia")
+        inertia = self.narrator.letter("reduced inertia")
         return [*lines, f"{inertia} = {fraction('2T', f'{self.omega}^{{2}}')}"]
 
 
-def _plain(name: str) -> str:
+def _index_text(name: str) -> str:
     """Return a letter as used in an index: ``G3`` of ``G_{3}``."""
     return name.replace("_{", "").replace("^{", "").replace("}", "")

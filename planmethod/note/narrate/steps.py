@@ -14,7 +14,7 @@ from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.motion import MotionNarrator
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.narrator import BoardNarrator, Line, Reading
-from planmethod.note.plaintext import NO_BREAK, given
+from planmethod.note.plaintext import NO_BREAK, input_text
 from planmethod.note.wording import Language
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import PlanKind
@@ -29,30 +29,30 @@ COORDINATES = (DimensionKind.ALONG, DimensionKind.ACROSS)
 class PositionNarrator:
     """Narrates the steps that draw the mechanism."""
 
-    def __init__(self, names: Names, say: Formulas) -> None:
-        self.names, self.say, self.words = names, say, names.words
+    def __init__(self, names: Names, formulas: Formulas) -> None:
+        self.names, self.formulas, self.texts = names, formulas, names.texts
         self._told: set[Name] = set()
         draft = names.construction.draft
         self._dimensions, self._feet = draft.dimensions, draft.feet
 
     def guide(self, step: steps.AtAngle, guide: str) -> str:
         """Describe a guide of the frame."""
-        angle = given(self.names.value_of(step.angle), self.words)
+        angle = input_text(self.names.value_of(step.angle), self.texts)
         if step.through not in self.names.guides:
             point = self.names.point(step.through)
-            return self.words.draw_guide.format(point=point, angle=angle, guide=guide)
-        place = self.say.place(step.through)
-        x, y = (given(value, self.words, 5) for value in (place.real, place.imag))
-        return self.words.draw_guide_at.format(x=x, y=y, angle=angle, guide=guide)
+            return self.texts.draw_guide.format(point=point, angle=angle, guide=guide)
+        place = self.formulas.place(step.through)
+        x, y = (input_text(value, self.texts, 5) for value in (place.real, place.imag))
+        return self.texts.draw_guide_at.format(x=x, y=y, angle=angle, guide=guide)
 
-    def lay_off(self, step: steps.LayOff) -> list[str]:
+    def lay_off(self, step: steps.LayOffLength) -> list[str]:
         """Describe a length laid off on the drawing."""
-        out, origin, along, length = step.out, step.origin, step.along, step.length
-        names, words = self.names, self.words
-        point, value = names.point(out), self.say.number(length)
+        out, origin, along, length = step.out, step.origin, step.line, step.length
+        names, texts = self.names, self.texts
+        point, value = names.point(out), self.formulas.number(length)
         if abs(value) < SHORTEST_MM:
             symbol = names.symbol(length)
-            return [words.zero_length.format(symbol=symbol, point=point, of=names.of(origin))]
+            return [texts.zero_length.format(symbol=symbol, point=point, of=names.of(origin))]
         line = names.step[along]
         if (
             isinstance(line, steps.AtAngle)
@@ -61,16 +61,16 @@ class PositionNarrator:
             and value > 0
         ):
             return [
-                words.lay_off_at.format(
+                texts.lay_off_at.format(
                     of=names.of(origin),
                     symbol=names.symbol(line.angle),
-                    angle=given(self.say.number(line.angle), words),
+                    angle=input_text(self.formulas.number(line.angle), texts),
                     length=self.length(length, (origin, out)),
                     point=point,
                 )
             ]
-        direction, sense = self._course(along, origin, value)
-        text = words.lay_off.format(
+        direction, sense = self._direction_and_sense(along, origin, value)
+        text = texts.lay_off.format(
             of=names.of(origin),
             direction=direction,
             length=self.length(length, (origin, out)),
@@ -79,9 +79,9 @@ class PositionNarrator:
         )
         return [text]
 
-    def hold(self, step: steps.Hold) -> list[str]:
+    def triad(self, step: steps.TriadPose) -> list[str]:
         """Describe how a base link is found: it moves without one leg, which then fixes it."""
-        names, words, construction = self.names, self.words, self.names.construction
+        names, texts, construction = self.names, self.texts, self.names.construction
         base = link_of_axis(step)
         group = construction.structure.group_of(base)
         assert group is not None
@@ -99,41 +99,42 @@ class PositionNarrator:
         if isinstance(joint, Revolute) and isinstance(lead.joint, Revolute):
             dropped = names.axis(lead.joint.point + joint.point)
         told = [
-            words.hold.format(
+            texts.hold.format(
                 links="–".join((group.links[0], group.links[-1])),
                 dropped=dropped,
                 base=base,
-                leading=words.hold_by.format(one=one, two=two),
+                leading=texts.hold_by.format(one=one, two=two),
                 asked=asked[third],
                 points=", ".join(names.point(PointName(point)) for point in points),
             )
         ]
-        if closing.others and self.say.position == closing.start:
+        if closing.other_places and self.formulas.position == closing.start:
             unit = construction.draft.problem.unit
             told.append(
-                words.hold_others.format(
+                texts.hold_others.format(
                     point=names.point(PointName(closing.point)),
                     places="; ".join(
-                        f"({'; '.join(given(v * UNITS[unit], words) for v in (z.real, z.imag))})"
-                        for z in closing.others
+                        f"({input_text(z.real * UNITS[unit], texts)}; "
+                        f"{input_text(z.imag * UNITS[unit], texts)})"
+                        for z in closing.other_places
                     ),
                     nbsp=NO_BREAK,
-                    unit=self.say.unit(unit),
+                    unit=self.formulas.unit(unit),
                 )
             )
         return told
 
     def _leg(self, leg: steps.Leg, base: str, place: str) -> str:
         """Return the condition that a leg imposes on a base link."""
-        names, words = self.names, self.words
+        names, texts = self.names, self.texts
         if leg.line is not None:
-            return words.hold_line.format(point=names.point(PointName(place)))
+            return texts.hold_line.format(point=names.point(PointName(place)))
         assert leg.centre is not None
         centre = names.point(leg.centre)
         if leg.radius is None:
-            return words.hold_through.format(base=base, centre=centre)
+            return texts.hold_through.format(base=base, centre=centre)
         point = names.point(PointName(place))
-        return words.hold_arc.format(point=point, radius=self.length(leg.radius), centre=centre)
+        return texts.hold_arc.format(point=point, radius=self.length(leg.radius), centre=centre)
 
     def length(self, name: NumberName, ends: tuple[PointName, PointName] | None = None) -> str:
         """Return a length of the drawing: computed when it is first used, afterwards its value.
@@ -143,8 +144,8 @@ class PositionNarrator:
         """
         step, names = self.names.step[name], self.names
         equals = f"{NO_BREAK}={NO_BREAK}"
-        number = given(abs(self.say.number(name)), self.words, 5)
-        value = f"{number}{NO_BREAK}{self.say.unit('mm')}"
+        number = input_text(abs(self.formulas.number(name)), self.texts, 5)
+        value = f"{number}{NO_BREAK}{self.formulas.unit('mm')}"
         symbol = "" if self._is_coordinate(name) else names.symbol(name)
         if ends is not None:
             symbol = "" if ends[0] in names.guides else names.segment(*ends)
@@ -154,30 +155,32 @@ class PositionNarrator:
         metres = None
         if ends is not None and self._is_distance(name, ends):
             metres = f"l_{{{names.axis(symbol)}}}"
-        sides = self.say.product(step.powers, step.factor, called=metres)
+        sides = self.formulas.product(step.powers, step.factor, called=metres)
         return equals.join([*([symbol] if symbol else []), *sides, value])
 
-    def _course(self, line: LineName, origin: PointName, value: float) -> tuple[str, str]:
+    def _direction_and_sense(
+        self, line: LineName, origin: PointName, value: float
+    ) -> tuple[str, str]:
         """Return the line and the sense in which a signed length is laid off."""
-        words, found = self.words, self.names.direction(line)
+        texts, found = self.texts, self.names.direction(line)
         base, angle = found.base, found.angle
         forward = value > 0
         if found.start is not None and found.end is not None and found.start == origin:
             if forward == (angle == 0.0):
-                return words.along.format(base=base), ""
+                return texts.along.format(base=base), ""
             back = self.names.point(found.end) + self.names.point(found.start)
-            return words.beyond.format(base=back, point=self.names.point(origin)), ""
+            return texts.beyond.format(base=back, point=self.names.point(origin)), ""
         if angle in (0.0, 180.0):
             same = forward == (angle == 0.0)
-            return words.parallel.format(base=base), "" if same else words.backwards
+            return texts.parallel.format(base=base), "" if same else texts.backwards
         if abs(angle) == 90.0:
             left = forward == (angle > 0)
-            side = (words.to_left if left else words.to_right).format(base=base)
-            return words.perpendicular.format(base=base), side
+            side = (texts.to_left if left else texts.to_right).format(base=base)
+            return texts.perpendicular.format(base=base), side
         if not forward:
             angle = angle - 180.0 if angle > 0 else angle + 180.0
-        side = (words.to_left if angle > 0 else words.to_right).format(base=base)
-        return words.at_angle.format(angle=given(abs(angle), words), base=base), side
+        side = (texts.to_left if angle > 0 else texts.to_right).format(base=base)
+        return texts.at_angle.format(angle=input_text(abs(angle), texts), base=base), side
 
     def _is_distance(self, name: NumberName, ends: tuple[PointName, PointName]) -> bool:
         """Return whether a coordinate of a point is its distance from another, without a foot."""
@@ -194,10 +197,14 @@ class PositionNarrator:
 class LinkageNaming:
     """Names of a linkage's drawing, a `planmethod.note.narrate.narrator.Naming`."""
 
-    def __init__(self, names: Names, say: Formulas, drawing: PositionNarrator) -> None:
+    def __init__(self, names: Names, formulas: Formulas, drawing: PositionNarrator) -> None:
         self._names = names
         self.point, self.of, self.segment = names.point, names.of, names.segment
-        self.course, self.number, self.exact = say.course, say.number, say.exact
+        self.direction_vector, self.number, self.exact = (
+            formulas.direction_vector,
+            formulas.number,
+            formulas.exact,
+        )
         self.length = drawing.length
 
     def line(self, name: LineName) -> str:
@@ -207,7 +214,7 @@ class LinkageNaming:
             return self._names.line(name)
         assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle)
         note = direction_note(self._names, ray.direction)
-        return self._names.words.line_through.format(of=self.of(step.through), direction=note)
+        return self._names.texts.line_through.format(of=self.of(step.through), direction=note)
 
 
 class Narrator(BoardNarrator):
@@ -215,23 +222,23 @@ class Narrator(BoardNarrator):
 
     A step's lines are formulas and sentences. Numbers that are only laid off are computed where
     they are laid off, and lines that only carry a length are named there: their own steps give no
-    lines. ``say`` writes formulas, where not in the usual way.
+    lines. ``formulas`` writes formulas, where not in the usual way.
     """
 
     def __init__(
         self, solution: Solution, names: Names, index: int, say: Formulas | None = None
     ) -> None:
-        self.names, self.say = names, say or Formulas(solution, names, index)
-        self.drawing = PositionNarrator(names, self.say)
-        super().__init__(LinkageNaming(names, self.say, self.drawing), names.words)
-        self.motion = MotionNarrator(solution, names, self.say)
+        self.names, self.formulas = names, say or Formulas(solution, names, index)
+        self.drawing = PositionNarrator(names, self.formulas)
+        super().__init__(LinkageNaming(names, self.formulas, self.drawing), names.texts)
+        self.motion = MotionNarrator(solution, names, self.formulas)
         self._drawers: dict[LineName, set[type[Step]]] = {}
         for step in names.construction.program.steps:
             for line in _carriers(step):
                 self._drawers.setdefault(line, set()).add(type(step))
 
         told = names.construction.program.steps
-        self._told_later = {
+        self._narrated_later = {
             step.out
             for step, after in pairwise(told)
             if isinstance(step, steps.Measure)
@@ -243,13 +250,13 @@ class Narrator(BoardNarrator):
         """Return whether a step is the value of a segment that is read for it alone."""
         return self.motion.is_reading(step)
 
-    def tell(self, step: Step) -> list[str]:
+    def narrate(self, step: Step) -> list[str]:
         """Return the lines of a step; none if another step describes it."""
-        if not self.say.readable(step.out) and not self.is_reading(step):
+        if not self.formulas.readable(step.out) and not self.is_reading(step):
             return self._unreadable(step)
-        return super().tell(step)
+        return super().narrate(step)
 
-    def lay_off(self, step: steps.LayOff) -> list[str]:
+    def lay_off(self, step: steps.LayOffLength) -> list[str]:
         """Describe a vector of a plan, or a length of the drawing."""
         on_plan = step.out in self.names.letters
         return self.motion.lay_off(step) if on_plan else self.drawing.lay_off(step)
@@ -258,17 +265,17 @@ class Narrator(BoardNarrator):
         """Describe a point of a plan found by similarity."""
         return self.motion.similar(step)
 
-    def hold(self, step: steps.Hold) -> list[str]:
+    def triad(self, step: steps.TriadPose) -> list[str]:
         """Describe how a base link is found, and the other assemblies."""
-        return self.drawing.hold(step)
+        return self.drawing.triad(step)
 
-    def meet(self, step: steps.MeetLines) -> list[str]:
+    def meet(self, step: steps.IntersectLines) -> list[str]:
         """Describe the intersection of two lines; for the special point, its purpose."""
         told = super().meet(step)
         for base, special in self.names.construction.draft.special.items():
             if special.point == step.out:
                 point = self.names.point(step.out)
-                told.append(self.words.special_point.format(base=base, point=point))
+                told.append(self.texts.special_point.format(base=base, point=point))
         return told
 
     def compute(self, step: steps.Compute) -> list[str]:
@@ -281,22 +288,22 @@ class Narrator(BoardNarrator):
 
     def measure(self, step: Reading) -> list[str]:
         """Describe a measured segment, unless its result does."""
-        return [] if step.out in self._told_later else super().measure(step)
+        return [] if step.out in self._narrated_later else super().measure(step)
 
     def measured(self, step: Reading) -> str:
         """Return the sentence for a reading."""
         on_plan = step.tail in self.names.letters
-        return self.words.measure if on_plan else self.words.measure_drawing
+        return self.texts.measure if on_plan else self.texts.measure_drawing
 
     def write(self, step: Step) -> list[str]:
         """Return the formulas of a step of a velocity or acceleration plan, without sentences."""
-        if not self.say.readable(step.out) and not self.is_reading(step):
+        if not self.formulas.readable(step.out) and not self.is_reading(step):
             return self._unreadable(step)
         match step:
-            case steps.LayOff():
-                return self.motion.laid(step)
+            case steps.LayOffLength():
+                return self.motion.laid_off_formulas(step)
             case steps.Compute():
-                return self.motion.found(step)
+                return self.motion.result_formulas(step)
             case steps.Similar():
                 parts, corners = self.motion.parts(step), self.motion.triangles(step)
                 return parts if len(parts) == 1 else [" ∼ ".join(f"△{c}" for c in corners), *parts]
@@ -309,68 +316,71 @@ class Narrator(BoardNarrator):
             return []
         if isinstance(step, steps.Compute):
             below = [name for name, power in step.powers if power < 0]
-            zero = ", ".join(self.names.symbol(n) for n in below if self.say.number(n) == 0)
+            zero = ", ".join(self.names.symbol(n) for n in below if self.formulas.number(n) == 0)
             said = {"symbol": self.names.symbol(step.out), "divisor": zero}
         else:
             assert isinstance(step, steps.Similar), step  # no other step divides by a reading
             divisor = self.names.segment(step.link_b, step.link_c)
             said = {"symbol": self.names.point(step.out), "divisor": divisor}
-        return [self.words.unreadable.format(**said)]
+        return [self.texts.unreadable.format(**said)]
 
     def _can(self, step: Step) -> bool:
         """Return whether the hand has all values that a step uses."""
-        return all(self.say.readable(name) for name, _ in operands(step))
+        return all(self.formulas.readable(name) for name, _ in operands(step))
 
-    def undrawn(self, told: Iterable[Step]) -> list[str]:
+    def undrawn(self, section_steps: Iterable[Step]) -> list[str]:
         """Return the points of a plan that cannot be drawn, as they depend on unreadable values."""
         points = [
             self.names.point(PointName(step.out))
-            for step in told
+            for step in section_steps
             if step.out in self.names.letters and not self._can(step)
         ]
-        return [self.words.unreadable_points.format(points=", ".join(points))] if points else []
+        return [self.texts.unreadable_points.format(points=", ".join(points))] if points else []
 
     def line(self, step: Line) -> list[str]:
         """Describe a guide of the frame, or a line on which two points are found."""
-        words, names = self.words, self.names
+        texts, names = self.texts, self.names
         guide = names.guide(step.out)
         if guide is not None and isinstance(step, steps.AtAngle):
             return [self.drawing.guide(step, guide)]
-        if not self._drawers.get(step.out, set()) & {steps.MeetLines, steps.MeetLineCircle}:
+        if not self._drawers.get(step.out, set()) & {
+            steps.IntersectLines,
+            steps.IntersectLineCircle,
+        }:
             return []
         if isinstance(step, steps.Join):
-            return [words.draw_join.format(base=names.direction(step.out).base) + "."]
+            return [texts.draw_join.format(base=names.direction(step.out).base) + "."]
         ray = names.ray(step.out)
         base, angle = self.motion.direction(step.out, ray)
         of = names.of(step.through)
         if angle in (0.0, 180.0):
-            text = words.draw_parallel.format(of=of, base=base)
+            text = texts.draw_parallel.format(of=of, base=base)
         elif abs(angle) == 90.0:
-            text = words.draw_perpendicular.format(of=of, base=base)
+            text = texts.draw_perpendicular.format(of=of, base=base)
         else:
-            text = words.draw_at_angle.format(of=of, base=base, angle=given(abs(angle), words))
+            text = texts.draw_at_angle.format(of=of, base=base, angle=input_text(abs(angle), texts))
         if ray is not None:
-            text += words.carries.format(symbol=ray.symbol)
+            text += texts.carries.format(symbol=ray.symbol)
         return [text + "."]
 
 
 def _carriers(step: Step) -> tuple[LineName, ...]:
     """Return the lines on which a step puts its point."""
-    if isinstance(step, steps.LayOff):
-        return (step.along,)
-    if isinstance(step, steps.MeetLines):
+    if isinstance(step, steps.LayOffLength):
+        return (step.line,)
+    if isinstance(step, steps.IntersectLines):
         return (step.first, step.second)
-    if isinstance(step, steps.MeetLineCircle):
+    if isinstance(step, steps.IntersectLineCircle):
         return (step.line,)
     return ()
 
 
-def calculation(solution: Solution, kind: PlanKind, index: int, words: Language) -> list[str]:
+def calculation(solution: Solution, kind: PlanKind, index: int, language: Language) -> list[str]:
     """Return the formulas of one plan in one position as rich text (расчёт к плану).
 
     One a line, in the order in which each becomes known: those that a protocol has.
     """
-    narrator = Narrator(solution, Names(solution, words.note, on_sheet=True), index)
+    narrator = Narrator(solution, Names(solution, language.note, on_sheet=True), index)
     sections = (section for section in solution.construction.sections if section.kind is kind)
     lines = (
         line for section in sections for step in section.steps for line in narrator.write(step)

@@ -7,24 +7,24 @@ from collections.abc import Iterator, Mapping, Sequence
 from planmethod.mechanism.describe import PairKind, kind_of_motion, pairs, stated_pairs
 from planmethod.mechanism.groups import AssurGroup, Joint, letter_of, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Revolute
-from planmethod.mechanism.structure import WAYS_IN, Structure, roman
+from planmethod.mechanism.structure import DRIVER_COUNT, Structure, roman
 from planmethod.note.document import Caption, Document, Item, Node, Step, Table, Title, table_of
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.letters import pair_letters
 from planmethod.note.numbers import MINUS
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, MessageTable
 from planmethod.solved.aligned.schemes import AlignedGroup, AlignedScheme, MovablePair, SelfAligning
 
 NBSP = "\u00a0"
 
-MOST_TOLD = 8
+MAX_SCHEMES = 8
 """Largest number of schemes of a group that the text gives beside the best."""
 
 
 def structure_document(
     mechanism: Mechanism,
     structure: Structure,
-    words: Language,
+    language: Language,
     notation: str | None = None,
     aligned: SelfAligning | None = None,
 ) -> Document:
@@ -33,35 +33,35 @@ def structure_document(
     ``notation`` is that of the numbers of pairs: `pair_classes`. ``aligned``: with the scheme
     without redundant constraints.
     """
-    return Document.of(_analysis(mechanism, structure, words, notation, aligned))
+    return Document.of(_analysis(mechanism, structure, language, notation, aligned))
 
 
 def _analysis(
     mechanism: Mechanism,
     structure: Structure,
-    words: Language,
+    language: Language,
     notation: str | None,
     aligned: SelfAligning | None,
 ) -> Iterator[Node]:
-    said = words.structure
-    yield Title(said.title)
-    yield Caption(said.pairs)
-    yield pair_table(mechanism, words, aligned, lettered=True)
-    yield Caption(said.links)
-    yield link_table(mechanism, words)
-    yield Caption(said.formulas)
-    yield from map(Item, mobility_formulas(mechanism, structure, words, notation))
-    yield Caption(said.parts)
-    driver, *counts = driver_caption(mechanism, words)
+    texts = language.structure
+    yield Title(texts.title)
+    yield Caption(texts.pairs)
+    yield pair_table(mechanism, language, aligned, lettered=True)
+    yield Caption(texts.links)
+    yield link_table(mechanism, language)
+    yield Caption(texts.formulas)
+    yield from map(Item, mobility_formulas(mechanism, structure, language, notation))
+    yield Caption(texts.parts)
+    driver, *counts = driver_caption(mechanism, language)
     yield Step((driver, "; ".join(counts)))
     for group in structure.groups:
-        named, *counts = group_caption(group, words)
-        yield Step((named, _joints(mechanism, group, words.note), "; ".join(counts)))
-    yield from map(Item, order_formulas(mechanism, structure, words))
+        named, *counts = group_caption(group, language)
+        yield Step((named, _joints(mechanism, group, language.note), "; ".join(counts)))
+    yield from map(Item, order_formulas(mechanism, structure, language))
     if aligned is not None:
-        yield Caption(said.aligned)
-        yield from map(Item, aligned_lines(mechanism, structure, aligned, words, notation))
-    yield Item(_static_counts(structure, words.note))
+        yield Caption(texts.aligned)
+        yield from map(Item, aligned_lines(mechanism, structure, aligned, language, notation))
+    yield Item(_static_counts(structure, language.note))
 
 
 # Pairs and links -----------------------------------------------------------------------------
@@ -77,7 +77,7 @@ MOBILITY = {
 
 def pair_table(
     mechanism: Mechanism,
-    words: Language,
+    language: Language,
     aligned: SelfAligning | None = None,
     *,
     lettered: bool = False,
@@ -88,24 +88,26 @@ def pair_table(
     each kind, by which `group_caption` calls it.
     """
     scheme = aligned.schemes[0] if aligned is not None and aligned.schemes else None
-    kinds = {kind: words.structure["pair_kinds"][kind.value] for kind in PairKind}
+    kinds = {kind: language.structure["pair_kinds"][kind.value] for kind in PairKind}
     if lettered:
         signs = {PairKind.REVOLUTE: "R", PairKind.PRISMATIC: "P"}
-        kinds |= {kind: f"{kinds[kind]} ({words.note['letters'][signs[kind]]})" for kind in signs}
-    named = words.structure["pair_classes"]
+        kinds |= {
+            kind: f"{kinds[kind]} ({language.note['letters'][signs[kind]]})" for kind in signs
+        }
+    named = language.structure["pair_classes"]
     rows = []
     for pair in stated_pairs(mechanism):
         links = " – ".join(map(mechanism.called, pair.links))
         row = (pair_letters(pair.name), links, kinds[pair.kind], *MOBILITY[pair.kind])
         key = f"{pair.point} {'-'.join(pair.links)}"
         rows.append(row if scheme is None else (*row, named.get(scheme.get(key, ""), "–")))
-    columns = words.structure["columns_pairs"]
+    columns = language.structure["columns_pairs"]
     return table_of(columns if scheme else columns[:-1], rows, names=6)
 
 
-def link_table(mechanism: Mechanism, words: Language) -> Table:
+def link_table(mechanism: Mechanism, language: Language) -> Table:
     """Return the table of links (звенья)."""
-    every, said = stated_pairs(mechanism), words.structure
+    every, texts = stated_pairs(mechanism), language.structure
     replacing = {pair.by for pair in mechanism.higher}
     kinds = [
         (row.link, row.role.value, row.motion.value)
@@ -116,67 +118,67 @@ def link_table(mechanism: Mechanism, words: Language) -> Table:
     rows = (
         (
             mechanism.called(link),
-            words.note["roles"][role],
-            said["motions"][motion],
+            language.note["roles"][role],
+            texts["motions"][motion],
             ", ".join(pair_letters(pair.name) for pair in every if link in pair.links),
         )
         for link, role, motion in kinds
     )
-    return table_of(said["columns_links"], rows, names=4)
+    return table_of(texts["columns_links"], rows, names=4)
 
 
 # Formulas ------------------------------------------------------------------------------------
 
 
-def pair_classes(notation: str | None, words: Language) -> dict[str, str]:
+def pair_classes(notation: str | None, language: Language) -> dict[str, str]:
     """Return the indices of the numbers of lower and higher pairs, as ``[sheet] notation`` says."""
-    said = words.structure["notation"]
+    said = language.structure["notation"]
     lower, higher = said[notation or said["usual"]]
     return {"lower": lower, "higher": higher}
 
 
 def mobility_formulas(
-    mechanism: Mechanism, structure: Structure, words: Language, notation: str | None = None
+    mechanism: Mechanism, structure: Structure, language: Language, notation: str | None = None
 ) -> Iterator[Rich]:
     """Yield mobility and redundant constraints of the whole (подвижность, избыточные связи)."""
-    said, low, high = words.structure, structure.lower_pairs, structure.higher_pairs
+    texts, low, high = language.structure, structure.lower_pairs, structure.higher_pairs
     revolute = sum(pair.kind is PairKind.REVOLUTE for pair in stated_pairs(mechanism))
-    indices = pair_classes(notation, words)
+    indices = pair_classes(notation, language)
     counts = {"n": structure.moving_links, "low": low, "high": high, **indices}
-    yield said.counts.format(revolute=revolute, prismatic=low - revolute, **counts)
-    yield said.chebyshev.format(w=signed(structure.mobility), **counts)
+    yield texts.counts.format(revolute=revolute, prismatic=low - revolute, **counts)
+    yield texts.chebyshev.format(w=signed(structure.mobility), **counts)
     letters, numbers = spatial_sum(structure.moving_links, {1: low, 4: high}, notation)
     spatial = structure.spatial_mobility
-    yield said.spatial.format(letters=letters, numbers=numbers, w=signed(spatial))
-    yield said.redundant.format(
-        ways=WAYS_IN,
+    yield texts.spatial.format(letters=letters, numbers=numbers, w=signed(spatial))
+    yield texts.redundant.format(
+        ways=DRIVER_COUNT,
         local=structure.local_mobility,
         w=_bracketed(spatial),
         q=signed(structure.redundant),
     )
-    yield from replacement_lines(mechanism, structure, words)
+    yield from replacement_lines(mechanism, structure, language)
 
 
 def replacement_lines(
-    mechanism: Mechanism, structure: Structure, words: Language
+    mechanism: Mechanism, structure: Structure, language: Language
 ) -> Iterator[Rich]:
     """Yield what replaces higher pairs, and rollers that turn about themselves (замена пар)."""
-    said = words.structure
+    texts = language.structure
     for pair in mechanism.higher:
         joints = [one for one in pairs(mechanism) if pair.by in one.links]
-        told = ", ".join(
+        text = ", ".join(
             f"{pair_letters(one.point)}{NBSP}({'–'.join(map(mechanism.called, one.links))})"
             for one in joints
         )
         links = "–".join(map(mechanism.called, (pair.links[0], pair.roller or pair.links[1])))
-        yield said.replaced.format(
-            pair=pair_letters(pair.name), links=links, by=pair.by, pairs=told
+        yield texts.replaced.format(
+            pair=pair_letters(pair.name), links=links, by=pair.by, pairs=text
         )
         if pair.roller:
-            yield said.roller.format(roller=pair.roller, link=mechanism.called(pair.links[1]))
+            yield texts.roller.format(roller=pair.roller, link=mechanism.called(pair.links[1]))
     if mechanism.higher:
         n, p = len(mechanism.links), mechanism.lower_pairs
-        yield said.replacing.format(n=n, p=p, w=signed(3 * n - 2 * p))
+        yield texts.replacing.format(n=n, p=p, w=signed(3 * n - 2 * p))
 
 
 def spatial_sum(n: int, pairs_of: Mapping[int, int], notation: str | None) -> tuple[Rich, Rich]:
@@ -201,32 +203,34 @@ def spatial_sum(n: int, pairs_of: Mapping[int, int], notation: str | None) -> tu
     return letters, numbers
 
 
-def order_formulas(mechanism: Mechanism, structure: Structure, words: Language) -> Iterator[Rich]:
+def order_formulas(
+    mechanism: Mechanism, structure: Structure, language: Language
+) -> Iterator[Rich]:
     """Yield the structural formula, the class, the orders of both analyses (формула строения)."""
-    said = words.structure
+    texts = language.structure
     first = f"I({mechanism.frame},{mechanism.driver})"
     steps = [f"{roman(group.class_number)}({','.join(group.links)})" for group in structure.groups]
     order, backwards = " → ".join([first, *steps]), " → ".join([*steps[::-1], first])
-    yield said.formula.format(order=order)
-    yield said.mechanism_class.format(roman=roman(structure.class_number))
-    yield said.kinematic_order.format(order=order)
-    yield said.force_order.format(order=backwards)
+    yield texts.formula.format(order=order)
+    yield texts.mechanism_class.format(roman=roman(structure.class_number))
+    yield texts.kinematic_order.format(order=order)
+    yield texts.force_order.format(order=backwards)
 
 
-def _static_counts(structure: Structure, words: Words) -> Rich:
+def _static_counts(structure: Structure, texts: MessageTable) -> Rich:
     """Return equations and unknowns of the force analysis: without friction as many as needed."""
     equations = 3 * structure.moving_links
     reactions = 2 * structure.lower_pairs + structure.higher_pairs
     unknowns = reactions + structure.mobility
-    verdict = words.statically_determinate if equations == unknowns else words.statically_not
-    return words.static_counts.format(
+    verdict = texts.statically_determinate if equations == unknowns else texts.statically_not
+    return texts.static_counts.format(
         n=structure.moving_links,
         equations=equations,
         pairs=reactions,
         w=signed(structure.mobility),
         unknowns=unknowns,
         verdict=verdict,
-        higher=words.static_higher.format() if structure.higher_pairs else "",
+        higher=texts.static_higher.format() if structure.higher_pairs else "",
     )
 
 
@@ -246,36 +250,36 @@ def aligned_lines(
     mechanism: Mechanism,
     structure: Structure,
     aligned: SelfAligning,
-    words: Language,
+    language: Language,
     notation: str | None = None,
 ) -> Iterator[Rich]:
     """Yield how each group loses its redundant constraints, and the whole (устранение связей)."""
-    said = words.structure
+    texts = language.structure
     if aligned.random:
-        yield said.aligned_random.format()
+        yield texts.aligned_random.format()
     for group in aligned.groups:
         if group.schemes:
-            yield from aligned_group(mechanism, group, words)
+            yield from aligned_group(mechanism, group, language)
     if not aligned.schemes:
         links = "; ".join("–".join(group.links) for group in aligned.without)
-        yield said.aligned_none.format(links=links)
+        yield texts.aligned_none.format(links=links)
         return
-    yield from aligned_sums(structure, aligned, words, notation)
+    yield from aligned_sums(structure, aligned, language, notation)
     rows, n = aligned.rows, structure.moving_links
-    yield said.aligned_rank.format(
+    yield texts.aligned_rank.format(
         rows=rows, columns=6 * n, rank=aligned.rank, q=rows - aligned.rank, w=6 * n - aligned.rank
     )
     used = {name for scheme in aligned.schemes[:1] for name in scheme.values()}
-    named = said["pair_classes"]
-    yield said.aligned_legend.format(
+    named = texts["pair_classes"]
+    yield texts.aligned_legend.format(
         legend=", ".join(
-            f"{named[k]}{NBSP}– {v}" for k, v in said["class_names"].items() if k in used
+            f"{named[k]}{NBSP}– {v}" for k, v in texts["class_names"].items() if k in used
         )
     )
 
 
 def aligned_sums(
-    structure: Structure, aligned: SelfAligning, words: Language, notation: str | None = None
+    structure: Structure, aligned: SelfAligning, language: Language, notation: str | None = None
 ) -> Iterator[Rich]:
     """Yield the formulas of the scheme without redundant constraints, where there is one."""
     if not aligned.schemes or not structure.groups:
@@ -284,78 +288,83 @@ def aligned_sums(
     local = structure.local_mobility + aligned.local[0]
     _, numbers = spatial_sum(n, counts, notation)
     by_class = notation == "p5 p4"
-    told = ", ".join(
+    text = ", ".join(
         f"p_{{{6 - mobility if by_class else mobility}}}{NBSP}={NBSP}{count}"
         for mobility, count in sorted(counts.items())
     )
     w = 6 * n - sum((6 - mobility) * count for mobility, count in counts.items())
-    yield words.structure.aligned_counts.format(counts=told)
-    yield words.structure.aligned_whole.format(
-        numbers=numbers, w=w, ways=WAYS_IN, local=local, q=WAYS_IN + local - w
+    yield language.structure.aligned_counts.format(counts=text)
+    yield language.structure.aligned_whole.format(
+        numbers=numbers, w=w, ways=DRIVER_COUNT, local=local, q=DRIVER_COUNT + local - w
     )
 
 
-def _told_pair(mechanism: Mechanism, pair: MovablePair) -> tuple[Rich, Rich]:
+def _pair_text(mechanism: Mechanism, pair: MovablePair) -> tuple[Rich, Rich]:
     """Return the letter of a pair and its links."""
     point, links = pair.key.split()
     return pair_letters(point), "–".join(map(mechanism.called, links.split("-")))
 
 
-def aligned_group(mechanism: Mechanism, group: AlignedGroup, words: Language) -> Iterator[Rich]:
+def aligned_group(mechanism: Mechanism, group: AlignedGroup, language: Language) -> Iterator[Rich]:
     """Yield the best scheme of a group, the others, and those correct by count alone."""
-    said = words.structure
+    texts = language.structure
     best, *others = group.schemes
     counts = [sum(int(name[0]) == k for name in best.classes) for k in range(1, 6)]
     _, numbers = spatial_sum(len(group.links), dict(enumerate(counts, 1)), None)
 
-    def told(scheme: AlignedScheme) -> Rich:
-        named = said["pair_classes"]
+    def scheme_text(scheme: AlignedScheme) -> Rich:
+        named = texts["pair_classes"]
         changed = [
-            (*_told_pair(mechanism, pair), name)
+            (*_pair_text(mechanism, pair), name)
             for pair, name in zip(group.pairs, scheme.classes, strict=True)
             if name != pair.classes[0]
         ]
-        told = ", ".join(
+        text = ", ".join(
             f"{point}{NBSP}({links}){NBSP}– {named[name]}" for point, links, name in changed
         )
-        return told or said.aligned_unchanged.format()
+        return text or texts.aligned_unchanged.format()
 
     links = "–".join(group.links)
-    yield said.aligned_group.format(
-        links=links, scheme=told(best), numbers=numbers.replace(" ", NBSP), w=best.local
+    yield texts.aligned_group.format(
+        links=links, scheme=scheme_text(best), numbers=numbers.replace(" ", NBSP), w=best.local
     )
     if best.local:
-        yield said.aligned_local.format(local=best.local)
+        yield texts.aligned_local.format(local=best.local)
     if others:
-        yield said.aligned_others.format(schemes="; ".join(told(one) for one in others[:MOST_TOLD]))
+        yield texts.aligned_others.format(
+            schemes="; ".join(scheme_text(one) for one in others[:MAX_SCHEMES])
+        )
     if not best.steady:
-        yield said.aligned_loose.format()
+        yield texts.aligned_loose.format()
     if group.counted:
         wrong = max(group.counted, key=lambda one: "3s" in one.classes and "3pl" not in one.classes)
-        yield said.aligned_counted.format(scheme=told(wrong), loose=wrong.loose)
+        yield texts.aligned_counted.format(scheme=scheme_text(wrong), loose=wrong.loose)
 
 
 # Groups --------------------------------------------------------------------------------------
 
 
-def driver_caption(mechanism: Mechanism, words: Language) -> list[Rich]:
+def driver_caption(mechanism: Mechanism, language: Language) -> list[Rich]:
     """Return name, mobility and redundant constraints of the driver (первичный механизм)."""
     ends = {FRAME, mechanism.driver}
     kind = next(pair.kind for pair in pairs(mechanism) if set(pair.links) == ends)
-    said = words.structure
+    texts = language.structure
     links = _listed(mechanism.frame, mechanism.driver)
-    named = said.primary.format(kind=said["pair_kinds"][kind.value], links=links)
-    return [named, *_counts(WAYS_IN, 1, 1)]
+    named = texts.primary.format(kind=texts["pair_kinds"][kind.value], links=links)
+    return [named, *_counts(DRIVER_COUNT, 1, 1)]
 
 
-def group_caption(group: AssurGroup, words: Language) -> list[Rich]:
+def group_caption(group: AssurGroup, language: Language) -> list[Rich]:
     """Return class, order, kind, mobility and redundant constraints of a group."""
-    count = len(group.leads) + sum(len(_inside(joint, group)) - 1 for joint in group.inner)
-    said, kind = words.structure, words.structure["group_leads"].get(str(len(group.leads)), "")
+    count = len(group.legs) + sum(len(_inside(joint, group)) - 1 for joint in group.inner)
+    texts, kind = (
+        language.structure,
+        language.structure["group_leads"].get(str(len(group.legs)), ""),
+    )
     if group.kind is not None:
-        signature = local_letters(group.signature, words.note)
-        kind = said.group_kind.format(kind=group.kind, letters=signature)
-    named = said.group.format(
+        signature = local_letters(group.signature, language.note)
+        kind = texts.group_kind.format(kind=group.kind, letters=signature)
+    named = texts.group.format(
         roman=roman(group.class_number), order=group.order, kind=kind, links=_listed(*group.links)
     )
     return [named, *_counts(0, len(group.links), count)]
@@ -372,52 +381,52 @@ def _listed(*links: str) -> str:
     return f",{NBSP}".join(links)
 
 
-def _joints(mechanism: Mechanism, group: AssurGroup, words: Words) -> Rich:
+def _joints(mechanism: Mechanism, group: AssurGroup, texts: MessageTable) -> Rich:
     """Return the outer and the inner pairs of a group."""
-    outer, inner = group_joints(mechanism, group, words)
+    outer, inner = group_joints(mechanism, group, texts)
     told = (
-        words.joint_outer.format(joints=", ".join(outer)),
-        words.joint_inner.format(joints=", ".join(inner)),
+        texts.joint_outer.format(joints=", ".join(outer)),
+        texts.joint_inner.format(joints=", ".join(inner)),
     )
     return "; ".join(told) + "."
 
 
 def group_joints(
-    mechanism: Mechanism, group: AssurGroup, words: Words
+    mechanism: Mechanism, group: AssurGroup, texts: MessageTable
 ) -> tuple[list[Rich], list[Rich]]:
     """Return the outer and the inner pairs of a group, each by point, kind and links."""
     called = mechanism.called
-    outer = [_joint(lead.joint, (called(lead.to), lead.link), words) for lead in group.leads]
-    inner = [_joint(joint, _inside(joint, group), words) for joint in group.inner]
+    outer = [_joint(lead.joint, (called(lead.to), lead.link), texts) for lead in group.legs]
+    inner = [_joint(joint, _inside(joint, group), texts) for joint in group.inner]
     return outer, inner
 
 
-def _joint(joint: Joint, links: Sequence[str], words: Words) -> Rich:
+def _joint(joint: Joint, links: Sequence[str], texts: MessageTable) -> Rich:
     """Return a pair by its point, the letter of its kind and its links: ``B (В, 1–2)``."""
     point = joint.point if isinstance(joint, Revolute) else joint.pin
-    return f"{pair_letters(point)} ({words['letters'][letter_of(joint)]}, {'–'.join(links)})"
+    return f"{pair_letters(point)} ({texts['letters'][letter_of(joint)]}, {'–'.join(links)})"
 
 
 def _inside(joint: Joint, group: AssurGroup) -> list[str]:
     return [link for link in group.links if link in links_of(joint)]
 
 
-def local_letters(signature: str, words: Words) -> str:
+def local_letters(signature: str, texts: MessageTable) -> str:
     """Return a signature in the letters of a language: RPR is ВПВ in Russian."""
-    return "".join(words["letters"].get(letter, letter) for letter in signature)
+    return "".join(texts["letters"].get(letter, letter) for letter in signature)
 
 
-def group_title(group: AssurGroup, words: Words) -> Rich:
+def group_title(group: AssurGroup, texts: MessageTable) -> Rich:
     """Return a group's heading: links, letters, class, order and kind."""
     links = "–".join(group.links)
     if group.kind is None:
-        return words.higher_group.format(
+        return texts.higher_group.format(
             links=links, roman=roman(group.class_number), order=group.order
         )
-    letters = local_letters(group.signature, words)
-    return words.group.format(links=links, letters=letters, kind=group.kind)
+    letters = local_letters(group.signature, texts)
+    return texts.group.format(links=links, letters=letters, kind=group.kind)
 
 
-def links_of_group(group: AssurGroup, words: Words) -> Rich:
+def links_of_group(group: AssurGroup, texts: MessageTable) -> Rich:
     """Return a group by its links alone: ``Группа 4–5``."""
-    return words.plain_group.format(links="–".join(group.links))
+    return texts.plain_group.format(links="–".join(group.links))

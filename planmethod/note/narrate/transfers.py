@@ -21,7 +21,7 @@ ORDERS = {
 
 def even_letter(names: Names, point: str) -> Rich:
     """Return the end of a point's acceleration without the part of ε₁: ``c_{q}``."""
-    motion = names.kin.acceleration
+    motion = names.kinematics.acceleration
     letter = names.point(motion.point[motion.named[point]])
     return f"{letter[:-1]}q}}" if letter.endswith("}") else f"{letter}_{{q}}"
 
@@ -31,42 +31,42 @@ class TransferNarrator:
 
     Parameters
     ----------
-    say : Formulas
+    formulas : Formulas
         Of the position.
     transfers : Transfers
         Of the same solution.
     """
 
-    def __init__(self, say: Formulas, transfers: Transfers) -> None:
-        self.say, self.transfers, self.index = say, transfers, say.index
+    def __init__(self, formulas: Formulas, transfers: Transfers) -> None:
+        self.position_formulas, self.transfers, self.index = formulas, transfers, formulas.index
         self.crank = transfers.solution.problem.drive.link
         self._made: dict[NumberName, Step] = {NumberName(s.out): s for s in transfers.added}
         self._own = {NumberName(q.name): q for q in transfers.quantities}
 
     def formulas(self, plan: PlanKind, *, senses: bool = True) -> list[Rich]:
         """Return the formulas of the quantities from a plan, with senses of turning or without."""
-        return [self._formula(some, senses=senses) for some in self._alike(plan)]
+        return [self._formula(some, senses=senses) for some in self._grouped(plan)]
 
     def senses(self, plan: PlanKind) -> list[Rich]:
         """Return the senses of turning of links from a plan: ``u_21 – against link 1``."""
         told = []
-        for quantities in self._alike(plan):
+        for quantities in self._grouped(plan):
             sense = self._sense(quantities[0])
             if sense:
                 told.append(f"{' = '.join(q.symbol for q in quantities)} – {sense}")
         return told
 
-    def _alike(self, plan: PlanKind) -> list[list[Quantity]]:
+    def _grouped(self, plan: PlanKind) -> list[list[Quantity]]:
         """Return the quantities from a plan, always equal ones together."""
-        kin, found = self.transfers.steps.kin, dict[object, list[Quantity]]()
-        motion = kin.velocity if plan is PlanKind.VELOCITY else kin.acceleration
+        kinematics, found = self.transfers.steps.kinematics, dict[object, list[Quantity]]()
+        motion = kinematics.velocity if plan is PlanKind.VELOCITY else kinematics.acceleration
         for quantity in self.transfers.some(*ORDERS[plan]):
             alike: object = quantity.of
             if quantity.kind in (QuantityKind.TRANSFER, QuantityKind.TRANSFER_2):
                 alike = motion.point[motion.named[quantity.of]]
             else:
                 link = self._link(quantity)
-                alike = kin.omega.get(link), kin.epsilon.get(link)
+                alike = kinematics.omega.get(link), kinematics.epsilon.get(link)
             found.setdefault((quantity.kind, alike), []).append(quantity)
         return list(found.values())
 
@@ -75,18 +75,18 @@ class TransferNarrator:
         return str(quantity.name).removeprefix("u_").removeprefix("epsilon_q_")
 
     def _formula(self, quantities: list[Quantity], *, senses: bool) -> Rich:
-        say, quantity = self.say, quantities[0]
+        formulas, quantity = self.position_formulas, quantities[0]
         read, exact = self._values(NumberName(quantity.name))
         turns = quantity.kind in (QuantityKind.RATIO, QuantityKind.RATIO_2)
-        unit = "" if turns else say.unit(quantity.kind.unit)
-        value = f"{say.notation.short(abs(read), 4)} {unit}".rstrip()
+        unit = "" if turns else formulas.unit(quantity.kind.unit)
+        value = f"{formulas.notation.short(abs(read), 4)} {unit}".rstrip()
         sides = dict.fromkeys((self._meant(quantity), *self._sides(quantity)))
-        bare = say.notation.short(abs(read), 4)
+        bare = formulas.notation.short(abs(read), 4)
         shown = [side for side in sides if side and side != bare]
         parts = [*(q.symbol for q in quantities), *shown, value]
-        told = " = ".join(parts) + say.exactly(abs(exact), unit)
+        text = " = ".join(parts) + formulas.exactly(abs(exact), unit)
         sense = self._sense(quantity) if senses else ""
-        return f"{told}, {sense}" if sense else told
+        return f"{text}, {sense}" if sense else text
 
     def _sense(self, quantity: Quantity) -> Rich:
         """Return the sense of a ratio against the crank, or of an ε_q; empty for others."""
@@ -97,11 +97,13 @@ class TransferNarrator:
         }
         if quantity.kind not in forms or not read:
             return ""
-        return str(self.say.words[forms[quantity.kind][read < 0]]).format(link=self.crank)
+        return str(self.position_formulas.texts[forms[quantity.kind][read < 0]]).format(
+            link=self.crank
+        )
 
     def _values(self, name: NumberName) -> tuple[float, float]:
         """Return a number as the hand has it, and as it is exactly."""
-        both = (self.transfers.by_hand, self.transfers.paper)
+        both = (self.transfers.ruler_reading, self.transfers.paper)
         read, exact = (float(reading.number(name)[self.index]) for reading in both)
         return read, exact
 
@@ -120,44 +122,48 @@ class TransferNarrator:
         """Return a transfer function in symbols and in numbers."""
         made = self._made[NumberName(quantity.name)]
         if isinstance(made, Total):
-            return self._turned(quantity)
+            return self._angular_analogue(quantity)
         assert isinstance(made, Compute)
         powers: Counter[NumberName] = Counter()
         for name, power in made.powers:  # of the crank's pin (pa) is over (pa)
             powers[name] += power
         factors = [(*self._factor(name), power, False) for name, power in powers.items() if power]
         # The length of the crank stands before the segments, as in the textbook.
-        return self.say.fraction(sorted(factors, key=lambda one: one[0].startswith("(")))
+        return self.position_formulas.fraction(
+            sorted(factors, key=lambda one: one[0].startswith("("))
+        )
 
     def _factor(self, name: NumberName) -> tuple[str, float]:
         value = abs(self._values(name)[0])
         made = self._made.get(name)
         if made is None:
-            return self.say.names.symbol(name), value
+            return self.position_formulas.names.symbol(name), value
         if isinstance(made, GivenNumber):  # a length that no plan needs
             letter, _, index = name.partition("_")
             return f"{letter}_{{{index}}}", value
-        names = self.say.names
+        names = self.position_formulas.names
         end = even_letter(names, str(name).strip("|").removeprefix("a_q_"))
         return f"({names.pole(PlanKind.ACCELERATION)}{end})", value
 
-    def _turned(self, quantity: Quantity) -> tuple[str, ...]:
+    def _angular_analogue(self, quantity: Quantity) -> tuple[str, ...]:
         """Return ε_q with an accelerated crank: the rest of a link's ε over the square of ω₁."""
-        kin, say = self.transfers.steps.kin, self.say.notation
+        kinematics, notation = self.transfers.steps.kinematics, self.position_formulas.notation
         link, crank = quantity.of, self.crank
-        omega = kin.omega[crank]
-        own = kin.epsilon.get(link)
+        omega = kinematics.omega[crank]
+        own = kinematics.epsilon.get(link)
         u = next(q for n, q in self._own.items() if str(n) == f"u_{link}")
-        numbers = [self._values(n)[0] for n in (own, NumberName(u.name), kin.epsilon[crank]) if n]
-        texts = [f"({say.short(n)})" if n < 0 else say.short(n) for n in numbers]
+        numbers = [
+            self._values(n)[0] for n in (own, NumberName(u.name), kinematics.epsilon[crank]) if n
+        ]
+        texts = [f"({notation.short(n)})" if n < 0 else notation.short(n) for n in numbers]
         minus = " − " if own else "−"
         above = f"ε_{{{link}}}{minus}" if own else minus
         letters = fraction(f"{above}{u.symbol}·ε_{{{crank}}}", f"ω_{{{crank}}}^{{2}}")
         lead = f"{texts[0]}{minus}" if own else minus
-        square = f"{say.short(abs(self._values(omega)[0]))}^{{2}}"
+        square = f"{notation.short(abs(self._values(omega)[0]))}^{{2}}"
         return letters, fraction(f"{lead}{texts[-2]}·{texts[-1]}", square)
 
-    def carried(self) -> list[Rich]:
+    def crank_acceleration_lines(self) -> list[Rich]:
         """Return how the part of the crank's ε, if any, is subtracted on the acceleration plan.
 
         A formula without its full stop, and a sentence.
@@ -167,21 +173,23 @@ class TransferNarrator:
         points = [quantity for quantity in every if not steps.of_crank(quantity.of)]
         if steps.even or not points:
             return []
-        v, a = steps.kin.velocity, steps.kin.acceleration
-        names, crank = self.say.names, self.crank
+        v, a = steps.kinematics.velocity, steps.kinematics.acceleration
+        names, crank = self.position_formulas.names, self.crank
         times = NumberName(f"times_q_{points[0].of}")
-        letters = self.say.fraction(
+        letters = self.position_formulas.fraction(
             [
-                (f"ε_{{{crank}}}", abs(self._values(steps.kin.epsilon[crank])[0]), 1, False),
-                (names.symbol(v.segments.scale), self.say.per_mm(v.kind), 1, True),
+                (f"ε_{{{crank}}}", abs(self._values(steps.kinematics.epsilon[crank])[0]), 1, False),
+                (names.symbol(v.segments.scale), self.position_formulas.per_mm(v.kind), 1, True),
                 (f"ω_{{{crank}}}", abs(self._values(steps.omega)[0]), -1, False),
-                (names.symbol(a.segments.scale), self.say.per_mm(a.kind), -1, True),
+                (names.symbol(a.segments.scale), self.position_formulas.per_mm(a.kind), -1, True),
             ]
         )
         sign = self._values(times)[0]
         return [
-            " = ".join(("k", *letters, self.say.notation.short(abs(sign), 4))),
-            self.say.words["transfer_carried"]["with" if sign > 0 else "against"].format(
+            " = ".join(("k", *letters, self.position_formulas.notation.short(abs(sign), 4))),
+            self.position_formulas.texts["transfer_carried"][
+                "with" if sign > 0 else "against"
+            ].format(
                 ends=", ".join(
                     dict.fromkeys(
                         f"({names.point(a.point[a.named[q.of]])}{even_letter(names, q.of)})"

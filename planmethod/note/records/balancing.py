@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from planmethod.note.narrate.balancing import COUNT
-from planmethod.note.numbers import plain
+from planmethod.note.numbers import record_float
 from planmethod.solved.machine.balancing import SAMPLES, balancing_of
 from planmethod.solved.reading import Complexes
 from planmethod.solved.solution import Solution
@@ -30,11 +30,11 @@ def balancing_record(solution: Solution) -> dict[str, Any]:
                 "about": one.pivot,
                 "line": one.pivot + one.pin,
                 "terms": {name: _vector(value) for name, value in one.terms},
-                "mr": plain(abs(one.moment)),
-                "mr_read": plain(polygon[3].number(polygon[0].moment)[0]),
-                "r": plain(one.radius),
-                "m": plain(one.mass),
-                "angle_deg": plain(one.angle_deg),
+                "mr": record_float(abs(one.moment)),
+                "mr_read": record_float(polygon[3].number(polygon[0].moment)[0]),
+                "r": record_float(one.radius),
+                "m": record_float(one.mass),
+                "angle_deg": record_float(one.angle_deg),
             }
         )
     return {
@@ -44,35 +44,35 @@ def balancing_record(solution: Solution) -> dict[str, Any]:
         "rod": {
             "link": made.rod,
             **{
-                pin: None if off_line else plain(mass.real)
+                pin: None if off_line else record_float(mass.real)
                 for pin, mass in zip((made.crank_pin, made.rod_pin), made.rod_masses, strict=True)
             },
             **({"reason": "its centre of mass is off the line of its pins"} if off_line else {}),
         },
         "counterweights": weights,
-        "mass": {"before": plain(made.mass_before), "after": plain(made.mass_after)},
+        "mass": {"before": record_float(made.mass_before), "after": record_float(made.mass_after)},
         "force": {
             name: _largest(column, made.phi(SAMPLES))
             for name, column in zip(("before", "after"), made.forces(SAMPLES), strict=True)
         },
         "centre": {
             name: {
-                "x": [plain(np.min(column.real)), plain(np.max(column.real))],
-                "y": [plain(np.min(column.imag)), plain(np.max(column.imag))],
+                "x": [record_float(np.min(column.real)), record_float(np.max(column.real))],
+                "y": [record_float(np.min(column.imag)), record_float(np.max(column.imag))],
             }
             for name, column in zip(("before", "after"), made.centres(SAMPLES), strict=True)
         },
         "positions": [
-            {"phi_deg": plain(phi), "before": _vector(one), "after": _vector(two)}
+            {"phi_deg": record_float(phi), "before": _vector(one), "after": _vector(two)}
             for phi, one, two in zip(made.phi(COUNT), before, after, strict=True)
         ],
     }
 
 
 def _vector(value: complex) -> dict[str, float]:
-    return {"x": plain(value.real), "y": plain(value.imag)}
+    return {"x": record_float(value.real), "y": record_float(value.imag)}
 
 
 def _largest(column: Complexes, phi: Any) -> dict[str, float]:
     at = int(np.argmax(np.abs(column)))
-    return {"max": plain(abs(column[at])), "phi_deg": plain(phi[at])}
+    return {"max": record_float(abs(column[at])), "phi_deg": record_float(phi[at])}

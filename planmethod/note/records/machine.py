@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 
 from planmethod.construct.drafting import Profile
-from planmethod.note.numbers import plain
+from planmethod.note.numbers import record_float
 from planmethod.problem.machine_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
 from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
 from planmethod.solved.machine.motor import machine_power
-from planmethod.solved.machine.runup import MOST_CYCLES, RunUp, TimeCourse, run_up_of
+from planmethod.solved.machine.runup import MAX_CYCLES, RunUp, TimeMotion, run_up_of
 from planmethod.solved.machine.sizes import adopted, size_of
 
 
@@ -60,15 +60,15 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "constant": machine.constant.value,
         "signs": machine.signs.value,
         "cycle_deg": machine.cycle_deg,
-        "phi_0_deg": plain(flywheel.turn.start_deg),
-        "omega_mean": plain(middle),
-        "M_constant": plain(flywheel.constant),
-        "work_per_turn": plain(flywheel.work_per_cycle / flywheel.turns),
-        "work_per_cycle": plain(flywheel.work_per_cycle),
+        "phi_0_deg": record_float(flywheel.turn.start_deg),
+        "omega_mean": record_float(middle),
+        "M_constant": record_float(flywheel.constant),
+        "work_per_turn": record_float(flywheel.work_per_cycle / flywheel.turns),
+        "work_per_cycle": record_float(flywheel.work_per_cycle),
         "power": {
-            "crank": plain(power.at_crank),
+            "crank": record_float(power.at_crank),
             **{
-                name: None if value is None else plain(value)
+                name: None if value is None else record_float(value)
                 for name, value in (
                     ("efficiency", power.efficiency),
                     ("motor", power.at_motor),
@@ -79,9 +79,9 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "positions": [
             {
                 "number": number,
-                **{name: plain(column[k]) for name, column in columns.items()},
+                **{name: record_float(column[k]) for name, column in columns.items()},
                 **{
-                    name: {key: plain(one[k]) for key, one in own.items()}
+                    name: {key: record_float(one[k]) for key, one in own.items()}
                     for name, own in terms.items()
                 },
             }
@@ -92,34 +92,34 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "J_f": _inertias(flywheel, drawing),
         "omega_max": _extreme(flywheel, highest),
         "omega_min": _extreme(flywheel, lowest),
-        "delta_reached": plain(flywheel.delta_reached),
+        "delta_reached": record_float(flywheel.delta_reached),
         **_segment(drawing),
         "scales": {
-            "mu_phi": plain(drawing.scales.phi),
-            "mu_M": plain(drawing.scales.moment),
-            "mu_A": plain(drawing.scales.work),
-            "mu_T": plain(drawing.scales.work),
-            "mu_J": plain(drawing.scales.inertia),
-            "pole_mm": plain(drawing.pole),
+            "mu_phi": record_float(drawing.scales.phi),
+            "mu_M": record_float(drawing.scales.moment),
+            "mu_A": record_float(drawing.scales.work),
+            "mu_T": record_float(drawing.scales.work),
+            "mu_J": record_float(drawing.scales.inertia),
+            "pole_mm": record_float(drawing.pole),
         },
         "flywheel": None
         if sizes is None or wheel is None
         else {
             "shape": sizes.shape.value,
-            "J": plain(sizes.inertia),
-            "D": plain(sizes.diameter),
-            **({"D_1": plain(sizes.bore)} if sizes.bore else {}),
-            "m": plain(sizes.mass),
-            "b": plain(sizes.width),
-            "rim_speed": plain(sizes.speed),
-            "held_by_speed": sizes.held,
+            "J": record_float(sizes.inertia),
+            "D": record_float(sizes.diameter),
+            **({"D_1": record_float(sizes.bore)} if sizes.bore else {}),
+            "m": record_float(sizes.mass),
+            "b": record_float(sizes.width),
+            "rim_speed": record_float(sizes.speed),
+            "held_by_speed": sizes.is_speed_limited,
             "adopted": {
-                "J": plain(wheel.inertia),
-                "D": plain(wheel.diameter),
-                **({"D_1": plain(wheel.bore)} if wheel.bore else {}),
-                "m": plain(wheel.mass),
-                "b": plain(wheel.width),
-                "rim_speed": plain(wheel.speed),
+                "J": record_float(wheel.inertia),
+                "D": record_float(wheel.diameter),
+                **({"D_1": record_float(wheel.bore)} if wheel.bore else {}),
+                "m": record_float(wheel.mass),
+                "b": record_float(wheel.width),
+                "rim_speed": record_float(wheel.speed),
             },
         },
         **run_up_record(flywheel),
@@ -128,14 +128,17 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
 
 def _segment(drawing: FlywheelDrawing) -> dict[str, float]:
     """Return the segment that the flywheel is found by, and its ends over the axis, mm."""
-    made, exact = drawing.made, drawing.exact
+    made, exact = drawing.construction, drawing.exact
     corner = exact.point(made.axes["T_I" if drawing.by_mertsalov else "E"].origin)[0]
     angles = {} if drawing.by_mertsalov else {"max": drawing.psi[0], "min": drawing.psi[1]}
     ends = zip(made.letters, (made.upper, made.lower), strict=True)
     return {
-        **{f"psi_{name}_deg": plain(psi) for name, psi in angles.items()},
-        f"{made.segment}_mm": plain(exact.number(made.segment)[0]),
-        **{f"{letter}_mm": plain((exact.point(end)[0] - corner).imag) for letter, end in ends},
+        **{f"psi_{name}_deg": record_float(psi) for name, psi in angles.items()},
+        f"{made.segment}_mm": record_float(exact.number(made.segment)[0]),
+        **{
+            f"{letter}_mm": record_float((exact.point(end)[0] - corner).imag)
+            for letter, end in ends
+        },
     }
 
 
@@ -150,40 +153,47 @@ def _inertias(flywheel: Flywheel, drawing: FlywheelDrawing) -> dict[str, Any]:
     }
     usual = flywheel.usual_slopes
 
-    def told(value: float) -> float | None:
-        return plain(value) if value > 0.0 else None
+    def positive_or_none(value: float) -> float | None:
+        return record_float(value) if value > 0.0 else None
 
     points = {
-        f"{name}_{count}": told(flywheel.by_points(count, way, usual).tangents.inertia)
+        f"{name}_{count}": positive_or_none(flywheel.by_points(count, way, usual).tangents.inertia)
         for count in dict.fromkeys((machine.count, 12, 24, 36))
         for name, way in (("middle", Quadrature.MIDDLE), ("trapezoid", Quadrature.TRAPEZOID))
     }
     parts = split(drawing)
     reason = "" if exact > 0.0 else "the machine is even enough without a flywheel"
     return {
-        "exact": told(exact),
+        "exact": positive_or_none(exact),
         **({"reason": reason} if reason else {}),
-        **{name: told(flywheel.tangents(*pair, middle).inertia) for name, pair in slopes.items()},
-        "construction": told(drawing.inertia),
+        **{
+            name: positive_or_none(flywheel.tangents(*pair, middle).inertia)
+            for name, pair in slopes.items()
+        },
+        "construction": positive_or_none(drawing.inertia),
         "n": machine.count,
         "method": machine.method.value,
         "ordinates": machine.ordinates.value,
-        "read": told(drawing.read_inertia),
-        "sigma": plain(parts.sigma),
+        "read": positive_or_none(drawing.read_inertia),
+        "sigma": record_float(parts.sigma),
         "by_points": points,
         "split": {
-            "slopes": plain(parts.slopes),
-            "method": plain(parts.method),
-            "positions": plain(parts.positions),
-            "pencil": plain(parts.pencil),
+            "slopes": record_float(parts.slopes),
+            "method": record_float(parts.method),
+            "positions": record_float(parts.positions),
+            "pencil": record_float(parts.pencil),
         },
     }
 
 
 def _extreme(flywheel: Flywheel, extreme: SpeedExtreme) -> dict[str, float]:
-    position = extreme.turned / flywheel.cycle * flywheel.machine.count
-    phi = flywheel.turn.phi(np.array([extreme.turned]))[0]
-    return {"value": plain(extreme.value), "phi_deg": plain(phi), "position": plain(position)}
+    position = extreme.rotation / flywheel.cycle * flywheel.machine.count
+    phi = flywheel.turn.phi(np.array([extreme.rotation]))[0]
+    return {
+        "value": record_float(extreme.value),
+        "phi_deg": record_float(phi),
+        "position": record_float(position),
+    }
 
 
 _ROWS = 25
@@ -198,46 +208,46 @@ def run_up_record(flywheel: Flywheel) -> dict[str, Any]:
     if machine.motor is None and machine.brake is None:
         return {"motor": None, "run_up": None, "stop": None}
     run = run_up_of(flywheel)
-    why = _why(run) if machine.motor is not None else ""
-    never = why or f"the crank still turns after {MOST_CYCLES} cycles: give [machine] brake"
-    stop = _told(run.stop, flywheel, never)
+    why = _failure_text(run) if machine.motor is not None else ""
+    never = why or f"the crank still turns after {MAX_CYCLES} cycles: give [machine] brake"
+    stop = _time_record(run.stop, flywheel, never)
     if machine.motor is None:
         return {"motor": None, "run_up": None, "stop": stop | {"brake": machine.brake or 0.0}}
     motor: dict[str, Any] = {
         "kind": "line" if machine.motor.critical_slip is None else "kloss",
-        "omega_idle": plain(machine.motor.idle),
-        "moment": plain(machine.motor.moment),
+        "omega_idle": record_float(machine.motor.idle),
+        "moment": record_float(machine.motor.moment),
         "s_k": machine.motor.critical_slip,
     }
     names = ("omega_max", "omega_min", "omega_mean", "delta", "J_f")
     if why:
         motor |= {**dict.fromkeys(names), "reason": why}
     else:
-        high, low = run.steady(flywheel.fitted).extremes
-        even = run.irregularity(flywheel.fitted)
-        wanted = run.wanted
+        high, low = run.steady(flywheel.steady_inertia).extremes
+        even = run.irregularity(flywheel.steady_inertia)
+        wanted = run.required_inertia
         values = (high, low, (high + low) / 2.0, even, wanted)
         motor |= {
-            name: None if value is None else plain(value)
+            name: None if value is None else record_float(value)
             for name, value in zip(names, values, strict=True)
         }
         if wanted is None:
             motor["reason"] = "the machine is even enough without a flywheel"
     return {
         "motor": motor,
-        "run_up": _told(None if why else run.run_up, flywheel, why),
+        "run_up": _time_record(None if why else run.run_up, flywheel, why),
         "stop": stop | {"brake": machine.brake or 0.0},
     }
 
 
-def _why(run: RunUp) -> str:
+def _failure_text(run: RunUp) -> str:
     failure, motor = run.failure, run.machine.motor
     assert motor is not None
     if failure is None:
         return ""
     if isinf(failure.time):
-        return f"the motion is not steady after {MOST_CYCLES} cycles"
-    if not failure.turned:
+        return f"the motion is not steady after {MAX_CYCLES} cycles"
+    if not failure.rotation:
         resists = float(run.flywheel.moment.value([0.0])[0])
         return (
             f"the motor does not start the machine: at rest it has {motor.at(0.0):.6g} N·m, "
@@ -245,21 +255,26 @@ def _why(run: RunUp) -> str:
         )
     return (
         f"the motor does not hold the load: the crank stands at {failure.time:.6g} s, "
-        f"{degrees(failure.turned):.6g} degrees from position 0; give it more moment"
+        f"{degrees(failure.rotation):.6g} degrees from position 0; give it more moment"
     )
 
 
-def _told(course: TimeCourse | None, flywheel: Flywheel, reason: str) -> dict[str, Any]:
+def _time_record(course: TimeMotion | None, flywheel: Flywheel, reason: str) -> dict[str, Any]:
     if course is None:
         return {"time": None, "turned_deg": None, "turns": None, "table": [], "reason": reason}
     time, turned, omega = (column.tolist() for column in course.rows(_ROWS))
     phi = flywheel.turn.phi(course.rows(_ROWS)[1]).tolist()
     return {
-        "time": plain(course.time[-1]),
-        "turned_deg": plain(degrees(turned[-1])),
-        "turns": plain(turned[-1] / (2.0 * pi)),
+        "time": record_float(course.time[-1]),
+        "turned_deg": record_float(degrees(turned[-1])),
+        "turns": record_float(turned[-1] / (2.0 * pi)),
         "table": [
-            {"t": plain(t), "turned_deg": plain(degrees(a)), "phi_deg": plain(p), "omega": plain(w)}
+            {
+                "t": record_float(t),
+                "turned_deg": record_float(degrees(a)),
+                "phi_deg": record_float(p),
+                "omega": record_float(w),
+            }
             for t, a, p, w in zip(time, turned, phi, omega, strict=True)
         ],
     }

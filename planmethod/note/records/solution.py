@@ -12,14 +12,14 @@ from planmethod.construct.drafting import Profile
 from planmethod.languages import WRITTEN, speaking
 from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
+from planmethod.note.columnar import Column, ColumnarRecords, list_of, record_of, to_builtins
 from planmethod.note.columns import bounds, listed, named, pairs, sizes
-from planmethod.note.numbers import plain
-from planmethod.note.written import Column, Records, plain_of, rows, together
+from planmethod.note.numbers import record_float
 from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
-from planmethod.plans.motion.leads import Relative
+from planmethod.plans.motion.legs import Relative
+from planmethod.problem.common import reading_record
 from planmethod.problem.cycle_records import Differentiation
-from planmethod.problem.head import reading_record
 from planmethod.problem.model import Problem
 from planmethod.solved.analogues import analogues
 from planmethod.solved.errors.motion import drafting_of
@@ -30,12 +30,12 @@ from planmethod.solved.solution import RelativeMotion, Solution
 from planmethod.solved.transfers import transfers_of
 from planmethod.solved.trust.conditioning import error_bound
 from planmethod.solved.turn.construction import extreme_construction
+from planmethod.solved.turn.cycle import CrankCycle, Extreme, NoNumber, crank_cycle_of
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
 from planmethod.solved.turn.series import quantities_over, values_over
-from planmethod.solved.turn.turn import Extreme, NoNumber, Turn, turn_of
 
 
-def analogue_records(solution: Solution) -> Records:
+def analogue_records(solution: Solution) -> ColumnarRecords:
     """Return the transfer functions of every point and link, for every position of a solution.
 
     A point has ``x1``, ``y1`` (m per radian of the crank) and ``x2``, ``y2`` (m per radian²); a
@@ -54,7 +54,7 @@ def analogue_records(solution: Solution) -> Records:
     for name, (first, second) in links.items():  # which may be called as a point is
         told.setdefault(name, {}).update({"1": listed(first), "2": listed(second)})
     count = len(solution.positions)
-    return rows({name: rows(columns) for name, columns in told.items()}, count)
+    return record_of({name: record_of(columns) for name, columns in told.items()}, count)
 
 
 def cycle_record(solution: Solution) -> dict[str, Any]:
@@ -64,7 +64,7 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
     ``reasons`` says why. Diagrams are in millimetres; the path and exact values repeat the first
     position at the end.
     """
-    turn, diagrams = turn_of(solution), diagrams_of(solution)
+    turn, diagrams = crank_cycle_of(solution), diagrams_of(solution)
     reasons: dict[str, NoNumber | None] = {}
     strokes = turn.strokes
     if strokes is None:
@@ -75,25 +75,29 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
         reasons["stroke"] = turn.why_no_stroke
     if strokes is None or strokes.K_v is None:
         reasons["K_v"] = turn.why_no_ratio
-    if not turn.zero_is_asked:
+    if not turn.is_zero_specified:
         reasons["zero_deg"] = turn.why_no_stroke or NoNumber.PARTIAL
     peak = turn.pressure
     if peak is None:
         reasons["pressure_angle"] = NoNumber.NO_DYAD
     if diagrams.mu_t is None:
         reasons["mu_t"] = NoNumber.NO_RATE
-    path = diagrams.shares[np.argsort(turn.numbers)]
+    path = diagrams.fractions[np.argsort(turn.numbers)]
     velocity, acceleration, even = diagrams.speeds(path)
     return {
         "output": turn.output.name,
-        "zero_deg": plain(turn.zero),
+        "zero_deg": record_float(turn.zero),
         "positions_deg": listed(turn.positions),
         "path": listed(diagrams.path(path)),
         "velocity": listed(velocity),
         "acceleration": listed(acceleration),
         "acceleration_even": listed(even),
         "extremes": [
-            {"phi_deg": plain(one.phi), "value": plain(one.value), **_constructed(solution, one)}
+            {
+                "phi_deg": record_float(one.phi),
+                "value": record_float(one.value),
+                **_constructed(solution, one),
+            }
             for one in turn.extremes
         ],
         "stroke": turn.stroke,
@@ -105,10 +109,10 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
         "pressure_angle": None
         if peak is None
         else {
-            "max_deg": plain(peak.most),
-            "phi_deg": plain(peak.most_at),
-            "min_deg": plain(peak.least),
-            "min_phi_deg": plain(peak.least_at),
+            "max_deg": record_float(peak.maximum),
+            "phi_deg": record_float(peak.maximum_at),
+            "min_deg": record_float(peak.minimum),
+            "min_phi_deg": record_float(peak.minimum_at),
         },
         "diagrams": _diagrams(diagrams),
         "hodograph": _hodograph(turn),
@@ -119,17 +123,20 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
 
 def _constructed(solution: Solution, extreme: Extreme) -> dict[str, float]:
     """Return an extreme position as the ruler reads it, and its sigma, where it is constructed."""
-    made, whole = extreme_construction(solution), turn_of(solution).period
+    made, whole = extreme_construction(solution), crank_cycle_of(solution).period
     for k, phi in enumerate(made.phi if made is not None else ()):
         assert made is not None
         if abs((extreme.phi - phi + whole / 2) % whole - whole / 2) < 1e-9:
-            return {"read_deg": plain(extreme.phi + made.off(k)), "sigma_deg": plain(made.sigma[k])}
+            return {
+                "read_deg": record_float(extreme.phi + made.off(k)),
+                "sigma_deg": record_float(made.sigma[k]),
+            }
     return {}
 
 
 def _diagrams(diagrams: Diagrams) -> dict[str, Any]:
     s, v_chord, a_chord = diagrams.drawn(Differentiation.CHORDS)
-    _, v_exact, a_exact = diagrams.exact(diagrams.shares)
+    _, v_exact, a_exact = diagrams.exact(diagrams.fractions)
     return {
         "length_mm": diagrams.length,
         "poles_mm": list(diagrams.poles),
@@ -147,7 +154,7 @@ def _diagrams(diagrams: Diagrams) -> dict[str, Any]:
     }
 
 
-def _graphs(turn: Turn) -> dict[str, Any]:
+def _graphs(turn: CrankCycle) -> dict[str, Any]:
     """Return the quantities of ``[cycle] graphs`` in the positions of the cycle, SI and degrees."""
     return {
         one.label: listed(values_over(turn, one, turn.positions))
@@ -155,7 +162,7 @@ def _graphs(turn: Turn) -> dict[str, Any]:
     }
 
 
-def _hodograph(turn: Turn) -> dict[str, list[list[float | None]]]:
+def _hodograph(turn: CrankCycle) -> dict[str, list[list[float | None]]]:
     """Return the velocities of the moving points in the positions of the cycle, m/s."""
     reading = turn.read(turn.positions)
     rate = turn.solution.problem.drive.rate
@@ -164,7 +171,7 @@ def _hodograph(turn: Turn) -> dict[str, list[list[float | None]]]:
     for name, at in plan.named.items():
         velocity = rate * reading.point(plan.point[at])
         if np.any(velocity != 0) or not rate:
-            found[name] = pairs(velocity).plain()
+            found[name] = pairs(velocity).to_list()
     return found
 
 
@@ -207,12 +214,12 @@ def _vector(prefix: str, values: Complexes) -> dict[str, Column]:
     }
 
 
-def _segments(solution: Solution, kind: PlanKind) -> Records:
+def _segments(solution: Solution, kind: PlanKind) -> ColumnarRecords:
     """Return the records of the segments of a plan."""
     spreads = drafting_of(solution).spreads
-    return rows(
+    return record_of(
         {
-            segment.name: rows(
+            segment.name: record_of(
                 {
                     "exact": listed(segment.exact),
                     "read": listed(segment.read),
@@ -225,11 +232,11 @@ def _segments(solution: Solution, kind: PlanKind) -> Records:
     )
 
 
-def _hand(solution: Solution) -> Records:
+def _drafting_records(solution: Solution) -> ColumnarRecords:
     """Return the results of the read segments, and the sigmas."""
     spreads, count = drafting_of(solution).spreads, len(solution.positions)
 
-    def told(quantities: list[Quantity]) -> dict[str, Column]:
+    def read_columns(quantities: list[Quantity]) -> dict[str, Column]:
         """Return quantities and their sigmas."""
         columns: dict[str, Column] = {}
         for quantity in quantities:
@@ -243,25 +250,31 @@ def _hand(solution: Solution) -> Records:
         return {f"sigma_{axis}": listed(spreads[f"{axis}_{name}"].sigma) for axis in ("x", "y")}
 
     points = {
-        name: rows({**told(quantities), **place(name)})
+        name: record_of({**read_columns(quantities), **place(name)})
         for name, quantities in solution.quantities(
             QuantityKind.VELOCITY, QuantityKind.ACCELERATION
         ).items()
     }
     turning = solution.quantities(*TURNINGS)
-    links = {name: rows(told(quantities), count) for name, quantities in turning.items()}
+    links = {
+        name: record_of(read_columns(quantities), count) for name, quantities in turning.items()
+    }
     sliding = solution.quantities(
         QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
     )
     relatives = solution.construction.kinematics.relatives.values()
-    return rows(
+    return record_of(
         {
-            "ruler": [solution.hand.ruler] * count,
+            "ruler": [solution.ruler_arithmetic.ruler] * count,
             "profile": [solution.profile.name] * count,
-            "points": rows(points, count),
-            "links": rows(links, count),
-            "relative": together(
-                [rows({**_names(r, count), **told(sliding[r.name])}) for r in relatives], count
+            "points": record_of(points, count),
+            "links": record_of(links, count),
+            "relative": list_of(
+                [
+                    record_of({**_names(r, count), **read_columns(sliding[r.name])})
+                    for r in relatives
+                ],
+                count,
             ),
             **_transfers(solution),
             "monte_carlo": named({k: s.drawn for k, s in spreads.items()}, count),
@@ -269,14 +282,14 @@ def _hand(solution: Solution) -> Records:
     )
 
 
-def _transfers(solution: Solution) -> dict[str, Column | Records]:
+def _transfers(solution: Solution) -> dict[str, Column | ColumnarRecords]:
     """Return the transfer functions through segments, by label: exact, read, sigma."""
     transfers = transfers_of(solution)
     if transfers is None:
         return {}
     spreads = drafting_of(solution).spreads
     told = {
-        one.label: rows(
+        one.label: record_of(
             {
                 "exact": listed(transfers.exact(one)),
                 "read": listed(transfers.read_off(one)),
@@ -285,7 +298,7 @@ def _transfers(solution: Solution) -> dict[str, Column | Records]:
         )
         for one in transfers.quantities
     }
-    return {"transfers": rows(told)}
+    return {"transfers": record_of(told)}
 
 
 def _names(relative: Relative | RelativeMotion, count: int) -> dict[str, Column]:
@@ -306,21 +319,21 @@ def record(solution: Solution) -> dict[str, Any]:
     a problem with ``[cycle]``, ``forces`` for one with ``[dynamics]``: see
     `planmethod.note.tables.forces`.
     """
-    found: dict[str, Any] = plain_of(record_in_columns(solution))
+    found: dict[str, Any] = to_builtins(record_in_columns(solution))
     return found
 
 
 def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
     """Return `record` with its positions kept column by column, and more of each position."""
-    return _whole(solution, rows({**_columns(solution), **more}))
+    return _solution_record(solution, record_of({**_columns(solution), **more}))
 
 
-def _columns(solution: Solution) -> dict[str, Column | Records]:
+def _columns(solution: Solution) -> dict[str, Column | ColumnarRecords]:
     """Return what the record says of each position."""
     count = len(solution.positions)
     poles = {kind: pole_letter(solution.problem, kind) for kind in MOTION}
     points = {
-        name: rows(
+        name: record_of(
             {
                 "x": listed(point.place.real),
                 "y": listed(point.place.imag),
@@ -331,11 +344,13 @@ def _columns(solution: Solution) -> dict[str, Column | Records]:
         for name, point in solution.points.items()
     }
     links = {
-        name: rows({q.kind.columns[0].removeprefix("."): listed(solution.exact(q)) for q in known})
+        name: record_of(
+            {q.kind.columns[0].removeprefix("."): listed(solution.exact(q)) for q in known}
+        )
         for name, known in solution.quantities(*TURNING).items()
     }
     relatives = [
-        rows(
+        record_of(
             {
                 **_names(r, count),
                 "v": sizes(r.velocity),
@@ -352,7 +367,7 @@ def _columns(solution: Solution) -> dict[str, Column | Records]:
         for r in solution.relatives
     ]
     plans = {
-        kind.value: rows(
+        kind.value: record_of(
             {
                 "mu": listed(np.broadcast_to(solution.per_mm[FACTS[kind].scale], count)),
                 **({"pole": [poles[kind]] * count} if poles[kind] else {}),
@@ -361,16 +376,16 @@ def _columns(solution: Solution) -> dict[str, Column | Records]:
         )
         for kind in MOTION
     }
-    columns: dict[str, Column | Records] = {
+    columns: dict[str, Column | ColumnarRecords] = {
         solution.problem.drive.coordinate.column: listed(solution.positions),
         "margin": listed(solution.margin),
         "bound": bounds(error_bound(solution)),
-        "points": rows(points, count),
-        "links": rows(links, count),
+        "points": record_of(points, count),
+        "links": record_of(links, count),
         "analogues": analogue_records(solution),
-        "relative": together(relatives, count),
-        "plans": rows(plans),
-        "hand": _hand(solution),
+        "relative": list_of(relatives, count),
+        "plans": record_of(plans),
+        "hand": _drafting_records(solution),
     }
     if solution.problem.dynamics is not None:
         from planmethod.note.tables.forces import forces_records
@@ -379,7 +394,7 @@ def _columns(solution: Solution) -> dict[str, Column | Records]:
     return columns
 
 
-def _whole(solution: Solution, positions: Records | list[Any]) -> dict[str, Any]:
+def _solution_record(solution: Solution, positions: ColumnarRecords | list[Any]) -> dict[str, Any]:
     """Return the record of a solution with the records of its positions."""
     machine = {}
     if solution.problem.machine is not None:
@@ -393,11 +408,11 @@ def _whole(solution: Solution, positions: Records | list[Any]) -> dict[str, Any]
         machine["balancing"] = balancing_record(solution)
     dynamics = solution.problem.dynamics
     if dynamics is not None and dynamics.friction is not None:
-        from planmethod.note.tables.friction import turn_record
-        from planmethod.solved.efficiency import turn_efficiency
+        from planmethod.note.tables.friction import friction_cycle_record
+        from planmethod.solved.efficiency import cycle_efficiency
 
-        turn = turn_efficiency(solution)
-        machine["friction"] = {"turn": None if turn is None else turn_record(turn)}
+        turn = cycle_efficiency(solution)
+        machine["friction"] = {"turn": None if turn is None else friction_cycle_record(turn)}
     return {
         "schema": SCHEMA,
         "problem": solution.problem.name,
@@ -428,17 +443,17 @@ def partial_record(
     entries: dict[int, dict[str, Any]] = {}
     for asked, chosen in ((replace(problem, dynamics=None), moving & ~able), (problem, able)):
         if chosen.any():
-            told = rows(_columns(solved(asked, chosen))).plain()
+            told = record_of(_columns(solved(asked, chosen))).to_list()
             entries |= dict(zip(np.flatnonzero(chosen).tolist(), told, strict=True))
     names = list(dict.fromkeys(name for entry in entries.values() for name in entry))
     driver = problem.drive.coordinate.column
     with speaking(WRITTEN):  # the bytes of a file do not depend on the system's language
         kinds = [*map(str, gaps.kinds), None]
-    return _whole(
+    return _solution_record(
         solved(problem, able),
         [
             {
-                driver: plain(float(place)),
+                driver: record_float(float(place)),
                 **dict.fromkeys(name for name in names if name != driver),
                 **entries.get(index, {}),
                 "reason": kinds[gaps.reason[index]],
@@ -450,7 +465,7 @@ def partial_record(
 
 def batch_records(batch: Batch) -> Iterator[dict[str, Any]]:
     """Yield `record` of each variant of a batch, its positions cut out of all of them."""
-    common = plain_of(record_in_columns(batch))
+    common = to_builtins(record_in_columns(batch))
     common.pop("variant", None)
     for problem, own in zip(batch.problems, batch.rows, strict=True):
         named = {"schema": SCHEMA, "problem": problem.name}

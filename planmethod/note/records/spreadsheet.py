@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from planmethod.languages import WRITTEN, speaking
 from planmethod.plans.legend import TURNING
 from planmethod.plans.model import MOTION
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 from planmethod.problem.model import Problem
 from planmethod.solved.many.positions import Gaps, blocks, common_scales, force_scale
 from planmethod.solved.many.variants import Batch
@@ -46,7 +46,7 @@ class SpreadsheetRows(Struct, frozen=True):
     count: int
     blocks: Callable[[], Iterator[Rows]]
 
-    def held(self) -> SpreadsheetRows:
+    def materialized(self) -> SpreadsheetRows:
         """Return the table with its rows computed, which can be sent to another process."""
         return replace(self, blocks=partial(iter, list(self.blocks())))
 
@@ -197,13 +197,13 @@ def large_table(
     """
     scales = common_scales(problem, positions, gaps) | force_scale(problem, positions, gaps)
 
-    def solved(asked: Reals) -> Solution:
-        return Solution(problem, positions=asked.tolist(), ruler=ruler, scales=scales)
+    def solved(subset: Reals) -> Solution:
+        return Solution(problem, positions=subset.tolist(), ruler=ruler, scales=scales)
 
     nothing = solved(positions[:0])
     names, still = list(csv_columns(nothing))[1:], len(motion_columns(nothing))
 
-    def made() -> Iterator[Rows]:
+    def row_blocks() -> Iterator[Rows]:
         for part in blocks(len(positions)):
             here, moving, able = positions[part], gaps.moving[part], gaps.reason[part] < 0
             cells: list[list[Any]] = []
@@ -215,13 +215,13 @@ def large_table(
             empty = [[""] * len(here)] * (1 + len(names) - len(cells))
             yield _rows(part, here, [*cells, *empty][1:], gaps if partial else None)
 
-    return SpreadsheetRows(problem, _header(problem, names, partial), len(positions), made)
+    return SpreadsheetRows(problem, _header(problem, names, partial), len(positions), row_blocks)
 
 
 def swept_table(swept: GappedSweep, *, partial: bool) -> SpreadsheetRows:
     """Return the rows of a sweep: ``position``, ``phi_deg`` or ``s``, requested quantities."""
 
-    def made() -> Iterator[Rows]:
+    def row_blocks() -> Iterator[Rows]:
         for part in swept.parts():
             here = swept.positions[part]
             values = swept.fill(np.empty((len(swept.names), len(here))), part)
@@ -230,7 +230,7 @@ def swept_table(swept: GappedSweep, *, partial: bool) -> SpreadsheetRows:
             yield _rows(part, here, spread, swept.gaps if partial else None)
 
     header = _header(swept.problem, swept.names, partial)
-    return SpreadsheetRows(swept.problem, header, len(swept.positions), made)
+    return SpreadsheetRows(swept.problem, header, len(swept.positions), row_blocks)
 
 
 def _header(problem: Problem, names: Iterable[str], partial: bool) -> tuple[str, ...]:

@@ -10,10 +10,10 @@ from planmethod.construct.steps import PointName, Step
 from planmethod.note.compared import marked
 from planmethod.note.document import Caption, Item, Node, Paragraph
 from planmethod.note.formula import Rich
-from planmethod.note.narrate.given import told
 from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.statement import reported_quantities
 from planmethod.note.narrate.transfers import even_letter
-from planmethod.note.plaintext import fixed, spoken
+from planmethod.note.plaintext import fixed, localized
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.plans.model import FACTS, PlanKind
@@ -22,11 +22,11 @@ from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
 from planmethod.solved.transfers import transfers_of
 
-MOST = 3
+MAX_CAUSES = 3
 """Causes that are listed for one result."""
 
 
-class Causes:
+class ErrorCauses:
     """Finds and names the strokes of a drawing that cause the error of a result.
 
     Parameters
@@ -36,8 +36,8 @@ class Causes:
     """
 
     def __init__(self, names: Names) -> None:
-        self.names, self.words, self.solution = names, names.words, names.solution
-        titles = names.words["plans"].items()
+        self.names, self.texts, self.solution = names, names.texts, names.solution
+        titles = names.texts["plans"].items()
         transfers = transfers_of(self.solution)
         added = () if transfers is None else transfers.added
         self._added = {str(step.out): step for step in added}
@@ -49,20 +49,20 @@ class Causes:
         if worst is None:
             return
         quantity, value, sigma = worst
-        words = self.words
-        yield Caption(words.table_causes)
+        texts = self.texts
+        yield Caption(texts.table_causes)
         yield Paragraph(
-            words.worst_result.format(
+            texts.worst_result.format(
                 symbol=quantity.symbol,
-                value=spoken(rounded_to(value, sigma), words),
-                sigma=spoken(sigma_text(sigma), words),
-                unit=words["units"][quantity.kind.unit],
-                part=fixed(100 * sigma / abs(value), words, 0 if sigma > 0.02 * abs(value) else 1),
+                value=localized(rounded_to(value, sigma), texts),
+                sigma=localized(sigma_text(sigma), texts),
+                unit=texts["units"][quantity.kind.unit],
+                part=fixed(100 * sigma / abs(value), texts, 0 if sigma > 0.02 * abs(value) else 1),
             )
         )
         causes = drafting_of(self.solution).causes(quantity.label, index)
-        for stroke, share in causes[:MOST]:
-            yield Item(self.tell(stroke), label=f"{100 * share:.0f} %")
+        for stroke, share in causes[:MAX_CAUSES]:
+            yield Item(self.describe(stroke), label=f"{100 * share:.0f} %")
 
     def _worst(self, index: int) -> tuple[Quantity, float, float] | None:
         """Return the result with the largest error for its size, its value and sigma.
@@ -70,14 +70,14 @@ class Causes:
         A value lost in its error, or found by random draws, has no causes of first order.
         """
         known = []
-        for quantity in told(self.solution, *MOTION_KINDS):
+        for quantity in reported_quantities(self.solution, *MOTION_KINDS):
             value = float(self.solution.exact(quantity)[index])
             sigma, mark = marked(drafting_of(self.solution), quantity.label, index)
             if not mark and 0.0 < SHORT * sigma <= abs(value):
                 known.append((quantity, value, sigma))
         return max(known, key=lambda each: each[2] / abs(each[1]), default=None)
 
-    def tell(self, stroke: str) -> Rich:
+    def describe(self, stroke: str) -> Rich:
         """Return a stroke in words: "проведение прямой из точки b ⊥ BC (план скоростей)"."""
         if stroke in self._added:  # of the analogues of accelerations of a crank with ε
             text = self._of_analogues(self._added[stroke])
@@ -89,42 +89,42 @@ class Causes:
         return text if plan is None else f"{text} ({self._titles[plan.value]})"
 
     def _of_analogues(self, step: Step) -> Rich:
-        names, words = self.names, self.words
+        names, texts = self.names, self.texts
         if isinstance(step, steps.Measure):
             point = str(step.out).strip("|").removeprefix("a_q_")
             segment = f"{names.pole(PlanKind.ACCELERATION)}{even_letter(names, point)}"
-            return words.cause_read.format(segment=segment)
+            return texts.cause_read.format(segment=segment)
         assert isinstance(step, steps.Carry)
         point = str(step.out).removeprefix(FACTS[PlanKind.ACCELERATION].prefix).removesuffix("_q")
-        return words.cause_lay_off.format(of=names.of(step.origin), point=even_letter(names, point))
+        return texts.cause_lay_off.format(of=names.of(step.origin), point=even_letter(names, point))
 
     def _stroke(self, step: Step) -> str:
-        names, words = self.names, self.words
+        names, texts = self.names, self.texts
         match step:
             case steps.AtAngle(_, _, None, angle) if names.guide(step.out) is None:
-                return words.cause_angle.format(symbol=names.symbol(angle))
+                return texts.cause_angle.format(symbol=names.symbol(angle))
             case steps.Join() | steps.Parallel() | steps.Perpendicular() | steps.AtAngle():
-                return words.cause_line.format(line=names.line(step.out))
-            case steps.Given(out):
-                return words.cause_given.format(point=names.point(out))
-            case steps.LayOff(out, origin) | steps.Carry(out, origin):
-                return words.cause_lay_off.format(of=names.of(origin), point=names.point(out))
-            case steps.MeetLines(out):
-                return words.cause_meet.format(point=names.point(out))
-            case steps.MeetCircles(out) | steps.MeetLineCircle(out):
-                return words.cause_arc.format(point=names.point(out))
+                return texts.cause_line.format(line=names.line(step.out))
+            case steps.GivenPoint(out):
+                return texts.cause_given.format(point=names.point(out))
+            case steps.LayOffLength(out, origin) | steps.Carry(out, origin):
+                return texts.cause_lay_off.format(of=names.of(origin), point=names.point(out))
+            case steps.IntersectLines(out):
+                return texts.cause_meet.format(point=names.point(out))
+            case steps.IntersectCircles(out) | steps.IntersectLineCircle(out):
+                return texts.cause_arc.format(point=names.point(out))
             case steps.Touch(out):
-                return words.cause_touch.format(point=names.point(out))
-            case steps.Hold():
-                return words.cause_hold.format(link=link_of_axis(step))
+                return texts.cause_touch.format(point=names.point(out))
+            case steps.TriadPose():
+                return texts.cause_hold.format(link=link_of_axis(step))
             case steps.Spot(out):
-                return words.cause_spot.format(point=names.point(out))
+                return texts.cause_spot.format(point=names.point(out))
             case steps.Similar(out):
-                return words.cause_similar.format(point=names.point(out))
+                return texts.cause_similar.format(point=names.point(out))
             case steps.Measure(_, tail, head) | steps.MeasureAlong(_, tail, head, _):
-                return words.cause_read.format(segment=names.segment(tail, head))
+                return texts.cause_read.format(segment=names.segment(tail, head))
             case steps.MeasureArm(_, about, at):
-                return words.cause_read.format(segment=names.segment(about, at))
+                return texts.cause_read.format(segment=names.segment(about, at))
             case steps.GivenNumber() | steps.Compute() | steps.Total():
                 raise TypeError(f"{step.out} is no stroke")
             case _:

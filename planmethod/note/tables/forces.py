@@ -7,19 +7,19 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.note.columnar import Column, ColumnarRecords, list_of, record_of
 from planmethod.note.columns import bounds, listed, named, pairs, sizes
-from planmethod.note.compared import NONE
+from planmethod.note.compared import DASH
 from planmethod.note.document import Caption, Node, Note
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.forces.bearings import bearing_text, redundant
 from planmethod.note.narrate.forces.lever import compared_balances
-from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
-from planmethod.note.narrate.given import point_name
-from planmethod.note.numbers import plain
-from planmethod.note.plaintext import NO_BREAK, fixed, found, given
-from planmethod.note.tables.sigmas import Sigmas
-from planmethod.note.wording import Words
-from planmethod.note.written import Column, Records, rows, together
+from planmethod.note.narrate.forces.resultants import shift_lines, unshifted_lines
+from planmethod.note.narrate.statement import point_name
+from planmethod.note.numbers import record_float
+from planmethod.note.plaintext import NO_BREAK, computed_text, fixed, input_text
+from planmethod.note.tables.sigmas import ErrorColumns
+from planmethod.note.wording import MessageTable
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.problem.model import Problem
 from planmethod.solved.errors.forces import (
@@ -40,7 +40,7 @@ from planmethod.solved.solution import Solution
 def _angle(force: complex, largest: float) -> float | None:
     if abs(force) <= VANISHING * largest:
         return None
-    return plain(np.degrees(np.angle(force)) % 360.0)
+    return record_float(np.degrees(np.angle(force)) % 360.0)
 
 
 def _acts(contact: SlideReaction | None) -> dict[str, Column]:
@@ -48,7 +48,7 @@ def _acts(contact: SlideReaction | None) -> dict[str, Column]:
     if contact is None:
         return {}
     b = contact.b()
-    acts, places = np.isfinite(b).tolist(), pairs(contact.place(b)).plain()
+    acts, places = np.isfinite(b).tolist(), pairs(contact.place(b)).to_list()
     point = [place if is_there else None for place, is_there in zip(places, acts, strict=True)]
     return {"b": listed(b), "point": point}
 
@@ -61,9 +61,9 @@ def _at_edges(contact: SlideReaction | None) -> dict[int, dict[str, Any]]:
         index: {
             "edges": [
                 {
-                    "at": [plain(edge.at.real), plain(edge.at.imag)],
-                    "fx": plain(edge.force.real),
-                    "fy": plain(edge.force.imag),
+                    "at": [record_float(edge.at.real), record_float(edge.at.imag)],
+                    "fx": record_float(edge.force.real),
+                    "fy": record_float(edge.force.imag),
                 }
                 for edge in contact.edges(index)
             ]
@@ -72,14 +72,14 @@ def _at_edges(contact: SlideReaction | None) -> dict[int, dict[str, Any]]:
     }
 
 
-def _in_bearings(statics: Statics, joint: JointForce) -> dict[str, Records]:
+def _in_bearings(statics: Statics, joint: JointForce) -> dict[str, ColumnarRecords]:
     """Return what each of two bearings takes of the reaction of a shaft, N."""
     shared = bearings_of(statics, joint)
     if shared is None:
         return {}
     count = len(statics.solution.positions)
     parts = [
-        rows(
+        record_of(
             {
                 "at": [place] * count,
                 "fx": listed(share * joint.force.real),
@@ -87,21 +87,21 @@ def _in_bearings(statics: Statics, joint: JointForce) -> dict[str, Records]:
                 "f": sizes(share * joint.force),
             }
         )
-        for place, share in zip(shared.at, shared.shares, strict=True)
+        for place, share in zip(shared.at, shared.load_fractions, strict=True)
     ]
-    return {"bearings": together(parts, count)}
+    return {"bearings": list_of(parts, count)}
 
 
-def _drawn(drawn: DrawnForces, joint: JointForce, still: Flags) -> dict[str, Column]:
+def _drawn(drawn: DrawnForces, joint: JointForce, vanishing: Flags) -> dict[str, Column]:
     """Return the readings of a reaction, and the drafting errors of its reported values.
 
-    Where it is ``still``, being negligible, it has no direction.
+    Where it is ``vanishing``, being negligible, it has no direction.
     """
     size, moment = size_label(joint), moment_label(joint)
-    prismatic, none = moment in drawn.items, [0.0] * len(still)
-    turned = np.full(len(still), np.nan)
-    if not still.all():
-        turned[~still] = drawn.spreads[angle_label(joint)].sigma[~still]
+    prismatic, none = moment in drawn.items, [0.0] * len(vanishing)
+    turned = np.full(len(vanishing), np.nan)
+    if not vanishing.all():
+        turned[~vanishing] = drawn.spreads[angle_label(joint)].sigma[~vanishing]
     return {
         "read": listed(drawn.read(size)),
         "sigma": listed(drawn.spreads[size].sigma),
@@ -111,14 +111,14 @@ def _drawn(drawn: DrawnForces, joint: JointForce, still: Flags) -> dict[str, Col
     }
 
 
-def _reaction_records(statics: Statics, number: int) -> Records:
+def _reaction_records(statics: Statics, number: int) -> ColumnarRecords:
     """Return a reaction in every position; the data of its guide come last."""
     joint, drawn = statics.reactions[number], drawn_forces(statics)
-    still = _still(statics, joint)
+    still = _vanishing(statics, joint)
     angle = np.where(still, np.nan, np.degrees(np.angle(joint.force)) % 360.0)
     names = {"joint": joint.joint, "on": joint.on, "from": joint.by}
     contact = statics.contacts.get(number)
-    return rows(
+    return record_of(
         {
             **{key: [name] * len(still) for key, name in names.items()},
             "fx": listed(joint.force.real),
@@ -135,12 +135,12 @@ def _reaction_records(statics: Statics, number: int) -> Records:
     )
 
 
-def _still(statics: Statics, joint: JointForce) -> Flags:
+def _vanishing(statics: Statics, joint: JointForce) -> Flags:
     """Return where a reaction is negligible beside the largest force, and has no direction."""
     return np.asarray(np.abs(joint.force) <= VANISHING * statics.largest_forces)
 
 
-def forces_records(solution: Solution) -> Records:
+def forces_records(solution: Solution) -> ColumnarRecords:
     """Return reactions, driving and lever of every position as plain data, N and N·m.
 
     ``bound`` is that of the relative error of forces and moments
@@ -155,16 +155,16 @@ def forces_records(solution: Solution) -> Records:
     quantity, count = solution.problem.drive.balancing.quantity, len(solution.positions)
     pushed = solution.problem.drive.pushed
     reactions = [_reaction_records(statics, k) for k in range(len(statics.reactions))]
-    still = {angle_label(joint): _still(statics, joint) for joint in statics.reactions}
+    still = {angle_label(joint): _vanishing(statics, joint) for joint in statics.reactions}
     random = {
         label: drawn.spreads[label].drawn & ~nothing
         for label in drawn.items
         if not (nothing := still.get(label, np.zeros(count, dtype=bool))).all()
     }
-    columns: dict[str, Column | Records] = {
+    columns: dict[str, Column | ColumnarRecords] = {
         "bound": bounds(statics.bound),
-        "reactions": together(reactions, count),
-        "driving": rows(
+        "reactions": list_of(reactions, count),
+        "driving": record_of(
             {
                 quantity: listed(balance),
                 **(
@@ -182,10 +182,12 @@ def forces_records(solution: Solution) -> Records:
             }
         ),
         "mu": listed(np.broadcast_to(statics.mu, count)),
-        "plans": together(
+        "plans": list_of(
             [
-                rows({"links": [[*plan.links]] * count, "mu": listed(own), "q": [_q(plan)] * count})
-                for plan, own in zip(statics.board.plans, statics.own_scales, strict=True)
+                record_of(
+                    {"links": [[*plan.links]] * count, "mu": listed(own), "q": [_q(plan)] * count}
+                )
+                for plan, own in zip(statics.board.plans, statics.plan_scales, strict=True)
             ],
             count,
         ),
@@ -198,12 +200,12 @@ def forces_records(solution: Solution) -> Records:
     if statics.lever is not None:
         assert drawn.discrepancy_sigma is not None and drawn.balances is not None
         plans, hung = drawn.balances.plans, drawn.balances.lever
-        columns["lever"] = rows(
+        columns["lever"] = record_of(
             {
                 quantity: listed(statics.lever),
                 "difference": listed(statics.lever - balance),
                 "sigma": listed(drawn.discrepancy_sigma),
-                "hand": rows(
+                "hand": record_of(
                     {
                         "plans": listed(plans),
                         "lever": listed(hung),
@@ -213,7 +215,7 @@ def forces_records(solution: Solution) -> Records:
                 ),
             }
         )
-    return rows(columns)
+    return record_of(columns)
 
 
 def _q(plan: ForcePlan) -> int:
@@ -221,47 +223,52 @@ def _q(plan: ForcePlan) -> int:
     return redundant(len(plan.links))
 
 
-def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
+def forces_columns(solution: Solution, texts: MessageTable) -> list[list[str]]:
     """Return columns of many positions: the size of every reaction, then what balances."""
     statics, called = statics_of(solution), solution.problem.mechanism.called
     columns = [
-        [f"{joint.joint} {joint.on}←{called(joint.by)}", *(found(float(f), words) for f in size)]
+        [
+            f"{joint.joint} {joint.on}←{called(joint.by)}",
+            *(computed_text(float(f), texts) for f in size),
+        ]
         for joint in statics.reactions
         for size in [np.abs(joint.force)]
     ]
     drive = solution.problem.drive
     of = drive.link if drive.actuator is None else " " + "".join(map(point_name, drive.actuator))
-    head = f"{drive.balancing.letter}{of}, {words['units'][drive.balancing.unit]}"
-    columns.append([head, *(found(float(value), words) for value in statics.balance)])
+    head = f"{drive.balancing.letter}{of}, {texts['units'][drive.balancing.unit]}"
+    columns.append([head, *(computed_text(float(value), texts) for value in statics.balance)])
     if rubbed(solution.problem):
         from planmethod.solved.forces.friction import friction_of  # few files have any
 
         friction = friction_of(solution)
         more: list[tuple[str, Reals]] = [
             (
-                words.rubbed.format(head=f"{pair.joint} {pair.on}←{called(pair.by)}"),
+                texts.rubbed.format(head=f"{pair.joint} {pair.on}←{called(pair.by)}"),
                 np.abs(friction.total(pair, friction.converged)),
             )
             for pair in friction.every
         ]
         more += [
-            (words.rubbed.format(head=head), friction.converged.balance),
+            (texts.rubbed.format(head=head), friction.converged.balance),
             ("η", friction.efficiency),
         ]
         for name, values in more:
-            told = (found(float(v), words) if np.isfinite(v) else "—" for v in values)
+            told = (computed_text(float(v), texts) if np.isfinite(v) else "—" for v in values)
             columns.append([name, *told])
     return columns
 
 
-def _distance(solution: Solution, number: int, index: int, words: Words) -> str:
+def _distance(solution: Solution, number: int, index: int, texts: MessageTable) -> str:
     """Return the distance along its guide at which a reaction acts, m."""
     contact = statics_of(solution).contacts.get(number)
     b = np.nan if contact is None else float(contact.b()[index])
     if contact is None or not np.isfinite(b):
         return "—"
     largest = statics_of(solution).largest(index)
-    return found(0.0 if abs(contact.joint.moment[index]) <= VANISHING * largest else b, words)
+    return computed_text(
+        0.0 if abs(contact.joint.moment[index]) <= VANISHING * largest else b, texts
+    )
 
 
 def rubbed(problem: Problem) -> bool:
@@ -269,39 +276,41 @@ def rubbed(problem: Problem) -> bool:
     return problem.dynamics is not None and problem.dynamics.friction is not None
 
 
-def push_way(problem: Problem, words: Words) -> str:
+def push_direction(problem: Problem, texts: MessageTable) -> str:
     """Return the direction of the balancing force at a point of the crank."""
     pushed, pivot = problem.drive.pushed, problem.drive.pivot
     assert pushed is not None and pivot is not None
     if pushed.angle is None:
-        return words.push_across.format(line=f"{point_name(pivot)}{point_name(pushed.at)}")
-    return words.push_angle.format(angle=given(pushed.angle, words))
+        return texts.push_across.format(line=f"{point_name(pivot)}{point_name(pushed.at)}")
+    return texts.push_angle.format(angle=input_text(pushed.angle, texts))
 
 
-def driven_by(problem: Problem, words: Words) -> Iterator[Rich]:
+def driven_by(problem: Problem, texts: MessageTable) -> Iterator[Rich]:
     """Yield which load drives the mechanism where something else determines its position."""
     drive = problem.drive
     pushed, link = drive.pushed, problem.mechanism.called(drive.link)
-    if drive.followed is not None:
+    if drive.cam_drive is not None:
         if pushed is not None:
-            yield words.drives_cam_push.format(link=link, point=point_name(pushed.at))
+            yield texts.drives_cam_push.format(link=link, point=point_name(pushed.at))
         elif drive.pivot is not None:
-            yield words.drives_cam.format(link=link, pivot=point_name(drive.pivot))
+            yield texts.drives_cam.format(link=link, pivot=point_name(drive.pivot))
         else:
-            yield words.drives_cam_slide.format(link=link)
+            yield texts.drives_cam_slide.format(link=link)
     elif drive.posed is not None and drive.actuator is None:
-        what = words["drives_by"][drive.balancing.said]
-        yield words.drives_posed.format(key=drive.posed.key, link=link, what=what)
+        what = texts["drives_by"][drive.balancing.phrase_key]
+        yield texts.drives_posed.format(key=drive.posed.key, link=link, what=what)
 
 
-def resultant_notes(solution: Solution, words: Words, index: int | None = None) -> Iterator[Rich]:
+def resultant_notes(
+    solution: Solution, texts: MessageTable, index: int | None = None
+) -> Iterator[Rich]:
     """Yield where inertia forces act that also replace couples, and which ones do not."""
     statics = statics_of(solution)
-    yield from shift_lines(statics, words, index)
-    yield from kept_lines(statics, words)
+    yield from shift_lines(statics, texts, index)
+    yield from unshifted_lines(statics, texts)
 
 
-def _edge_notes(solution: Solution, words: Words, index: int) -> Iterator[Rich]:
+def _edge_notes(solution: Solution, texts: MessageTable, index: int) -> Iterator[Rich]:
     """Yield notes on the guides whose sliders bear at their edges."""
     for contact in statics_of(solution).contacts.values():
         edges = contact.edges(index)
@@ -309,24 +318,26 @@ def _edge_notes(solution: Solution, words: Words, index: int) -> Iterator[Rich]:
             continue
         assert contact.length is not None
         told = [
-            f"{letter} = {found(abs(edge.force), words)} {words['units']['N']} "
-            f"(φ = {fixed(np.degrees(np.angle(edge.force)) % 360.0, words)}°)".replace(
+            f"{letter} = {computed_text(abs(edge.force), texts)} {texts['units']['N']} "
+            f"(φ = {fixed(np.degrees(np.angle(edge.force)) % 360.0, texts)}°)".replace(
                 " ", NO_BREAK
             )
             for letter, edge in zip(("F′", "F″"), edges, strict=True)
         ]
-        note = words.edges_note if np.isfinite(contact.b()[index]) else words.edges_couple
+        note = texts.edges_note if np.isfinite(contact.b()[index]) else texts.edges_couple
         joint = contact.joint
         yield note.format(
             joint=joint.joint,
             links=f"{joint.on}←{solution.problem.mechanism.called(joint.by)}",
-            length=given(contact.length, words),
+            length=input_text(contact.length, texts),
             first=told[0],
             second=told[1],
         )
 
 
-def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) -> Iterator[Node]:
+def forces_tables(
+    solution: Solution, texts: MessageTable, index: int, sigmas: ErrorColumns
+) -> Iterator[Node]:
     """Yield the table of reactions of one position, and how the lever compares."""
     statics = statics_of(solution)
     drawn, largest = drawn_forces(statics), statics.largest(index)
@@ -341,51 +352,53 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
             [
                 joint.joint,
                 f"{joint.on}←{solution.problem.mechanism.called(joint.by)}",
-                found(size, words),
-                found(float(drawn.read(size_label(joint))[index]), words),
+                computed_text(size, texts),
+                computed_text(float(drawn.read(size_label(joint))[index]), texts),
                 *sigmas.cell(size_label(joint), index, drawn),
-                "—" if angle is None else fixed(angle, words),
+                "—" if angle is None else fixed(angle, texts),
                 *sigmas.cell(None if angle is None else angle_label(joint), index, drawn),
-                "—" if still else found(moment, words),
+                "—" if still else computed_text(moment, texts),
                 *sigmas.cell(None if still else moment_label(joint), index, drawn),
-                _distance(solution, number, index, words),
+                _distance(solution, number, index, texts),
             ]
         )
-    yield Caption(words.table_forces)
-    yield sigmas.table(words["columns_forces"], (3, 4, 5), rows, names=2)
-    yield from map(Note, _edge_notes(solution, words, index))
+    yield Caption(texts.table_forces)
+    yield sigmas.table(texts["columns_forces"], (3, 4, 5), rows, names=2)
+    yield from map(Note, _edge_notes(solution, texts, index))
     for joint in statics.reactions:
         if (shared := bearings_of(statics, joint)) is not None:
             force = abs(complex(joint.force[index]))
-            yield Note(bearing_text(solution, joint, shared, force, words))
-    yield from map(Note, resultant_notes(solution, words, index))
+            yield Note(bearing_text(solution, joint, shared, force, texts))
+    yield from map(Note, resultant_notes(solution, texts, index))
     balancing = solution.problem.drive.balancing
-    balance, unit = words["balance"][balancing.said], words["units"][balancing.unit]
-    facts = {"value": found(float(statics.balance[index]), words), "unit": unit}
+    balance, unit = texts["balance"][balancing.phrase_key], texts["units"][balancing.unit]
+    facts = {"value": computed_text(float(statics.balance[index]), texts), "unit": unit}
     if (pushed := solution.problem.drive.pushed) is not None:
         assert statics.moment is not None
-        facts["moment"] = f"{found(float(statics.moment[index]), words)} {words['units']['N·m']}"
+        facts["moment"] = (
+            f"{computed_text(float(statics.moment[index]), texts)} {texts['units']['N·m']}"
+        )
         facts["point"] = point_name(pushed.at)
-        facts["way"] = push_way(solution.problem, words)
+        facts["way"] = push_direction(solution.problem, texts)
     if statics.thrust is not None:
         facts["line"] = "".join(map(point_name, statics.thrust.ends))
         facts["one"], facts["two"] = map(solution.problem.mechanism.called, statics.thrust.links)
         apart = statics.balance[index] >= 0
-        facts["way"] = words.push_apart if apart else words.pull_together
+        facts["way"] = texts.push_apart if apart else texts.pull_together
     yield Note(balance.format(**facts))
-    yield from map(Note, driven_by(solution.problem, words))
+    yield from map(Note, driven_by(solution.problem, texts))
     if statics.lever_at(index) is None:
-        yield Note(words.lever_stands)
+        yield Note(texts.lever_stands)
         return
     both = compared_balances(statics, index)
     assert both is not None
     yield Note(
-        words.lever_note.format(
-            lever=found(both.read, words),
-            plans=found(both.exact, words),
-            difference=found(both.off, words),
-            share=NONE if both.percent is None else fixed(both.percent, words),
-            sigma=found(both.sigma, words),
+        texts.lever_note.format(
+            lever=computed_text(both.read, texts),
+            plans=computed_text(both.exact, texts),
+            difference=computed_text(both.off, texts),
+            share=DASH if both.percent is None else fixed(both.percent, texts),
+            sigma=computed_text(both.sigma, texts),
             unit=unit,
         )
     )

@@ -6,19 +6,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from planmethod.note.columnar import Column, ColumnarRecords, list_of, record_of
 from planmethod.note.columns import listed, sizes
 from planmethod.note.document import Caption, Node, Note
 from planmethod.note.narrate.forces.common import ForceContext
-from planmethod.note.narrate.forces.friction import FrictionTeller
+from planmethod.note.narrate.forces.friction import FrictionNarrator
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.wording import Language
-from planmethod.note.written import Column, Records, rows, together
-from planmethod.solved.efficiency import TurnEfficiency
+from planmethod.solved.efficiency import CycleEfficiency
 from planmethod.solved.forces.friction import (
     Friction,
+    FrictionPair,
     RubbedForces,
-    Rubbing,
     friction_of,
 )
 from planmethod.solved.forces.reading import force_reading
@@ -26,7 +26,7 @@ from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
 
-def friction_records(solution: Solution) -> Records:
+def friction_records(solution: Solution) -> ColumnarRecords:
     """Return the friction of every position as plain data, N, N·m and W.
 
     ``pairs`` are all of them, with the whole reaction, that along a guide with it, and its
@@ -36,22 +36,22 @@ def friction_records(solution: Solution) -> Records:
     """
     friction, count = friction_of(solution), len(solution.positions)
     quantity = solution.problem.drive.balancing.quantity
-    columns: dict[str, Column | Records] = {
-        "pairs": together([_pair(friction, pair, count) for pair in friction.every], count),
-        "driving": rows(
+    columns: dict[str, Column | ColumnarRecords] = {
+        "pairs": list_of([_pair(friction, pair, count) for pair in friction.every], count),
+        "driving": record_of(
             {
-                key: rows({quantity: listed(forces.balance), "power": listed(forces.power)})
+                key: record_of({quantity: listed(forces.balance), "power": listed(forces.power)})
                 for key, forces in _kinds(friction).items()
             }
         ),
-        "change": rows(
+        "change": record_of(
             {quantity: listed(friction.change), "reactions": listed(friction.reaction_change)}
         ),
         "efficiency": listed(friction.efficiency),
         "self_locking": friction.locks.tolist(),
         "jammed": friction.jammed.tolist(),
     }
-    return rows(columns)
+    return record_of(columns)
 
 
 def _kinds(friction: Friction) -> dict[str, RubbedForces]:
@@ -62,15 +62,15 @@ def _kinds(friction: Friction) -> dict[str, RubbedForces]:
     }
 
 
-def _pair(friction: Friction, pair: Rubbing, count: int) -> Records:
+def _pair(friction: Friction, pair: FrictionPair, count: int) -> ColumnarRecords:
     steady: dict[str, object] = {"pair": pair.name, "joint": pair.joint, "on": pair.on}
     steady |= {"from": pair.by, "f": pair.f}
     steady |= {"rho": pair.rho} if pair.slide is None else {"phi_deg": pair.phi}
-    told: dict[str, Column | Records] = {key: [one] * count for key, one in steady.items()}
+    told: dict[str, Column | ColumnarRecords] = {key: [one] * count for key, one in steady.items()}
     told |= {"rate": listed(pair.rate), "f_without": sizes(friction.total(pair, friction.without))}
     for key, forces in list(_kinds(friction).items())[1:]:
         whole = friction.total(pair, forces)
-        told[key] = rows(
+        told[key] = record_of(
             {
                 "fx": listed(whole.real),
                 "fy": listed(whole.imag),
@@ -79,16 +79,16 @@ def _pair(friction: Friction, pair: Rubbing, count: int) -> Records:
                 "friction": listed(friction.rub(pair, forces)),
             }
         )
-    return rows(told)
+    return record_of(told)
 
 
-def turn_record(found: TurnEfficiency) -> dict[str, object]:
+def friction_cycle_record(efficiency: CycleEfficiency) -> dict[str, object]:
     """Return the efficiency of the cycle as plain data, J."""
     return {
-        "efficiency": found.value,
-        "work_without": found.ideal,
-        "work": found.real if np.isfinite(found.real) else None,
-        **({"jammed_between": list(found.locked)} if found.locked else {}),
+        "efficiency": efficiency.value,
+        "work_without": efficiency.ideal,
+        "work": efficiency.real if np.isfinite(efficiency.real) else None,
+        **({"jammed_between": list(efficiency.locked)} if efficiency.locked else {}),
     }
 
 
@@ -98,7 +98,7 @@ def friction_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     for pair in friction.every:
         name = f"{pair.joint}.{pair.on}-{pair.by}"
         yield f"F.{name}.rubbed", np.abs(friction.total(pair, friction.converged))
-        if pair.share:
+        if pair.coefficient:
             yield f"friction.{name}", friction.rub(pair, friction.converged)
     quantity = solution.problem.drive.balancing.quantity
     yield f"driving.{quantity}.once", friction.corrected.balance
@@ -106,16 +106,16 @@ def friction_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     yield "efficiency", friction.efficiency
 
 
-def teller(solution: Solution, words: Language, index: int) -> FrictionTeller:
+def friction_narrator(solution: Solution, language: Language, index: int) -> FrictionNarrator:
     """Return the narrator of the friction of a position."""
-    say = Formulas(solution, Names(solution, words.note), index)
-    return FrictionTeller(ForceContext(force_reading(solution, index), say))
+    formulas = Formulas(solution, Names(solution, language.note), index)
+    return FrictionNarrator(ForceContext(force_reading(solution, index), formulas))
 
 
-def friction_tables(solution: Solution, words: Language, index: int) -> Iterator[Node]:
+def friction_tables(solution: Solution, language: Language, index: int) -> Iterator[Node]:
     """Yield the table of the pairs with friction of one position, and its results."""
-    tell = teller(solution, words, index)
-    yield Caption(words.friction.table)
-    yield tell.table()
-    yield from map(Note, tell.results())
-    yield from map(Note, tell.turn())
+    narrator = friction_narrator(solution, language, index)
+    yield Caption(language.friction.table)
+    yield narrator.table()
+    yield from map(Note, narrator.results())
+    yield from map(Note, narrator.cycle_lines())

@@ -10,53 +10,54 @@ from msgspec.structs import replace
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Chapter, Document, Node, Paragraph, table_of
 from planmethod.note.tables.results import position_line
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.legend import QuantityKind
 from planmethod.solved.accuracy import AccuracyVerdict, Refereed, examine
 from planmethod.solved.solution import Solution
 
 
-def judged(solution: Solution, digits: int) -> list[Refereed]:
+def examine_results(solution: Solution, digits: int) -> list[Refereed]:
     """Return the referee's verdicts on every position: on moving parts, each result once."""
     fixed = solution.problem.bodies[FRAME].points
     found = examine(solution.problem, [float(p) for p in solution.positions], digits=digits)
 
-    def worth(verdict: AccuracyVerdict) -> bool:
+    def is_reported(verdict: AccuracyVerdict) -> bool:
         return verdict.kind is not QuantityKind.UNIT and verdict.quantity.of not in fixed
 
     return [
-        replace(position, verdicts=tuple(filter(worth, position.verdicts))) for position in found
+        replace(position, verdicts=tuple(filter(is_reported, position.verdicts)))
+        for position in found
     ]
 
 
-def referee_document(solution: Solution, digits: int, words: Language) -> Document:
+def referee_document(solution: Solution, digits: int, language: Language) -> Document:
     """Return every result beside the referee's, with its error and condition number.
 
     The value of the referee is written out to 20 digits; the record has all of them.
     """
-    return Document.of(_referee(solution, digits, words.note))
+    return Document.of(_referee(solution, digits, language.note))
 
 
-def _referee(solution: Solution, digits: int, words: Words) -> Iterator[Node]:
-    yield Paragraph(words.referee_note.format(digits=digits))
-    for index, position in enumerate(judged(solution, digits)):
-        yield Chapter(position_line(solution, words, index), numbered=False)
-        rows = (_row(verdict, words) for verdict in position.verdicts)
-        yield table_of(words["columns_referee"], rows)
+def _referee(solution: Solution, digits: int, texts: MessageTable) -> Iterator[Node]:
+    yield Paragraph(texts.referee_note.format(digits=digits))
+    for index, position in enumerate(examine_results(solution, digits)):
+        yield Chapter(position_line(solution, texts, index), numbered=False)
+        rows = (_row(verdict, texts) for verdict in position.verdicts)
+        yield table_of(texts["columns_referee"], rows)
 
 
-def _row(verdict: AccuracyVerdict, words: Words) -> list[str]:
+def _row(verdict: AccuracyVerdict, texts: MessageTable) -> list[str]:
     from mpmath import nstr
 
     real, imag = _parts(verdict)
     parts = [nstr(real, 20)] + ([] if imag is None else [nstr(imag, 20)])
-    value = "; ".join(parts).replace(".", words.decimal)
+    value = "; ".join(parts).replace(".", texts.decimal)
     kappa = f"{verdict.kappa:.1e}" if verdict.kappa < 1e300 else "—"
     numbers = (f"{verdict.error:.1e}", kappa, f"{verdict.multiple:.2f}")
     return [
         verdict.quantity.symbol,
         value,
-        *(text.replace(".", words.decimal) for text in numbers),
+        *(text.replace(".", texts.decimal) for text in numbers),
     ]
 
 
@@ -81,7 +82,7 @@ def referee_record(solution: Solution, digits: int) -> list[dict[str, Any]]:
             **({} if (b := position.warned_forces) is None else {"forces_bound": b}),
             "results": {
                 verdict.label: {
-                    **_told(verdict, digits),
+                    **_value_record(verdict, digits),
                     "error": verdict.error,
                     "kappa": verdict.kappa if verdict.kappa < 1e300 else None,
                     "multiple": verdict.multiple,
@@ -89,11 +90,11 @@ def referee_record(solution: Solution, digits: int) -> list[dict[str, Any]]:
                 for verdict in position.verdicts
             },
         }
-        for position in judged(solution, digits)
+        for position in examine_results(solution, digits)
     ]
 
 
-def _told(verdict: AccuracyVerdict, digits: int) -> dict[str, str]:
+def _value_record(verdict: AccuracyVerdict, digits: int) -> dict[str, str]:
     from mpmath import nstr
 
     real, imag = _parts(verdict)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import chain
 
-from planmethod.languages import spoken_to
+from planmethod.languages import choose_language
 from planmethod.note.document import (
     Caption,
     Chapter,
@@ -19,13 +19,13 @@ from planmethod.note.document import (
     table_of_columns,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.narrate.given import reading_notes, told
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.statement import reading_notes, reported_quantities
 from planmethod.note.numbers import with_unit
-from planmethod.note.plaintext import fixed, found, given, spoken
-from planmethod.note.tables.sigmas import Sigmas, levelled
-from planmethod.note.wording import Language, Words, language
+from planmethod.note.plaintext import computed_text, fixed, input_text, localized
+from planmethod.note.tables.sigmas import ErrorColumns, levelled
+from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.note.writers.html import html_part
 from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind, kinds_on
 from planmethod.plans.model import FACTS, MOTION, PlanKind
@@ -37,7 +37,7 @@ FEW = 3
 """Most positions that are shown each with tables of its own."""
 
 
-def results_document(solution: Solution, words: Language, *, sigma: bool = False) -> Document:
+def results_document(solution: Solution, language: Language, *, sigma: bool = False) -> Document:
     """Return the results of a solution.
 
     Up to three positions have tables of their own; more are rows of common tables.
@@ -45,39 +45,41 @@ def results_document(solution: Solution, words: Language, *, sigma: bool = False
     Parameters
     ----------
     solution : Solution
-    words : Language
+    language : Language
     sigma : bool
         Show the drafting error beside every reading, and its largest causes in each of a few
         positions.
     """
-    return Document.of(_results(solution, words, Sigmas(solution, words.note, asked=sigma)))
+    return Document.of(
+        _results(solution, language, ErrorColumns(solution, language.note, enabled=sigma))
+    )
 
 
 def results_part(solution: Solution) -> str:
     """Return the results as a notebook shows them, in the language of the environment."""
-    lang = spoken_to(())
-    return html_part(results_document(solution, language(lang)), lang)
+    lang = choose_language(())
+    return html_part(results_document(solution, get_language(lang)), lang)
 
 
-def _results(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]:
-    note, every = words.note, range(len(solution.positions))
+def _results(solution: Solution, language: Language, sigmas: ErrorColumns) -> Iterator[Node]:
+    note, every = language.note, range(len(solution.positions))
     convention = solution.problem.scales.convention
     yield Paragraph(heading_of(solution.problem))
-    yield from reading_notes(solution.problem, words)
+    yield from reading_notes(solution.problem, language)
     yield Item(note.formula.format(formula=solution.structure.formula))
     common = (solution.scales[kind] for kind in MOTION if solution.has_common(kind))
-    scales = (scale_inscription(scale, convention, words.say) for scale in common)
+    scales = (scale_inscription(scale, convention, language.notation) for scale in common)
     yield Item(f"{note.scales}: {'; '.join(scales)}")
     if len(every) > FEW:
-        yield from _many(solution, words, sigmas)
+        yield from _many(solution, language, sigmas)
     else:
         for index in every:
             yield Chapter(position_line(solution, note, index), numbered=False)
-            yield from position_tables(solution, words, index, sigmas)
-            if sigmas.asked:
+            yield from position_tables(solution, language, index, sigmas)
+            if sigmas.enabled:
                 yield from _causes(solution, note, index)
-    yield from further_tables(solution, words)
-    yield Paragraph(note.hand_note.format(ruler=given(solution.hand.ruler, note)))
+    yield from further_tables(solution, language)
+    yield Paragraph(note.hand_note.format(ruler=input_text(solution.ruler_arithmetic.ruler, note)))
     yield Paragraph(note.sense_note)
     yield from sigmas.notes()
 
@@ -88,45 +90,45 @@ def heading_of(problem: Problem) -> Rich:
     return escape((problem.title or problem.name) + variant)
 
 
-def further_tables(solution: Solution, words: Language) -> Iterator[Node]:
+def further_tables(solution: Solution, language: Language) -> Iterator[Node]:
     """Yield what the file asks for besides: a turn of the crank, a machine, its balancing."""
     if solution.problem.cycle is not None:
-        from planmethod.note.tables.turn import cycle_tables
+        from planmethod.note.tables.cycle import cycle_tables
 
-        yield from cycle_tables(solution, words)
+        yield from cycle_tables(solution, language)
     if solution.problem.machine is not None:
         from planmethod.note.tables.machine import machine_tables
 
-        yield from machine_tables(solution, words)
+        yield from machine_tables(solution, language)
     if solution.problem.balancing is not None:
         from planmethod.note.tables.balancing import balancing_tables
 
-        yield from balancing_tables(solution, words)
+        yield from balancing_tables(solution, language)
 
 
-def _causes(solution: Solution, note: Words, index: int) -> Iterator[Node]:
-    from planmethod.note.tables.causes import Causes
+def _causes(solution: Solution, note: MessageTable, index: int) -> Iterator[Node]:
+    from planmethod.note.tables.causes import ErrorCauses
 
-    yield from Causes(Names(solution, note)).nodes(index)
+    yield from ErrorCauses(Names(solution, note)).nodes(index)
 
 
-def scale_texts(solution: Solution, words: Language, index: int) -> list[Rich]:
+def scale_texts(solution: Solution, language: Language, index: int) -> list[Rich]:
     """Return the scales of a position as ``μ_{v} = 0,05 (м/с)/мм``, or in mm per unit."""
     convention = solution.problem.scales.convention
-    scales = (solution.own_scale(kind, index) for kind in MOTION)
-    return [scale_inscription(scale, convention, words.say) for scale in scales]
+    scales = (solution.plan_scale(kind, index) for kind in MOTION)
+    return [scale_inscription(scale, convention, language.notation) for scale in scales]
 
 
-def position_line(solution: Solution, words: Words, index: int) -> Rich:
+def position_line(solution: Solution, texts: MessageTable, index: int) -> Rich:
     """Return which position is meant: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
-    value = given(solution.problem.shown(float(solution.positions[index])), words)
+    value = input_text(solution.problem.display_position(float(solution.positions[index])), texts)
     count = len(solution.positions)
-    return (words.position if count > 1 else words.one_position).format(
+    return (texts.position if count > 1 else texts.one_position).format(
         number=index,
         count=count,
         symbol=coordinate.symbol,
-        value=with_unit(value, words["units"][coordinate.unit]),
+        value=with_unit(value, texts["units"][coordinate.unit]),
     )
 
 
@@ -134,11 +136,11 @@ def position_line(solution: Solution, words: Words, index: int) -> Rich:
 
 
 def position_tables(
-    solution: Solution, words: Language, index: int, sigmas: Sigmas | None = None
+    solution: Solution, language: Language, index: int, sigmas: ErrorColumns | None = None
 ) -> Iterator[Node]:
     """Yield the tables of one position: points, links, sliding, segments of the plans, forces."""
-    note = words.note
-    sigmas = sigmas or Sigmas(solution, note, asked=False)
+    note = language.note
+    sigmas = sigmas or ErrorColumns(solution, note, enabled=False)
     yield Caption(note.table_points)
     points = _points(solution, note, index, sigmas)
     yield sigmas.table(note["columns_points"], (4, 6), points)
@@ -149,7 +151,7 @@ def position_tables(
         yield Caption(note.table_sliding)
         yield sigmas.table(note["columns_sliding"], (2, 4, 6), sliding)
     names = Names(solution, note)
-    for kind, scale in zip(MOTION, scale_texts(solution, words, index), strict=True):
+    for kind, scale in zip(MOTION, scale_texts(solution, language, index), strict=True):
         rows = _segments(solution, names, kind, index, sigmas)
         if not rows:
             continue
@@ -168,7 +170,7 @@ def position_tables(
         if solution.problem.dynamics.friction is not None:
             from planmethod.note.tables.friction import friction_tables
 
-            yield from friction_tables(solution, words, index)
+            yield from friction_tables(solution, language, index)
 
 
 def moving_points(solution: Solution) -> list[str]:
@@ -177,38 +179,42 @@ def moving_points(solution: Solution) -> list[str]:
     return [name for name, at in velocity.named.items() if velocity.point[at] != velocity.pole]
 
 
-def _points(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
+def _points(
+    solution: Solution, texts: MessageTable, i: int, sigmas: ErrorColumns
+) -> list[list[str]]:
     rows, quantities = [], solution.quantities(QuantityKind.VELOCITY, QuantityKind.ACCELERATION)
     for name in moving_points(solution):
         place = solution.points[name].place[i]
-        row = [name, *(_place(solution, float(x), words) for x in (place.real, place.imag))]
+        row = [name, *(_place(solution, float(x), texts) for x in (place.real, place.imag))]
         for quantity in quantities[name]:
-            row += _found(solution, quantity, i, sigmas)
+            row += _value_cells(solution, quantity, i, sigmas)
         rows.append(row)
     return rows
 
 
-def _found(solution: Solution, quantity: Quantity, i: int, sigmas: Sigmas) -> list[str]:
+def _value_cells(solution: Solution, quantity: Quantity, i: int, sigmas: ErrorColumns) -> list[str]:
     """Return a quantity in one position: exact, as read by hand, and its error."""
     exact, read = solution.exact(quantity)[i], solution.read_off(quantity.label)[i]
-    told = [found(float(value), sigmas.words) for value in (exact, read)]
+    told = [computed_text(float(value), sigmas.texts) for value in (exact, read)]
     return [*told, *sigmas.cell(quantity.label, i)]
 
 
-def _place(solution: Solution, metres: float, words: Words) -> str:
+def _place(solution: Solution, metres: float, texts: MessageTable) -> str:
     """Return a coordinate; far from the origin with enough digits to distinguish points."""
     draft = solution.construction.draft
     if draft.origin == 0:
-        return found(metres, words)
+        return computed_text(metres, texts)
     size = max(length for _, _, length in solution.problem.lengths)
-    return spoken(f"{metres:.{max(0, 4 - math.floor(math.log10(size)))}f}", words)
+    return localized(f"{metres:.{max(0, 4 - math.floor(math.log10(size)))}f}", texts)
 
 
-def _link_tables(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> Iterator[Table]:
+def _link_tables(
+    solution: Solution, texts: MessageTable, i: int, sigmas: ErrorColumns
+) -> Iterator[Table]:
     """Yield the table of the links; with errors it is one of each of ω and ε: they are wide."""
-    rows, (link, direction, *read) = _links(solution, words, i, sigmas), words["columns_links"]
-    heads = [[f"{kind.sign}, {words['units'][kind.unit]}", *read] for kind in TURNINGS]
-    if not sigmas.asked:
+    rows, (link, direction, *read) = _links(solution, texts, i, sigmas), texts["columns_links"]
+    heads = [[f"{kind.sign}, {texts['units'][kind.unit]}", *read] for kind in TURNINGS]
+    if not sigmas.enabled:
         yield sigmas.table((link, direction, *chain(*heads)), (), rows)
         return
     for k, head in enumerate(heads):
@@ -217,31 +223,35 @@ def _link_tables(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> It
         yield sigmas.table((*(link, direction)[:lead], *head), (lead + 1,), cells)
 
 
-def _links(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
+def _links(
+    solution: Solution, texts: MessageTable, i: int, sigmas: ErrorColumns
+) -> list[list[str]]:
     rows = []
     for name, quantities in solution.quantities(*TURNING).items():
         known = {quantity.kind: quantity for quantity in quantities}
         direction = known.pop(QuantityKind.DIRECTION, None)
         row = [name, "—"]
         if direction is not None:
-            row[1] = fixed(float(solution.exact(direction)[i]), words)
+            row[1] = fixed(float(solution.exact(direction)[i]), texts)
         for kind in TURNINGS:
             if kind in known:
-                row += _found(solution, known[kind], i, sigmas)
-                row.append(_sense(solution.exact(known[kind])[i], words))
+                row += _value_cells(solution, known[kind], i, sigmas)
+                row.append(_sense(solution.exact(known[kind])[i], texts))
             else:
                 row += ["—", "—", *sigmas.cell(None, i), "—"]
         rows.append(row)
     return rows
 
 
-def _sense(value: float, words: Words) -> str:
+def _sense(value: float, texts: MessageTable) -> str:
     if abs(value) < 1e-12:
         return "—"
-    return words.ccw if value > 0 else words.cw
+    return texts.ccw if value > 0 else texts.cw
 
 
-def _sliding(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
+def _sliding(
+    solution: Solution, texts: MessageTable, i: int, sigmas: ErrorColumns
+) -> list[list[str]]:
     rows = []
     quantities = solution.quantities(
         QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
@@ -249,29 +259,29 @@ def _sliding(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[l
     called = solution.problem.mechanism.called
     for relative in solution.construction.kinematics.relatives.values():
         told = {"point": relative.point, "of": relative.of, "to": called(relative.to)}
-        row = [words.sliding_row.format(**told)]
+        row = [texts.sliding_row.format(**told)]
         for quantity in quantities[relative.name]:
-            row += _found(solution, quantity, i, sigmas)
+            row += _value_cells(solution, quantity, i, sigmas)
         rows.append(row)
     return rows
 
 
 def _segments(
-    solution: Solution, names: Names, kind: PlanKind, i: int, sigmas: Sigmas
+    solution: Solution, names: Names, kind: PlanKind, i: int, sigmas: ErrorColumns
 ) -> list[list[str]]:
-    words, rows = names.words, []
+    texts, rows = names.texts, []
     segments = solution.segments(kind)
 
     def lengths(segment: SegmentReading) -> list[str]:
-        return [*_lengths(segment, words, i), *sigmas.cell(f"{kind.value}.{segment.name}", i)]
+        return [*_lengths(segment, texts, i), *sigmas.cell(f"{kind.value}.{segment.name}", i)]
 
     if kind is PlanKind.POSITION:
         return [[_joined(s), *lengths(s)] for s in segments]
-    motions = (names.kin.velocity, names.kin.acceleration)
+    motions = (names.kinematics.velocity, names.kinematics.acceleration)
     values = next(motion.segments for motion in motions if motion.kind is kind)
     for vector, segment in zip(solution.construction.plan(kind).vectors, segments, strict=True):
-        number = solution.by_hand.number(values.known((vector.tail, vector.head)))
-        value = found(abs(float(number[i])), words)
+        number = solution.ruler_reading.number(values.known((vector.tail, vector.head)))
+        value = computed_text(abs(float(number[i])), texts)
         name = names.segment(vector.tail, vector.head)
         rows.append([vector.symbol, name, *lengths(segment), value])
     return rows
@@ -281,17 +291,17 @@ def _joined(segment: SegmentReading) -> str:
     return segment.name.replace("-", "")
 
 
-def _lengths(segment: SegmentReading, words: Words, i: int) -> list[str]:
+def _lengths(segment: SegmentReading, texts: MessageTable, i: int) -> list[str]:
     exact, read = float(segment.exact[i]), float(segment.read[i])
-    return [fixed(exact, words), given(read, words, 6)]
+    return [fixed(exact, texts), input_text(read, texts, 6)]
 
 
 # Many positions --------------------------------------------------------------------------------
 
 
-def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]:
+def _many(solution: Solution, language: Language, sigmas: ErrorColumns) -> Iterator[Node]:
     """Yield tables with a row for each position."""
-    note, count = words.note, len(solution.positions)
+    note, count = language.note, len(solution.positions)
     lead = lead_columns(solution.problem, solution.positions.tolist(), note)
 
     def table(title: Rich, columns: Sequence[Sequence[Rich]]) -> Iterator[Node]:
@@ -300,7 +310,7 @@ def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]
             yield table_of_columns([*lead, *columns], repeated=len(lead))
 
     def column(quantity: Quantity, values: Reals) -> list[Rich]:
-        return [quantity.symbol, *(found(float(value), note) for value in values)]
+        return [quantity.symbol, *(computed_text(float(value), note) for value in values)]
 
     places = []
     for name in moving_points(solution):
@@ -308,8 +318,8 @@ def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]
         for axis, values in (("x", place.real), ("y", place.imag)):
             cells = [_place(solution, float(value), note) for value in values]
             places.append([f"{axis}_{{{name}}}", *cells])
-    speeds = told(solution, *kinds_on(PlanKind.VELOCITY))
-    changes = told(solution, *kinds_on(PlanKind.ACCELERATION))
+    speeds = reported_quantities(solution, *kinds_on(PlanKind.VELOCITY))
+    changes = reported_quantities(solution, *kinds_on(PlanKind.ACCELERATION))
     yield from table(note.many_places, places)
     for title, some in ((note.many_velocities, speeds), (note.many_accelerations, changes)):
         yield from table(title, [column(q, solution.exact(q)) for q in some])
@@ -321,17 +331,19 @@ def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]
         yield from table(note.many_forces, forces_columns(solution, note))
         yield from map(Note, resultant_notes(solution, note))
     errors = []
-    for quantity in (*speeds, *changes) if sigmas.asked else ():
+    for quantity in (*speeds, *changes) if sigmas.enabled else ():
         cells = [sigmas.cell(quantity.label, i)[0] for i in range(count)]
         errors.append([quantity.symbol, *levelled(cells)])
     yield from table(note.many_sigmas, errors)
 
 
-def lead_columns(problem: Problem, positions: Sequence[float], words: Words) -> list[list[Rich]]:
+def lead_columns(
+    problem: Problem, positions: Sequence[float], texts: MessageTable
+) -> list[list[Rich]]:
     """Return the columns that each part of a table of positions begins with: number and place."""
     coordinate = problem.drive.coordinate
-    symbol = f"{coordinate.symbol}, {words['units'][coordinate.unit]}"
+    symbol = f"{coordinate.symbol}, {texts['units'][coordinate.unit]}"
     return [
-        [words.number, *map(str, range(len(positions)))],
-        [symbol, *(given(problem.shown(float(p)), words) for p in positions)],
+        [texts.number, *map(str, range(len(positions)))],
+        [symbol, *(input_text(problem.display_position(float(p)), texts) for p in positions)],
     ]

@@ -14,8 +14,8 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.note.compared import ComparedNumber, marked, sense_of
-from planmethod.note.narrate.given import solution_peak, told
-from planmethod.note.numbers import alike, is_noise
+from planmethod.note.narrate.statement import reported_quantities, solution_peak
+from planmethod.note.numbers import format_column, is_noise
 from planmethod.plans.legend import Quantity, QuantityKind
 
 if TYPE_CHECKING:
@@ -54,29 +54,30 @@ class Series(Struct, frozen=True):
         """Return sigma and its mark."""
         return marked(self.errors(), self.quantity.label, index)
 
-    def compared(self, index: int, *, lost: bool = False) -> ComparedNumber:
+    def compared(self, index: int, *, skip_insignificant: bool = False) -> ComparedNumber:
         """Return the quantity in a position, compared.
 
-        With ``lost``, an exact value that is lost in its error has no error in per cent.
+        With ``skip_insignificant``, an exact value that is lost in its error has no error in per
+        cent.
         """
         sigma, mark = self.error(index)
-        read, nothing = float(self.reads()[index]), sigma if lost else 0.0
+        read, nothing = float(self.reads()[index]), sigma if skip_insignificant else 0.0
         return ComparedNumber(float(self.exact[index]), read, sigma, mark, nothing)
 
     def measured(self, index: int) -> ComparedNumber:
         """Return the quantity in a position, compared without its sigma; rounding counts as 0."""
         exact = float(self.exact[index])
         nothing = abs(exact) if is_noise(exact, self.peak) else 0.0
-        return ComparedNumber(exact, float(self.reads()[index]), nothing=nothing)
+        return ComparedNumber(exact, float(self.reads()[index]), zero_limit=nothing)
 
-    def shown(self, values: Reals, indices: Iterable[int]) -> list[float]:
+    def displayed(self, values: Reals, indices: Iterable[int]) -> list[float]:
         """Return values as a table has them: rounding noise beside the largest is 0."""
         some = (float(values[i]) for i in indices)
         return [0.0 if is_noise(value, self.peak) else value for value in some]
 
     def texts(self, values: Sequence[float]) -> list[str]:
         """Return plain numbers with common decimals; sizes where the sign is not before them."""
-        return alike([value if self.signed else abs(value) for value in values])
+        return format_column([value if self.signed else abs(value) for value in values])
 
     def sense(self, value: float) -> int | None:
         """Return the sense to write beside a value; None where there is none."""
@@ -93,7 +94,7 @@ def motion_series(solution: Solution, *kinds: QuantityKind) -> list[Series]:
             one, solution.exact(one), peaks[one.kind],
             partial(solution.read_off, one.label), partial(drafting_of, solution),
         )
-        for one in told(solution, *kinds)
+        for one in reported_quantities(solution, *kinds)
     ]  # fmt: skip
 
 

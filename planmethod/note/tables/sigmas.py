@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 from planmethod.note.compared import DRAWN, marked
 from planmethod.note.document import Node, Paragraph, Table, table_of
 from planmethod.note.formula import Rich
-from planmethod.note.plaintext import spoken
+from planmethod.note.plaintext import localized
 from planmethod.note.rounding import sigma_text
 
 if TYPE_CHECKING:
-    from planmethod.note.wording import Words
+    from planmethod.note.wording import MessageTable
     from planmethod.solved.errors.spread import Errors
     from planmethod.solved.solution import Solution
 
 
-class Sigmas:
+class ErrorColumns:
     """Cells of the drafting errors, none where they are not requested.
 
     Attributes
@@ -26,8 +26,8 @@ class Sigmas:
         Whether a cell has the mark of a sigma found by random draws.
     """
 
-    def __init__(self, solution: Solution, words: Words, *, asked: bool = True) -> None:
-        self.solution, self.words, self.asked = solution, words, asked
+    def __init__(self, solution: Solution, texts: MessageTable, *, enabled: bool = True) -> None:
+        self.solution, self.texts, self.enabled = solution, texts, enabled
         self.drawn = False
 
     def cell(self, label: str | None, index: int, errors: Errors | None = None) -> list[str]:
@@ -36,7 +36,7 @@ class Sigmas:
         ``errors`` contain it. Default: the kinematic errors. A quantity without a label, shown by
         a dash, also has a dash for its error.
         """
-        if not self.asked:
+        if not self.enabled:
             return []
         if label is None:
             return ["—"]
@@ -44,7 +44,7 @@ class Sigmas:
 
         sigma, mark = marked(errors or drafting_of(self.solution), label, index)
         self.drawn = self.drawn or bool(mark)
-        return [spoken(sigma_text(sigma), self.words) + mark]
+        return [localized(sigma_text(sigma), self.texts) + mark]
 
     def table(
         self,
@@ -58,24 +58,24 @@ class Sigmas:
 
         The digits of the errors are aligned.
         """
-        if not self.asked:
+        if not self.enabled:
             return table_of(head, rows, names=names)
         columns: list[Sequence[Rich]] = list(zip(*rows, strict=True))
         wide = list(head)
         for made, k in enumerate(after, 1):
-            wide.insert(k + made, self.words.sigma)
+            wide.insert(k + made, self.texts.sigma)
             columns[k + made] = levelled(columns[k + made])
         return table_of(wide, zip(*columns, strict=True), names=names)
 
     def notes(self) -> Iterator[Node]:
         """Yield what the errors are, and what the mark of some of them means."""
-        if not self.asked:
+        if not self.enabled:
             return
         name = self.solution.profile.name
-        profile = self.words["profiles"].get(name, name)
-        yield Paragraph(self.words.sigma_note.format(profile=profile))
+        profile = self.texts["profiles"].get(name, name)
+        yield Paragraph(self.texts.sigma_note.format(profile=profile))
         if self.drawn:
-            yield Paragraph(self.words.drawn_note)
+            yield Paragraph(self.texts.drawn_note)
 
 
 def levelled(cells: Sequence[str]) -> list[str]:

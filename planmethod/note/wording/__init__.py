@@ -2,7 +2,7 @@
 
 The catalogues are TOML, their sentences templates of `str.format` with named places. Keys and
 places are the same in every language; `tests/note/test_wording.py` compares them, and looks for
-the keys that the code names. The messages that `planmethod.languages.say` translates by their
+the keys that the code names. The messages that `planmethod.languages.translate` translates by their
 English sentence are in the folder ``messages`` of the other languages.
 """
 
@@ -22,7 +22,7 @@ class UnknownLanguageError(PlanMethodError):
     exit_code = ExitCode.USAGE
 
 
-class Words(dict[str, Any]):
+class MessageTable(dict[str, Any]):
     """A table of a catalogue; its keys are attributes, too: sentences, tuples of them, tables."""
 
     __slots__ = ()
@@ -44,72 +44,72 @@ class Language:
     ----------
     lang : str
         Its name, that of its folder.
-    note : Words
+    note : MessageTable
         Protocol and tables; with the data of `say`.
-    forces, friction : Words
+    forces, friction : MessageTable
         The force analysis, without friction and with it.
-    sheets, structure, frame : Words
+    sheets, structure, frame : MessageTable
         Sheets of the plans, the structural sheet, frame and title block.
-    control : Words
+    control : MessageTable
         The drawing-standards check.
-    specimens, audit : Words
-    check, form : Words
+    specimens, audit : MessageTable
+    check, form : MessageTable
         The checking of submissions; the form to fill in, and unreadable parts of submissions.
-    point, cycle, machine, synthesis : Words
+    point, cycle, machine, synthesis : MessageTable
         The moving point, the cycle of a crank, a machine and its flywheel, syntheses.
-    gears, teeth, meshing : Words
+    gears, teeth, meshing : MessageTable
         Gear trains, the choice of their teeth, two wheels in mesh.
-    cam : Words
+    cam : MessageTable
         A cam and its follower.
-    vary : Words
+    vary : MessageTable
         Variants chosen by the program.
-    live : Words
+    live : MessageTable
         The page of a moving mechanism.
-    project : Words
+    project : MessageTable
         The course project.
-    document, report : Words
+    document, report : MessageTable
         Words of a note around its figures, tables and names; the explanatory note itself.
-    studio : Words
+    studio : MessageTable
         The page of the studio.
-    layouts, families, tasks : Words
+    layouts, families, tasks : MessageTable
         The shipped layouts by the places of their files, the families of ready problem files,
         the list of shipped tasks.
     """
 
-    note: Words
-    forces: Words
-    friction: Words
-    sheets: Words
-    structure: Words
-    frame: Words
-    control: Words
-    specimens: Words
-    audit: Words
-    check: Words
-    form: Words
-    point: Words
-    gears: Words
-    cycle: Words
-    machine: Words
-    meshing: Words
-    cam: Words
-    synthesis: Words
-    teeth: Words
-    live: Words
-    project: Words
-    document: Words
-    report: Words
-    layouts: Words
-    families: Words
-    tasks: Words
-    vary: Words
-    studio: Words
+    note: MessageTable
+    forces: MessageTable
+    friction: MessageTable
+    sheets: MessageTable
+    structure: MessageTable
+    frame: MessageTable
+    control: MessageTable
+    specimens: MessageTable
+    audit: MessageTable
+    check: MessageTable
+    form: MessageTable
+    point: MessageTable
+    gears: MessageTable
+    cycle: MessageTable
+    machine: MessageTable
+    meshing: MessageTable
+    cam: MessageTable
+    synthesis: MessageTable
+    teeth: MessageTable
+    live: MessageTable
+    project: MessageTable
+    document: MessageTable
+    report: MessageTable
+    layouts: MessageTable
+    families: MessageTable
+    tasks: MessageTable
+    vary: MessageTable
+    studio: MessageTable
 
     def __init__(self, lang: str) -> None:
         self.lang = lang
 
     @cached_property
-    def say(self) -> Notation:
+    def notation(self) -> Notation:
         """Numbers, units and symbols."""
         said = catalogue(self.lang, "numbers")
         return Notation(
@@ -121,27 +121,27 @@ class Language:
 
     if not TYPE_CHECKING:  # a name not declared above is not a subject
 
-        def __getattr__(self, subject: str) -> Words:
+        def __getattr__(self, subject: str) -> MessageTable:
             """Read the catalogue of a subject."""
             if subject not in Language.__annotations__:
                 raise AttributeError(f"a language has no {subject!r}")
             read = catalogue(self.lang, subject)
             if subject == "note":
                 read = catalogue(self.lang, "numbers") | read
-            words = _words(read)
+            words = _message_tables(read)
             setattr(self, subject, words)
             return words
 
 
-def _words(read: Any) -> Any:
+def _message_tables(read: Any) -> Any:
     """Return what was read from a catalogue with tuples for lists."""
     if isinstance(read, dict):
-        return Words((key, _words(value)) for key, value in read.items())
-    return tuple(map(_words, read)) if isinstance(read, list) else read
+        return MessageTable((key, _message_tables(value)) for key, value in read.items())
+    return tuple(map(_message_tables, read)) if isinstance(read, list) else read
 
 
 @cache
-def language(lang: str) -> Language:
+def get_language(lang: str) -> Language:
     """Return all words of a language.
 
     Raises
@@ -155,21 +155,21 @@ def language(lang: str) -> Language:
     return Language(lang)
 
 
-def wording(lang: str) -> Words:
+def wording(lang: str) -> MessageTable:
     """Return the sentences of protocol and tables in a language.
 
     Raises
     ------
     UnknownLanguageError
     """
-    return language(lang).note
+    return get_language(lang).note
 
 
 __all__ = [
     "LANGUAGES",
     "Language",
+    "MessageTable",
     "UnknownLanguageError",
-    "Words",
-    "language",
+    "get_language",
     "wording",
 ]

@@ -14,7 +14,7 @@ from planmethod.note import document
 from planmethod.note.document import Document, Equation, Node, Table
 from planmethod.note.formula import Fraction, Index, Letters, Overline, Root, inline, parse
 from planmethod.note.formula import Node as Sign
-from planmethod.note.wording import Words, language
+from planmethod.note.wording import MessageTable, get_language
 
 STYLE = """
 @page{size:A4;margin:12mm}
@@ -67,7 +67,7 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
     style : str
         CSS of the figures, beside that of the document.
     """
-    body = "\n".join(_body(document.referred(written), language(lang).document))
+    body = "\n".join(_body(document.resolve_references(written), get_language(lang).document))
     kinds = ("titlepage", "break", "level", "formula-number", "fraction")
     if any(f'class="{kind}' in body for kind in kinds):
         style = NOTE_STYLE + style
@@ -87,17 +87,17 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
 
 def html_part(written: Document, lang: str) -> str:
     """Return a document as an element for a page that is not ours, its style kept to itself."""
-    body = "\n".join(_body(document.referred(written), language(lang).document))
+    body = "\n".join(_body(document.resolve_references(written), get_language(lang).document))
     return f"<div><style>@scope {{{STYLE}{NOTE_STYLE}}}</style>\n{body}\n</div>"
 
 
-def _body(written: Document, words: Words) -> Iterator[str]:
+def _body(written: Document, texts: MessageTable) -> Iterator[str]:
     """Yield the elements; consecutive items become a list, figures are set side by side."""
     for kind, run in groupby(document.numbers_of(written), lambda pair: type(pair[0])):
         if kind is document.Contents:
-            yield f"<h2>{words.contents}</h2>{''.join(_contents(written))}"
+            yield f"<h2>{texts.contents}</h2>{''.join(_contents(written))}"
             continue
-        elements = (_element(node, number, words) for node, number in run)
+        elements = (_element(node, number, texts) for node, number in run)
         if kind is document.Item:
             yield f"<ul>{''.join(elements)}</ul>"
         elif kind is document.Step:
@@ -113,12 +113,12 @@ def _contents(written: Document) -> Iterator[str]:
         yield f'<p class="level{level}">{number} {markup(title)}</p>'
 
 
-def _element(node: Node, number: str, words: Words) -> str:
+def _element(node: Node, number: str, texts: MessageTable) -> str:
     match node:
         case document.Title(text):
             return f"<h1>{markup(text)}</h1>"
         case document.TitlePage():
-            lines = "<br>".join(map(markup, document.lines_of(node, words)))
+            lines = "<br>".join(map(markup, document.lines_of(node, texts)))
             return f'<p class="titlepage">{lines}</p>'
         case document.Contents():
             return ""
@@ -144,10 +144,10 @@ def _element(node: Node, number: str, words: Words) -> str:
             lines = "".join(f'<p class="formula">{_equation(one)}</p>' for one in equations)
             return lines + _numbered(number)
         case document.Table(name=name):
-            above = words.table.format(number=number, text=name)
+            above = texts.table.format(number=number, text=name)
             return (f'<p class="caption">{markup(above)}</p>' if name else "") + _table(node)
         case document.Figure(view, caption):
-            caption = words.figure.format(number=number, text=caption) if number else caption
+            caption = texts.figure.format(number=number, text=caption) if number else caption
             return f"<figure>{view.svg()}<figcaption>{markup(caption)}</figcaption></figure>"
         case document.References(entries):
             return f"<ol>{''.join(f'<li>{markup(entry)}</li>' for entry in entries)}</ol>"

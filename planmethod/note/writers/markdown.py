@@ -19,7 +19,7 @@ from planmethod.note.document import Document, Equation, Table, Term
 from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Rich, Root, parse
 from planmethod.note.wording import Language
 from planmethod.note.writers.sentences import pieces, units_of, with_levels
-from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
+from planmethod.note.writers.tokens import PAIRS, Token, matching_bracket, tokens_of
 
 _SPECIAL = r"[\\`*_$<>|\[\]]|^[#+-](?=\s)|^\d+[.)](?=\s)"
 """Text that Markdown would treat as markup, by its last sign: emphasis, a link, a list entry."""
@@ -45,7 +45,7 @@ _VARIANTS = {
 """Greek letters whose commands are not their names of Unicode."""
 
 
-def markdown_document(written: Document, words: Language) -> str:
+def markdown_document(written: Document, language: Language) -> str:
     """Return a document as Markdown.
 
     Raises
@@ -53,14 +53,14 @@ def markdown_document(written: Document, words: Language) -> str:
     LayoutError
         A formula is malformed, or a text refers to a missing key.
     """
-    return "\n".join(_Writer(words).lines(document.referred(written)))
+    return "\n".join(_Writer(language).lines(document.resolve_references(written)))
 
 
 class _Writer:
     """Writes nodes one after another, and numbers steps."""
 
-    def __init__(self, words: Language) -> None:
-        self._say, self._units = words.document, units_of(words.note["units"])
+    def __init__(self, language: Language) -> None:
+        self._say, self._units = language.document, units_of(language.note["units"])
         self._step = 0
 
     def lines(self, written: Document) -> Iterator[str]:
@@ -160,9 +160,9 @@ def _joined(nodes: Iterable[document.Node]) -> Iterator[document.Node]:
         yield step
 
 
-def _broken(lines: Sequence[str], lead: str = "") -> list[str]:
-    """Return lines that stay separate when rendered; ``lead`` is put before the first."""
-    return f"\\\n{' ' * len(lead)}".join([lead + lines[0], *lines[1:]]).split("\n")
+def _broken(lines: Sequence[str], prefix: str = "") -> list[str]:
+    """Return lines that stay separate when rendered; ``prefix`` is put before the first."""
+    return f"\\\n{' ' * len(prefix)}".join([prefix + lines[0], *lines[1:]]).split("\n")
 
 
 def _display(formula: str, number: str) -> list[str]:
@@ -175,11 +175,11 @@ def _display(formula: str, number: str) -> list[str]:
 
 def latex(nodes: Iterable[Node]) -> str:
     """Return a formula in LaTeX."""
-    found = _sequence(list(tokens_of(_whole(nodes)))).strip()
+    found = _sequence(list(tokens_of(_merge_letters(nodes)))).strip()
     return re.sub(_SPARE, "", re.sub(r"(?<!\\) {2,}", " ", found))
 
 
-def _whole(nodes: Iterable[Node]) -> Iterator[Node]:
+def _merge_letters(nodes: Iterable[Node]) -> Iterator[Node]:
     """Yield the nodes with adjacent letters merged: a sign has its blanks."""
     for is_letters, run in groupby(with_levels(nodes), lambda node: isinstance(node, Letters)):
         if is_letters:
@@ -192,7 +192,7 @@ def _sequence(tokens: Sequence[Token]) -> str:
     found, k = "", 0
     while k < len(tokens):
         token, k = tokens[k], k + 1
-        end = closing(tokens, k - 1) if token.kind == "brackets" else None
+        end = matching_bracket(tokens, k - 1) if token.kind == "brackets" else None
         if end is not None:
             inside = _sequence(tokens[k:end])
             opened, closed = (_SIGNS.get(s, s) for s in (token.text, PAIRS[token.text]))

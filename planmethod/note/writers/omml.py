@@ -19,13 +19,13 @@ from msgspec import Struct
 
 from planmethod.note.document import Equation
 from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, parse
-from planmethod.note.writers.broken import ems
-from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
+from planmethod.note.writers.linebreak import width_em
+from planmethod.note.writers.tokens import PAIRS, Token, matching_bracket, tokens_of
 
 MATH = "http://schemas.openxmlformats.org/officeDocument/2006/math"
 WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 FONT, TEXT_FONT = "Cambria Math", "Times New Roman"
-NOTHING = "\N{ZERO WIDTH SPACE}"
+EMPTY = "\N{ZERO WIDTH SPACE}"
 
 Element: TypeAlias = Any
 
@@ -63,7 +63,7 @@ def _sequence(tokens: Sequence[Token]) -> list[Element]:
         token, kind = tokens[k], tokens[k].kind
         k += 1
         if kind == "brackets":
-            end = closing(tokens, k - 1)
+            end = matching_bracket(tokens, k - 1)
             if end is None:
                 found.append(_text(token.text))
             else:
@@ -74,7 +74,7 @@ def _sequence(tokens: Sequence[Token]) -> list[Element]:
                     or _is_tall(inside)
                     or (k < len(tokens) and isinstance(tokens[k].node, Index))
                 ):
-                    inside = inside or [_text(NOTHING)]
+                    inside = inside or [_text(EMPTY)]
                     found.append(delimited(token.text, PAIRS[token.text], inside))
                 else:
                     found += [_run(token.text, "p"), *inside, _run(PAIRS[token.text], "p")]
@@ -93,7 +93,7 @@ def _sequence(tokens: Sequence[Token]) -> list[Element]:
         elif kind == "node":
             assert token.node is not None
             if isinstance(token.node, Index):
-                base, rest = _base(found[-1]) if operand and found else (_text(NOTHING), None)
+                base, rest = _base(found[-1]) if operand and found else (_text(EMPTY), None)
                 if operand and found:
                     found.pop()
                 found += [*([rest] if rest is not None else []), _indexed(base, token.node)]
@@ -116,7 +116,7 @@ def _element(node: Node) -> Element:
         case Letters():
             return M.box(M.e(*elements([node])))
         case Index():
-            return _indexed(_text(NOTHING), node)
+            return _indexed(_text(EMPTY), node)
         case Overline(body):
             return bar(elements(body), "top")
         case Fraction(above, below):
@@ -192,13 +192,13 @@ class Addend(Struct, frozen=True):
     width: float
 
 
-def vector_equations(equations: Sequence[Equation], room: float = inf) -> Element:
+def vector_equations(equations: Sequence[Equation], max_width: float = inf) -> Element:
     """Return vector equations as one formula: a system where there are several.
 
-    One that is wider than ``room`` (in heights of the font) is cut at its signs, and the sign
+    One that is wider than ``max_width`` (in heights of the font) is cut at its signs, and the sign
     is repeated on the next line.
     """
-    lines = [list(line) for one in equations for line in _lines(list(_addends(one)), room)]
+    lines = [list(line) for one in equations for line in _lines(list(_addends(one)), max_width)]
     if len(lines) == 1:
         return M.oMath(*lines[0])
     array = M.eqArr(*(M.e(*line) for line in lines))
@@ -209,24 +209,24 @@ def _addends(one: Equation) -> Iterator[Addend]:
     named = bool(one.name) and not one.right
     if named:
         name = parse(one.name)
-        yield Addend("", elements(name), [], ems(name))
+        yield Addend("", elements(name), [], width_em(name))
     for number, term in enumerate((*one.left, *one.right)):
         sign = "=" if number == len(one.left) or (named and not number) else "+" if number else ""
         symbol, direction = parse(term.symbol), parse(term.direction)
         body = vector(term.symbol)
         for _ in range(term.underlines):
             body = [bar(body, "bot")]
-        yield Addend(sign, body, elements(direction), max(ems(symbol), ems(direction)))
+        yield Addend(sign, body, elements(direction), max(width_em(symbol), width_em(direction)))
     if not one.right:
         yield Addend("=", [_run("0", "p")], [], 0.5)
 
 
-def _lines(addends: Sequence[Addend], room: float) -> Iterator[list[Element]]:
+def _lines(addends: Sequence[Addend], max_width: float) -> Iterator[list[Element]]:
     lines: list[list[Addend]] = [[]]
     width = 0.0
     for addend in addends:
         own = addend.width + _SIGN * bool(addend.sign)
-        if lines[-1] and width + own > room - _SIGN:
+        if lines[-1] and width + own > max_width - _SIGN:
             lines.append([])
             width = 0.0
         lines[-1].append(addend)
@@ -279,7 +279,7 @@ def _two_rows(cells: Sequence[tuple[list[Element], list[Element]]]) -> Element:
     )
     smaller = (M.argPr(M.argSz({value: "-1"})) for _ in cells)
     below = (
-        M.e(size, *(low or [_text(NOTHING)])) for size, (_, low) in zip(smaller, cells, strict=True)
+        M.e(size, *(low or [_text(EMPTY)])) for size, (_, low) in zip(smaller, cells, strict=True)
     )
     return M.m(looks, M.mr(*(M.e(*high) for high, _ in cells)), M.mr(*below))
 

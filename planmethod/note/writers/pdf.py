@@ -41,7 +41,7 @@ PAD = 3.0
 SMALL, RISE, DROP = 0.72, 0.34, 0.16
 """Size of index letters, and shifts of their base line, in parts of the letters beside them."""
 
-LEAST = 34.0 * MM
+MIN_COLUMN = 34.0 * MM
 """Least width of a column of a table that may be cut into several."""
 
 TONES = {
@@ -63,7 +63,7 @@ def pdf_document(
     title: str,
     font: str,
     wide: bool = False,
-    foot: Callable[[int], str] | None = None,
+    footer: Callable[[int], str] | None = None,
 ) -> bytes:
     """Return a document as PDF; the same document gives the same bytes.
 
@@ -75,7 +75,7 @@ def pdf_document(
         Name of a font that reportlab knows.
     wide : bool
         Whether the pages are landscape.
-    foot : callable, optional
+    footer : callable, optional
         Takes the number of a page and returns the line at its foot.
     """
     file = BytesIO()
@@ -95,10 +95,10 @@ def pdf_document(
     )
 
     def close_page(canvas: Any, _: Any) -> None:
-        if foot is not None:
+        if footer is not None:
             canvas.setFont(font, 7.5)
             canvas.setFillColor(colors.HexColor("#8a8a8a"))
-            canvas.drawString(MARGIN, MARGIN / 2, foot(canvas.getPageNumber()))
+            canvas.drawString(MARGIN, MARGIN / 2, footer(canvas.getPageNumber()))
 
     pages.build(
         list(_Setter(font, pages.width - 12.0).story(written)),
@@ -190,7 +190,7 @@ class _Setter:
 
     def _tables(self, table: Table) -> Iterator[Flowable]:
         """Yield a table, in several parts where its columns are too many for the width."""
-        for part in parts_of(table, int(self._width // LEAST)):
+        for part in parts_of(table, int(self._width // MIN_COLUMN)):
             yield self._table(part)
             yield Spacer(0.0, 4.0)
 
@@ -315,14 +315,14 @@ def marked(nodes: Iterable[Sign], size: float, italic: str = "") -> str:
     return "".join(map(one, nodes))
 
 
-def parts_of(table: Table, most: int) -> Iterator[Table]:
-    """Yield a table cut into tables of at most ``most`` columns, about equally wide."""
+def parts_of(table: Table, max_columns: int) -> Iterator[Table]:
+    """Yield a table cut into tables of at most ``max_columns`` columns, about equally wide."""
     lead = table.repeated
     free = len(table.head) - lead
-    if not lead or free + lead <= most:
+    if not lead or free + lead <= max_columns:
         yield table
         return
-    count = -(-free // (most - lead))
+    count = -(-free // (max_columns - lead))
     size = -(-free // count)
     for start in range(lead, len(table.head), size):
         rows = (row[:lead] + row[start : start + size] for row in (table.head, *table.rows))

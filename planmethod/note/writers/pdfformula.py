@@ -11,7 +11,7 @@ from reportlab.platypus import Flowable
 
 from planmethod.note.document import Equation, Term
 from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, parse
-from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
+from planmethod.note.writers.tokens import PAIRS, Token, matching_bracket, tokens_of
 
 ASCENT, DESCENT, AXIS = 0.68, 0.22, 0.25
 """Ascent and descent of letters, height of a fraction line, in parts of the font size."""
@@ -41,7 +41,7 @@ class Letter(Struct, frozen=True):
     size: float
 
 
-class SetFormula(Struct, frozen=True):
+class FormulaBox(Struct, frozen=True):
     """A typeset formula, from the left end of its base line, points (набор)."""
 
     width: float
@@ -60,9 +60,9 @@ class SetFormula(Struct, frozen=True):
         return tuple(letters), tuple(lines)
 
 
-def together(
-    parts: Iterable[tuple[float, float, SetFormula]], width: float, rule: float
-) -> SetFormula:
+def overlay(
+    parts: Iterable[tuple[float, float, FormulaBox]], width: float, rule: float
+) -> FormulaBox:
     """Return formulas at their places as one formula of a width."""
     letters: list[Letter] = []
     lines: list[tuple[Place, ...]] = []
@@ -72,7 +72,7 @@ def together(
         letters += moved[0]
         lines += moved[1]
         ascent, descent = max(ascent, ink.ascent + y), max(descent, ink.descent - y)
-    return SetFormula(width, ascent, descent, tuple(letters), tuple(lines), rule)
+    return FormulaBox(width, ascent, descent, tuple(letters), tuple(lines), rule)
 
 
 class FormulaSetter:
@@ -81,32 +81,32 @@ class FormulaSetter:
     def __init__(self, fonts: Fonts, size: float) -> None:
         self._fonts, self._size, self._rule = fonts, size, RULE * size
 
-    def set(self, nodes: Iterable[Node]) -> SetFormula:
+    def set(self, nodes: Iterable[Node]) -> FormulaBox:
         """Return a formula."""
         return self._tokens(list(tokens_of(nodes)))
 
-    def row(self, parts: Sequence[SetFormula]) -> SetFormula:
+    def row(self, parts: Sequence[FormulaBox]) -> FormulaBox:
         """Return inks one after another."""
         placed, x = [], 0.0
         for part in parts:
             placed.append((x, 0.0, part))
             x += part.width
-        return together(placed, x, self._rule)
+        return overlay(placed, x, self._rule)
 
-    def text(self, text: str, font: str = "", size: float = 0.0) -> SetFormula:
+    def text(self, text: str, font: str = "", size: float = 0.0) -> FormulaBox:
         """Return letters on the base line."""
         font, size = font or self._fonts.upright, size or self._size
         width = stringWidth(text, font, size)
-        return SetFormula(
+        return FormulaBox(
             width, ASCENT * size, DESCENT * size, (Letter(0.0, 0.0, text, font, size),)
         )
 
-    def _tokens(self, tokens: Sequence[Token]) -> SetFormula:
-        parts: list[SetFormula] = []
+    def _tokens(self, tokens: Sequence[Token]) -> FormulaBox:
+        parts: list[FormulaBox] = []
         k = 0
         while k < len(tokens):
             token, k = tokens[k], k + 1
-            if token.kind == "brackets" and (end := closing(tokens, k - 1)) is not None:
+            if token.kind == "brackets" and (end := matching_bracket(tokens, k - 1)) is not None:
                 inside = self._tokens(tokens[k:end])
                 parts += [
                     self._tall(token.text, inside),
@@ -125,7 +125,7 @@ class FormulaSetter:
                 parts.append(self.text(token.text.replace("\n", " "), font))
         return self.row(parts)
 
-    def _tall(self, bracket: str, inside: SetFormula) -> SetFormula:
+    def _tall(self, bracket: str, inside: FormulaBox) -> FormulaBox:
         """Return a bracket as high as its content."""
         need = max(inside.ascent - AXIS * self._size, inside.descent + AXIS * self._size)
         share = max(1.0, need / (0.5 * self._size))
@@ -133,12 +133,12 @@ class FormulaSetter:
             return self.text(bracket)
         large = self.text(bracket, size=share * self._size)
         drop = AXIS * self._size * (1.0 - share)
-        return together([(0.0, drop, large)], large.width, self._rule)
+        return overlay([(0.0, drop, large)], large.width, self._rule)
 
     def _smaller(self) -> FormulaSetter:
         return FormulaSetter(self._fonts, SMALL * self._size)
 
-    def _node(self, node: Node) -> SetFormula:
+    def _node(self, node: Node) -> FormulaBox:
         match node:
             case Letters():
                 return self.set([node])
@@ -146,7 +146,7 @@ class FormulaSetter:
                 small = self._smaller()
                 low, high = small.set(below), small.set(above)
                 drop, rise = -DROP * self._size, RISE * self._size
-                return together(
+                return overlay(
                     [(0.0, drop, low), (0.0, rise, high)], max(low.width, high.width), self._rule
                 )
             case Overline(body):
@@ -158,10 +158,10 @@ class FormulaSetter:
             case _:
                 assert_never(node)
 
-    def _barred(self, body: SetFormula) -> SetFormula:
+    def _barred(self, body: FormulaBox) -> FormulaBox:
         level = body.ascent + 0.06 * self._size
         line = ((0.04 * self._size, level), (body.width, level))
-        return SetFormula(
+        return FormulaBox(
             body.width,
             level + self._rule,
             body.descent,
@@ -170,21 +170,21 @@ class FormulaSetter:
             self._rule,
         )
 
-    def _fraction(self, above: SetFormula, below: SetFormula) -> SetFormula:
+    def _fraction(self, above: FormulaBox, below: FormulaBox) -> FormulaBox:
         axis, gap, pad = AXIS * self._size, 0.12 * self._size, 0.15 * self._size
         width = max(above.width, below.width) + 2 * pad
         up, down = axis + gap + above.descent, axis - gap - below.ascent
         placed = [((width - above.width) / 2, up, above), ((width - below.width) / 2, down, below)]
-        whole = together(placed, width, self._rule)
+        whole = overlay(placed, width, self._rule)
         line = ((0.03 * self._size, axis), (width - 0.03 * self._size, axis))
-        return SetFormula(
+        return FormulaBox(
             width, whole.ascent, whole.descent, whole.letters, (*whole.lines, line), self._rule
         )
 
-    def _root(self, body: SetFormula) -> SetFormula:
+    def _root(self, body: FormulaBox) -> FormulaBox:
         size, top = self._size, body.ascent + 0.1 * self._size
         lead = 0.55 * size
-        whole = together([(lead, 0.0, body)], lead + body.width + 0.08 * size, self._rule)
+        whole = overlay([(lead, 0.0, body)], lead + body.width + 0.08 * size, self._rule)
         sign = (
             (0.05 * size, 0.22 * size),
             (0.15 * size, 0.28 * size),
@@ -192,7 +192,7 @@ class FormulaSetter:
             (0.5 * size, top),
             (whole.width, top),
         )
-        return SetFormula(
+        return FormulaBox(
             whole.width,
             top + self._rule,
             whole.descent,
@@ -203,14 +203,14 @@ class FormulaSetter:
 
     # Vector equations -----------------------------------------------------------------------------
 
-    def equations(self, equations: Sequence[Equation]) -> SetFormula:
+    def equations(self, equations: Sequence[Equation]) -> FormulaBox:
         """Return vector equations, several as a system behind a brace."""
         rows = [self._equation(one) for one in equations]
         if len(rows) == 1:
             return self.row(rows[0])
         lead = max(row[0].width for row in rows)
         inks = [self.row(row) for row in rows]
-        gap, y, placed = 0.35 * self._size, 0.0, list[tuple[float, float, SetFormula]]()
+        gap, y, placed = 0.35 * self._size, 0.0, list[tuple[float, float, FormulaBox]]()
         brace = 0.8 * self._size
         for row, ink in zip(rows, inks, strict=True):
             y -= ink.ascent
@@ -218,7 +218,7 @@ class FormulaSetter:
             y -= ink.descent + gap
         middle = (y + gap) / 2 - AXIS * self._size
         width = max(x + ink.width for x, _, ink in placed)
-        lines = together([(x, v - middle, ink) for x, v, ink in placed], width, self._rule)
+        lines = overlay([(x, v - middle, ink) for x, v, ink in placed], width, self._rule)
         tip = 0.5 * brace
         high, low, axis = lines.ascent, -lines.descent, AXIS * self._size
         bend = 0.25 * self._size
@@ -227,25 +227,25 @@ class FormulaSetter:
             (tip - 0.2 * brace, axis), (tip, axis - bend), (tip, low + bend / 2),
             (tip + 0.15 * brace, low),
         )  # fmt: skip
-        return SetFormula(
+        return FormulaBox(
             width, lines.ascent, lines.descent, lines.letters, (*lines.lines, sign), self._rule
         )
 
-    def _equation(self, one: Equation) -> list[SetFormula]:
+    def _equation(self, one: Equation) -> list[FormulaBox]:
         left, equal = self._sum(one.left), self.text("\u00a0=\u00a0")
         if one.right:
             return [left, equal, self._sum(one.right)]
         head = [self.set(parse(one.name)), equal] if one.name else []
         return [*head, left, equal, self.text("0")]
 
-    def _sum(self, terms: Sequence[Term]) -> SetFormula:
-        parts: list[SetFormula] = []
+    def _sum(self, terms: Sequence[Term]) -> FormulaBox:
+        parts: list[FormulaBox] = []
         for number, term in enumerate(terms):
             parts += [self.text("\u00a0+\u00a0")] if number else []
             parts.append(self._term(term))
         return self.row(parts)
 
-    def _term(self, term: Term) -> SetFormula:
+    def _term(self, term: Term) -> FormulaBox:
         nodes = parse(term.symbol)
         barred = (Overline(nodes[:1]), *nodes[1:]) if isinstance(nodes[0], Letters) else nodes
         symbol = self.set(barred)
@@ -258,9 +258,9 @@ class FormulaSetter:
         if term.direction:
             low = min([-symbol.descent, *levels]) - gap - below.ascent
             placed.append(((width - below.width) / 2, low, below))
-        whole = together(placed, width, self._rule)
+        whole = overlay(placed, width, self._rule)
         depth = max([whole.descent, *(-level for level in levels)])
-        return SetFormula(
+        return FormulaBox(
             width, whole.ascent, depth, whole.letters, (*whole.lines, *lines), self._rule
         )
 
@@ -272,7 +272,7 @@ class FormulaLines(Flowable):  # type: ignore[misc]
     """
 
     def __init__(
-        self, rows: Sequence[SetFormula], number: str, font: str, size: float, air: float = 1.0
+        self, rows: Sequence[FormulaBox], number: str, font: str, size: float, air: float = 1.0
     ) -> None:
         super().__init__()
         self._rows, self._number, self._font, self._size = rows, number, font, size
@@ -304,7 +304,7 @@ class FormulaLines(Flowable):  # type: ignore[misc]
             y -= row.descent + self._gap
 
 
-def draw_ink(canvas: Any, ink: SetFormula) -> None:
+def draw_ink(canvas: Any, ink: FormulaBox) -> None:
     """Draw a typeset formula from the origin of the canvas."""
     for one in ink.letters:
         canvas.setFont(one.font, one.size)

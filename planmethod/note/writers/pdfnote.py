@@ -39,16 +39,16 @@ from planmethod.note.document import Document, Node, Table
 from planmethod.note.formula import Rich, inline, parse
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language
-from planmethod.note.writers.broken import ems, lines_of
 from planmethod.note.writers.html import clean
+from planmethod.note.writers.linebreak import lines_of, width_em
 from planmethod.note.writers.pdf import marked, parts_of
 from planmethod.note.writers.pdfformula import Fonts, FormulaLines, FormulaSetter
 from planmethod.note.writers.pdfpages import Floating, FloatingPages
 from planmethod.note.writers.sentences import (
     JOINER,
-    formula_alone,
-    leads,
+    keeps_with_next,
     pieces,
+    sole_formula,
     tied,
     units_of,
     with_levels,
@@ -64,13 +64,13 @@ PAD = 3.0
 LONG = 8.0
 """Width, in heights of the font, from which on a formula in a sentence may be cut."""
 
-ASIDE = 15 * mm
+TITLE_MARGIN = 15 * mm
 """Space of page numbers beside the titles in the contents, and of some dots before them."""
 
 LOW = 0.45
 """Share of a page up to which a table is not cut."""
 
-LEAST = 22 * mm
+MIN_COLUMN = 22 * mm
 """Least width of a column of a table that may be cut into several."""
 
 
@@ -110,14 +110,14 @@ def note_fonts() -> Fonts:
 
 
 def pdf_note(
-    written: Document, words: Language, *, author: str = "", forms: PageForms | None = None
+    written: Document, language: Language, *, author: str = "", forms: PageForms | None = None
 ) -> bytes:
     """Return a document as the pages of a note; the same document gives the same bytes.
 
     Parameters
     ----------
     written : Document
-    words : Language
+    language : Language
     author : str
         For the properties of the file.
     forms : PageForms, optional
@@ -128,8 +128,8 @@ def pdf_note(
     LayoutError
         A formula is malformed, or a text refers to a missing key.
     """
-    written = document.referred(written)
-    built = partial(_built, written, words, author, forms)
+    written = document.resolve_references(written)
+    built = partial(_built, written, language, author, forms)
     made, ends = built({})
     low = [k for k, end in enumerate(ends) if end.is_nearly_empty]
     if not low:
@@ -143,7 +143,7 @@ def pdf_note(
 
 def _built(
     written: Document,
-    words: Language,
+    language: Language,
     author: str,
     forms: PageForms | None,
     tight: Mapping[int, float],
@@ -156,7 +156,7 @@ def _built(
     file = BytesIO()
     pages = _Pages(file, _title(written), author or "planmethod", written, forms)
     foot = BOTTOM if forms is None else forms.heights[1] * mm + ABOVE
-    pages.multiBuild(list(_Setter(words, tight, foot).story(written)))
+    pages.multiBuild(list(_Setter(language, tight, foot).story(written)))
     return file.getvalue(), pages.ends
 
 
@@ -251,10 +251,10 @@ class _Pages(FloatingPages):
             self.notify("TOCEntry", (level, flowable.shown, self.page, key))
 
 
-def _template(name: str, foot: float, on_page: Callable[[Any, Any], None]) -> PageTemplate:
-    """Return pages whose text ends at ``foot`` points from the lower edge."""
+def _template(name: str, bottom: float, on_page: Callable[[Any, Any], None]) -> PageTemplate:
+    """Return pages whose text ends at ``bottom`` points from the lower edge."""
     width, height = A4
-    text = Frame(LEFT, foot, width - LEFT - RIGHT, height - TOP - foot, 0, 0, 0, 0, id="text")
+    text = Frame(LEFT, bottom, width - LEFT - RIGHT, height - TOP - bottom, 0, 0, 0, 0, id="text")
     return PageTemplate(name, [text], onPage=on_page)
 
 
@@ -273,17 +273,17 @@ class End(Struct, frozen=True):
 class _Heading(Paragraph):  # type: ignore[misc]
     """A heading that the contents list."""
 
-    def __init__(self, shown: str, plain: str, style: ParagraphStyle, level: int, number: int):
+    def __init__(self, shown: str, outline: str, style: ParagraphStyle, level: int, number: int):
         super().__init__(shown, style)
-        self.shown, self.plain, self.level, self.number = shown, plain, level, number
+        self.shown, self.plain, self.level, self.number = shown, outline, level, number
 
 
 class _Picture(Flowable):  # type: ignore[misc]
     """A centred picture, scaled down where space is short."""
 
-    def __init__(self, view: document.DrawableView, tallest: float, most: float) -> None:
+    def __init__(self, view: document.DrawableView, tallest: float, max_scale: float) -> None:
         super().__init__()
-        self._view, self._tallest, self._most, self.at_most = view, tallest, most, 1.0
+        self._view, self._tallest, self._most, self.at_most = view, tallest, max_scale, 1.0
         self._share, self._width = 1.0, 0.0
 
     def wrap(self, width: float, height: float) -> tuple[float, float]:
@@ -321,13 +321,13 @@ class _CutTable(LongTable):  # type: ignore[misc]
 class _Setter:
     """Makes flowables of nodes."""
 
-    def __init__(self, words: Language, tight: Mapping[int, float], foot: float) -> None:
-        self._say, self._fonts, self._tight = words.document, note_fonts(), tight
+    def __init__(self, language: Language, tight: Mapping[int, float], bottom: float) -> None:
+        self._say, self._fonts, self._tight = language.document, note_fonts(), tight
         self._section = 0
-        self._units = units_of(words.note["units"])
+        self._units = units_of(language.note["units"])
         self._formulas = FormulaSetter(self._fonts, SIZE)
         self._width = A4[0] - LEFT - RIGHT
-        self._tallest = A4[1] - TOP - foot - 20 * mm
+        self._tallest = A4[1] - TOP - bottom - 20 * mm
         self._step = self._count = 0
         self._is_note = self._leads = False
 
@@ -341,7 +341,7 @@ class _Setter:
         right: float = 0.0,
         around: float = 0.0,
         bold: bool = False,
-        keep: bool = False,
+        keep_with_next: bool = False,
         leading: float = LEADING,
     ) -> ParagraphStyle:
         return ParagraphStyle(
@@ -355,7 +355,7 @@ class _Setter:
             rightIndent=right,
             spaceBefore=around,
             spaceAfter=around,
-            keepWithNext=keep,
+            keepWithNext=keep_with_next,
         )
 
     def _markup(self, rich: Rich, size: float = SIZE) -> str:
@@ -367,7 +367,9 @@ class _Setter:
                 continue
             shown = marked(inline(piece.nodes), size, self._fonts.italic)
             # A long formula is cut at its signs, whatever a terminal does.
-            found += shown.replace("\u00a0=\u00a0", " = ") if ems(piece.nodes) > LONG else shown
+            found += (
+                shown.replace("\u00a0=\u00a0", " = ") if width_em(piece.nodes) > LONG else shown
+            )
         return found
 
     def _text(self, rich: Rich, style: ParagraphStyle) -> Paragraph:
@@ -380,7 +382,7 @@ class _Setter:
         fresh = True  # an empty page needs no break
         numbered = list(document.numbers_of(written))
         for (node, number), after in zip_longest(numbered, written.nodes[1:]):
-            self._leads = leads(node, after)
+            self._leads = keeps_with_next(node, after)
             for flowable in self._flowables(node, number):
                 is_break = isinstance(flowable, PageBreak)
                 if not (is_break and fresh):
@@ -412,12 +414,12 @@ class _Setter:
             case document.Subpart(title):
                 yield self._heading(title, 2, number)
             case document.Caption(text):
-                yield self._text(text, self._style(align=TA_LEFT, keep=True))
+                yield self._text(text, self._style(align=TA_LEFT, keep_with_next=True))
             case document.Paragraph(text):
-                yield self._text(text, self._style(keep=self._leads))
+                yield self._text(text, self._style(keep_with_next=self._leads))
             case document.Item(text, label):
                 shown = f"{label}\u2002{text}" if label else f"–\u00a0{text}"
-                yield self._text(shown, self._style(keep=self._leads))
+                yield self._text(shown, self._style(keep_with_next=self._leads))
             case document.Step(lines, continues):
                 yield from self._stepped(lines, continues=continues)
             case document.Formula(text):
@@ -445,7 +447,7 @@ class _Setter:
 
     def _heading(self, title: Rich, level: int, number: str, *, middle: bool = False) -> _Heading:
         align, indent = (TA_CENTER, 0.0) if middle else (TA_LEFT, INDENT)
-        style = self._style(align=align, indent=indent, around=8.0, bold=True, keep=True)
+        style = self._style(align=align, indent=indent, around=8.0, bold=True, keep_with_next=True)
         self._count += 1
         text = f"{number} {title}" if number else title
         shown = marked(inline(parse(clean(text))), SIZE)
@@ -453,7 +455,7 @@ class _Setter:
 
     def _stepped(self, lines: Sequence[Rich], *, continues: bool) -> Iterator[Flowable]:
         self._step += not continues
-        alone = [formula_alone(pieces(parse(clean(line)), self._units)) for line in lines]
+        alone = [sole_formula(pieces(parse(clean(line)), self._units)) for line in lines]
         for k, line in enumerate(lines):
             if k and alone[k]:
                 yield self._displayed(alone[k], "")
@@ -461,7 +463,7 @@ class _Setter:
             lead = "" if k or continues else f"{self._step})\u00a0"
             is_last = k + 1 == len(lines)
             keep = self._leads if is_last else bool(alone[k + 1]) or line.endswith(":")
-            yield self._text(f"{lead}{line}", self._style(keep=keep))
+            yield self._text(f"{lead}{line}", self._style(keep_with_next=keep))
 
     def _displayed(self, nodes: Sequence[Any], number: str) -> Flowable:
         whole = self._formulas.set(nodes)
@@ -481,7 +483,7 @@ class _Setter:
         style = self._style(align=TA_LEFT, indent=0.0, around=3.0, leading=1.2)
         name = self._say.table.format(number=number, text=table.name) if number else ""
         again = self._say.continued.format(number=number) if number else ""
-        parts = list(parts_of(table, int(self._width // LEAST)))
+        parts = list(parts_of(table, int(self._width // MIN_COLUMN)))
         for part in parts:
             above = [self._text(name, style)] if name else []
             made = self._table(part)
@@ -567,7 +569,7 @@ class _Setter:
         )
         contents.levelStyles = [
             self._style(
-                align=TA_LEFT, indent=0.0, left=7 * mm * level, right=ASIDE, leading=leading
+                align=TA_LEFT, indent=0.0, left=7 * mm * level, right=TITLE_MARGIN, leading=leading
             )
             for level in range(3)
         ]

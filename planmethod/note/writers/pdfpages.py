@@ -6,18 +6,18 @@ from typing import Any
 
 from reportlab.platypus import BaseDocTemplate, CondPageBreak, Flowable, KeepTogether, PageBreak
 
-MOST = 12
+MAX_PASSED = 12
 """Largest number of paragraphs and formulas moved before content that does not fit."""
 
 
-LEAST = 0.78
+MIN_SHRINK = 0.78
 """Least scale to which a picture may be shrunk where no text can go before it.
 
 Its letters of 3.2 mm are 2.5 mm high then.
 """
 
 
-_SLACK = 0.1  # points that a picture stays off the foot of the page
+_CLEARANCE = 0.1  # points that a picture stays off the foot of the page
 
 
 class Floating(KeepTogether):  # type: ignore[misc]
@@ -46,13 +46,13 @@ class FloatingPages(BaseDocTemplate):  # type: ignore[misc]
         while end < len(flowables) and flowables[end - 1].getKeepWithNext():
             end += 1
         group = flowables[1:end]
-        if group and all(map(_is_text, group)) and first.passed < MOST:
+        if group and all(map(_is_text, group)) and first.passed < MAX_PASSED:
             self._set(first, "passed", first.passed + len(group), before=0)
             flowables[:end] = [*group, first]
         elif (picture := first.shrunk) is not None and picture.at_most == 1.0:
             high = picture.wrap(self.frame._aW, 0.0)[1]
-            share = (high - missing - _SLACK) / high
-            if share >= LEAST:
+            share = (high - missing - _CLEARANCE) / high
+            if share >= MIN_SHRINK:
                 self._set(picture, "at_most", share, before=1.0)
 
     def _set(self, one: Any, name: str, value: float, *, before: float) -> None:

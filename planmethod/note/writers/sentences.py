@@ -22,7 +22,7 @@ _LEVELS = re.compile(f"([{''.join(_RAISED)}]+|[{''.join(_LOWERED)}]+)")
 _BLANKS = re.compile("([ \u00a0\n]+)")
 _STOPS, _LEADS = ".,;:!?»", "«"
 _EQUAL, _SIGNS = "=≈≠≡<>≤≥", "=≈≠≡<>≤≥+−±·×∥⊥-"
-_PLAIN = re.compile(
+_TERM = re.compile(
     r"(?:\d[\d.,]*|arccos|const|(?<![A-Za-z\u0370-\u03ff])[A-Za-z\u0370-\u03ff]{1,4}\d{0,2}[′']{0,2}"
     r"|[·×/+−±%°()\[\]|-])+"
 )
@@ -123,18 +123,18 @@ def pieces(
     ]
 
 
-def formula_alone(found: Sequence[SentencePart]) -> tuple[Node, ...]:
+def sole_formula(parts: Sequence[SentencePart]) -> tuple[Node, ...]:
     """Return the formula of a line that has only a stop besides; empty for another line."""
-    ending = found[1].text.strip() if len(found) == 2 else ""
-    if found and found[0].is_formula and (len(found) == 1 or ending in (".", ",", ";")):
-        return (*found[0].nodes, *((Letters(ending),) if ending else ()))
+    ending = parts[1].text.strip() if len(parts) == 2 else ""
+    if parts and parts[0].is_formula and (len(parts) == 1 or ending in (".", ",", ";")):
+        return (*parts[0].nodes, *((Letters(ending),) if ending else ()))
     return ()
 
 
-def with_stops(found: Sequence[SentencePart]) -> Iterator[SentencePart]:
+def with_stops(parts: Sequence[SentencePart]) -> Iterator[SentencePart]:
     """Yield the parts of a sentence, a stop in the formula before it: no line begins with one."""
     stop = ""
-    for piece, after in zip(found, [*found[1:], None], strict=False):  # there may be none
+    for piece, after in zip(parts, [*parts[1:], None], strict=False):  # there may be none
         if not piece.is_formula:
             text = piece.text.removeprefix(stop)
             stop = ""
@@ -146,7 +146,7 @@ def with_stops(found: Sequence[SentencePart]) -> Iterator[SentencePart]:
         yield SentencePart((*piece.nodes, *_some(stop)), True)
 
 
-def leads(node: document.Node, after: document.Node | None) -> bool:
+def keeps_with_next(node: document.Node, after: document.Node | None) -> bool:
     """Return whether the text of a node introduces the next node, and must stay with it."""
     match node:
         case document.Paragraph(text) | document.Item(text):
@@ -237,7 +237,7 @@ def _is_part(word: Word, units: frozenset[str]) -> bool:
     text = _letters(word)
     return bool(word) and (
         _is_certain(word)
-        or bool(_PLAIN.fullmatch(text))
+        or bool(_TERM.fullmatch(text))
         or all(sign in _SIGNS for sign in text)
         or _is_unit(text, units)
     )

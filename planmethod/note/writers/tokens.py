@@ -67,7 +67,7 @@ def tokens_of(nodes: Iterable[Node]) -> Iterator[Token]:
                 yield Token(kind, found[0])
 
 
-def closing(tokens: Sequence[Token], start: int) -> int | None:
+def matching_bracket(tokens: Sequence[Token], start: int) -> int | None:
     """Return the index of the bracket that closes the one at ``start``."""
     opened, depth = tokens[start].text, 0
     closed = PAIRS.get(opened)

@@ -26,19 +26,24 @@ from planmethod.note.formula import Node as Sign
 from planmethod.note.formula import Rich, parse
 from planmethod.note.wording import Language
 from planmethod.note.writers import omml
-from planmethod.note.writers.broken import lines_of
 from planmethod.note.writers.html import clean
+from planmethod.note.writers.linebreak import lines_of
 from planmethod.note.writers.sentences import (
-    formula_alone,
-    leads,
+    keeps_with_next,
     pieces,
+    sole_formula,
     units_of,
     with_levels,
 )
-from planmethod.note.writers.wordfile import damaged, opened, timeless, wish_for_fields
+from planmethod.note.writers.wordfile import (
+    damaged,
+    opened,
+    strip_timestamps,
+    update_fields_on_open,
+)
 from planmethod.note.writers.wordframe import PageFrame, fields_of_note
-from planmethod.note.writers.wordpages import PageFlow, flowing, plain
-from planmethod.note.writers.wordpicture import put_picture
+from planmethod.note.writers.wordpages import PageFlow, clean_text, flowing
+from planmethod.note.writers.wordpicture import add_picture
 from planmethod.note.writers.wordstyles import (
     BOTTOM,
     HEADINGS,
@@ -53,26 +58,26 @@ from planmethod.note.writers.wordstyles import (
     WordStyles,
 )
 from planmethod.note.writers.wordtable import (
+    MAX_UNCUT_ROWS,
     PAD,
     STRIP,
-    TOGETHER,
     cover,
+    fill_width,
     grid,
     head_repeats,
+    line_width,
     needed_widths,
     parts_of_width,
+    row_keeps_with_next,
     rows_of,
-    shared,
-    stays,
     strip_above,
-    whole_width,
 )
 from planmethod.note.writers.wordtext import (
+    add_field,
+    add_link,
+    add_sentence,
     field_part,
     marked,
-    put_field,
-    put_link,
-    put_sentence,
     small_paragraph,
 )
 
@@ -87,7 +92,7 @@ _LANGUAGES = {"ru": "ru-RU", "en": "en-US"}
 
 def word_document(
     written: Document,
-    words: Language,
+    language: Language,
     *,
     author: str = "",
     template: Path | None = None,
@@ -99,7 +104,7 @@ def word_document(
     Parameters
     ----------
     written : Document
-    words : Language
+    language : Language
     author : str
         For the properties of the file; that of ``stamp`` where it is empty.
     template : Path, optional
@@ -118,33 +123,33 @@ def word_document(
         A formula is malformed, or a text refers to a missing key.
     """
     fields = dict(stamp or {})
-    told = document.referred(written)
+    told = document.resolve_references(written)
 
-    def made(template: Path | None) -> bytes:
-        shown = PageFrame(fields_of_note(fields, written), words.frame) if frame else None
-        writer = _Writer(words, template, shown)
+    def build(template: Path | None) -> bytes:
+        shown = PageFrame(fields_of_note(fields, written), language.frame) if frame else None
+        writer = _Writer(language, template, shown)
         writer.write(told)
         return writer.file(author or fields.get("author", ""))
 
     try:
-        return made(template)
+        return build(template)
     except (PlanMethodError, MemoryError, OSError):
         raise
     except Exception as fault:
         if template is None:
             raise
-        made(None)  # a failure only with a template is the fault of the template
+        build(None)  # a failure only with a template is the fault of the template
         raise damaged(template) from fault
 
 
 class _Writer:
     """Puts nodes into a file one after another."""
 
-    def __init__(self, words: Language, template: Path | None, frame: PageFrame | None) -> None:
-        self._words, self._say, self._frame = words, words.document, frame
-        self._units = units_of(words.note["units"])
+    def __init__(self, language: Language, template: Path | None, frame: PageFrame | None) -> None:
+        self._words, self._say, self._frame = language, language.document, frame
+        self._units = units_of(language.note["units"])
         self._file: Any = opened(template)
-        self._styles = WordStyles(self._file, new=template is None, lang=_LANGUAGES[words.lang])
+        self._styles = WordStyles(self._file, new=template is None, lang=_LANGUAGES[language.lang])
         self._breaks = self._leads = False
         self._step = self._mark = 0
         self._pages = dict[int, int]()
@@ -172,7 +177,7 @@ class _Writer:
         numbered = list(document.numbers_of(written))
         told = zip_longest(numbered, written.nodes[1:])
         for (node, number), after in flowing(told, self._flow, self._height):
-            self._leads = leads(node, after)
+            self._leads = keeps_with_next(node, after)
             if not isinstance(node, document.TitlePage):
                 self._with_pages()
             self._node(node, number)
@@ -185,9 +190,9 @@ class _Writer:
 
     def _height(self, figure: Figure) -> float:
         """Return the height of a figure with its name, mm."""
-        return figure.view.size[1] * self._share(figure) + BELOW
+        return figure.view.size[1] * self._figure_scale(figure) + BELOW
 
-    def _share(self, figure: Figure) -> float:
+    def _figure_scale(self, figure: Figure) -> float:
         """Return the scale of a figure that fits it to a page, at most 1."""
         width, height = figure.view.size
         section = self._file.sections[-1]
@@ -201,25 +206,25 @@ class _Writer:
         self._has_pages = True
         section = self._file.sections[-1]
         if self._frame is not None:
-            self._frame.put(section)
+            self._frame.add_first_form(section)
             return
         section.footer.is_linked_to_previous = False
         foot = section.footer.paragraphs[0]
-        self._styles.put(foot, "Page Number Line")
-        put_field(foot, "PAGE", "1")
+        self._styles.apply(foot, "Page Number Line")
+        add_field(foot, "PAGE", "1")
 
     def file(self, author: str) -> bytes:
         """Return the file, without a trace of when it was made."""
         if self._is_note:
-            wish_for_fields(self._file)
-        return timeless(self._file, title=self._title, author=author or "planmethod")
+            update_fields_on_open(self._file)
+        return strip_timestamps(self._file, title=self._title, author=author or "planmethod")
 
     # Nodes ----------------------------------------------------------------------------------------
 
     def _node(self, node: Node, number: str) -> None:
         match node:
             case document.Title(text):
-                self._title = self._title or plain(text)
+                self._title = self._title or clean_text(text)
                 self._text(text, "Title")
             case document.TitlePage():
                 self._title_page(node)
@@ -241,16 +246,16 @@ class _Writer:
             case document.Caption(text):
                 self._text(text, "Subheading")
             case document.Paragraph(text):
-                self._said(text)
+                self._add_sentences(text)
             case document.Item(text, label):
-                self._said(f"{label}\u2002{text}" if label else f"–\u00a0{text}")
+                self._add_sentences(f"{label}\u2002{text}" if label else f"–\u00a0{text}")
             case document.Step(lines, continues):
                 self._stepped(lines, continues=continues)
             case document.Formula(text):
                 nodes = tuple(with_levels(parse(clean(text))))
                 self._displayed([omml.equation(line) for line in self._lines(nodes)], number)
             case document.Equations(equations):
-                room = self._room * (1.0 - 2.0 * SIDE / self._width * bool(number))
+                room = self._width_em * (1.0 - 2.0 * SIDE / self._width * bool(number))
                 self._displayed([omml.vector_equations(equations, room)], number)
             case document.Table():
                 self._table(node, number)
@@ -266,11 +271,11 @@ class _Writer:
 
     def _paragraph(self, style: str, holder: Any = None) -> Any:
         made = (holder or self._file).add_paragraph()
-        self._styles.put(made, style)
+        self._styles.apply(made, style)
         if self._breaks and holder is None:
             made.paragraph_format.page_break_before = True
             self._breaks = False
-            self._flow.turn()
+            self._flow.begin_page()
         return made
 
     def _text(self, rich: Rich, style: str, holder: Any = None) -> Any:
@@ -279,22 +284,22 @@ class _Writer:
         self._flow.text(rich, self._width)
         return made
 
-    def _said(self, rich: Rich, *, keep: bool | None = None) -> None:
+    def _add_sentences(self, rich: Rich, *, keep_with_next: bool | None = None) -> None:
         """Add a paragraph of sentences; one that introduces a formula stays with it."""
         made = self._text(rich, "Normal")
-        if self._leads if keep is None else keep:
+        if self._leads if keep_with_next is None else keep_with_next:
             made.paragraph_format.keep_with_next = True
 
     def _fill(self, paragraph: Any, rich: Rich, *, joined: bool = True) -> None:
-        put_sentence(paragraph, rich, self._units, self._room, joined=joined)
+        add_sentence(paragraph, rich, self._units, self._width_em, joined=joined)
 
     @property
-    def _room(self) -> float:
+    def _width_em(self) -> float:
         """Width of the text in heights of its font."""
         return self._width / (SIZE * MM_PER_POINT)
 
     def _lines(self, nodes: Sequence[Sign]) -> list[tuple[Sign, ...]]:
-        return lines_of(nodes, 0.9 * self._room)
+        return lines_of(nodes, 0.9 * self._width_em)
 
     def _heading(self, title: Rich, level: int, number: str, *, middle: bool = False) -> None:
         made = self._paragraph(HEADINGS[level - 1])
@@ -310,7 +315,7 @@ class _Writer:
     def _stepped(self, lines: Sequence[Rich], *, continues: bool) -> None:
         """Add the lines of a step; a line that is a formula alone is centred."""
         self._step += not continues
-        alone = [formula_alone(pieces(parse(clean(line)), self._units)) for line in lines]
+        alone = [sole_formula(pieces(parse(clean(line)), self._units)) for line in lines]
         for k, line in enumerate(lines):
             is_last = k + 1 == len(lines)
             if k and alone[k]:
@@ -318,7 +323,7 @@ class _Writer:
                 continue
             lead = "" if k or continues else f"{self._step})\u00a0"
             keep = self._leads if is_last else bool(alone[k + 1]) or line.endswith(":")
-            self._said(f"{lead}{line}", keep=keep)
+            self._add_sentences(f"{lead}{line}", keep_with_next=keep)
 
     # Formulas -------------------------------------------------------------------------------------
 
@@ -327,7 +332,7 @@ class _Writer:
         for formula in formulas:
             tall = formula.find(f".//{{{omml.MATH}}}f") is not None
             rows = formula.findall(f".//{{{omml.MATH}}}eqArr/{{{omml.MATH}}}e")
-            self._flow.put(11.0 * max(1, len(rows)) if tall or rows else 7.5)
+            self._flow.reserve(11.0 * max(1, len(rows)) if tall or rows else 7.5)
         if not number:
             for formula in formulas:
                 self._paragraph("Formula")._p.append(omml.paragraph(formula))
@@ -336,11 +341,11 @@ class _Writer:
         _, middle, right = rows_of(self._grid(1, widths))[0]
         for k, formula in enumerate(formulas):
             place = middle.paragraphs[0] if not k else middle.add_paragraph()
-            self._styles.put(place, "Formula")
+            self._styles.apply(place, "Formula")
             place._p.append(omml.paragraph(formula))
         right.vertical_alignment = WD_CELL_VERTICAL_ALIGNMENT.CENTER
         beside = right.paragraphs[0]
-        self._styles.put(beside, "Formula")
+        self._styles.apply(beside, "Formula")
         beside.alignment = WD_ALIGN_PARAGRAPH.RIGHT
         beside.add_run(f"({number})")
         small_paragraph(self._file.add_paragraph())  # tables one after another would be one
@@ -366,16 +371,16 @@ class _Writer:
                 name = "" if k else self._name(number, table.name)
                 self._one_table(part, name, LEAST_SIZE, again)
         else:
-            self._turn(lying=True)
+            self._begin_page(lying=True)
             self._one_table(table, self._name(number, table.name), LEAST_SIZE, again)
-            self._turn(lying=False)
+            self._begin_page(lying=False)
 
     def _name(self, number: str, name: Rich) -> Rich:
         return str(self._say.table.format(number=number, text=name)) if number else ""
 
-    def _turn(self, *, lying: bool) -> None:
+    def _begin_page(self, *, lying: bool) -> None:
         """Begin a landscape page, or a portrait one again."""
-        self._flow.turn()
+        self._flow.begin_page()
         section = self._file.add_section(WD_SECTION.NEW_PAGE)
         wide = max(section.page_width, section.page_height)
         high = min(section.page_width, section.page_height)
@@ -383,12 +388,12 @@ class _Writer:
         section.page_width, section.page_height = (wide, high) if lying else (high, wide)
         self._width = _width_of(section)
         if self._frame is not None:
-            self._frame.put_later(section)
+            self._frame.add_later_form(section)
 
     def _one_table(self, table: Table, name: Rich, size: float, again: Rich) -> None:
         """Add a table; ``again`` is repeated above it on each page but the one with its name."""
         rows = (table.head, *table.rows)
-        may_break = bool(again) and (len(rows) > TOGETHER or not name)
+        may_break = bool(again) and (len(rows) > MAX_UNCUT_ROWS or not name)
         if name:
             named = self._text(name, "Table Name")
             if may_break:
@@ -396,17 +401,17 @@ class _Writer:
                 above = self._paragraph("Table Name")
                 small_paragraph(above)
                 cover(above, self._width)
-        widths = shared(needed_widths(table, size), self._width)
+        widths = fill_width(needed_widths(table, size), self._width)
         made = self._grid(len(rows), widths, self._styles.table)
         head_repeats(made)
         em = size * MM_PER_POINT
         for k, (cells, texts) in enumerate(zip(rows_of(made), rows, strict=True)):
-            high = (whole_width(t, em) / (w - PAD) for t, w in zip(texts, widths, strict=True))
-            self._flow.put(1.2 * em * max(1, *map(ceil, high)))
+            high = (line_width(t, em) / (w - PAD) for t, w in zip(texts, widths, strict=True))
+            self._flow.reserve(1.2 * em * max(1, *map(ceil, high)))
             for column, (cell, text) in enumerate(zip(cells, texts, strict=True)):
                 place = cell.paragraphs[0]
-                self._styles.put(place, "Table Text" if size == TABLE_SIZE else "Small Table")
-                if stays(k, len(rows)):
+                self._styles.apply(place, "Table Text" if size == TABLE_SIZE else "Small Table")
+                if row_keeps_with_next(k, len(rows)):
                     place.paragraph_format.keep_with_next = True
                 if not k:
                     place.alignment = WD_ALIGN_PARAGRAPH.CENTER
@@ -415,21 +420,21 @@ class _Writer:
                 self._fill(place, text)
         if may_break:
             told = strip_above(made).paragraphs[0]
-            self._styles.put(told, "Table Name")
+            self._styles.apply(told, "Table Name")
             told.paragraph_format.space_before = told.paragraph_format.space_after = Pt(0)
             told.paragraph_format.keep_with_next = True
             told.add_run(again)
-            self._flow.put(STRIP * MM_PER_POINT)
+            self._flow.reserve(STRIP * MM_PER_POINT)
         small_paragraph(self._file.add_paragraph(), space=6.0)
 
     # Figures --------------------------------------------------------------------------------------
 
     def _figure(self, figure: Figure, number: str) -> None:
         """Add a centred picture with its name below, in its own size if it fits."""
-        share = self._share(figure)
+        share = self._figure_scale(figure)
         place = self._paragraph("Figure")
-        put_picture(place.add_run(), figure, figure.view.size[0] * share, share, self._file.part)
-        self._flow.put(self._height(figure))
+        add_picture(place.add_run(), figure, figure.view.size[0] * share, share, self._file.part)
+        self._flow.reserve(self._height(figure))
         caption = figure.caption
         if number:
             caption = self._say.figure.format(number=number, text=caption)
@@ -441,15 +446,15 @@ class _Writer:
     # Title page and contents ----------------------------------------------------------------------
 
     def _title_page(self, page: document.TitlePage) -> None:
-        self._title = plain(page.title) or plain(page.work)
-        say = self._say
+        self._title = clean_text(page.title) or clean_text(page.work)
+        texts = self._say
         for text in page.organisation:
             self._text(text, "Title Page")
         gap: float = 110.0
         for text, style in (
             (page.work, "Title"),
             (page.subject, "Title Page"),
-            (say.theme.format(title=page.title) if page.title else "", "Title Page"),
+            (texts.theme.format(title=page.title) if page.title else "", "Title Page"),
             (page.designation, "Title Page"),
         ):
             if text:
@@ -458,16 +463,18 @@ class _Writer:
         gap = 110.0
         for key in ("author", "group", "checker"):
             if text := getattr(page, key):
-                made = self._text(say[key].format(**{key: text}), "Title Page")
+                made = self._text(texts[key].format(**{key: text}), "Title Page")
                 made.alignment = WD_ALIGN_PARAGRAPH.LEFT
                 made.paragraph_format.left_indent = Mm(85)
                 made.paragraph_format.space_before = Pt(gap)
                 gap = 6.0
         foot = self._file.sections[-1].footer
         foot.is_linked_to_previous = False
-        self._styles.put(foot.paragraphs[0], "Page Number Line")
-        foot.paragraphs[0].add_run(" ".join(filter(None, (plain(page.place), plain(page.year)))))
-        self._flow.turn()
+        self._styles.apply(foot.paragraphs[0], "Page Number Line")
+        foot.paragraphs[0].add_run(
+            " ".join(filter(None, (clean_text(page.place), clean_text(page.year))))
+        )
+        self._flow.begin_page()
         self._file.add_section(WD_SECTION.NEW_PAGE)
         self._file.sections[-1].footer.is_linked_to_previous = False
 
@@ -480,10 +487,10 @@ class _Writer:
         place = fields
         for mark, (level, number, title) in enumerate(self._headings, 1):
             place = place if mark == 1 else self._paragraph(f"toc {level}")
-            self._styles.put(place, f"toc {level}")
-            self._flow.put(7.1)
+            self._styles.apply(place, f"toc {level}")
+            self._flow.reserve(7.1)
             self._fill(place, f"{number} {title}" if number else title, joined=False)
-            self._shown[mark] = put_link(place, mark)
+            self._shown[mark] = add_link(place, mark)
         field_part(place, "end")
         self._breaks = True
 

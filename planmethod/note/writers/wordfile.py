@@ -27,7 +27,7 @@ XML_LIMIT = 200_000
 DEPTH_LIMIT = 200
 UNKNOWN = (18, 19)
 """Codes of expat for encodings that it does not know, and another parser may."""
-ROOM = 40.0
+MIN_TEXT_AREA = 40.0
 """Least width and height of the text on a page, mm."""
 LARGEST_PAGE = 2000.0
 """Longest side of a page, mm."""
@@ -58,13 +58,13 @@ def opened(template: Path | None) -> Any:
     except OSError as fault:
         raise OutputError("{} cannot be read: {}", template, fault.strerror or fault) from fault
     try:
-        _look_through(data, template)
+        _check_archive(data, template)
         file = docx.Document(BytesIO(data))
         body = file.element.body
         for child in list(body):
             if child.tag != qn("w:sectPr"):
                 body.remove(child)
-        if not _has_room(file.sections[0]):
+        if not _fits_text(file.sections[0]):
             raise ValueError(file.sections[0])
     except (OutputError, MemoryError):
         raise
@@ -82,7 +82,7 @@ def damaged(template: Path) -> OutputError:
     )
 
 
-def _look_through(data: bytes, template: Path) -> None:
+def _check_archive(data: bytes, template: Path) -> None:
     """Reject an archive that would unpack to more than a template needs, before it is used.
 
     Raises
@@ -108,13 +108,13 @@ def _look_through(data: bytes, template: Path) -> None:
             nonlocal count, depth
             count, depth = count + 1 + len(attributes), depth + 1
             if count > XML_LIMIT or depth > DEPTH_LIMIT:
-                refuse()
+                reject()
 
         def end(_tag: str) -> None:
             nonlocal depth
             depth -= 1
 
-        def refuse(*_: object) -> None:
+        def reject(*_: object) -> None:
             raise OutputError(
                 "The template {} is too large: over {} elements, or some nested over {} "
                 "deep. Leave only its page and its styles.",
@@ -126,7 +126,7 @@ def _look_through(data: bytes, template: Path) -> None:
         for part in parts:
             parser, depth = ParserCreate(), 0
             parser.StartElementHandler, parser.EndElementHandler = start, end
-            parser.EntityDeclHandler = refuse
+            parser.EntityDeclHandler = reject
             try:
                 with contextlib.suppress(zlib.error):
                     parser.Parse(archive.read(part), True)  # in pieces, a long tag is read again
@@ -135,15 +135,17 @@ def _look_through(data: bytes, template: Path) -> None:
                     raise damaged(template) from error
 
 
-def _has_room(section: Any) -> bool:
+def _fits_text(section: Any) -> bool:
     """Return whether a page has enough space for the text."""
     across = section.page_width, section.left_margin, section.right_margin
     along = section.page_height, section.top_margin, section.bottom_margin
     sides = [[float(one) / Mm(1) for one in side] for side in (across, along)]
-    return all(page <= LARGEST_PAGE and page - one - two >= ROOM for page, one, two in sides)
+    return all(
+        page <= LARGEST_PAGE and page - one - two >= MIN_TEXT_AREA for page, one, two in sides
+    )
 
 
-def wish_for_fields(file: Any) -> None:
+def update_fields_on_open(file: Any) -> None:
     """Let Word compute the fields when the file is opened."""
     settings = file.settings.element
     if settings.find(qn("w:updateFields")) is not None:
@@ -158,7 +160,7 @@ def wish_for_fields(file: Any) -> None:
         place.addprevious(update)
 
 
-def timeless(file: Any, *, title: str, author: str) -> bytes:
+def strip_timestamps(file: Any, *, title: str, author: str) -> bytes:
     """Return the file, without a trace of when it was made."""
     properties = file.core_properties
     properties.author = properties.last_modified_by = author

@@ -17,10 +17,10 @@ from docx.shared import Mm, Pt
 
 from planmethod.note import document
 from planmethod.note.document import Document
-from planmethod.note.wording import Words
-from planmethod.note.writers.wordpages import plain
+from planmethod.note.wording import MessageTable
+from planmethod.note.writers.wordpages import clean_text
 from planmethod.note.writers.wordtable import rows_of
-from planmethod.note.writers.wordtext import put_field, small_paragraph
+from planmethod.note.writers.wordtext import add_field, small_paragraph
 
 EDGE, BINDING = 5.0, 20.0
 """From the edge of the paper to the frame, mm; on the left with space for the binding."""
@@ -28,9 +28,9 @@ EDGE, BINDING = 5.0, 20.0
 ABOVE = 10.0
 """White between the text and a title block, mm."""
 
-_HANDS = (7.0, 10.0, 23.0, 15.0, 10.0)
-_FORM_2 = (*_HANDS, 70.0, 5.0, 5.0, 5.0, 15.0, 20.0)
-_FORM_2A = (*_HANDS, 110.0, 10.0)
+_SIGNATURE_COLUMNS = (7.0, 10.0, 23.0, 15.0, 10.0)
+_FORM_2 = (*_SIGNATURE_COLUMNS, 70.0, 5.0, 5.0, 5.0, 15.0, 20.0)
+_FORM_2A = (*_SIGNATURE_COLUMNS, 110.0, 10.0)
 _ROLES = ("author", "checker", "extra", "norm_control", "approver")
 _THICK, _THIN = 12, 4  # eighths of a point
 
@@ -59,23 +59,23 @@ def fields_of_note(fields: Mapping[str, str], written: Document) -> dict[str, st
     page = next((n for n in written.nodes if isinstance(n, document.TitlePage)), None)
     if page is None:
         return dict(fields)
-    title = fields.get("title", "") or plain(page.title)
-    name = "\n".join(filter(None, (title, plain(page.work))))
-    designation = plain(page.designation) or fields.get("designation", "")
+    title = fields.get("title", "") or clean_text(page.title)
+    name = "\n".join(filter(None, (title, clean_text(page.work))))
+    designation = clean_text(page.designation) or fields.get("designation", "")
     return {**fields, "title": name, "designation": designation}
 
 
 class PageFrame:
     """Puts frames and title blocks on the pages of sections."""
 
-    def __init__(self, fields: Mapping[str, str], words: Words) -> None:
-        self._fields, self._captions = fields, words["captions"]
+    def __init__(self, fields: Mapping[str, str], texts: MessageTable) -> None:
+        self._fields, self._captions = fields, texts["captions"]
         self._count = 0
 
-    def put(self, section: Any) -> None:
+    def add_first_form(self, section: Any) -> None:
         """Put form 2 on the first page of a section and form 2a on the others."""
         section.different_first_page_header_footer = True
-        self._fit(section)
+        self._set_margins(section)
         for header, footer, fill in (
             (section.first_page_header, section.first_page_footer, self._form_2),
             (section.header, section.footer, self._form_2a),
@@ -84,10 +84,10 @@ class PageFrame:
             self._draw(section, header.paragraphs[0])
             fill(footer)
 
-    def put_later(self, section: Any) -> None:
+    def add_later_form(self, section: Any) -> None:
         """Put form 2a on the pages of a continued section."""
         section.different_first_page_header_footer = False
-        self._fit(section)
+        self._set_margins(section)
         section.header.is_linked_to_previous = section.footer.is_linked_to_previous = False
         self._draw(section, section.header.paragraphs[0])
         wide = section.page_width > section.page_height
@@ -95,7 +95,7 @@ class PageFrame:
             section.footer, section.page_width / Mm(1) - EDGE - BINDING if wide else 185.0
         )
 
-    def _fit(self, section: Any) -> None:
+    def _set_margins(self, section: Any) -> None:
         section.bottom_margin = Mm(EDGE + 15.0 + ABOVE)
         section.footer_distance = Mm(EDGE)
         section.header_distance = Mm(EDGE)
@@ -137,7 +137,7 @@ class PageFrame:
         _write(table, 5, 6, ", ".join(filter(None, whose)), 9.0)
 
     def _form_2a(self, footer: Any, width: float = 185.0) -> None:
-        widths = (*_HANDS, width - 75.0, 10.0)
+        widths = (*_SIGNATURE_COLUMNS, width - 75.0, 10.0)
         table = _table(footer, widths, (5.0, 2.0, 3.0, 5.0))
         for column in range(5):
             _merged(table, 1, column, 2, column)
@@ -228,7 +228,7 @@ def _write(
     form.first_line_indent = Mm(0.7) if left else 0
     place.alignment = WD_ALIGN_PARAGRAPH.LEFT if left else WD_ALIGN_PARAGRAPH.CENTER
     if field:
-        put_field(place, field, "1")
+        add_field(place, field, "1")
     else:
         place.add_run(text)
     for run in place.runs:

@@ -11,13 +11,13 @@ from planmethod.note.document import Figure, Node
 from planmethod.note.formula import Rich
 from planmethod.note.plaintext import plain_text
 from planmethod.note.writers.html import clean
-from planmethod.note.writers.sentences import leads
+from planmethod.note.writers.sentences import keeps_with_next
 from planmethod.note.writers.wordstyles import INDENT, MM_PER_POINT, SIZE
 
-Told: TypeAlias = tuple[tuple[Node, str], Node | None]
+NumberedNode: TypeAlias = tuple[tuple[Node, str], Node | None]
 """A node with its number, and the next node."""
 
-MOST = 12
+MAX_PASSED = 12
 """Largest number of paragraphs and formulas moved before a figure that does not fit."""
 
 _FLOWS = (
@@ -31,32 +31,32 @@ _FLOWS = (
 
 
 def flowing(
-    told: Iterable[Told], flow: PageFlow, height: Callable[[Figure], float]
-) -> Iterator[Told]:
+    numbered: Iterable[NumberedNode], flow: PageFlow, height: Callable[[Figure], float]
+) -> Iterator[NumberedNode]:
     """Yield nodes; a figure that does not fit on the page lets the text after it go before.
 
     It waits until the text has filled the page, or until a node that is not text. ``height`` gives
     the height of a figure with its name, mm.
     """
-    waiting: Told | None = None
+    waiting: NumberedNode | None = None
     page = passed = 0
     led = False
-    for one in told:
+    for one in numbered:
         (node, _), after = one
-        is_full = flow.page > page or passed >= MOST
+        is_full = flow.page > page or passed >= MAX_PASSED
         if waiting and (not isinstance(node, _FLOWS) or (is_full and not led)):
             yield waiting
             waiting = None
         if isinstance(node, Figure) and isinstance(after, _FLOWS) and not flow.has(height(node)):
             waiting, page, passed = one, flow.page, 0
             continue
-        passed, led = passed + 1, leads(node, after)
+        passed, led = passed + 1, keeps_with_next(node, after)
         yield one
     if waiting:
         yield waiting
 
 
-def plain(rich: Rich) -> str:
+def clean_text(rich: Rich) -> str:
     """Return rich text as plain, without control signs."""
     return plain_text(clean(rich))
 
@@ -67,10 +67,10 @@ class PageFlow:
     LINE = SIZE * 1.15 * 1.5 * MM_PER_POINT
     """Height of a line, mm."""
 
-    def __init__(self, room: float) -> None:
-        self.page, self._room, self._used = 1, room, 0.0
+    def __init__(self, height: float) -> None:
+        self.page, self._room, self._used = 1, height, 0.0
 
-    def turn(self) -> None:
+    def begin_page(self) -> None:
         """Begin a page."""
         self.page, self._used = self.page + bool(self._used), 0.0
 
@@ -78,20 +78,20 @@ class PageFlow:
         """Return whether a height in mm is left on the page, or the page is empty."""
         return not self._used or self._used + height <= self._room
 
-    def put(self, height: float) -> None:
+    def reserve(self, height: float) -> None:
         """Reserve a height in mm on one page."""
         if self._used + height > self._room:
-            self.turn()
+            self.begin_page()
         self._used += height
 
     def text(self, rich: Rich, width: float) -> None:
         """Reserve space for a paragraph."""
-        letters = 0.49 * SIZE * MM_PER_POINT * len(plain(rich)) + INDENT
+        letters = 0.49 * SIZE * MM_PER_POINT * len(clean_text(rich)) + INDENT
         for line in range(ceil(letters / width)):
-            self.put(self.LINE + (4.0 if not line and "\\frac{" in rich else 0.0))
+            self.reserve(self.LINE + (4.0 if not line and "\\frac{" in rich else 0.0))
 
     def heading(self) -> None:
         """Reserve space for a heading, which stays with the next node."""
         if self._used + 3 * self.LINE > self._room:
-            self.turn()
-        self.put(self.LINE + 5.6)
+            self.begin_page()
+        self.reserve(self.LINE + 5.6)

@@ -13,7 +13,7 @@ from docx.shared import Mm
 from lxml import etree
 
 from planmethod.note.document import Figure
-from planmethod.note.writers.wordpages import plain
+from planmethod.note.writers.wordpages import clean_text
 
 DPI = 200
 """Dots to the inch: for programs that cannot show SVG; of lines more are not seen in print."""
@@ -22,7 +22,7 @@ _SVG = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
 _SVG_EXTENSION = "{96DAC541-7B7A-43D3-8B79-37D633B846F1}"
 
 
-def put_picture(run: Any, figure: Figure, width: float, share: float, part: Any) -> None:
+def add_picture(run: Any, figure: Figure, width: float, scale: float, part: Any) -> None:
     """Put a figure into a run of text.
 
     Parameters
@@ -31,13 +31,13 @@ def put_picture(run: Any, figure: Figure, width: float, share: float, part: Any)
     figure : Figure
     width : float, mm
         As it is shown.
-    share : float
+    scale : float
         How many times larger it is shown than its view is.
     part : docx.parts.document.DocumentPart
         Of the file.
     """
-    picture = run.add_picture(BytesIO(figure.view.png(DPI * share)), Mm(width))
-    picture._inline.docPr.set("descr", plain(figure.caption))
+    picture = run.add_picture(BytesIO(figure.view.png(DPI * scale)), Mm(width))
+    picture._inline.docPr.set("descr", clean_text(figure.caption))
     package = part.package
     count = sum(one.partname.endswith(".svg") for one in package.iter_parts()) + 1
     svg = figure.view.svg().encode()

@@ -35,23 +35,23 @@ class WordStyles:
             language.set(qn("w:val"), lang)
             normal.element.get_or_add_rPr().append(language)
         for name in HEADINGS:
-            self._made(name, 1.5, INDENT, WD_ALIGN_PARAGRAPH.LEFT, bold=True, around=8.0)
+            self._add_style(name, 1.5, INDENT, WD_ALIGN_PARAGRAPH.LEFT, bold=True, around=8.0)
         middle, left = WD_ALIGN_PARAGRAPH.CENTER, WD_ALIGN_PARAGRAPH.LEFT
-        self._made("Title", 1.5, 0.0, middle, bold=True, size=16.0, around=6.0)
-        self._made("Title Page", 1.25, 0.0, middle)
-        self._made("Contents Heading", 1.5, 0.0, middle, bold=True, around=8.0)
-        self._made("Subheading", 1.5, INDENT, left, keep=True)
-        self._made("Remark", 1.0, INDENT, WD_ALIGN_PARAGRAPH.JUSTIFY, size=TABLE_SIZE)
-        self._made("Formula", 1.15, 0.0, middle, around=3.0)
-        self._made("Figure", 1.0, 0.0, middle, keep=True, around=6.0)
-        self._made("Caption", 1.0, 0.0, middle, around=6.0)
-        self._made("Table Name", 1.0, 0.0, left, keep=True, around=3.0)
-        self._made("Table Text", 1.0, 0.0, left, size=TABLE_SIZE)
-        self._made("Small Table", 1.0, 0.0, left, size=LEAST_SIZE)
-        self._made("Title Block", 1.0, 0.0, middle, size=8.0)
-        self._made("Page Number Line", 1.0, 0.0, middle, size=TABLE_SIZE)
+        self._add_style("Title", 1.5, 0.0, middle, bold=True, size=16.0, around=6.0)
+        self._add_style("Title Page", 1.25, 0.0, middle)
+        self._add_style("Contents Heading", 1.5, 0.0, middle, bold=True, around=8.0)
+        self._add_style("Subheading", 1.5, INDENT, left, keep_with_next=True)
+        self._add_style("Remark", 1.0, INDENT, WD_ALIGN_PARAGRAPH.JUSTIFY, size=TABLE_SIZE)
+        self._add_style("Formula", 1.15, 0.0, middle, around=3.0)
+        self._add_style("Figure", 1.0, 0.0, middle, keep_with_next=True, around=6.0)
+        self._add_style("Caption", 1.0, 0.0, middle, around=6.0)
+        self._add_style("Table Name", 1.0, 0.0, left, keep_with_next=True, around=3.0)
+        self._add_style("Table Text", 1.0, 0.0, left, size=TABLE_SIZE)
+        self._add_style("Small Table", 1.0, 0.0, left, size=LEAST_SIZE)
+        self._add_style("Title Block", 1.0, 0.0, middle, size=8.0)
+        self._add_style("Page Number Line", 1.0, 0.0, middle, size=TABLE_SIZE)
         for level in (1, 2, 3):
-            style = self._made(f"toc {level}", 1.25, 0.0, left)
+            style = self._add_style(f"toc {level}", 1.25, 0.0, left)
             if style is not None:
                 form = style.paragraph_format
                 form.left_indent, form.right_indent = Mm(7.0 * (level - 1)), Mm(10.0)
@@ -63,7 +63,7 @@ class WordStyles:
             self._known[name] = self._file.styles[name]
         return self._known[name]
 
-    def put(self, paragraph: Any, name: str) -> None:
+    def apply(self, paragraph: Any, name: str) -> None:
         """Give a paragraph a style, without the library's search by name."""
         paragraph._p.style = self[name].style_id
 
@@ -73,7 +73,7 @@ class WordStyles:
         names = [style.name for style in self._file.styles if style.type == WD_STYLE_TYPE.TABLE]
         return self["Table Grid"] if "Table Grid" in names else None
 
-    def _made(
+    def _add_style(
         self,
         name: str,
         spacing: float,
@@ -83,7 +83,7 @@ class WordStyles:
         bold: bool = False,
         size: float = SIZE,
         around: float = 0.0,
-        keep: bool = False,
+        keep_with_next: bool = False,
     ) -> Any:
         """Return a style that is set here; None where the template has it."""
         if name in self._there and not self._new:
@@ -97,7 +97,7 @@ class WordStyles:
         self._format(style, spacing, indent, alignment)
         form = style.paragraph_format
         form.space_before = form.space_after = Pt(around)
-        form.keep_with_next = keep or name in HEADINGS
+        form.keep_with_next = keep_with_next or name in HEADINGS
         for border in style.element.findall(f".//{qn('w:pBdr')}"):
             border.getparent().remove(border)
         _letters(style, size, bold=bold)

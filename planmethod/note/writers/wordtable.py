@@ -15,7 +15,7 @@ from docx.table import _Cell
 
 from planmethod.note.document import Table
 from planmethod.note.formula import Rich
-from planmethod.note.writers.wordpages import plain
+from planmethod.note.writers.wordpages import clean_text
 from planmethod.note.writers.wordstyles import MM_PER_POINT
 
 PAD = 4.0
@@ -24,7 +24,7 @@ PAD = 4.0
 STRIP = 17.0
 """Height of the row that names the continued table, points."""
 
-TOGETHER = 5
+MAX_UNCUT_ROWS = 5
 """Rows, with the head, up to which a table is not cut between pages."""
 
 
@@ -101,9 +101,9 @@ def cover(paragraph: Any, width: float) -> None:
     )
 
 
-def stays(row: int, rows: int) -> bool:
+def row_keeps_with_next(row: int, rows: int) -> bool:
     """Return whether a row stays with the next: no page has the head or a last row alone."""
-    return row + 1 < rows and (rows <= TOGETHER or row < 2 or row == rows - 2)
+    return row + 1 < rows and (rows <= MAX_UNCUT_ROWS or row < 2 or row == rows - 2)
 
 
 # Widths of columns --------------------------------------------------------------------------------
@@ -116,27 +116,27 @@ def needed_widths(table: Table, size: float) -> list[float]:
 
 
 def _widest(rich: Rich, em: float) -> float:
-    return max((0.58 * em * len(word) for word in plain(rich).split()), default=0.0)
+    return max((0.58 * em * len(word) for word in clean_text(rich).split()), default=0.0)
 
 
-def whole_width(rich: Rich, em: float) -> float:
+def line_width(rich: Rich, em: float) -> float:
     """Return the approximate width of a text on one line, mm."""
-    return 0.55 * em * len(plain(rich))
+    return 0.55 * em * len(clean_text(rich))
 
 
-def shared(needed: Sequence[float], room: float) -> list[float]:
+def fill_width(needed: Sequence[float], available: float) -> list[float]:
     """Return widths that fill the available width, in proportion to the needed ones."""
     total = sum(needed)
-    return [width * room / total for width in needed]
+    return [width * available / total for width in needed]
 
 
-def parts_of_width(table: Table, size: float, room: float) -> Iterator[Table]:
+def parts_of_width(table: Table, size: float, available: float) -> Iterator[Table]:
     """Yield a table cut between its columns, each part with the leading ones."""
     needed, lead = needed_widths(table, size), table.repeated
     start = lead
     while start < len(needed):
         end, width = start, sum(needed[:lead])
-        while end < len(needed) and (end == start or width + needed[end] <= room):
+        while end < len(needed) and (end == start or width + needed[end] <= available):
             width += needed[end]
             end += 1
         rows = (row[:lead] + row[start:end] for row in (table.head, *table.rows))

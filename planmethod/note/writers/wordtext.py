@@ -13,16 +13,16 @@ from docx.shared import Pt
 
 from planmethod.note.formula import Rich, parse
 from planmethod.note.writers import omml
-from planmethod.note.writers.broken import chain_of, ems
 from planmethod.note.writers.html import clean
+from planmethod.note.writers.linebreak import chain_of, width_em
 from planmethod.note.writers.sentences import pieces, tied, with_stops
 
 LONG = 18.0
 """Width, in heights of the font, from which on a formula in a sentence may be cut at its signs."""
 
 
-def put_sentence(
-    paragraph: Any, rich: Rich, units: frozenset[str], room: float, *, joined: bool = True
+def add_sentence(
+    paragraph: Any, rich: Rich, units: frozenset[str], max_width: float, *, joined: bool = True
 ) -> None:
     """Put a sentence into a paragraph, its formulas as equations.
 
@@ -33,8 +33,8 @@ def put_sentence(
             paragraph.add_run(tied(piece.text) if joined else piece.text)
             continue
         parts = [("", piece.nodes)]
-        if ems(piece.nodes) > LONG:
-            parts = list(chain_of(piece.nodes, room))
+        if width_em(piece.nodes) > LONG:
+            parts = list(chain_of(piece.nodes, max_width))
         for sign, nodes in parts:
             if sign:
                 paragraph.add_run(f" {sign} ")
@@ -54,7 +54,7 @@ def marked(paragraph: Any, number: int) -> Iterator[None]:
     paragraph._p.append(end)
 
 
-def put_link(paragraph: Any, number: int) -> Any:
+def add_link(paragraph: Any, number: int) -> Any:
     """Make the content of a paragraph a link to a bookmark; return the run of its page."""
     link = OxmlElement("w:hyperlink")
     link.set(qn("w:anchor"), _mark_name(number))
@@ -66,7 +66,7 @@ def put_link(paragraph: Any, number: int) -> Any:
     paragraph._p.append(link)
     before = len(paragraph._p)
     paragraph.add_run("\t")
-    shown = put_field(paragraph, f"PAGEREF {_mark_name(number)} \\h", "")
+    shown = add_field(paragraph, f"PAGEREF {_mark_name(number)} \\h", "")
     for child in list(paragraph._p)[before:]:
         link.append(child)
     return shown
@@ -76,7 +76,7 @@ def _mark_name(number: int) -> str:
     return f"_Toc{number:06}"
 
 
-def put_field(paragraph: Any, code: str, shown: str) -> Any:
+def add_field(paragraph: Any, code: str, shown: str) -> Any:
     """Put a field at the end of a paragraph; return the run it shows until computed."""
     for kind in ("begin", code, "separate"):
         field_part(paragraph, kind)

@@ -64,16 +64,16 @@ def add_sheet(
         Of the head.
     """
     sheet = book[title] if title in book.sheetnames else book.create_sheet(title)
-    looks = _Looks(sheet)
+    looks = _CellStyles(sheet)
     for column, text in enumerate(header, 1):
-        looks.put(row, column, text, colour="EEEEEE", bold=True)
+        looks.write(row, column, text, colour="EEEEEE", bold=True)
     for down, values in enumerate(rows, row + 1):
         for column, value in enumerate(values, 1):
             form = (formats or {}).get(column - 1, "General")
             if isinstance(value, Filled):
-                looks.put(down, column, value.value, colour=value.colour, form=form)
+                looks.write(down, column, value.value, colour=value.colour, form=form)
             elif value is not None and value != "":
-                looks.put(down, column, value, form=form)
+                looks.write(down, column, value, form=form)
     _widen(sheet, header, rows, row)
     if row == 1:
         sheet.freeze_panes = sheet.cell(2, frozen + 1)
@@ -126,14 +126,14 @@ def add_bars(
     sheet.add_chart(chart, corner)
 
 
-class _Looks:
+class _CellStyles:
     """Puts values into the cells of a sheet; every style is made once, since that is slow."""
 
     def __init__(self, sheet: Any) -> None:
         self._sheet = sheet
         self._made: dict[tuple[Any, ...], Any] = {}
 
-    def put(
+    def write(
         self,
         row: int,
         column: int,

@@ -13,8 +13,8 @@ class DiagramAxes(Struct, frozen=True):
 
     name: str
     origin: PointName
-    across: LineName
-    up: LineName
+    x_axis: LineName
+    y_axis: LineName
 
 
 class DiagramBoard(Struct):
@@ -37,14 +37,14 @@ class DiagramBoard(Struct):
             self.b.known(name)
         return NumberName(name)
 
-    def given(self, name: str, place: complex) -> PointName:
+    def take_point(self, name: str, place: complex) -> PointName:
         """Take a point of the paper as given, mm."""
         self.data[name] = place
-        return self.b.given(name)
+        return self.b.take_point(name)
 
     def axes(self, name: str, origin: complex = 0j) -> DiagramAxes:
         """Draw the axes of a diagram; the names of all its steps begin with ``name``."""
-        start = self.given(f"{name} O", origin)
+        start = self.take_point(f"{name} O", origin)
         across = self.b.at_angle(start, None, self.known("0", 0.0))
         return DiagramAxes(name, start, across, self.b.perpendicular(start, across))
 
@@ -54,19 +54,21 @@ class DiagramBoard(Struct):
             return axes.origin
         if (axes.name, x) not in self._feet:
             length = self.known(f"x = {x:.12g}", x)
-            foot = self.b.lay_off(f"{axes.name} x = {x:.12g}", axes.origin, axes.across, length)
+            foot = self.b.lay_off_length(
+                f"{axes.name} x = {x:.12g}", axes.origin, axes.x_axis, length
+            )
             self._feet[axes.name, x] = foot
         return self._feet[axes.name, x]
 
     def upright(self, axes: DiagramAxes, x: float) -> LineName:
         """Draw the upright over an abscissa, mm."""
-        return self.b.perpendicular(self.abscissa(axes, x), axes.across)
+        return self.b.perpendicular(self.abscissa(axes, x), axes.x_axis)
 
     def plot(self, name: str, axes: DiagramAxes, x: float, y: NumberName) -> PointName:
         """Lay an ordinate off, mm."""
-        return self.b.lay_off(name, self.abscissa(axes, x), self.upright(axes, x), y)
+        return self.b.lay_off_length(name, self.abscissa(axes, x), self.upright(axes, x), y)
 
     def pole(self, axes: DiagramAxes, distance: float) -> PointName:
         """Lay the pole off to the left of the origin (полюсное расстояние), mm."""
         length = self.known(f"-K = {-distance:.12g}", -distance)
-        return self.b.lay_off(f"{axes.name} P", axes.origin, axes.across, length)
+        return self.b.lay_off_length(f"{axes.name} P", axes.origin, axes.x_axis, length)

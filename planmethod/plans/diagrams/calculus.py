@@ -52,9 +52,9 @@ def differentiate(
     b, made = board.b, []
     for k, ((tail, head), x) in enumerate(zip(pairs, at, strict=True)):
         ray = b.parallel(pole, b.join(tail, head))
-        cut = b.meet_lines(f"{axes.name} cut {k}", ray, axes.up)
-        line = b.parallel(cut, axes.across)
-        made.append(b.meet_lines(f"{axes.name} {k}", line, board.upright(axes, x)))
+        cut = b.intersect_lines(f"{axes.name} cut {k}", ray, axes.y_axis)
+        line = b.parallel(cut, axes.x_axis)
+        made.append(b.intersect_lines(f"{axes.name} {k}", line, board.upright(axes, x)))
     return made
 
 
@@ -73,7 +73,7 @@ def integrate(
     at: Sequence[float],
     *,
     pole: PointName,
-    way: Integration = Integration.MIDDLE,
+    method: Integration = Integration.MIDDLE,
 ) -> list[PointName]:
     """Draw the integral of a diagram from its first abscissa on.
 
@@ -99,12 +99,16 @@ def integrate(
     b = board.b
     points = [board.abscissa(axes, at[0])]
     for k in range(len(at) - 1):
-        if way is Integration.MIDDLE:
+        if method is Integration.MIDDLE:
             mean = curve[k]
         else:
             middle = board.upright(over, (at[k] + at[k + 1]) / 2)
-            mean = b.meet_lines(f"{axes.name} mean {k}", b.join(curve[k], curve[k + 1]), middle)
-        cut = b.meet_lines(f"{axes.name} cut {k}", b.parallel(mean, over.across), over.up)
+            mean = b.intersect_lines(
+                f"{axes.name} mean {k}", b.join(curve[k], curve[k + 1]), middle
+            )
+        cut = b.intersect_lines(f"{axes.name} cut {k}", b.parallel(mean, over.x_axis), over.y_axis)
         chord = b.parallel(points[-1], b.join(pole, cut))
-        points.append(b.meet_lines(f"{axes.name} {k + 1}", chord, board.upright(axes, at[k + 1])))
+        points.append(
+            b.intersect_lines(f"{axes.name} {k + 1}", chord, board.upright(axes, at[k + 1]))
+        )
     return points

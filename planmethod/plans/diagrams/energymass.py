@@ -37,14 +37,14 @@ class EnergyMassData(Struct, frozen=True):
         Moments between them.
     drives : bool
         The constant moment drives, and the others resist; False: the other way round.
-    way : Integration
+    integration : Integration
     pole, length : float, mm
         Pole distance, and the length of the cycle.
     mu_M, mu_T, mu_J : float
         N·m, J and kg·m² per mm.
     psi : (float, float), degrees
         Angles of the tangents, of the upper and of the lower one; not drawn by Mertsalov.
-    touched : (int, int)
+    contacts : (int, int)
         Positions in which they touch; the highest and the lowest of dT_I by Mertsalov.
     speed, delta : float, 1/s
         Mean speed and irregularity.
@@ -56,14 +56,14 @@ class EnergyMassData(Struct, frozen=True):
     middles: Sequence[float]
     inertias: Sequence[float]
     drives: bool
-    way: Integration
+    integration: Integration
     pole: float
     length: float
     mu_M: float  # noqa: N815 - the letters of the textbook
     mu_T: float  # noqa: N815
     mu_J: float  # noqa: N815
     psi: tuple[float, float]
-    touched: tuple[int, int]
+    contacts: tuple[int, int]
     speed: float
     delta: float
     second: Sequence[float] = ()
@@ -91,8 +91,8 @@ class EnergyMass(Struct, frozen=True):
         Of the program: points in mm, numbers in their units.
     axes : mapping of str to DiagramAxes
         ``M``, ``A``, ``T``, ``J``; ``E`` of the energy-mass diagram, or ``T_II`` and ``T_I``.
-    moments, middles, work, energies, inertias, turned, second, curve : tuple of PointName
-        Points of the diagrams; ``turned`` those on the line at 45 degrees, ``second`` those of
+    moments, middles, work, energies, inertias, diagonal, second, curve : tuple of PointName
+        Points of the diagrams; ``diagonal`` those on the line at 45 degrees, ``second`` those of
         T_II, ``curve`` the points of the energy-mass diagram or of dT_I.
     pole, upper, lower : PointName
         Pole, K and L or A and B.
@@ -108,7 +108,7 @@ class EnergyMass(Struct, frozen=True):
     work: tuple[PointName, ...]
     energies: tuple[PointName, ...]
     inertias: tuple[PointName, ...]
-    turned: tuple[PointName, ...]
+    diagonal: tuple[PointName, ...]
     second: tuple[PointName, ...]
     curve: tuple[PointName, ...]
     pole: PointName
@@ -123,11 +123,11 @@ class EnergyMass(Struct, frozen=True):
         return self.segment[0], self.segment[1]
 
 
-class _Found(Struct, frozen=True):
+class _MethodDrawing(Struct, frozen=True):
     """Parts of the diagrams that depend on the method: the attributes of `EnergyMass`."""
 
     axes: Mapping[str, DiagramAxes]
-    turned: Sequence[PointName]
+    diagonal: Sequence[PointName]
     second: Sequence[PointName]
     curve: Sequence[PointName]
     upper: PointName
@@ -150,12 +150,12 @@ def build(of: EnergyMassData, places: Places) -> EnergyMass:
     moments = _plotted(board, "M", over_M, at, of.moments, mu_M)
     middles: list[PointName] = []
     curve = moments
-    if of.way is Integration.MIDDLE:
+    if of.integration is Integration.MIDDLE:
         half = [x + step / 2.0 for x in at[:-1]]
         curve = middles = _plotted(board, "M'", over_M, half, of.middles, mu_M)
     pole = board.pole(over_M, of.pole)
     over_A = board.axes("A", places.work)
-    work = integrate(board, curve, over_M, over_A, at, pole=pole, way=of.way)
+    work = integrate(board, curve, over_M, over_A, at, pole=pole, method=of.integration)
     straight = b.join(work[0], work[-1])
 
     over_T = board.axes("T", places.energy)
@@ -165,7 +165,7 @@ def build(of: EnergyMassData, places: Places) -> EnergyMass:
         if k == count:
             energies.append(foot)
             continue
-        level = b.meet_lines(f"D {k}", straight, board.upright(over_A, at[k]))
+        level = b.intersect_lines(f"D {k}", straight, board.upright(over_A, at[k]))
         tail, head = (work[k], level) if of.drives else (level, work[k])
         energies.append(b.carry(f"T {k}", foot, tail, head))
 
@@ -186,7 +186,7 @@ def build(of: EnergyMassData, places: Places) -> EnergyMass:
         tuple(work),
         tuple(energies),
         tuple(inertias),
-        tuple(found.turned),
+        tuple(found.diagonal),
         tuple(found.second),
         tuple(found.curve),
         pole,
@@ -220,26 +220,26 @@ def _by_tangents(
     over_J: DiagramAxes,
     energies: Sequence[PointName],
     inertias: Sequence[PointName],
-) -> _Found:
+) -> _MethodDrawing:
     """Draw the energy-mass diagram and its tangents (Wittenbauer)."""
     b = board.b
     axes_E = board.axes("E", complex(places.mass.real, places.energy.imag))
-    corner = board.given("45", places.mass)
+    corner = board.take_point("45", places.mass)
     diagonal = b.at_angle(corner, None, board.known("45 deg", 45.0))
     turned, mass = [], []
     for k in range(len(energies) - 1):
-        spot = b.meet_lines(f"45 {k}", b.parallel(inertias[k], over_J.across), diagonal)
+        spot = b.intersect_lines(f"45 {k}", b.parallel(inertias[k], over_J.x_axis), diagonal)
         turned.append(spot)
-        upright = b.parallel(spot, axes_E.up)
-        level_line = b.parallel(energies[k], over_T.across)
-        mass.append(b.meet_lines(f"E {k}", level_line, upright))
+        upright = b.parallel(spot, axes_E.y_axis)
+        level_line = b.parallel(energies[k], over_T.x_axis)
+        mass.append(b.intersect_lines(f"E {k}", level_line, upright))
 
     ends = []
-    for letter, name, psi, k in zip("KL", ("max", "min"), of.psi, of.touched, strict=True):
-        tangent = b.at_angle(mass[k], axes_E.across, board.known(f"psi_{name}", psi))
-        ends.append(b.meet_lines(letter, tangent, axes_E.up))
-    kl = b.measure_along("KL", ends[1], ends[0], axes_E.up)
-    return _Found({"E": axes_E}, turned, (), mass, ends[0], ends[1], kl)
+    for letter, name, psi, k in zip("KL", ("max", "min"), of.psi, of.contacts, strict=True):
+        tangent = b.at_angle(mass[k], axes_E.x_axis, board.known(f"psi_{name}", psi))
+        ends.append(b.intersect_lines(letter, tangent, axes_E.y_axis))
+    kl = b.measure_along("KL", ends[1], ends[0], axes_E.y_axis)
+    return _MethodDrawing({"E": axes_E}, turned, (), mass, ends[0], ends[1], kl)
 
 
 def _by_differences(
@@ -250,7 +250,7 @@ def _by_differences(
     at: Sequence[float],
     energies: Sequence[PointName],
     mu_T: NumberName,
-) -> _Found:
+) -> _MethodDrawing:
     """Draw T_II and the rest of dT (Mertsalov)."""
     b = board.b
     over_II, over_I = board.axes("T_II", places.second), board.axes("T_I", places.first)
@@ -261,6 +261,6 @@ def _by_differences(
         if 0 < k < len(at) - 1:  # at its ends dT is zero
             spot = b.carry(f"T_I + T_II {k}", spot, board.abscissa(over_T, x), energies[k])
         rest.append(b.carry(f"T_I {k}", spot, second[k], board.abscissa(over_II, x)))
-    highest, lowest = (rest[k] for k in of.touched)
-    ab = b.measure_along("AB", lowest, highest, over_I.up)
-    return _Found({"T_II": over_II, "T_I": over_I}, (), second, rest, highest, lowest, ab)
+    highest, lowest = (rest[k] for k in of.contacts)
+    ab = b.measure_along("AB", lowest, highest, over_I.y_axis)
+    return _MethodDrawing({"T_II": over_II, "T_I": over_I}, (), second, rest, highest, lowest, ab)

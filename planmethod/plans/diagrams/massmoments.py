@@ -44,11 +44,13 @@ def build(vectors: Sequence[complex], per_mm: float, radius: float) -> MassMomen
     """
     board = DiagramBoard()
     b, mu = board.b, board.known("mu", per_mm)
-    corners = [board.given("P", 0j)]
+    corners = [board.take_point("P", 0j)]
     for k, vector in enumerate(vectors, 1):
         size = b.compute(f"y {k}", (board.known(f"mr {k}", abs(vector)), 1), (mu, -1))
         angle = board.known(f"angle {k}", float(np.degrees(np.angle(vector))))
-        corners.append(b.lay_off(f"P{k}", corners[-1], b.at_angle(corners[-1], None, angle), size))
+        corners.append(
+            b.lay_off_length(f"P{k}", corners[-1], b.at_angle(corners[-1], None, angle), size)
+        )
     closing = b.measure("closing", corners[-1], corners[0])
     moment = b.compute("mr", (closing, 1), (mu, 1))
     mass = b.compute("m", (moment, 1), (board.known("r", radius), -1))

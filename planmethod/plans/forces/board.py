@@ -20,7 +20,7 @@ from planmethod.plans.draft import Draft
 from planmethod.plans.forces.loads import Applied, LoadKind, Shift, free_letter, numbers_of
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, reaction_symbol
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.plans.motion.leads import Kinematics
+from planmethod.plans.motion.legs import Kinematics
 from planmethod.plans.segments import Ends, Segments
 from planmethod.problem.load_records import Dynamics
 
@@ -28,7 +28,7 @@ SCALE = FACTS[PlanKind.FORCE].scale
 PREFIX = FACTS[PlanKind.FORCE].prefix
 
 
-def plain_name(symbol: str) -> str:
+def symbol_letters(symbol: str) -> str:
     """Return the letters of a symbol in the form used in names of numbers: ``F_21``."""
     return symbol.replace("^{", "").replace("_{", "_").replace("}", "")
 
@@ -91,8 +91,10 @@ class ForceBoard:
     points of the plans and of the lever, in this order; ``loose`` are those of trial plans.
     """
 
-    def __init__(self, draft: Draft, kin: Kinematics, dynamics: Dynamics | None = None) -> None:
-        self.draft, self.kin, self.dynamics = draft, kin, dynamics
+    def __init__(
+        self, draft: Draft, kinematics: Kinematics, dynamics: Dynamics | None = None
+    ) -> None:
+        self.draft, self.kinematics, self.dynamics = draft, kinematics, dynamics
         self.data: dict[str, Number] = {}
         self.forces: dict[str, list[Force]] = {}
         self.couples: dict[str, list[NumberName]] = {}
@@ -110,7 +112,7 @@ class ForceBoard:
         self._gravity: NumberName | None = None
         self._counted = count(1)
         self.segments = Segments(draft.b, draft.b.known(SCALE), PREFIX)
-        self.accelerations = kin.acceleration.segments.on(draft.b)
+        self.accelerations = kinematics.acceleration.segments.on(draft.b)
         self.pole = self.start()
 
     def trial(self) -> ForceBoard:
@@ -140,7 +142,7 @@ class ForceBoard:
 
     def start(self) -> PointName:
         """Put down the first point of a force plan."""
-        point = self.draft.b.given(self.name("o"))
+        point = self.draft.b.take_point(self.name("o"))
         self.data[point] = 0j
         self.starts.append(point)
         return point
@@ -161,23 +163,23 @@ class ForceBoard:
                 self.symbols[couple] = one.name
                 self.given.append(GivenLoad(one, None, couple))
                 continue
-            link, place = self.kin.velocity.named[one.point]
+            link, place = self.kinematics.velocity.named[one.point]
             at = PointName(place)
             if one.kind is LoadKind.INERTIA:
                 ends = self._inertia(one, (link, place))
                 if one.link in single:
                     at = self._shifted(single[one.link], (link, place), ends)
             else:
-                ends = self._laid_off(one)
+                ends = self._lay_off_load(one)
             force = Force(at, *ends, one.name)
             self.forces.setdefault(one.link, []).append(force)
             self.given.append(GivenLoad(one, force, None))
 
     def _couple(self, one: Applied) -> NumberName:
-        if one.kind is LoadKind.INERTIA_COUPLE and one.link in self.kin.epsilon:
+        if one.kind is LoadKind.INERTIA_COUPLE and one.link in self.kinematics.epsilon:
             assert self.dynamics is not None
             inertia = self.known("J", self.dynamics.masses[one.link].inertia)
-            turning = self.kin.epsilon[one.link]
+            turning = self.kinematics.epsilon[one.link]
             return self.draft.b.compute(self.name("M"), (inertia, 1), (turning, 1), factor=-1.0)
         (size,) = numbers_of(one)
         couple = self.known("M", size)
@@ -193,7 +195,7 @@ class ForceBoard:
 
     def _inertia(self, one: Applied, at: tuple[str, str]) -> Ends:
         """Transfer the acceleration of the centre of mass, reversed: Φ = -m·a."""
-        motion, b, mass = self.kin.acceleration, self.draft.b, self._mass(one.link)
+        motion, b, mass = self.kinematics.acceleration, self.draft.b, self._mass(one.link)
         ends = (motion.pole, motion.point[at])
         powers = ((mass, 1), (self.accelerations.scale, 1), (self.scale, -1))
         times = b.compute(self.name("k"), *powers, factor=-1.0)
@@ -201,7 +203,7 @@ class ForceBoard:
         head = b.carry(self.name("F"), self.pole, *ends, length, times=times)
         acceleration = self.accelerations.value(*ends, f"a_{one.point}")
         product = ((mass, 1), (acceleration, 1))
-        size = self.segments.compute(plain_name(one.name), *product, size=True)
+        size = self.segments.compute(symbol_letters(one.name), *product, size=True)
         self.segments.values[self.pole, head] = size
         drawn = b.compute(self.name("l"), (size, 1), (self.scale, -1))
         self.segments.lengths[self.pole, head] = drawn
@@ -209,18 +211,18 @@ class ForceBoard:
 
     def _shifted(self, couple: Applied, at: tuple[str, str], force: Ends) -> PointName:
         """Lay h = M_Φ/Φ off from the centre of mass, across its acceleration, and note the end."""
-        motion, b, centre = self.kin.acceleration, self.draft.b, PointName(at[1])
+        motion, b, centre = self.kinematics.acceleration, self.draft.b, PointName(at[1])
         moment = self._couple(couple)
         over = ((self.segments.values[force], -1), (self.draft.mu_l, -1))
         length = b.compute(self.name("h"), (moment, 1), *over)
         # Φ is against the acceleration: to the left of that it turns as a positive M_Φ does.
         across = b.perpendicular(centre, b.join(motion.pole, motion.point[at]))
-        end = b.lay_off(self.name("T"), centre, across, length)
+        end = b.lay_off_length(self.name("T"), centre, across, length)
         letter = free_letter("T", couple.link, self.draft.problem)
         self.shifts[couple.link] = Shift(letter, couple, moment, centre, end, length)
         return end
 
-    def _laid_off(self, one: Applied) -> Ends:
+    def _lay_off_load(self, one: Applied) -> Ends:
         turned, size = numbers_of(one)
         angle = self.known("angle", turned)
         weighs = one.kind is LoadKind.WEIGHT
@@ -228,7 +230,7 @@ class ForceBoard:
         if one.steady is None:
             self.changing.append((one.name, (angle, newtons)))
         line = self.draft.b.at_angle(self.pole, None, angle)
-        return self.pole, self.segments.lay_off(self.name("F"), self.pole, line, newtons)
+        return self.pole, self.segments.lay_off_vector(self.name("F"), self.pole, line, newtons)
 
     def _weight(self, one: Applied) -> NumberName:
         """Compute a weight: G = m·g."""
@@ -236,7 +238,7 @@ class ForceBoard:
         if self._gravity is None:
             self._gravity = self.known("g", self.dynamics.gravity)
         powers = ((self._mass(one.link), 1), (self._gravity, 1))
-        return self.segments.compute(plain_name(one.name), *powers)
+        return self.segments.compute(symbol_letters(one.name), *powers)
 
     # Plans -----------------------------------------------------------------------------------
 
@@ -246,7 +248,7 @@ class ForceBoard:
         The laid off edges are put ``into`` a list.
         """
         for force in self.forces.get(link, ()):
-            end = self._carried(start, force.tail, force.head)
+            end = self._transfer_force(start, force.tail, force.head)
             self.segments.same(start, end, force.ends)
             into.append(Edge(force.symbol, link, force.at, start, end))
             start = end
@@ -255,13 +257,13 @@ class ForceBoard:
     def back(self, end: PointName, link: str, into: list[Edge]) -> PointName:
         """Return where the forces on a link start that end in a point."""
         for force in self.forces.get(link, ()):
-            start = self._carried(end, force.head, force.tail)
+            start = self._transfer_force(end, force.head, force.tail)
             self.segments.same(start, end, force.ends)
             into.insert(0, Edge(force.symbol, link, force.at, start, end))
             end = start
         return end
 
-    def _carried(self, origin: PointName, tail: PointName, head: PointName) -> PointName:
+    def _transfer_force(self, origin: PointName, tail: PointName, head: PointName) -> PointName:
         """Return the end of a force that is transferred to another point.
 
         A force from another plan is read there and laid off here.
@@ -302,13 +304,13 @@ class ForceBoard:
 
     def size(self, force: Force) -> NumberName:
         """Return the size of a force, N: computed, or read off the plan that found it."""
-        return self.segments.value(*force.ends, plain_name(force.symbol) or "F")
+        return self.segments.value(*force.ends, symbol_letters(force.symbol) or "F")
 
     def negative(self, number: NumberName) -> NumberName:
         """Return a number with the other sign."""
         return self.draft.b.compute(self.name("-"), (number, 1), factor=-1.0)
 
-    def across(
+    def lay_off_tangential(
         self,
         origin: PointName,
         line: LineName,
@@ -319,12 +321,12 @@ class ForceBoard:
         over = tuple((name, -power) for name, power in arm)
         value = self.draft.b.compute(self.name("t"), (moment, 1), *over)
         across = self.draft.b.perpendicular(origin, line)
-        return self.segments.lay_off(self.name("t"), origin, across, value)
+        return self.segments.lay_off_vector(self.name("t"), origin, across, value)
 
     def read_off(self, plan: ForcePlan) -> None:
         """Add a plan; every force that it finds is read."""
         for edge in plan.reactions:
-            self.segments.value(edge.tail, edge.head, plain_name(edge.symbol))
+            self.segments.value(edge.tail, edge.head, symbol_letters(edge.symbol))
         self.plans.append(plan)
 
     def called(self, link: str) -> str:

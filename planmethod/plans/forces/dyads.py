@@ -15,10 +15,10 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.steps import LineName, NumberName, PointName
-from planmethod.mechanism.groups import AssurGroup, Lead, triad_of
+from planmethod.mechanism.groups import AssurGroup, OuterLeg, triad_of
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.forces.board import Force, ForceBoard
-from planmethod.plans.forces.leads import (
+from planmethod.plans.forces.legs import (
     guide_edge,
     guide_reaction,
     of_guide,
@@ -37,11 +37,11 @@ from planmethod.plans.forces.polygons import (
     reaction_edge,
 )
 from planmethod.plans.forces.triads import triad_forces
-from planmethod.plans.model import Direction, Known, Relation
-from planmethod.plans.motion.leads import arm, track_direction
+from planmethod.plans.model import Direction, KnownParts, Relation
+from planmethod.plans.motion.legs import arm, track_direction
 from planmethod.plans.motion.position import (
     inner_point,
-    lead_point,
+    outer_point,
     rpr_parts,
     slide_of,
     split,
@@ -62,7 +62,7 @@ class Driving(Struct, frozen=True):
         The force on a slider, or at a point of a crank.
     moment : NumberName or None
         Moment on a crank, N·m, also if a force balances it.
-    along : (PointName, PointName) or None
+    direction : (PointName, PointName) or None
         A segment in the direction that the file gives the force at a point of a crank; None where
         that is across the crank.
     between : (str, str) or None
@@ -72,7 +72,7 @@ class Driving(Struct, frozen=True):
     balance: NumberName
     force: Force | None = None
     moment: NumberName | None = None
-    along: Ends | None = None
+    direction: Ends | None = None
     between: tuple[str, str] | None = None
 
 
@@ -101,7 +101,7 @@ def _middle_revolute(board: ForceBoard, group: AssurGroup) -> None:
     loaded = board.chain(between, two.link, loads[1])
     last, at_two = tangent(board, two, loaded, middle)
     lines = _unknown(board, one, start, middle), _unknown(board, two, last, middle)
-    end = board.draft.b.meet_lines(board.name("x"), *lines)
+    end = board.draft.b.intersect_lines(board.name("x"), *lines)
     held = ((end, first), (loaded, end))  # both outer reactions
     outer = (
         _outer(board, one, at_one, (end, start), (start, first), held[0]),
@@ -120,7 +120,7 @@ def _middle_revolute(board: ForceBoard, group: AssurGroup) -> None:
             guides.append(guide)
             moments.append(of_guide(guide, [*own, force], couples))
             continue
-        whole = parts.whole(*ends)
+        whole = parts.total(*ends)
         board.react(parts.at, lead.link, lead.to, Force(parts.at, *whole.ends))
         wholes.append(whole)
         moments.append(Moments((lead.link,), middle, tuple(own), couples, sides[1], arm=parts.arm))
@@ -138,25 +138,25 @@ def _middle_revolute(board: ForceBoard, group: AssurGroup) -> None:
     )
 
 
-def _unknown(board: ForceBoard, lead: Lead, through: PointName, middle: PointName) -> LineName:
+def _unknown(board: ForceBoard, leg: OuterLeg, through: PointName, middle: PointName) -> LineName:
     """Draw the line of an outer reaction's unknown part: along the link, across the guide."""
     b = board.draft.b
-    if isinstance(lead.joint, Revolute):
-        return b.parallel(through, arm(board.draft, lead.link, lead_point(lead), middle).line)
-    return b.perpendicular(through, board.draft.direction(slide_of(board.draft, lead.joint)))
+    if isinstance(leg.joint, Revolute):
+        return b.parallel(through, arm(board.draft, leg.link, outer_point(leg), middle).line)
+    return b.perpendicular(through, board.draft.direction(slide_of(board.draft, leg.joint)))
 
 
 def _outer(
     board: ForceBoard,
-    lead: Lead,
+    leg: OuterLeg,
     parts: Components | None,
     normal: Ends,
     tangential: Ends,
-    whole: Ends,
+    total: Ends,
 ) -> tuple[Edge, ...]:
     """Return the sides of an outer reaction: normal and tangential, or that across the guide."""
     if parts is None:
-        return (guide_edge(board, lead, *whole),)
+        return (guide_edge(board, leg, *total),)
     return parts.normal(*normal), parts.tangential(*tangential)
 
 
@@ -164,16 +164,16 @@ def _swinging(board: ForceBoard, group: AssurGroup) -> None:
     """RPR: the moment of the whole group about the host's joint, the slider's plan closes it."""
     b = board.draft.b
     slide, host, slider = rpr_parts(board.draft, group)
-    at, pivot = PointName(lead_point(slider)), PointName(lead_point(host))
+    at, pivot = PointName(outer_point(slider)), PointName(outer_point(host))
     line = b.join(at, pivot)
     apart = board.draft.measured(at, pivot)
     moment = board.moment((slider.link, host.link), pivot)
     start = board.start()
     over = ((apart, 1), (board.draft.mu_l, 1))
-    first = board.across(start, line, moment, over)
+    first = board.lay_off_tangential(start, line, moment, over)
     loads: tuple[list[Edge], list[Edge]] = ([], [])
     between = board.chain(first, slider.link, loads[0])
-    end = b.meet_lines(
+    end = b.intersect_lines(
         board.name("x"),
         b.parallel(start, line),
         b.perpendicular(between, board.draft.direction(slide)),
@@ -181,9 +181,9 @@ def _swinging(board: ForceBoard, group: AssurGroup) -> None:
     loaded = board.chain(between, host.link, loads[1])
     hinged = Components(slider, board.called(slider.to), at, (str(at), str(pivot)), over)
     two = (hinged.normal(end, start), hinged.tangential(start, first))
-    whole = hinged.whole(end, first)
+    whole = hinged.total(end, first)
     stands = reaction_edge(host.link, board.called(host.to), pivot, loaded, end)
-    direction = track_direction(slide, board.draft.problem, turned=True)
+    direction = track_direction(slide, board.draft.problem, perpendicular=True)
     inner = reaction_edge(slider.link, host.link, at, between, end, direction)
     known = board.couples_on(*group.links)
     board.react(at, slider.link, slider.to, Force(at, end, first))
@@ -221,11 +221,11 @@ def _sliding(board: ForceBoard, group: AssurGroup) -> None:
     b = board.draft.b
     revolute, prismatic = split(group)
     outer, inner = slide_of(board.draft, prismatic.joint), slide_of(board.draft, group.inner[0])
-    at = PointName(lead_point(revolute))
+    at = PointName(outer_point(revolute))
     start = board.start()
     loads: tuple[list[Edge], list[Edge]] = ([], [])
     loaded = board.chain(start, prismatic.link, loads[1])
-    end = b.meet_lines(
+    end = b.intersect_lines(
         board.name("x"),
         b.perpendicular(start, board.draft.direction(inner)),
         b.perpendicular(loaded, board.draft.direction(outer)),
@@ -236,7 +236,7 @@ def _sliding(board: ForceBoard, group: AssurGroup) -> None:
     whole = board.moment((revolute.link, prismatic.link), pin, Force(at, end, first))
     across = guide_edge(board, prismatic, loaded, end)
     hinge = reaction_edge(revolute.link, board.called(revolute.to), at, end, first)
-    direction = track_direction(inner, board.draft.problem, turned=True)
+    direction = track_direction(inner, board.draft.problem, perpendicular=True)
     between = reaction_edge(prismatic.link, revolute.link, at, end, start, direction)
     known, of_one = board.couples_on(*group.links), board.couples_on(revolute.link)
     board.react(at, revolute.link, revolute.to, Force(at, end, first))
@@ -275,11 +275,13 @@ def unbalanced(board: ForceBoard) -> NumberName:
     b, start = board.draft.b, board.start()
     loaded = board.chain(start, drive.link, [])
     guide = board.draft.direction(board.draft.problem.slides[drive.link])
-    end = b.meet_lines(board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide))
-    return board.segments.read_along(end, loaded, guide, "F_x")
+    end = b.intersect_lines(
+        board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide)
+    )
+    return board.segments.read_signed(end, loaded, guide, "F_x")
 
 
-def stand_forces(board: ForceBoard) -> NumberName:
+def resting_driver_forces(board: ForceBoard) -> NumberName:
     """Find the reaction of the frame on a driving link that its forces leave in equilibrium.
 
     Return the residual of the plans, N·m, or N along its guide: zero if they are exact.
@@ -299,11 +301,11 @@ def stand_forces(board: ForceBoard) -> NumberName:
         slide = problem.slides[drive.link]
         at, guide = PointName(slide.pin), board.draft.direction(slide)
         lines = b.parallel(loaded, guide), b.perpendicular(start, guide)
-        end = b.meet_lines(board.name("x"), *lines)
-        left = board.segments.read_along(end, loaded, guide, "F_x")
+        end = b.intersect_lines(board.name("x"), *lines)
+        left = board.segments.read_signed(end, loaded, guide, "F_x")
         couple = board.negative(board.moment(links, at))
         held = board.react_guide(slide.pin, drive.link, FRAME, Force(at, end, start), couple)
-        direction = track_direction(slide, problem, turned=True)
+        direction = track_direction(slide, problem, perpendicular=True)
         stands = reaction_edge(drive.link, called, at, end, start, direction)
         moments, known = of_guide(held, loads, known), (*known, held)
     polygon = (*loads, stands)
@@ -340,15 +342,17 @@ def drive_forces(board: ForceBoard) -> Driving:
         return Driving(moment, moment=moment)
     slide = board.draft.problem.slides[drive.link]
     guide, pin = board.draft.direction(slide), PointName(slide.pin)
-    end = b.meet_lines(board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide))
+    end = b.intersect_lines(
+        board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide)
+    )
     couple = board.negative(board.moment((drive.link,), pin))
     held = board.react_guide(slide.pin, drive.link, FRAME, Force(pin, end, start), couple)
     problem = board.draft.problem
     symbol, direction = drive.balancing.symbol, track_direction(slide, problem)
-    drives = Edge(symbol, drive.link, pin, loaded, end, Known.ONE, direction)
-    direction = track_direction(slide, problem, turned=True)
+    drives = Edge(symbol, drive.link, pin, loaded, end, KnownParts.ONE, direction)
+    direction = track_direction(slide, problem, perpendicular=True)
     presses = reaction_edge(drive.link, board.called(FRAME), pin, end, start, direction)
-    balance = board.segments.read_along(loaded, end, guide, "F_dr")
+    balance = board.segments.read_signed(loaded, end, guide, "F_dr")
     board.read_off(
         ForcePlan(
             links,
@@ -380,21 +384,21 @@ def _pushed(
     if task.angle is None:
         length = lever.length
         line = b.perpendicular(loaded, lever.line)
-        direction = Direction(Relation.ACROSS, (str(pivot), str(at)))
+        direction = Direction(Relation.PERPENDICULAR, (str(pivot), str(at)))
     else:
         turned, one = board.known("angle", task.angle), board.known("1", 1.0)
         action = b.at_angle(at, None, turned)
         # Its intersection with the crank is the point itself; the crank's own line has no arm.
-        met = b.meet_lines(board.name("x"), lever.line, action)
+        met = b.intersect_lines(board.name("x"), lever.line, action)
         board.draft.letters[met] = task.at
         way = b.at_angle(board.pole, None, turned)
-        along = board.pole, b.lay_off(board.name("u"), board.pole, way, one)
+        along = board.pole, b.lay_off_length(board.name("u"), board.pole, way, one)
         measured = b.measure_arm(board.name("h"), pivot, met, *along)
         length, line = ((measured, 1), (board.draft.mu_l, 1)), b.at_angle(loaded, None, turned)
         direction = Direction(Relation.ANGLED, angle=task.angle)
     over = tuple((name, -power) for name, power in length)
     value = board.segments.compute("F_dr", (moment, 1), *over)
-    end = board.segments.lay_off(board.name("F"), loaded, line, value)
+    end = board.segments.lay_off_vector(board.name("F"), loaded, line, value)
     board.react(str(pivot), drive.link, FRAME, Force(pivot, end, start))
     pushes = Edge(drive.balancing.symbol, drive.link, at, loaded, end, direction=direction)
     stands = reaction_edge(drive.link, board.called(FRAME), pivot, end, start)

@@ -15,7 +15,7 @@ from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import ForceBoard, GivenLoad
 from planmethod.plans.forces.dyads import Driving
 from planmethod.plans.forces.loads import Shift
-from planmethod.plans.motion.leads import arm
+from planmethod.plans.motion.legs import arm
 
 
 class Lever(Struct, frozen=True):
@@ -48,7 +48,7 @@ class Lever(Struct, frozen=True):
 class LeverLoad(Struct, frozen=True):
     """Load on the lever; for a force its point of application, and its arm about the pole, mm."""
 
-    given: GivenLoad
+    load: GivenLoad
     at: PointName | None = None
     arm: NumberName | None = None
 
@@ -56,17 +56,17 @@ class LeverLoad(Struct, frozen=True):
 class Hung(Struct, frozen=True):
     """The given loads on the turned velocity plan.
 
-    ``whole`` is their power, W.
+    ``power`` is their power, W.
     """
 
     pole: PointName
-    whole: NumberName
+    power: NumberName
     loads: tuple[LeverLoad, ...]
 
 
 def hang_loads(board: ForceBoard) -> Hung | None:
     """Apply the given loads to the turned velocity plan; None if the driver is at rest."""
-    b, motion, drive = board.draft.b, board.kin.velocity, board.draft.problem.drive
+    b, motion, drive = board.draft.b, board.kinematics.velocity, board.draft.problem.drive
     if drive.rate == 0:
         return None
     pole = board.start()
@@ -75,8 +75,8 @@ def hang_loads(board: ForceBoard) -> Hung | None:
     for given in board.given:
         link = given.applied.link
         if given.couple is not None:
-            if link in board.kin.omega:
-                turning = board.kin.omega[link]
+            if link in board.kinematics.omega:
+                turning = board.kinematics.omega[link]
                 powers.append(b.compute(board.name("P"), (given.couple, 1), (turning, 1)))
                 loads.append(LeverLoad(given))
             continue
@@ -84,10 +84,10 @@ def hang_loads(board: ForceBoard) -> Hung | None:
         at = motion.point[motion.named[given.applied.point]]
         if at == motion.pole:
             continue
-        turned = b.carry(board.name("z"), pole, motion.pole, at, turned=True)
+        turned = b.carry(board.name("z"), pole, motion.pole, at, rotated=True)
         shift = board.shifts.get(link)
         if shift is not None and given.force.at == shift.at:
-            turned = _beside(board, shift, turned)
+            turned = _shifted_point(board, shift, turned)
         arm = b.measure_arm(board.name("h"), pole, turned, *given.force.ends)
         loads.append(LeverLoad(given, turned, arm))
         # The plan is turned by +90°: a moment on it is the power with the other sign.
@@ -101,7 +101,7 @@ def plan_lever(board: ForceBoard, driving: Driving) -> Lever | None:
     hung, b, drive = hang_loads(board), board.draft.b, board.draft.problem.drive
     if hung is None:
         return None
-    pole, whole, rate = hung.pole, hung.whole, NumberName(drive.coordinate.rates[0])
+    pole, whole, rate = hung.pole, hung.power, NumberName(drive.coordinate.rates[0])
     balance = moment = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
     measured: NumberName | None = None
     if drive.pivot is not None and driving.force is not None:
@@ -115,15 +115,15 @@ def weigh_actuator(board: ForceBoard, hung: Hung, ends: tuple[str, str]) -> Leve
 
     The force plans have it from here: their difference is not known yet.
     """
-    b, motion = board.draft.b, board.kin.velocity
+    b, motion = board.draft.b, board.kinematics.velocity
     one, two = (
         b.carry(
-            board.name("z"), hung.pole, motion.pole, motion.point[motion.named[end]], turned=True
+            board.name("z"), hung.pole, motion.pole, motion.point[motion.named[end]], rotated=True
         )
         for end in ends
     )
     arm = b.measure_arm(board.name("h"), one, two, *map(PointName, ends))
-    powers = ((hung.whole, 1), (arm, -1), (motion.segments.scale, -1))
+    powers = ((hung.power, 1), (arm, -1), (motion.segments.scale, -1))
     balance = board.segments.compute("F_lever", *powers)
     return Lever(hung.pole, balance, balance, hung.loads, arm=arm)
 
@@ -133,36 +133,36 @@ def _of_force(
     driving: Driving,
     pivot: str,
     pole: PointName,
-    whole: NumberName,
+    total_power: NumberName,
     moment: NumberName,
 ) -> tuple[NumberName, NumberName | None]:
     """Return the force at a point of the crank that balances the lever, and its arm if measured.
 
     Across the crank that is the velocity of its point, which was laid off.
     """
-    b, motion, drive = board.draft.b, board.kin.velocity, board.draft.problem.drive
+    b, motion, drive = board.draft.b, board.kinematics.velocity, board.draft.problem.drive
     assert driving.force is not None
     at = driving.force.at
-    if driving.along is None:
+    if driving.direction is None:
         length = arm(board.draft, drive.link, pivot, str(at)).length
         over = ((name, -power) for name, power in length)
         return b.compute(board.name("F"), (moment, 1), *over), None
     hung = b.carry(
-        board.name("z"), pole, motion.pole, motion.point[drive.link, str(at)], turned=True
+        board.name("z"), pole, motion.pole, motion.point[drive.link, str(at)], rotated=True
     )
-    measured = b.measure_arm(board.name("h"), pole, hung, *driving.along)
-    powers = ((whole, 1), (measured, -1), (motion.segments.scale, -1))
+    measured = b.measure_arm(board.name("h"), pole, hung, *driving.direction)
+    powers = ((total_power, 1), (measured, -1), (motion.segments.scale, -1))
     return b.compute(board.name("F"), *powers), measured
 
 
-def _beside(board: ForceBoard, shift: Shift, centre: PointName) -> PointName:
+def _shifted_point(board: ForceBoard, shift: Shift, centre: PointName) -> PointName:
     """Return the point t of a shifted force: ω·h off the centre of mass, parallel to h.
 
     On the turned plan the relative velocity lies along the link, against it where that goes
     counter-clockwise.
     """
-    b, motion = board.draft.b, board.kin.velocity
-    turning = board.kin.omega[shift.link]
+    b, motion = board.draft.b, board.kinematics.velocity
+    turning = board.kinematics.omega[shift.link]
     powers = ((turning, 1), (board.draft.mu_l, 1), (motion.segments.scale, -1))
     times = b.compute(board.name("k"), *powers, factor=-1.0)
     return b.carry(board.name("t"), centre, shift.centre, shift.at, shift.length, times=times)

@@ -12,15 +12,15 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.mechanism.groups import Lead
-from planmethod.plans.model import Direction, Known, Relation
+from planmethod.mechanism.groups import OuterLeg
+from planmethod.plans.model import Direction, KnownParts, Relation
 from planmethod.plans.segments import Ends
 
 
-class Share(Enum):
+class Component(Enum):
     """Component of a force that a segment shows (составляющая)."""
 
-    WHOLE = "whole"
+    TOTAL = "whole"
     NORMAL = "normal"  # along the link (нормальная)
     TANGENTIAL = "tangential"  # across the link (касательная)
 
@@ -39,7 +39,7 @@ class Edge(Struct, frozen=True):
         Where on the position plan.
     tail, head : PointName
         Ends on the force plan.
-    known : Known
+    known : KnownParts
         Before the plan is drawn.
     direction : Direction or None
         Where only that is known: ``∥ BC``, ``⊥ y-y``.
@@ -50,9 +50,9 @@ class Edge(Struct, frozen=True):
     at: PointName
     tail: PointName
     head: PointName
-    known: Known = Known.BOTH
+    known: KnownParts = KnownParts.BOTH
     direction: Direction | None = None
-    share: Share = Share.WHOLE
+    component: Component = Component.TOTAL
 
     @property
     def ends(self) -> Ends:
@@ -143,17 +143,19 @@ class ForcePlan(Struct, frozen=True):
     @property
     def reactions(self) -> tuple[Edge, ...]:
         """The forces that the plan finds."""
-        found = [edge for edge in self.polygon if edge.known is not Known.BOTH]
+        found = [edge for edge in self.polygon if edge.known is not KnownParts.BOTH]
         return (*found, *self.wholes, *self.inner)
 
 
-def reaction_symbol(on: str, by: str, share: Share = Share.WHOLE, letter: str = "F") -> str:
+def reaction_symbol(
+    on: str, by: str, component: Component = Component.TOTAL, letter: str = "F"
+) -> str:
     """Return the letter of a reaction on a link, exerted by another: ``F_{21}``, ``F^{n}_{21}``.
 
     Links are as they are printed (`Mechanism.called`).
     """
     index = f"{on},{by}" if len(on) > 1 or len(by) > 1 else f"{on}{by}"
-    above = {Share.WHOLE: "", Share.NORMAL: "^{n}", Share.TANGENTIAL: "^{τ}"}[share]
+    above = {Component.TOTAL: "", Component.NORMAL: "^{n}", Component.TANGENTIAL: "^{τ}"}[component]
     return f"{letter}{above}_{{{index}}}"
 
 
@@ -164,28 +166,30 @@ class Components(Struct, frozen=True):
     the joint to the middle one, ``arm`` the factors of its length, m.
     """
 
-    lead: Lead
+    leg: OuterLeg
     by: str
     at: PointName
     line: tuple[str, str]
     arm: tuple[tuple[NumberName, int], ...]
 
-    def _edge(self, tail: PointName, head: PointName, share: Share) -> Edge:
-        symbol = reaction_symbol(self.lead.link, self.by, share)
-        return Edge(symbol, self.lead.link, self.at, tail, head, share=share)
+    def _edge(self, tail: PointName, head: PointName, component: Component) -> Edge:
+        symbol = reaction_symbol(self.leg.link, self.by, component)
+        return Edge(symbol, self.leg.link, self.at, tail, head, component=component)
 
     def normal(self, tail: PointName, head: PointName) -> Edge:
         """Return the share along the link, which the plan finds."""
-        edge = self._edge(tail, head, Share.NORMAL)
-        return replace(edge, known=Known.ONE, direction=Direction(Relation.ALONG, self.line))
+        edge = self._edge(tail, head, Component.NORMAL)
+        return replace(
+            edge, known=KnownParts.ONE, direction=Direction(Relation.PARALLEL, self.line)
+        )
 
     def tangential(self, tail: PointName, head: PointName) -> Edge:
         """Return the share across the link, which moments have found."""
-        return self._edge(tail, head, Share.TANGENTIAL)
+        return self._edge(tail, head, Component.TANGENTIAL)
 
-    def whole(self, tail: PointName, head: PointName) -> Edge:
+    def total(self, tail: PointName, head: PointName) -> Edge:
         """Return the reaction itself."""
-        return replace(self._edge(tail, head, Share.WHOLE), known=Known.NOTHING)
+        return replace(self._edge(tail, head, Component.TOTAL), known=KnownParts.NONE)
 
 
 def reaction_edge(
@@ -200,13 +204,13 @@ def reaction_edge(
 
     ``by`` is the printed name of a link.
     """
-    known = Known.NOTHING if direction is None else Known.ONE
+    known = KnownParts.NONE if direction is None else KnownParts.ONE
     return Edge(reaction_symbol(on, by), on, at, tail, head, known, direction)
 
 
 def as_known(edge: Edge) -> Edge:
     """Return a force that an equation before has found."""
-    return replace(edge, known=Known.BOTH, direction=None)
+    return replace(edge, known=KnownParts.BOTH, direction=None)
 
 
 def back(edge: Edge, on: str) -> Edge:

@@ -17,7 +17,7 @@ from planmethod.construct.steps import NumberName, PointName
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.forces.board import Force, ForceBoard
-from planmethod.plans.forces.dyads import Driving, group_forces, stand_forces, unbalanced
+from planmethod.plans.forces.dyads import Driving, group_forces, resting_driver_forces, unbalanced
 from planmethod.plans.forces.lever import Lever, hang_loads, weigh_actuator
 from planmethod.problem.model import Problem
 
@@ -29,12 +29,12 @@ class Trial(Struct, frozen=True):
     """Effect of a trial force on the driving link, where there is no lever.
 
     ``without`` is the load left there without it, N·m or N; the ``tried`` force, N, alone gives
-    ``given``.
+    ``effect``.
     """
 
     without: NumberName
     tried: NumberName
-    given: NumberName
+    effect: NumberName
 
 
 class Thrust(Struct, frozen=True):
@@ -112,7 +112,7 @@ def find_thrust(board: ForceBoard, groups: Iterable[AssurGroup], *, hung: bool) 
     tried = board.draft.b.compute(board.name("F"), (board.scale, 1), factor=_TRIED_MM)
     _push(alone, ends, links, tried)
     trial = Trial(without, tried, _left(alone, groups))
-    share = ((trial.without, 1), (trial.given, -1), (tried, 1))
+    share = ((trial.without, 1), (trial.effect, -1), (tried, 1))
     value = board.segments.compute("F_dr", *share, factor=-1.0)
     return Thrust(value, ends, links, *_push(board, ends, links, value), trial=trial)
 
@@ -123,10 +123,13 @@ def close_thrust(board: ForceBoard, thrust: Thrust) -> tuple[Driving, Lever | No
     The actuator makes up for the power of the residual.
     """
     b, drive, value = board.draft.b, board.draft.problem.drive, thrust.value
-    left, lever = stand_forces(board), thrust.lever
+    left, lever = resting_driver_forces(board), thrust.lever
     if lever is not None:
         assert lever.arm is not None
-        rate, per_mm = NumberName(drive.coordinate.rates[0]), board.kin.velocity.segments.scale
+        rate, per_mm = (
+            NumberName(drive.coordinate.rates[0]),
+            board.kinematics.velocity.segments.scale,
+        )
         missing = b.compute(board.name("F"), (left, 1), (rate, 1), (lever.arm, -1), (per_mm, -1))
         value = b.total(board.name("F"), thrust.value, missing)
         board.starts.append(lever.pole)
@@ -147,7 +150,7 @@ def _push(
     """Push two bodies apart by an actuator; return the forces on moving ones and the second one."""
     b, (one, two) = board.draft.b, map(PointName, ends)
     line = b.parallel(board.pole, b.join(one, two))
-    head = board.segments.lay_off(board.name("F"), board.pole, line, value)
+    head = board.segments.lay_off_vector(board.name("F"), board.pole, line, value)
     # It may lie against the line: the moment needs its size.
     for table in (board.segments.values, board.segments.lengths):
         table[board.pole, head] = b.compute(

@@ -16,9 +16,9 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import (
     FACTS,
-    STILL,
+    ZERO_VECTOR,
     Direction,
-    Known,
+    KnownParts,
     PlanKind,
     Vector,
     VectorEquation,
@@ -81,11 +81,11 @@ class MotionBoard(Struct):
     @classmethod
     def start(cls, kind: PlanKind, draft: Draft) -> MotionBoard:
         """Put the pole down: the fixed points are there."""
-        pole = draft.b.given(FACTS[kind].prefix + "0")
+        pole = draft.b.take_point(FACTS[kind].prefix + "0")
         draft.places[pole] = 0j
         motion = cls(kind, draft, pole, Segments(draft.b, draft.b.known(FACTS[kind].scale)))
         for point in draft.problem.bodies[FRAME].points:
-            motion.put(FRAME, point, pole, show=bool(motion.sharers(point, FRAME)))
+            motion.add_point(FRAME, point, pole, show=bool(motion.sharers(point, FRAME)))
         return motion
 
     def name(self, point: str) -> str:
@@ -98,7 +98,7 @@ class MotionBoard(Struct):
         """Return the other links that a point is a revolute joint of."""
         return [other for other in self.draft.links_of.get(point, ()) if other != link]
 
-    def put(
+    def add_point(
         self, link: str, place: str, at: PointName, *, name: str | None = None, show: bool = True
     ) -> PointName:
         """Note where a link's point is on the plan; a shared joint is noted for all its links."""
@@ -154,14 +154,14 @@ class MotionBoard(Struct):
             self.vectors[drawn] = vector
         return vector
 
-    def absolute(self, name: str, at: PointName, known: Known = Known.BOTH) -> Vector:
+    def absolute(self, name: str, at: PointName, known: KnownParts = KnownParts.BOTH) -> Vector:
         """Return the vector of a point from the pole."""
-        direction = STILL if at == self.pole else None
+        direction = ZERO_VECTOR if at == self.pole else None
         symbol = f"{FACTS[self.kind].letter}_{{{name}}}"
         return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, direction))
 
 
-def plain_letter(motion: MotionBoard, point: PointName) -> str:
+def plan_letter(motion: MotionBoard, point: PointName) -> str:
     """Return the letter of a plan point without markup: ``b3``, ``n_CB``, ``p``."""
     if point == motion.pole:
         return pole_letter(motion.draft.problem, motion.kind)
@@ -199,4 +199,4 @@ class Ray(Struct, frozen=True):
     def close(self, motion: MotionBoard, head: PointName) -> Vector:
         """Return the unknown component, its end being found."""
         symbol, kind, direction = self.unknown
-        return motion.add(Vector(symbol, kind, self.start, head, Known.ONE, direction))
+        return motion.add(Vector(symbol, kind, self.start, head, KnownParts.ONE, direction))

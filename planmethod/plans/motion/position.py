@@ -5,15 +5,15 @@ from __future__ import annotations
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.construct.steps import Hold, Leg, LineName, NumberName, Place, PointName
+from planmethod.construct.steps import Leg, LineName, NumberName, Place, PointName, TriadPose
 from planmethod.errors import AssemblyError, StructureError
-from planmethod.languages import say
-from planmethod.mechanism.groups import AssurGroup, Lead, Legs, triad_of
+from planmethod.languages import translate
+from planmethod.mechanism.groups import AssurGroup, OuterLeg, Triad, triad_of
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import analyse
-from planmethod.plans.closing import Closing, Start
+from planmethod.plans.assembly_mode import AssemblyMode, Start
 from planmethod.plans.dimensions import Dimension, DimensionKind
-from planmethod.plans.draft import TINY, Draft, Special, cis, degrees, side, way
+from planmethod.plans.draft import TINY, Draft, Special, cis, degrees, line_sense, side
 from planmethod.problem.model import Problem, Slide
 
 EQUAL = 1e-9
@@ -26,7 +26,7 @@ def slide_of(draft: Draft, joint: Prismatic | Revolute) -> Slide:
     return draft.problem.slides[joint.slider]
 
 
-def has_two_closings(group: AssurGroup) -> bool:
+def has_two_modes(group: AssurGroup) -> bool:
     """Return whether the same links can be joined in two ways, so that a rule must choose."""
     return group.signature in ("RRR", "RRP", "RPR")
 
@@ -35,7 +35,7 @@ def place_frame(draft: Draft) -> None:
     """Take the fixed points as given."""
     for point, place in draft.problem.bodies[FRAME].points.items():
         draft.places[point] = place - draft.origin
-        draft.b.given(point)
+        draft.b.take_point(point)
         draft.mark_placed(point)
 
 
@@ -49,9 +49,9 @@ def place_driver(draft: Draft) -> None:
         return
     slide = draft.problem.slides[drive.link]
     s = draft.b.compute("|s|", (draft.b.known("s"), 1), (draft.mu_l, -1))
-    draft.dimensions[s] = Dimension(DimensionKind.WAY, (slide.pin,), "s")
+    draft.dimensions[s] = Dimension(DimensionKind.TRAVEL, (slide.pin,), "s")
     track = draft.path(slide, FRAME, slide.pin)
-    draft.b.lay_off(slide.pin, track.origin, track.line, s)
+    draft.b.lay_off_length(slide.pin, track.origin, track.line, s)
     draft.mark_placed(slide.pin)
     draft.turn_with(slide, FRAME, PointName(slide.pin))
     draft.place_rest(drive.link)
@@ -65,7 +65,7 @@ def place_group(draft: Draft, group: AssurGroup) -> None:
     AssemblyError
         The group is neither: it is recognised, but these steps cannot build it.
     """
-    closing = draft.choice.get(group.links, Closing())
+    closing = draft.choice.get(group.links, AssemblyMode())
     triad = triad_of(group)
     if triad is None and group.class_number != 2:
         raise AssemblyError(*_refusal(draft.problem, group))
@@ -97,21 +97,21 @@ def inner_point(group: AssurGroup) -> str:
     return joint.point
 
 
-def lead_point(lead: Lead) -> str:
+def outer_point(leg: OuterLeg) -> str:
     """Return the point of a revolute outer joint."""
-    assert isinstance(lead.joint, Revolute)
-    return lead.joint.point
+    assert isinstance(leg.joint, Revolute)
+    return leg.joint.point
 
 
-def split(group: AssurGroup) -> tuple[Lead, Lead]:
+def split(group: AssurGroup) -> tuple[OuterLeg, OuterLeg]:
     """Return the legs with the revolute one first (a mixed dyad), else in the group's order."""
-    first, second = group.leads
+    first, second = group.legs
     if isinstance(first.joint, Prismatic) and isinstance(second.joint, Revolute):
         return second, first
     return first, second
 
 
-def base_points(problem: Problem, triad: Legs) -> list[str]:
+def base_points(problem: Problem, triad: Triad) -> list[str]:
     """Return the points of a base link that locate it: its hinges first, two at least."""
     body = problem.bodies[triad.base].points
     hinges = [joint.point for _, joint in triad.legs if isinstance(joint, Revolute)]
@@ -126,7 +126,7 @@ def base_points(problem: Problem, triad: Legs) -> list[str]:
     return list(dict.fromkeys([found[0], apart, *hinges]))
 
 
-def _place_triad(draft: Draft, triad: Legs, closing: Closing) -> None:
+def _place_triad(draft: Draft, triad: Triad, mode: AssemblyMode) -> None:
     """Hold the base link by all three legs at once; then the legs lie between two points each."""
     base = triad.base
     body, points = draft.problem.bodies[base].points, base_points(draft.problem, triad)
@@ -149,7 +149,7 @@ def _place_triad(draft: Draft, triad: Legs, closing: Closing) -> None:
     legs: list[Leg] = []
     for lead, joint in triad.legs:
         if isinstance(joint, Prismatic):
-            pin, slide = lead_point(lead), slide_of(draft, joint)
+            pin, slide = outer_point(lead), slide_of(draft, joint)
             z = draft.problem.bodies[lead.link].points[pin]
             along = cis(slide.angle)
             if slide.host == base:
@@ -164,22 +164,22 @@ def _place_triad(draft: Draft, triad: Legs, closing: Closing) -> None:
             track = draft.path(slide_of(draft, lead.joint), lead.to, joint.point)
             legs.append(Leg(at(joint.point), line=track.line))
         else:
-            radius = draft.drawn(draft.length(lead.link, lead_point(lead), joint.point))
-            centre = PointName(lead_point(lead))
+            radius = draft.drawn(draft.length(lead.link, outer_point(lead), joint.point))
+            centre = PointName(outer_point(lead))
             legs.append(Leg(at(joint.point), centre=centre, radius=radius))
     one, two, three = legs
-    x, y, turn = (_start(draft, base, what, closing) for what in ("x", "y", "turn"))
+    x, y, turn = (_start(draft, base, what, mode) for what in ("x", "y", "turn"))
     x, y = (draft.b.compute(f"|{name}|", (name, 1), (draft.mu_l, -1)) for name in (x, y))
-    axis = draft.b.hold(axis_of_link(base), (one, two, three), (x, y, turn))
+    axis = draft.b.pose_triad(axis_of_link(base), (one, two, three), (x, y, turn))
     for point in points:
         draft.mark_placed(draft.b.spot(point, axis, at(point)))
     for lead, joint in triad.legs:
         if isinstance(joint, Prismatic):
-            draft.turn_with(slide_of(draft, joint), base, PointName(lead_point(lead)))
+            draft.turn_with(slide_of(draft, joint), base, PointName(outer_point(lead)))
         elif isinstance(lead.joint, Prismatic):
             draft.turn_with(slide_of(draft, lead.joint), lead.to, PointName(joint.point))
-    if closing.followed.places != Closing().followed.places:
-        _special(draft, triad, closing.third)
+    if mode.tracked.places != AssemblyMode().tracked.places:
+        _special(draft, triad, mode.third)
 
 
 def axis_of_link(link: str) -> str:
@@ -187,18 +187,18 @@ def axis_of_link(link: str) -> str:
     return f"axis {link}"
 
 
-def link_of_axis(step: Hold) -> str:
+def link_of_axis(step: TriadPose) -> str:
     """Return the base link that a step holds."""
     return step.out.removeprefix("axis ")
 
 
-def _start(draft: Draft, base: str, what: str, closing: Closing) -> NumberName:
-    name = f"start_{what}_{base}"
-    draft.branches[name] = Start(closing.followed, what)
+def _start(draft: Draft, base: str, coordinate: str, mode: AssemblyMode) -> NumberName:
+    name = f"start_{coordinate}_{base}"
+    draft.branches[name] = Start(mode.tracked, coordinate)
     return draft.b.known(name)
 
 
-def _special(draft: Draft, triad: Legs, third: int) -> None:
+def _special(draft: Draft, triad: Triad, third: int) -> None:
     """Draw the special point: where the lines of two legs meet, forces along which hold the base.
 
     A leg with a guide holds across it.
@@ -212,40 +212,40 @@ def _special(draft: Draft, triad: Legs, third: int) -> None:
     taken = {p for body in draft.problem.bodies.values() for p in body.points}
     taken |= {special.point for special in draft.special.values()}
     free = (c for c in "SQKWUZVXY" if not taken & {c, *(c + digit for digit in "123")})
-    point = draft.b.meet_lines(f"{next(free, 'Ω')}{3 - third}", first, second)
+    point = draft.b.intersect_lines(f"{next(free, 'Ω')}{3 - third}", first, second)
     draft.special[triad.base] = Special(point, lines, third)
 
 
-def leg_line(draft: Draft, lead: Lead, joint: Prismatic | Revolute) -> LineName:
+def leg_line(draft: Draft, leg: OuterLeg, joint: Prismatic | Revolute) -> LineName:
     """Return the line of force of an unloaded leg on the base link."""
     if isinstance(joint, Prismatic):
         guide = draft.direction(slide_of(draft, joint))
-        return draft.b.perpendicular(PointName(lead_point(lead)), guide)
-    if isinstance(lead.joint, Prismatic):
-        guide = draft.direction(slide_of(draft, lead.joint))
+        return draft.b.perpendicular(PointName(outer_point(leg)), guide)
+    if isinstance(leg.joint, Prismatic):
+        guide = draft.direction(slide_of(draft, leg.joint))
         return draft.b.perpendicular(PointName(joint.point), guide)
-    return draft.b.join(PointName(lead_point(lead)), PointName(joint.point))
+    return draft.b.join(PointName(outer_point(leg)), PointName(joint.point))
 
 
-def leg_points(lead: Lead, joint: Prismatic | Revolute) -> tuple[str, ...]:
+def leg_points(leg: OuterLeg, joint: Prismatic | Revolute) -> tuple[str, ...]:
     """Return the hinges of a leg, through which its line passes."""
-    return tuple(one.point for one in (lead.joint, joint) if isinstance(one, Revolute))
+    return tuple(one.point for one in (leg.joint, joint) if isinstance(one, Revolute))
 
 
 def _refusal(problem: Problem, group: AssurGroup) -> tuple[str, int, int, str, str]:
     """Return why a group is not built, with the links that may drive instead."""
     mechanism = problem.mechanism
     able = [link for link in mechanism.links if _is_built(replace(mechanism, driver=link))]
-    told = "No driving link joined to the frame splits it into these."
+    text = "No driving link joined to the frame splits it into these."
     if able:
-        told = "It splits into these if link {} drives: give its motion in [driver]."
+        text = "It splits into these if link {} drives: give its motion in [driver]."
     return (
         "Group of class {}, order {} (links {}) cannot be built: dyads (class II) and triads "
         "(class III, order 3) are. {}",
         group.class_number,
         group.order,
         ", ".join(group.links),
-        say(told, say(" or ").join(able)),
+        translate(text, translate(" or ").join(able)),
     )
 
 
@@ -264,18 +264,18 @@ def _is_built(mechanism: Mechanism) -> bool:
     return all(group.class_number == 2 or triad_of(group) is not None for group in groups)
 
 
-def _place_rrr(draft: Draft, group: AssurGroup, closing: Closing) -> None:
+def _place_rrr(draft: Draft, group: AssurGroup, mode: AssemblyMode) -> None:
     c = inner_point(group)
-    one, two = group.leads
-    p, q = lead_point(one), lead_point(two)
-    draft.b.meet_circles(
+    one, two = group.legs
+    p, q = outer_point(one), outer_point(two)
+    draft.b.intersect_circles(
         c,
         PointName(p),
         draft.drawn(draft.length(one.link, p, c)),
         PointName(q),
         draft.drawn(draft.length(two.link, q, c)),
-        side(closing.side),
-        draft.branch(c, closing),
+        side(mode.side),
+        draft.branch(c, mode),
     )
     draft.mark_placed(c)
 
@@ -286,10 +286,11 @@ def _place_parallel(draft: Draft, group: AssurGroup) -> None:
     found = parallelogram(draft.problem, group)
     assert found is not None and found.is_one
     line = draft.b.parallel(
-        PointName(found.far), draft.b.join(PointName(found.corner), PointName(found.near))
+        PointName(found.far_joint),
+        draft.b.join(PointName(found.corner), PointName(found.near_joint)),
     )
-    length = draft.drawn(draft.length(found.link, found.far, c))
-    draft.b.lay_off(c, PointName(found.far), line, length)
+    length = draft.drawn(draft.length(found.link, found.far_joint, c))
+    draft.b.lay_off_length(c, PointName(found.far_joint), line, length)
     draft.mark_placed(c)
 
 
@@ -298,17 +299,17 @@ class Quadrilateral(Struct, frozen=True):
 
     Attributes
     ----------
-    corner, near, far : str
-        The dyad's outer joints ``near`` and ``far`` each share a body with the corner.
+    corner, near_joint, far_joint : str
+        The dyad's outer joints ``near_joint`` and ``far_joint`` each share a body with the corner.
     link : str
-        Link of the dyad from ``far`` to its inner joint.
+        Link of the dyad from ``far_joint`` to its inner joint.
     sides : tuple of (str, float)
         Names and lengths in order around, m: corner-near, far-inner, corner-far, near-inner.
     """
 
     corner: str
-    near: str
-    far: str
+    near_joint: str
+    far_joint: str
     link: str
     sides: tuple[tuple[str, float], ...]
 
@@ -324,8 +325,8 @@ def parallelogram(problem: Problem, group: AssurGroup) -> Quadrilateral | None:
 
     None where its outer joints share no corner.
     """
-    one, two = group.leads
-    near, far, c = lead_point(one), lead_point(two), inner_point(group)
+    one, two = group.legs
+    near, far, c = outer_point(one), outer_point(two), inner_point(group)
     found = None
     bodies = [body.points for link, body in problem.bodies.items() if link not in group.links]
     for first in (points for points in bodies if near in points):
@@ -346,23 +347,25 @@ def parallelogram(problem: Problem, group: AssurGroup) -> Quadrilateral | None:
     return found
 
 
-def _place_rrp(draft: Draft, group: AssurGroup, closing: Closing) -> None:
+def _place_rrp(draft: Draft, group: AssurGroup, mode: AssemblyMode) -> None:
     c = inner_point(group)
     revolute, prismatic = split(group)
     slide = slide_of(draft, prismatic.joint)
-    p = lead_point(revolute)
+    p = outer_point(revolute)
     radius = draft.drawn(draft.length(revolute.link, p, c))
     track = draft.path(slide, prismatic.to, c)
-    branch = draft.branch(c, closing)
-    draft.b.meet_line_circle(c, track.line, PointName(p), radius, way(closing.side), branch)
+    branch = draft.branch(c, mode)
+    draft.b.intersect_line_circle(
+        c, track.line, PointName(p), radius, line_sense(mode.side), branch
+    )
     at = draft.mark_placed(c)
     draft.turn_with(slide, prismatic.to, at)
 
 
 def _place_rpr(draft: Draft, group: AssurGroup, sign: int) -> None:
     slide, host, slider = rpr_parts(draft, group)
-    p, q = PointName(lead_point(host)), PointName(lead_point(slider))
-    across = draft.across(slide, p, q)
+    p, q = PointName(outer_point(host)), PointName(outer_point(slider))
+    across = draft.transverse_offset(slide, p, q)
     if across == 0:
         line = draft.b.join(p, q) if sign > 0 else draft.b.join(q, p)
     else:
@@ -373,43 +376,43 @@ def _place_rpr(draft: Draft, group: AssurGroup, sign: int) -> None:
         # Joined over the tangent, not turned from its short radius: that keeps the digits.
         line = draft.b.join(foot, q) if sign > 0 else draft.b.join(q, foot)
     draft.axes[slider.link] = draft.b.parallel(q, line)
-    draft.axes[host.link] = draft.turned(line, p, -slide.angle, host.link)
+    draft.axes[host.link] = draft.line_at_angle(line, p, -slide.angle, host.link)
 
 
-def rpr_parts(draft: Draft, group: AssurGroup) -> tuple[Slide, Lead, Lead]:
+def rpr_parts(draft: Draft, group: AssurGroup) -> tuple[Slide, OuterLeg, OuterLeg]:
     """Return the inner slide line of an RPR dyad, the leg that carries it, and the slider's."""
     slide = slide_of(draft, group.inner[0])
-    host, slider = group.leads if group.leads[0].link == slide.host else group.leads[::-1]
+    host, slider = group.legs if group.legs[0].link == slide.host else group.legs[::-1]
     return slide, host, slider
 
 
 def _place_prp(draft: Draft, group: AssurGroup) -> None:
     c = inner_point(group)
     tracks: list[LineName] = []
-    for lead in group.leads:
+    for lead in group.legs:
         tracks.append(draft.path(slide_of(draft, lead.joint), lead.to, c).line)
-    draft.b.meet_lines(c, tracks[0], tracks[1])
+    draft.b.intersect_lines(c, tracks[0], tracks[1])
     at = draft.mark_placed(c)
-    for lead in group.leads:
+    for lead in group.legs:
         draft.turn_with(slide_of(draft, lead.joint), lead.to, at)
 
 
 def _place_rpp(draft: Draft, group: AssurGroup) -> None:
     revolute, prismatic = split(group)
     outer, inner = slide_of(draft, prismatic.joint), slide_of(draft, group.inner[0])
-    at = PointName(lead_point(revolute))
+    at = PointName(outer_point(revolute))
     # Both links turn with the link that the group slides on; the first then moves about its joint.
     draft.turn_with(outer, prismatic.to, at)
     draft.turn_with(inner, prismatic.link, at)
     draft.place_rest(revolute.link)
-    x = meeting_point(draft, group)
-    draft.b.meet_lines(
+    x = intersection_point(draft, group)
+    draft.b.intersect_lines(
         x, draft.path(outer, prismatic.to, x).line, draft.path(inner, revolute.link, x).line
     )
     draft.mark_placed(x)
 
 
-def meeting_point(draft: Draft, group: AssurGroup) -> str:
+def intersection_point(draft: Draft, group: AssurGroup) -> str:
     """Return the point of an RPP dyad's sliding link at which its two rays meet."""
     _, prismatic = split(group)
     return next(iter(draft.problem.bodies[prismatic.link].points))

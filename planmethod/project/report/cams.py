@@ -12,7 +12,7 @@ from planmethod.cams.model import CamProblem
 from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture, region_picture
 from planmethod.cams.protocol import construction_nodes
 from planmethod.cams.sheet import sheet_scales
-from planmethod.cams.text import given
+from planmethod.cams.text import given_facts
 from planmethod.note.document import Caption, Chapter, Item, Node, Paragraph, Part, Table
 from planmethod.project.report.context import Report, sentences
 from planmethod.project.report.figures import figure
@@ -21,28 +21,28 @@ from planmethod.render.layout.block import Block
 
 def cam_chapter(report: Report, problem: CamProblem) -> Iterator[Node]:
     """Yield the chapter on the cam."""
-    said, words = report.said["cam"], report.words
+    said, language = report.texts["cam"], report.language
     design = CamDesign(problem)
     built = construct(design, sheet_scales(problem))
     yield Chapter(said.title.format())
-    facts = given(problem, words)
+    facts = given_facts(problem, language)
     about = sentences(said.about.format(facts="; ".join(fact.text for fact in facts)))
     yield replace(about, facts=tuple(facts))
     captions: dict[str, str] = said["figures"]
     names: dict[str, str] = said["tables"]
     keys = iter(_keys(bool(built.results)))
 
-    def drawn(make: Callable[[CamView], Block | None]) -> Callable[[float], Block]:
-        def made(letter: float) -> Block:
-            picture = make(CamView(built, words, letter))
+    def drawn(build: Callable[[CamView], Block | None]) -> Callable[[float], Block]:
+        def draw(letter: float) -> Block:
+            picture = build(CamView(built, language, letter))
             assert picture is not None
             return picture
 
-        return made
+        return draw
 
     pictures = {"diagrams": diagrams_picture, "region": region_picture, "profile": profile_picture}
     figures = iter([name for name in pictures if name != "region" or built.results])
-    for node in construction_nodes(built, words, report.one.profile):
+    for node in construction_nodes(built, language, report.one.profile):
         match node:
             case Chapter(title):
                 yield Part(title)

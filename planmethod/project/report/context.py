@@ -14,8 +14,8 @@ from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.numbers import Notation, with_unit
-from planmethod.note.plaintext import given
-from planmethod.note.wording import Language, Words
+from planmethod.note.plaintext import input_text
+from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import FACTS, PlanKind, Vector
 from planmethod.project.model import PartName, Project
@@ -45,7 +45,9 @@ class NoteFormulas(Formulas):
             return self.shown_angle
         return super().number(name)
 
-    def laid(self, step: Compute, segment: str, kind: PlanKind, vector: Vector | None) -> list[str]:
+    def laid_off_formulas(
+        self, step: Compute, segment: str, kind: PlanKind, vector: Vector | None
+    ) -> list[str]:
         """Return the formulas of a length to be laid off: of the quantity, and of the length."""
         (value, _), (scale, _) = step.powers
         length, mu = abs(self.number(step.out)), self.per_mm(kind)
@@ -60,12 +62,12 @@ class NoteFormulas(Formulas):
         return lines
 
 
-def as_told(words: Language) -> Language:
+def note_language(language: Language) -> Language:
     """Return a language with the note's phrases for narrators and statements."""
-    own = Language(words.lang)
-    own.note = Words({**words.note, **words.report["voice"]})
-    own.forces = Words({**words.forces, **words.report["force_voice"]})
-    vars(own)["say"] = words.say  # pictures are kept by it
+    own = Language(language.lang)
+    own.note = MessageTable({**language.note, **language.report["voice"]})
+    own.forces = MessageTable({**language.forces, **language.report["force_voice"]})
+    vars(own)["notation"] = language.notation  # pictures are kept by it
     return own
 
 
@@ -75,9 +77,9 @@ class Report:
     Attributes
     ----------
     project : Project
-    words : Language
+    language : Language
         With the sentences of the narrators as a note has them.
-    said : Words
+    texts : MessageTable
         The sentences of notes.
     every, one : Solution
         All positions, and the calculated one alone.
@@ -90,21 +92,21 @@ class Report:
         Letters that were explained.
     """
 
-    def __init__(self, project: Project, words: Language) -> None:
-        self.project, self.words, self.said = project, as_told(words), words.report
+    def __init__(self, project: Project, language: Language) -> None:
+        self.project, self.language, self.texts = project, note_language(language), language.report
         self.every: Solution = project.solution
         self.one: Solution = project.loaded
         self.described: set[str] = set()
-        self.names = Names(self.one, self.words.note, on_sheet=True)
+        self.names = Names(self.one, self.language.note, on_sheet=True)
         self.formulas = NoteFormulas(self.one, self.names, 0)
         if self.one.problem.drive.is_crank:
-            self.formulas.shown_angle = round(self.shown_places[project.calculated], 2)
+            self.formulas.shown_angle = round(self.displayed_places[project.calculated], 2)
         self.narrator = Narrator(self.one, self.names, 0, self.formulas)
 
     @property
-    def say(self) -> Notation:
+    def notation(self) -> Notation:
         """Numbers, units and symbols."""
-        return self.words.say
+        return self.language.notation
 
     @property
     def is_series(self) -> bool:
@@ -122,7 +124,7 @@ class Report:
         The first is what the file names as its source, under ``own``.
         """
         source = self.project.problem.source
-        standards: Words = self.said["back"]["standards"]
+        standards: MessageTable = self.texts["back"]["standards"]
         needed = {key: str(text) for key, text in standards.items() if key != "rack"}
         if self.has(PartName.MESHING):
             needed["rack"] = str(standards["rack"])
@@ -136,39 +138,39 @@ class Report:
 
     def unit(self, name: str) -> str:
         """Return the letters of a unit."""
-        return self.say.units[name]
+        return self.notation.units[name]
 
     def quantity(self, value: float, unit: str) -> Rich:
         """Return a computed number with its unit."""
-        return with_unit(self.say.found(value), self.unit(unit))
+        return with_unit(self.notation.computed(value), self.unit(unit))
 
     def area(self, value: float) -> Rich:
         """Return an area, m², as the file gives it."""
-        return with_unit(self.say.given(value), f"{self.unit('m')}^{{2}}")
+        return with_unit(self.notation.as_input(value), f"{self.unit('m')}^{{2}}")
 
     def degrees(self, value: float) -> Rich:
         """Return an angle, two decimals at the most."""
-        return with_unit(given(round(value, 2) + 0.0, self.words.note), "°")
+        return with_unit(input_text(round(value, 2) + 0.0, self.language.note), "°")
 
     def mm(self, value: float) -> Rich:
         """Return a length that is measured on paper, with its unit."""
-        return with_unit(self.say.ruled(value), self.unit("mm"))
+        return with_unit(self.notation.measured(value), self.unit("mm"))
 
     def parts(self, count: int) -> Rich:
         """Return the phrase for ``count`` equal parts, with the plural of the language."""
         last, teens = count % 10, 10 < count % 100 < 20
         form = "many" if teens or not 0 < last < 5 else "one" if last == 1 else "few"
-        return str(self.said["counts"]["parts"][form]).format(count=count)
+        return str(self.texts["counts"]["parts"][form]).format(count=count)
 
     def listed(self, parts: Sequence[Rich]) -> Rich:
         """Return a list in a sentence: ``a, b и c``."""
         *first, last = parts
-        return f"{', '.join(first)}{self.said['and']}{last}" if first else last
+        return f"{', '.join(first)}{self.texts['and']}{last}" if first else last
 
     def scale(self, kind: PlanKind) -> Rich:
         """Return the scale of a plan of the calculated position as it is inscribed."""
         convention = self.one.problem.scales.convention
-        return scale_inscription(self.one.own_scale(kind, 0), convention, self.say)
+        return scale_inscription(self.one.plan_scale(kind, 0), convention, self.notation)
 
     # Positions -----------------------------------------------------------------------------------
 
@@ -179,32 +181,34 @@ class Report:
 
     def place_of(self, number: int) -> Rich:
         """Return the driver's coordinate in a position."""
-        value = self.shown_places[number]
+        value = self.displayed_places[number]
         if self.one.problem.drive.coordinate.unit == "m":
-            return with_unit(self.say.given(value), self.unit("m"))
+            return with_unit(self.notation.as_input(value), self.unit("m"))
         return self.degrees(value)
 
     @property
-    def shown_places(self) -> list[float]:
+    def displayed_places(self) -> list[float]:
         """Coordinates of the driver in all positions, as in tables."""
-        return [round(self.one.problem.shown(value), 4) for value in self.project.positions]
+        return [
+            round(self.one.problem.display_position(value), 4) for value in self.project.positions
+        ]
 
     @property
     def of_position(self) -> Rich:
         """Phrase "of the calculated position", after a blank; empty where it is the only one."""
-        return self._told(self.said.of_position)
+        return self._for_position(self.texts.of_position)
 
     @property
     def in_position(self) -> Rich:
         """Phrase "in the calculated position", after a blank; empty where it is the only one."""
-        return self._told(self.said.in_position)
+        return self._for_position(self.texts.in_position)
 
     @property
     def for_position(self) -> Rich:
         """For the calculated position, after a blank."""
-        return self._told(self.said.for_position) or self.said.for_only.format()
+        return self._for_position(self.texts.for_position) or self.texts.for_only.format()
 
-    def _told(self, template: str) -> Rich:
+    def _for_position(self, template: str) -> Rich:
         return template.format(number=self.project.calculated) if self.is_series else ""
 
     @property
@@ -226,12 +230,12 @@ class Report:
 
     def link(self, link: str, case: str = "who") -> Rich:
         """Return the name of a link with its number, in a case of the language."""
-        return self.said.of_link.format(role=self.role(link, case), link=link)
+        return self.texts.of_link.format(role=self.role(link, case), link=link)
 
     def role(self, link: str, case: str = "who") -> Rich:
         """Return the name of a link, in a case of the language."""
         kind = next(kind for kind in self.kinds if kind.link == link)
-        roles: Words = self.said["roles"][case]
+        roles: MessageTable = self.texts["roles"][case]
         return str(roles[kind.role.value])
 
 

@@ -17,11 +17,11 @@ from planmethod.render.backends.view import DrawingView
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Row
 from planmethod.render.sheets.blocks import maker_of
-from planmethod.render.sheets.composer import Sizes, Viewed
-from planmethod.render.sheets.model import Entry, Extras, Manner
+from planmethod.render.sheets.composer import Sizes, ViewBlock
+from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle
 from planmethod.solved.solution import Solution
 
-Made: TypeAlias = Callable[[float], Block]
+PictureDrawer: TypeAlias = Callable[[float], Block]
 """Makes a picture with letters of a height, mm."""
 
 WIDTH = 165.0
@@ -36,7 +36,7 @@ WISHED, MOST = 120.0, 1.35
 MARGIN = 2.0
 """White around the ink, mm."""
 
-ALIKE = 0.05
+SHRINK_TOLERANCE = 0.05
 """Relative reduction of a picture above which its letters are drawn larger."""
 
 
@@ -45,77 +45,77 @@ class FittedView(Struct, frozen=True, dict=True):
 
     Attributes
     ----------
-    made : callable
+    drawer : callable
         Makes the picture with letters of a height, mm.
     name : Rich
-    room : tuple of float, mm
+    area : tuple of float, mm
         Greatest width and height.
     grows : bool
         A small picture is enlarged.
     """
 
-    made: Made
+    drawer: PictureDrawer
     name: Rich
-    room: tuple[float, float]
+    area: tuple[float, float]
     grows: bool = True
 
     @cached_property
-    def fitted(self) -> tuple[DrawingView, float]:
+    def scaled_view(self) -> tuple[DrawingView, float]:
         """The picture, and the ratio of its displayed to its drawn size."""
-        block = self.made(ON_SHEETS)
+        block = self.drawer(ON_SHEETS)
         factor = self._factor(block)
-        if abs(factor - 1.0) > ALIKE:
-            block = self.made(round(LETTER / factor, 1))
+        if abs(factor - 1.0) > SHRINK_TOLERANCE:
+            block = self.drawer(round(LETTER / factor, 1))
             factor = self._factor(block)
-        drawing = Drawing(*_room(block), plain_text(self.name))
+        drawing = Drawing(*_padded_size(block), plain_text(self.name))
         drawing.extend(block.place(complex(MARGIN, drawing.height - MARGIN)))
         return DrawingView(drawing), factor
 
     def _factor(self, block: Block) -> float:
-        wide, high = _room(block)
-        most = min(self.room[0] / wide, self.room[1] / high)
+        wide, high = _padded_size(block)
+        most = min(self.area[0] / wide, self.area[1] / high)
         return min(most, max(1.0, min(WISHED / max(wide, high), MOST)) if self.grows else 1.0)
 
     @property
     def size(self) -> tuple[float, float]:
         """Width and height, mm."""
-        view, factor = self.fitted
+        view, factor = self.scaled_view
         width, height = view.size
         return width * factor, height * factor
 
     def svg(self) -> str:
         """Return an SVG element."""
         width, height = self.size
-        head, end, rest = self.fitted[0].svg().partition(">")
+        head, end, rest = self.scaled_view[0].svg().partition(">")
         head = re.sub(r'\bwidth="[^"]*"', f'width="{width:.2f}mm"', head, count=1)
         head = re.sub(r'\bheight="[^"]*"', f'height="{height:.2f}mm"', head, count=1)
         return head + end + rest
 
     def draw(self, canvas: Any) -> None:
         """Draw on a canvas of reportlab whose unit is the millimetre, the lower left at zero."""
-        view, factor = self.fitted
+        view, factor = self.scaled_view
         canvas.scale(factor, factor)
         view.draw(canvas)
 
     def png(self, dpi: float) -> bytes:
         """Return a PNG file with a resolution in dots per inch."""
-        view, factor = self.fitted
+        view, factor = self.scaled_view
         return view.png(dpi * factor)
 
 
-def _room(block: Block) -> tuple[float, float]:
+def _padded_size(block: Block) -> tuple[float, float]:
     """Return width and height of a picture with its margin, mm."""
     return block.width + 2 * MARGIN, block.height + 2 * MARGIN
 
 
 def figure(
-    made: Made, caption: Rich, key: str, *, height: float = 120.0, grows: bool = True
+    drawer: PictureDrawer, caption: Rich, key: str, *, height: float = 120.0, grows: bool = True
 ) -> Figure:
     """Return a picture of the sheets as a figure with a number.
 
     Parameters
     ----------
-    made : callable
+    drawer : callable
         Makes the picture with letters of a height, mm; they are the larger the more it is shrunk.
     caption : Rich
     key : str
@@ -125,27 +125,31 @@ def figure(
     grows : bool
         A small picture is enlarged.
     """
-    view = FittedView(made, caption, (WIDTH, height), grows)
+    view = FittedView(drawer, caption, (WIDTH, height), grows)
     return Figure(view, caption, numbered=True, key=key)
 
 
-def bare(view: Block) -> Block:
+def without_heading(view: Block) -> Block:
     """Return a view of a sheet without its name and scale: in a note the caption has them."""
-    column = view.block if isinstance(view, Viewed) else view
+    column = view.block if isinstance(view, ViewBlock) else view
     if isinstance(column, Row) and len(column.blocks) == 1:
-        return bare(column.blocks[0])
+        return without_heading(column.blocks[0])
     return column.blocks[-1] if isinstance(column, Column) else column
 
 
-def of_sheet(kind: str, solution: Solution, words: Language, *, column: float) -> Made:
+def of_sheet(kind: str, solution: Solution, language: Language, *, column: float) -> PictureDrawer:
     """Return the function that makes a block of the sheets by its kind, without its name, mm.
 
     ``column`` is the width of the texts of the sheet, which diagrams are measured by.
     """
 
-    def made(letter: float) -> Block:
-        entry, sizes = Entry(kind, letter=letter), Sizes(letter, letter, letter, column)
+    def draw(letter: float) -> Block:
+        entry, sizes = BlockSpec(kind, letter=letter), Sizes(letter, letter, letter, column)
         indices = tuple(range(len(solution.positions)))
-        return bare(maker_of(kind)(solution, indices, Manner(entry, sizes, column, Extras(words))))
+        return without_heading(
+            maker_of(kind)(
+                solution, indices, BlockStyle(entry, sizes, column, BlockOptions(language))
+            )
+        )
 
-    return made
+    return draw

@@ -6,15 +6,15 @@ from collections.abc import Iterator
 
 from planmethod.note.document import Chapter, Node, Part, Table, table_of_quantities
 from planmethod.note.formula import Rich, escape, fraction
-from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.narrate.reduction import ReductionTeller
+from planmethod.note.narrate.machine import MachineNarrator
+from planmethod.note.narrate.reduction import ReductionNarrator
 from planmethod.note.numbers import MINUS, half_up, with_unit
-from planmethod.note.wording import Words
+from planmethod.note.wording import MessageTable
 from planmethod.problem.load_records import Load, SizeTable
 from planmethod.problem.machine_records import Quadrature, WheelShape
 from planmethod.project.report.context import NBSP, Report, chain, displayed, sentences
 from planmethod.project.report.figures import figure, of_sheet
-from planmethod.project.train import ALIKE, quick_shaft
+from planmethod.project.train import SPEED_TOLERANCE, quick_shaft
 from planmethod.render.pictures.flywheel import construction_picture
 from planmethod.solved.machine.drawing import drawing_of, split
 from planmethod.solved.machine.flywheel import flywheel_of
@@ -27,117 +27,119 @@ SMALL = 5e-4
 """Share of the moment of inertia below which a cause of a difference is not named."""
 
 
-def machine_of(report: Report) -> MachineTeller:
+def machine_of(report: Report) -> MachineNarrator:
     """Return the narrator of the machine of a project."""
     flywheel = flywheel_of(report.every)
-    return MachineTeller(drawing_of(flywheel, report.every.profile), report.words)
+    return MachineNarrator(drawing_of(flywheel, report.every.profile), report.language)
 
 
 def flywheel_chapter(report: Report) -> Iterator[Node]:
     """Yield the chapter."""
-    said: Words = report.said["flywheel"]
-    tell = machine_of(report)
-    yield Chapter(said.title.format())
-    yield Part(said.reduced.format())
-    yield from _reduced(report, tell, said)
-    yield Part(said.diagrams.format())
-    yield from _diagrams(report, tell, said)
-    yield Part(said.sizes_title.format())
-    yield from _inertia(report, tell, said)
-    yield Part(said.power_title.format())
-    formulas = tell.power_formulas()
-    yield sentences(str(said["power"]["motor" if len(formulas) > 1 else "crank"]).format())
+    texts: MessageTable = report.texts["flywheel"]
+    narrator = machine_of(report)
+    yield Chapter(texts.title.format())
+    yield Part(texts.reduced.format())
+    yield from _reduced(report, narrator, texts)
+    yield Part(texts.diagrams.format())
+    yield from _diagrams(report, narrator, texts)
+    yield Part(texts.sizes_title.format())
+    yield from _inertia(report, narrator, texts)
+    yield Part(texts.power_title.format())
+    formulas = narrator.power_formulas()
+    yield sentences(str(texts["power"]["motor" if len(formulas) > 1 else "crank"]).format())
     yield from chain(formulas)
-    for text in tell.motor_choice():
+    for text in narrator.motor_choice():
         yield sentences(f"{text}.")
 
 
-def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
-    J = tell.letter("reduced inertia")  # noqa: N806 - the letter of the textbook
-    yield sentences(said.about.format())
+def _reduced(report: Report, narrator: MachineNarrator, texts: MessageTable) -> Iterator[Node]:
+    J = narrator.letter("reduced inertia")  # noqa: N806 - the letter of the textbook
+    yield sentences(texts.about.format())
     omega = f"ω_{{{report.one.problem.drive.link}}}"
     # What resists has a negative power, and counts as positive.
-    minus = MINUS if tell.flywheel.sign > 0 else ""
-    yield displayed(said.moment_formula.format(M=tell.moment, omega=omega, minus=minus))
-    yield displayed(said.inertia_formula.format(J=J, omega=omega))
-    yield sentences(said.where.format())
-    flywheel = tell.flywheel
-    cycle = with_unit(report.say.given(flywheel.machine.cycle_deg), "°")
-    lever, count = tell.letter("moment by lever"), flywheel.machine.count
-    yield sentences(said.cycle.format(cycle=cycle, count=count, lever=lever))
-    columns = tell.columns()
+    minus = MINUS if narrator.flywheel.sign > 0 else ""
+    yield displayed(texts.moment_formula.format(M=narrator.moment, omega=omega, minus=minus))
+    yield displayed(texts.inertia_formula.format(J=J, omega=omega))
+    yield sentences(texts.where.format())
+    flywheel = narrator.flywheel
+    cycle = with_unit(report.notation.as_input(flywheel.machine.cycle_deg), "°")
+    lever, count = narrator.letter("moment by lever"), flywheel.machine.count
+    yield sentences(texts.cycle.format(cycle=cycle, count=count, lever=lever))
+    columns = narrator.columns()
     head = tuple(f"{name}, {unit}" if unit else name for name, unit, _ in columns)
     rows = tuple(zip(*(cells for _, _, cells in columns), strict=True))
-    yield Table(head, rows, 1, 2, name=said.table.format(), key="machine")
-    yield from _terms(tell, said)
+    yield Table(head, rows, 1, 2, name=texts.table.format(), key="machine")
+    yield from _terms(narrator, texts)
     dynamics = report.one.problem.dynamics
     changing = dynamics is not None and any(
         isinstance(load, Load) and isinstance(load.size, SizeTable) for load in dynamics.loads
     )
     if changing:
-        made = of_sheet("load-diagram", report.every, report.words, column=COLUMN)
-        yield sentences(said.load_text.format())
-        yield figure(made, said.load_figure.format(), "load", height=90.0)
+        made = of_sheet("load-diagram", report.every, report.language, column=COLUMN)
+        yield sentences(texts.load_text.format())
+        yield figure(made, texts.load_figure.format(), "load", height=90.0)
 
 
-def _terms(tell: MachineTeller, said: Words) -> Iterator[Node]:
+def _terms(narrator: MachineNarrator, texts: MessageTable) -> Iterator[Node]:
     """Yield the reduced moment and the energies term by term, with their tables."""
-    reduction = ReductionTeller(tell)
+    reduction = ReductionNarrator(narrator)
     for key, formulas, columns in (
         ("moments", [reduction.moment_formula()], reduction.moments()),
         ("energies", reduction.energy_formulas(), reduction.energy_columns()),
     ):
-        yield sentences(str(said["terms"][key]).format())
+        yield sentences(str(texts["terms"][key]).format())
         yield from chain(formulas)
         table = table_of_quantities(columns, repeated=1)
-        yield Table(table.head, table.rows, 1, 1, name=str(tell.said[key]), key=f"machine_{key}")
+        yield Table(
+            table.head, table.rows, 1, 1, name=str(narrator.texts[key]), key=f"machine_{key}"
+        )
 
 
-def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
-    drawing, machine, say = tell.drawing, tell.flywheel.machine, report.say
+def _diagrams(report: Report, narrator: MachineNarrator, texts: MessageTable) -> Iterator[Node]:
+    drawing, machine, notation = narrator.drawing, narrator.flywheel.machine, report.notation
     scales = drawing.scales
     middle = machine.ordinates is Quadrature.MIDDLE
     letters = {
-        "M": tell.moment,
-        "A": tell.work,
-        "J": tell.letter("reduced inertia"),
-        "A_const": tell.letter(f"{tell.keeps} work"),
-        "M_const": tell.letter(f"{tell.keeps} moment"),
+        "M": narrator.moment,
+        "A": narrator.work,
+        "J": narrator.letter("reduced inertia"),
+        "A_const": narrator.letter(f"{narrator.keeps} work"),
+        "M_const": narrator.letter(f"{narrator.keeps} moment"),
     }
     yield sentences(
-        said.moment.format(
+        texts.moment.format(
             M=letters["M"],
             A=letters["A"],
-            mu_M=tell.scale("M", scales.moment, "N·m"),
-            way=str(said["ways"]["middle" if middle else "trapezoid"]).format(),
-            pole=with_unit(say.given(half_up(drawing.pole, 2)), report.unit("mm")),
+            mu_M=narrator.scale("M", scales.moment, "N·m"),
+            way=str(texts["ways"]["middle" if middle else "trapezoid"]).format(),
+            pole=with_unit(notation.as_input(half_up(drawing.pole, 2)), report.unit("mm")),
         )
     )
-    yield from _listed(tell.scale_formulas())
-    constant = float(drawing.points.work[-1]) / tell.flywheel.cycle
+    yield from _listed(narrator.scale_formulas())
+    constant = float(drawing.points.work[-1]) / narrator.flywheel.cycle
     yield sentences(
-        said.constant.format(
+        texts.constant.format(
             value=report.quantity(constant, "N·m"),
             **{key: letters[key] for key in ("A", "A_const", "M_const")},
         ),
-        _by_method(said, tell, "energy").format(
-            mu_J=tell.scale("J", scales.inertia, "kg·m²"), J=letters["J"], **_energies(tell)
+        _by_method(texts, narrator, "energy").format(
+            mu_J=narrator.scale("J", scales.inertia, "kg·m²"), J=letters["J"], **_energies(narrator)
         ),
     )
     yield figure(
-        lambda letter: construction_picture(drawing, tell, letter),
-        _by_method(said, tell, "figure").format(**_energies(tell)),
+        lambda letter: construction_picture(drawing, narrator, letter),
+        _by_method(texts, narrator, "figure").format(**_energies(narrator)),
         "machine_diagrams",
         height=190.0,
     )
 
 
-def _by_method(said: Words, tell: MachineTeller, key: str) -> str:
-    return str(said[key][tell.flywheel.machine.method.value])
+def _by_method(texts: MessageTable, narrator: MachineNarrator, key: str) -> str:
+    return str(texts[key][narrator.flywheel.machine.method.value])
 
 
-def _energies(tell: MachineTeller) -> dict[str, str]:
-    return {"T_II": tell.letter("second energy"), "T_I": tell.letter("first energy")}
+def _energies(narrator: MachineNarrator) -> dict[str, str]:
+    return {"T_II": narrator.letter("second energy"), "T_I": narrator.letter("first energy")}
 
 
 def _listed(formulas: list[Rich]) -> Iterator[Node]:
@@ -146,130 +148,133 @@ def _listed(formulas: list[Rich]) -> Iterator[Node]:
         yield displayed(f"{text}{'.' if k == len(formulas) else ','}")
 
 
-def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
-    drawing, flywheel, say = tell.drawing, tell.flywheel, report.say
-    top, bottom = tell.found_in
-    yield sentences(_by_method(said, tell, "sought").format())
-    yield from _listed(tell.sought_formulas())
-    segment = drawing.made.segment
+def _inertia(report: Report, narrator: MachineNarrator, texts: MessageTable) -> Iterator[Node]:
+    drawing, flywheel, notation = narrator.drawing, narrator.flywheel, report.notation
+    top, bottom = narrator.tangent_positions
+    yield sentences(_by_method(texts, narrator, "sought").format())
+    yield from _listed(narrator.sought_formulas())
+    segment = drawing.construction.segment
     exact = float(drawing.exact.number(segment)[0])
     yield sentences(
-        _by_method(said, tell, "cut").format(
+        _by_method(texts, narrator, "cut").format(
             top=top,
             bottom=bottom,
-            segment=report.mm(tell.segment),
-            exact=f"{say.number(f'{exact:.2f}')} {report.unit('mm')}",
-            **_energies(tell),
+            segment=report.mm(narrator.segment),
+            exact=f"{notation.number(f'{exact:.2f}')} {report.unit('mm')}",
+            **_energies(narrator),
         )
     )
     if drawing.by_mertsalov:
-        yield displayed(f"{tell.largest_change()},")
-    symbol, omega = tell.letter("flywheel"), tell.letter("mean speed")
-    speed = say.found(flywheel.middle_speed)
+        yield displayed(f"{narrator.largest_change()},")
+    symbol, omega = narrator.letter("flywheel"), narrator.letter("mean speed")
+    speed = notation.computed(flywheel.middle_speed)
     letters = fraction(f"μ_{{T}}·{segment}", f"{omega}^{{2}}·δ")
     numbers = fraction(
-        f"{say.found(drawing.scales.work)}·{say.ruled(tell.segment)}",
-        f"{speed}^{{2}}·{say.given(flywheel.machine.delta)}",
+        f"{notation.computed(drawing.scales.work)}·{notation.measured(narrator.segment)}",
+        f"{speed}^{{2}}·{notation.as_input(flywheel.machine.delta)}",
     )
     value = report.quantity(drawing.read_inertia, "kg·m²")
     yield displayed(f"{symbol} = {letters} = {numbers} = {value}.", "flywheel")
-    sigma = f"{say.short(drawing.sigma, 2)} {report.unit('kg·m²')}"
-    yield sentences(said.sigma.format(sigma=sigma), *_checked(report, tell, said))
-    sizes = tell.sizes
+    sigma = f"{notation.short(drawing.sigma, 2)} {report.unit('kg·m²')}"
+    yield sentences(texts.sigma.format(sigma=sigma), *_checked(report, narrator, texts))
+    sizes = narrator.sizes
     if sizes is not None:
-        yield from _sizes(report, tell, said)
-    made = of_sheet("speed-diagram", report.every, report.words, column=COLUMN)
-    yield sentences(said.speed.format())
-    yield figure(made, said.speed_figure.format(), "speed", height=90.0)
+        yield from _sizes(report, narrator, texts)
+    made = of_sheet("speed-diagram", report.every, report.language, column=COLUMN)
+    yield sentences(texts.speed.format())
+    yield figure(made, texts.speed_figure.format(), "speed", height=90.0)
 
 
-def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]:
+def _checked(report: Report, narrator: MachineNarrator, texts: MessageTable) -> Iterator[Rich]:
     """Yield the error of the construction from the exact flywheel, and the motion check."""
-    flywheel, say = tell.flywheel, report.say
+    flywheel, notation = narrator.flywheel, report.notation
     exact, unit = flywheel.exact.inertia, report.unit("kg·m²")
-    delta = say.number(f"{flywheel.delta_reached:.4f}")
+    delta = notation.number(f"{flywheel.delta_reached:.4f}")
     if exact <= 0.0:
-        yield said.not_needed.format(delta=delta)
+        yield texts.not_needed.format(delta=delta)
         return
-    parts = split(tell.drawing)
+    parts = split(narrator.drawing)
 
     def percent(value: float) -> str:
-        return say.number(f"{100.0 * value / exact:+.1f}")
+        return notation.number(f"{100.0 * value / exact:+.1f}")
 
     causes = {name: getattr(parts, name) for name in ("slopes", "method", "positions", "pencil")}
     told = [
-        str(said["parts"][name]).format(
-            value=percent(value), count=tell.drawing.count, **_energies(tell)
+        str(texts["parts"][name]).format(
+            value=percent(value), count=narrator.drawing.count, **_energies(narrator)
         )
         for name, value in causes.items()
         if abs(value) > SMALL * exact
     ]
-    yield _by_method(said, tell, "exact").format(
-        **_energies(tell),
-        symbol=tell.letter("flywheel"),
-        value=f"{say.found(exact)} {unit}",
-        whole=percent(tell.drawing.read_inertia - exact),
+    yield _by_method(texts, narrator, "exact").format(
+        **_energies(narrator),
+        symbol=narrator.letter("flywheel"),
+        value=f"{notation.computed(exact)} {unit}",
+        whole=percent(narrator.drawing.read_inertia - exact),
     )
     if told:
         form = "one" if len(told) == 1 else "many"
-        yield str(said["why"][form]).format(parts=", ".join(told))
+        yield str(texts["why"][form]).format(parts=", ".join(told))
     high, low = flywheel.integrated
     per_second = report.unit("1/s")
-    yield said.reached.format(
+    yield texts.reached.format(
         delta=delta,
-        high=f"{say.found(high.value)} {per_second}",
-        low=f"{say.found(low.value)} {per_second}",
-        at_high=tell.speed_extreme(high),
-        at_low=tell.speed_extreme(low),
+        high=f"{notation.computed(high.value)} {per_second}",
+        low=f"{notation.computed(low.value)} {per_second}",
+        at_high=narrator.speed_extreme(high),
+        at_low=narrator.speed_extreme(low),
     )
 
 
-def _quicker(report: Report, tell: MachineTeller, said: Words) -> Rich:
+def _quicker(report: Report, narrator: MachineNarrator, texts: MessageTable) -> Rich:
     """Return the text on a flywheel on the fast shaft of the train; empty if there is none."""
     shaft = quick_shaft(report.project)
-    if shaft is None or abs(shaft[1] / tell.flywheel.machine.wheel.ratio - 1.0) <= ALIKE:
+    if (
+        shaft is None
+        or abs(shaft[1] / narrator.flywheel.machine.wheel.ratio - 1.0) <= SPEED_TOLERANCE
+    ):
         return ""
     label, ratio = shaft
-    sizes = tell.on_shaft(ratio)
+    sizes = narrator.on_shaft(ratio)
     assert sizes is not None, "it is needed on the crank"
-    return said.quicker.format(
+    return texts.quicker.format(
         link=escape(label),
-        ratio=report.say.short(ratio),
-        inertia=tell.letter("flywheel"),
+        ratio=report.notation.short(ratio),
+        inertia=narrator.letter("flywheel"),
         value=report.quantity(sizes.inertia, "kg·m²"),
-        diameter=with_unit(report.say.given(sizes.diameter), report.unit("m")),
+        diameter=with_unit(report.notation.as_input(sizes.diameter), report.unit("m")),
         width=report.quantity(sizes.width, "m"),
         mass=report.quantity(sizes.mass, "kg"),
     )
 
 
-def _sizes(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
-    sizes, say = tell.sizes, report.say
+def _sizes(report: Report, narrator: MachineNarrator, texts: MessageTable) -> Iterator[Node]:
+    sizes, notation = narrator.sizes, report.notation
     assert sizes is not None
     disc = sizes.shape is WheelShape.DISC
     held = ""
-    if sizes.held:
-        limit = say.given(tell.flywheel.machine.wheel.greatest_speed)
-        held = said.held.format(speed=f"{limit}{NBSP}{report.unit('m/s')}")
-    ratio = tell.flywheel.machine.wheel.ratio
+    if sizes.is_speed_limited:
+        limit = notation.as_input(narrator.flywheel.machine.wheel.greatest_speed)
+        held = texts.held.format(speed=f"{limit}{NBSP}{report.unit('m/s')}")
+    ratio = narrator.flywheel.machine.wheel.ratio
     yield sentences(
-        str(said["on_shaft"]["crank" if ratio == 1.0 else "other"]).format(
-            ratio=say.given(ratio),
-            inertia=tell.letter("flywheel"),
-            value_of=say.found(tell.drawing.adopted),
+        str(texts["on_shaft"]["crank" if ratio == 1.0 else "other"]).format(
+            ratio=notation.as_input(ratio),
+            inertia=narrator.letter("flywheel"),
+            value_of=notation.computed(narrator.drawing.adopted),
             value=report.quantity(sizes.inertia, "kg·m²"),
         ),
-        (said.disc if disc else said.rim).format(),
+        (texts.disc if disc else texts.rim).format(),
     )
-    yield from chain(tell.size_formulas())
+    yield from chain(narrator.size_formulas())
     yield sentences(
-        said.made.format(
-            density=report.quantity(density_of(tell.flywheel.machine.wheel), "kg/m³"),
+        texts.made.format(
+            density=report.quantity(density_of(narrator.flywheel.machine.wheel), "kg/m³"),
             speed=report.quantity(sizes.speed, "m/s"),
         ),
         held,
-        _quicker(report, tell, said),
-        said.wheel_text.format(),
+        _quicker(report, narrator, texts),
+        texts.wheel_text.format(),
     )
-    made = of_sheet("flywheel", report.every, report.words, column=130.0)
-    yield figure(made, said.wheel_figure.format(), "wheel", height=90.0)
+    made = of_sheet("flywheel", report.every, report.language, column=130.0)
+    yield figure(made, texts.wheel_figure.format(), "wheel", height=90.0)

@@ -25,11 +25,11 @@ from planmethod.note.narrate.forces.moments import MomentNarrator, MomentText
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
 from planmethod.note.narrate.letters import direction_text, mark
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import alike
+from planmethod.note.numbers import format_column
 from planmethod.note.rounding import sigma_text
 from planmethod.note.tables.forces import driven_by, rubbed
 from planmethod.note.tables.results import lead_columns
-from planmethod.note.wording import Words
+from planmethod.note.wording import MessageTable
 from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import ForcePlan, Moments
@@ -56,23 +56,23 @@ class ForceChapter:
     """Tells the forces of the calculated position."""
 
     def __init__(self, report: Report) -> None:
-        self.report, self.said = report, report.said["forces"]
+        self.report, self.said = report, report.texts["forces"]
         self.reading = force_reading(report.one, 0)
         self.context = ForceContext(self.reading, report.formulas)
-        self.context.said = report.words.forces
+        self.context.texts = report.language.forces
         self.drive = report.one.problem.drive.link
-        self.find = report.say.found
+        self.find = report.notation.computed
 
     def nodes(self) -> Iterator[Node]:
         """Yield the chapter."""
         self.reading.statics.si  # noqa: B018 - errors of drawing come before anything else
-        said: Words = self.said
-        yield Chapter(said.title.format())
-        yield Part(said.loads.format())
+        texts: MessageTable = self.said
+        yield Chapter(texts.title.format())
+        yield Part(texts.loads.format())
         yield from self._loads()
         yield from self._plans()
         yield from self._reactions()
-        yield Part(said.lever.format())
+        yield Part(texts.lever.format())
         yield from self._lever()
         yield from friction_part(self.report, self.context)
         if self.report.is_series:
@@ -81,27 +81,29 @@ class ForceChapter:
     # Loads ---------------------------------------------------------------------------------------
 
     def _loads(self) -> Iterator[Node]:
-        said: Words = self.said
+        texts: MessageTable = self.said
         reading, report = self.reading, self.report
         own = report.one.problem.scales.mu_F is None
-        scale = scale_inscription(reading.scale, report.one.problem.scales.convention, report.say)
-        template = said.about_own if own else said.about
+        scale = scale_inscription(
+            reading.scale, report.one.problem.scales.convention, report.notation
+        )
+        template = texts.about_own if own else texts.about
         yield sentences(template.format(position=report.for_position, scale=scale))
         yield figure(
-            lambda letter: loads_picture(reading, letter, report.say),
-            said.loads_figure.format(),
+            lambda letter: loads_picture(reading, letter, report.notation),
+            texts.loads_figure.format(),
             "loads",
         )
         voice = LoadNarrator(self.context)
         given = [one for one in reading.statics.board.given if self._acts(one)]
         by_kind = {kind: [one for one in given if one.applied.kind is kind] for kind in LoadKind}
         if by_kind[LoadKind.WEIGHT]:
-            yield sentences(said.weights.format())
+            yield sentences(texts.weights.format())
             yield from chain(map(voice.formula, by_kind[LoadKind.WEIGHT]))
         yield from self._inertia(voice, by_kind[LoadKind.INERTIA])
         couples = by_kind[LoadKind.INERTIA_COUPLE]
         if couples:
-            yield sentences(said.couples.format())
+            yield sentences(texts.couples.format())
             yield from chain(map(voice.formula, couples))
             yield sentences(self._senses(couples))
         for one in reading.statics.board.given:
@@ -111,33 +113,33 @@ class ForceChapter:
         links = report.one.problem.mechanism.links
         massless = [link for link in links if dynamics and link not in dynamics.masses]
         if massless and dynamics and dynamics.masses:
-            form = said["massless"]["one" if len(massless) == 1 else "many"]
+            form = texts["massless"]["one" if len(massless) == 1 else "many"]
             yield sentences(form.format(links=report.listed(massless)))
 
     def _senses(self, couples: list[GivenLoad]) -> Rich:
         """Return the senses of the inertia couples."""
-        said: Words = self.said
+        texts: MessageTable = self.said
         senses: dict[Rich, list[Rich]] = {}
         for one in couples:
             sense = self.context.sense(float(one.applied.couple[0]))
             senses.setdefault(sense, []).append(one.applied.name)
         if len(senses) == 1:
-            form = said["couple_alike"]["one" if len(couples) == 1 else "many"]
+            form = texts["couple_alike"]["one" if len(couples) == 1 else "many"]
             return str(form).format(sense=next(iter(senses)))
         told: list[Rich] = []
         for sense, symbols in senses.items():
             form = "others" if told else "one" if len(symbols) == 1 else "many"
-            template = str(said["couple_sense"][form])
+            template = str(texts["couple_sense"][form])
             told.append(template.format(symbols=self.report.listed(symbols), sense=sense))
         return f"{', '.join(told)}."
 
     def _inertia(self, voice: LoadNarrator, forces: list[GivenLoad]) -> Iterator[Node]:
-        said: Words = self.said
+        texts: MessageTable = self.said
         shifts = self.reading.statics.board.shifts
         if not forces:
             return
         shifted = any(one.applied.link in shifts for one in forces)
-        yield sentences((said.inertia_shifted if shifted else said.inertia).format())
+        yield sentences((texts.inertia_shifted if shifted else texts.inertia).format())
         lines = []
         for one in forces:
             lines.append(voice.formula(one))
@@ -150,14 +152,14 @@ class ForceChapter:
         return bool(one.applied.force[0] or one.applied.couple[0])
 
     def _external(self, one: GivenLoad) -> Rich:
-        said: Words = self.said
+        texts: MessageTable = self.said
         applied, units = one.applied, self.context.units
         if applied.point is None:
             couple = float(applied.couple[0])
             if not couple:
-                return said.absent_couple.format(symbol=applied.name)
+                return texts.absent_couple.format(symbol=applied.name)
             size = f"{self.find(abs(couple))} {units['N·m']}"
-            return said.couple.format(
+            return texts.couple.format(
                 link=self.report.link(applied.link, "on"),
                 symbol=applied.name,
                 size=size,
@@ -165,13 +167,13 @@ class ForceChapter:
             )
         force = complex(applied.force[0])
         if not force:
-            return said.absent.format(symbol=applied.name)
-        return said.force.format(
+            return texts.absent.format(symbol=applied.name)
+        return texts.force.format(
             link=self.report.link(applied.link, "on"),
             point=applied.point,
             symbol=applied.name,
             size=f"{self.find(abs(force))} {units['N']}",
-            way=self.context.way(force),
+            way=self.context.direction_phrase(force),
         )
 
     # Groups --------------------------------------------------------------------------------------
@@ -181,24 +183,24 @@ class ForceChapter:
             yield from self._plan(plan, number)
 
     def _plan(self, plan: ForcePlan, number: int) -> Iterator[Node]:
-        said: Words = self.said
+        texts: MessageTable = self.said
         voice = ForcePlanNarrator(self.context, plan, number)
         moments = MomentNarrator(self.context, plan)
         links = "–".join(plan.links)
         driver = plan.links == (self.drive,)
-        yield Part(said.driver.format(link=links) if driver else said.group.format(links=links))
+        yield Part(texts.driver.format(link=links) if driver else texts.group.format(links=links))
         if not number:
-            yield sentences(said.order.format(), *thrust_lines(self.context))
+            yield sentences(texts.order.format(), *thrust_lines(self.context))
         yield sentences(*voice.freed())
-        if voice.is_nothing:
-            yield sentences(said.nothing.format())
+        if voice.is_unloaded:
+            yield sentences(texts.nothing.format())
             return
         drawn = bool(drawn_edges(self.reading, number))
         keys = {"cut": f"cut_{number}", "plan": f"force_plan_{number}"}
-        yield sentences((said.see if drawn else said.see_cut).format(**keys))
+        yield sentences((texts.see if drawn else texts.see_cut).format(**keys))
         yield self._cut(number, links, keys["cut"], driver=driver)
         if not self._readable(*(end for edge in plan.polygon for end in edge.ends)):
-            yield sentences(said.unreadable.format())
+            yield sentences(texts.unreadable.format())
             return
         for equation in plan.moments:
             couple = equation.couple
@@ -208,25 +210,25 @@ class ForceChapter:
             if before:
                 yield from self._moments(moments, equation)
         for balance in plan.balances:
-            template = said["balance"]["one" if len(balance.links) == 1 else "many"]
+            template = texts["balance"]["one" if len(balance.links) == 1 else "many"]
             yield sentences(template.format(links="–".join(balance.links)))
             summed = balance_equation(
-                balance, self.context, partial(direction_text, say=self.report.words.say)
+                balance, self.context, partial(direction_text, say=self.report.language.notation)
             )
             yield Equations((summed,), numbered=True)
         *steps, _ = voice.steps()
-        form = said["plan"]["one" if len(plan.balances) == 1 else "many"]
+        form = texts["plan"]["one" if len(plan.balances) == 1 else "many"]
         yield sentences(form.format(), *(line for step in steps for line in step))
         inverse = self.report.names.is_inverse_scale()
-        yield sentences((said.found_inverse if inverse else said.found).format())
-        yield from chain(voice.closing(edge) for edge in plan.reactions)
+        yield sentences((texts.found_inverse if inverse else texts.found).format())
+        yield from chain(voice.force_text(edge) for edge in plan.reactions)
         for lines in moments.guides():
             yield sentences(*self._of_guide(lines))
         if drawn:
             yield self._polygon(number, links, keys["plan"], driver=driver)
 
     def _readable(self, *names: Name) -> bool:
-        hand = self.reading.statics.by_hand
+        hand = self.reading.statics.ruler_reading
         return all(hand.has(name)[0] for name in names)
 
     @staticmethod
@@ -235,49 +237,49 @@ class ForceChapter:
         return [line if line.endswith((".", ":", ",", ";")) else f"{line}." for line in lines]
 
     def _moments(self, voice: MomentNarrator, equation: Moments) -> Iterator[Node]:
-        said: Words = self.said
-        told: MomentText | None = voice.told(equation)
+        texts: MessageTable = self.said
+        told: MomentText | None = voice.equation_text(equation)
         if told is None:
             return
-        template = said.moments if len(equation.links) == 1 else said.moments_links
+        template = texts.moments if len(equation.links) == 1 else texts.moments_links
         yield sentences(template.format(point=equation.about, links=", ".join(equation.links)))
         whose = f"Σ_{{{','.join(equation.links)}}}M"  # it is in the sentence before
         summed, _, zero = told.equation.replace(whose, "ΣM", 1).partition(": ")
         yield displayed(f"{summed}.")
         if zero:  # the equation without moments
-            yield sentences(said.no_moments.format(point=equation.about))
+            yield sentences(texts.no_moments.format(point=equation.about))
             yield from chain([zero])
-        lead = said.hence.format()
+        lead = texts.hence.format()
         if told.arms:
-            arms = said.arms if len(told.arms) > 1 else said.arms_one
+            arms = texts.arms if len(told.arms) > 1 else texts.arms_one
             lead = arms.format(arms="; ".join(told.arms))
         if told.length:
-            yield sentences(said.length.format(length=told.length))
+            yield sentences(texts.length.format(length=told.length))
         if told.result:
             yield sentences(lead)
             yield from chain([told.result.replace(whose, "ΣM", 1)])
         if equation.force is None and equation.couple is None:
-            yield sentences(self.context.said.in_balance)
+            yield sentences(self.context.texts.in_balance)
 
     def _cut(self, number: int, links: Rich, key: str, *, driver: bool) -> Node:
-        reading, say = self.reading, self.report.say
+        reading, notation = self.reading, self.report.notation
 
         def picture(letter: float) -> Block:
-            whole = cut_picture(reading, number, letter, say)
-            inner = inner_picture(reading, number, letter, say)
+            whole = cut_picture(reading, number, letter, notation)
+            inner = inner_picture(reading, number, letter, notation)
             return whole if inner is None else Row([whole, inner[1]], GAP, "centre")
 
         caption = self.said["figure_cut_driver" if driver else "figure_cut"]
         return figure(picture, caption.format(links=links, link=links), key, height=150.0)
 
     def _polygon(self, number: int, links: Rich, key: str, *, driver: bool) -> Node:
-        reading, say = self.reading, self.report.say
+        reading, notation = self.reading, self.report.notation
         scale = scale_inscription(
-            reading.own_scale(number), self.report.one.problem.scales.convention, say
+            reading.plan_scale(number), self.report.one.problem.scales.convention, notation
         )
         caption = self.said["figure_plan_driver" if driver else "figure_plan"]
         return figure(
-            lambda letter: polygon_picture(reading, number, letter, say),
+            lambda letter: polygon_picture(reading, number, letter, notation),
             caption.format(links=links, link=links, scale=scale),
             key,
             height=120.0,
@@ -286,7 +288,7 @@ class ForceChapter:
     # Results -------------------------------------------------------------------------------------
 
     def _reactions(self) -> Iterator[Node]:
-        said: Words = self.said
+        said: MessageTable = self.said
         report, statics = self.report, self.reading.statics
         drawn, largest, rows = drawn_forces(statics), statics.largest(0), []
         for joint in statics.reactions:
@@ -300,8 +302,8 @@ class ForceChapter:
                     report.reaction(joint),
                     self.find(read),
                     self.find(exact),
-                    report.say.number(one.percent_text(2)),
-                    report.say.number(sigma_text(one.sigma)),
+                    report.notation.number(one.percent_text(2)),
+                    report.notation.number(sigma_text(one.sigma)),
                 )
             )
         yield Part(said.table_part.format())
@@ -313,8 +315,8 @@ class ForceChapter:
             name=said.reactions_table.format(position=report.in_position),
             key="reactions",
         )
-        yield from map(sentences, self._beside())
-        words = report.words.note
+        yield from map(sentences, self._out_of_plane())
+        words = report.language.note
         yield from map(sentences, driven_by(report.one.problem, words))
         balancing, unit = self.reading.balancing, report.unit(self.reading.balancing.unit)
         plans, _ = both_balances(self.reading)
@@ -329,64 +331,64 @@ class ForceChapter:
             )
         )
 
-    def _beside(self) -> Iterator[Rich]:
+    def _out_of_plane(self) -> Iterator[Rich]:
         """Yield the loads of the bearings, and the indeterminate out-of-plane forces."""
-        solution, words = self.report.one, self.report.words.note
+        solution, texts = self.report.one, self.report.language.note
         for joint in self.reading.statics.reactions:
             if (shared := bearings_of(self.reading.statics, joint)) is not None:
-                yield bearing_text(solution, joint, shared, abs(complex(joint.force[0])), words)
+                yield bearing_text(solution, joint, shared, abs(complex(joint.force[0])), texts)
         if dyads := list(reversed(solution.structure.groups)):
-            yield undetermined(dyads, words)
+            yield undetermined(dyads, texts)
 
     # Lever ---------------------------------------------------------------------------------------
 
     def _lever(self) -> Iterator[Node]:
-        said: Words = self.said
+        texts: MessageTable = self.said
         report, reading, statics = self.report, self.reading, self.reading.statics
         lever = statics.lever_at(reading.index)
         if lever is None:
-            yield sentences(said.lever_stands.format())
+            yield sentences(texts.lever_stands.format())
             return
         if not self._readable(lever.balance):
-            yield sentences(said.unreadable.format())
+            yield sentences(texts.unreadable.format())
             return
         voice = LeverNarrator(self.context)
-        template = said.lever_about if reading.balancing.turns else said.lever_about_force
-        template = template if statics.thrust is None else said.lever_about_thrust
+        template = texts.lever_about if reading.balancing.turns else texts.lever_about_force
+        template = template if statics.thrust is None else texts.lever_about_thrust
         about = template.format(pole=report.names.pole(PlanKind.VELOCITY))
         yield sentences(about, *voice.larger())
         yield figure(
-            lambda letter: lever_picture(reading, letter, report.say),
-            said.lever_figure.format(position=report.in_position),
+            lambda letter: lever_picture(reading, letter, report.notation),
+            texts.lever_figure.format(position=report.in_position),
             "lever",
         )
         if not voice.lever.forces and not voice.lever.couples:
             symbol = self.context.symbol(reading.balancing_symbol)
-            yield sentences(said.lever_no_work.format(symbol=symbol))
+            yield sentences(texts.lever_no_work.format(symbol=symbol))
             return
         segments = voice.segments()
         yield sentences(
-            said.lever_pairs.format(segments="; ".join(segments)) if segments else "",
-            said.lever_equation.format(),
+            texts.lever_pairs.format(segments="; ".join(segments)) if segments else "",
+            texts.lever_equation.format(),
         )
         yield displayed(f"{voice.equation()}.")
         for shift in voice.lever.shifts:
             yield from chain([voice.shift(shift)])
         arms = voice.arms()
-        yield sentences(said.lever_arms.format(arms=arms) if arms else said.hence.format())
+        yield sentences(texts.lever_arms.format(arms=arms) if arms else texts.hence.format())
         yield from chain([voice.result()])
         yield from self._compared(voice)
 
     def _compared(self, voice: LeverNarrator) -> Iterator[Node]:
-        said: Words = self.said
-        say, reading = self.report.say, self.reading
+        texts: MessageTable = self.said
+        notation, reading = self.report.notation, self.reading
         plans, lever = both_balances(reading)
         assert lever is not None
         symbol, unit = voice.balancing, voice.unit
         both = compared_balances(reading.statics, reading.index)
         assert both is not None
         yield sentences(
-            said.lever_found.format(
+            texts.lever_found.format(
                 symbol=symbol,
                 plans=f"{self.find(abs(plans))} {unit}",
                 lever=f"{self.find(abs(lever))} {unit}",
@@ -395,40 +397,40 @@ class ForceChapter:
         if both.percent is not None:
             one, two = self.find(abs(lever)), self.find(abs(plans))
             share_of = fraction(f"|{one} − {two}|", two)
-            sides = f"{share_of}·100 % = {say.number(percent_text(both.share))} %"
+            sides = f"{share_of}·100 % = {notation.number(percent_text(both.percent_size))} %"
             yield displayed(f"Δ = {sides}.")
         if isfinite(both.sigma):
-            told = f"{say.number(sigma_text(both.sigma))} {unit}"
+            text = f"{notation.number(sigma_text(both.sigma))} {unit}"
             if both.expected is not None:
-                part = say.number(percent_text(both.expected))
-                yield sentences(said.lever_expected.format(sigma=told, share=part))
+                part = notation.number(percent_text(both.expected))
+                yield sentences(texts.lever_expected.format(sigma=text, share=part))
             else:
-                yield sentences(said.lever_expected_alone.format(sigma=told))
+                yield sentences(texts.lever_expected_alone.format(sigma=text))
 
     # All positions -------------------------------------------------------------------------------
 
     def _every(self) -> Iterator[Node]:
-        said: Words = self.said
+        texts: MessageTable = self.said
         report, every = self.report, self.report.every
         statics = statics_of(every)
         if not statics.closes.all():
             return
-        lead = lead_columns(every.problem, report.project.positions, report.words.note)
+        lead = lead_columns(every.problem, report.project.positions, report.language.note)
         columns: list[list[Rich]] = []
         for joint in statics.reactions:
-            sizes = alike(np.abs(joint.force).tolist())
-            columns.append([report.reaction(joint), *map(report.say.number, sizes)])
+            sizes = format_column(np.abs(joint.force).tolist())
+            columns.append([report.reaction(joint), *map(report.notation.number, sizes)])
         drive = every.problem.drive
         symbol = self.context.symbol(drive.balancing.symbol)
-        balance = [report.say.number(text) for text in alike(statics.balance.tolist())]
+        balance = [report.notation.number(text) for text in format_column(statics.balance.tolist())]
         columns.append([f"{symbol}, {report.unit(drive.balancing.unit)}", *balance])
-        yield Part(said.all.format())
+        yield Part(texts.all.format())
         quantity = drive.balancing.quantity
         rubs = rubbed(report.every.problem)
-        without = said.all_without.format() if rubs else ""
-        yield sentences(str(said["all_text"][quantity]).format(without=without))
+        without = texts.all_without.format() if rubs else ""
+        yield sentences(str(texts["all_text"][quantity]).format(without=without))
         table = table_of_columns([*lead, *columns], repeated=len(lead))
-        name = str(said["all_table"][quantity]).format()
+        name = str(texts["all_table"][quantity]).format()
         yield Table(table.head, table.rows, 0, len(lead), name=name, key="all_reactions")
         yield sentences(*largest_reactions(report))
 
@@ -438,25 +440,25 @@ def largest_reactions(report: Report) -> Iterator[Rich]:
     statics = statics_of(report.every)
     if not report.is_series or not statics.closes.all():
         return
-    said: Words = report.said["forces"]
-    find, unit = report.say.found, report.unit("N")
+    texts: MessageTable = report.texts["forces"]
+    find, unit = report.notation.computed, report.unit("N")
     sizes = {report.reaction(joint): np.abs(joint.force) for joint in statics.reactions}
     symbol = max(sizes, key=lambda one: float(sizes[one].max()))
     k = int(sizes[symbol].argmax())
     value = find(float(sizes[symbol][k]))
     facts = {"symbol": symbol, "value": f"{value} {unit}", "number": k}
     if not has_turn(report):
-        yield said.all_peaks.format(**facts)
+        yield texts.all_peaks.format(**facts)
         return
     curves = cycle(report.every)
     peaks = [curves.peak(number) for number in range(len(curves.joints))]
     number = max(range(len(peaks)), key=lambda one: peaks[one].size)
     most, whose = peaks[number], report.reaction(curves.joints[number])
     if (whose, find(most.size)) == (symbol, value):
-        yield said.cycle_peaks.format(**facts)
+        yield texts.cycle_peaks.format(**facts)
         return
-    yield said.all_peaks.format(**facts)
-    yield (said.between_limit if most.is_limit else said.between).format(
+    yield texts.all_peaks.format(**facts)
+    yield (texts.between_limit if most.is_limit else texts.between).format(
         symbol=whose, value=f"{find(most.size)} {unit}", place=_between(most.position, report)
     )
 
@@ -468,4 +470,4 @@ def _between(position: float, report: Report) -> Rich:
     before = int((position - places[0]) / step % len(places))
     angle = f"{report.coordinate} = {report.degrees(round(position % 360.0) % 360)}"
     facts = {"one": before, "other": (before + 1) % len(places), "angle": angle}
-    return str(report.said["forces"]["between_positions"]).format(**facts)
+    return str(report.texts["forces"]["between_positions"]).format(**facts)

@@ -19,14 +19,14 @@ from planmethod.note.document import (
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.forces.common import QUARTERS
 from planmethod.note.narrate.forces.common import lettered as lettered_forces
-from planmethod.note.narrate.forces.friction import FrictionTeller
+from planmethod.note.narrate.forces.friction import FrictionNarrator
 from planmethod.note.narrate.forces.statement import mass_lines
-from planmethod.note.narrate.given import given, turns_symbol
 from planmethod.note.narrate.letters import mark
-from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.narrate.machine import MachineNarrator
+from planmethod.note.narrate.statement import given_facts, turns_symbol
 from planmethod.note.numbers import with_unit
-from planmethod.note.tables.forces import push_way, rubbed
-from planmethod.note.wording import Words
+from planmethod.note.tables.forces import push_direction, rubbed
+from planmethod.note.wording import MessageTable
 from planmethod.problem.load_records import Against, Couple, Fixed, Interpolation, Load, SizeTable
 from planmethod.project.model import PartName
 from planmethod.project.report.context import NBSP, Report, items, lettered, sentences
@@ -49,7 +49,7 @@ LINKS = ("n", "ω", "ε", "φ", "m", "J", "length")
 
 def title_page(report: Report) -> TitlePage:
     """Return the first page, with the data of ``[stamp]``."""
-    problem, said = report.project.problem, report.said["front"]
+    problem, said = report.project.problem, report.texts["front"]
     stamp = {key: escape(text) for key, text in problem.title_block.items()}
     kind = said.project if len(report.project.parts) > 1 else said.homework
     designation = stamp.get("designation", "")
@@ -82,32 +82,32 @@ def front(report: Report) -> Iterator[Node]:
 
 
 def _assignment(report: Report) -> Iterator[Node]:
-    said: Words = report.said["front"]
-    yield StructuralHeading(said.assignment.format())
+    texts: MessageTable = report.texts["front"]
+    yield StructuralHeading(texts.assignment.format())
     number = report.project.calculated
-    statement = said.statement_series if report.is_series else said.statement
+    statement = texts.statement_series if report.is_series else texts.statement
     yield sentences(statement.format(symbol=report.coordinate, value=report.place, number=number))
     yield from items(_tasks(report))
     rows, further = _data(report)
     cited = report.cited()
-    taken = said.taken.format(own=cited["own"]) if "own" in cited else ""
-    yield sentences(taken, said.data.format())
+    taken = texts.taken.format(own=cited["own"]) if "own" in cited else ""
+    yield sentences(taken, texts.data.format())
     yield Table(
-        tuple(said["columns_data"]), tuple(rows), 3, name=said.data_table.format(), key="data"
+        tuple(texts["columns_data"]), tuple(rows), 3, name=texts.data_table.format(), key="data"
     )
     if further:
-        yield sentences(said.further.format(facts="; ".join(further)))
+        yield sentences(texts.further.format(facts="; ".join(further)))
     if report.has(PartName.FORCES):
-        yield from (sentences(*told) for told in (_loads(report), [*_beside(report)]) if told)
+        yield from (sentences(*told) for told in (_loads(report), [*_further_data(report)]) if told)
         yield from _load_tables(report)
-    caption = said.scheme.format(position=report.in_position)
+    caption = texts.scheme.format(position=report.in_position)
     yield figure(
         lambda letter: scheme_picture(report.one, 0, letter_height=letter), caption, "scheme"
     )
 
 
 def _tasks(report: Report) -> Iterator[Rich]:
-    tasks: Words = report.said["front"]["tasks"]
+    tasks: MessageTable = report.texts["front"]["tasks"]
     yield tasks.structure.format()
     yield tasks.kinematics.format()
     yield tasks.motion.format()
@@ -115,7 +115,7 @@ def _tasks(report: Report) -> Iterator[Rich]:
         yield tasks.cycle.format()
     for name in _FURTHER:
         if report.has(name):
-            balancing = report.said["balancing"][report.one.problem.drive.balancing.quantity]
+            balancing = report.texts["balancing"][report.one.problem.drive.balancing.quantity]
             yield str(tasks[name.value]).format(balancing=balancing)
             if name is PartName.FORCES and rubbed(report.every.problem):
                 yield tasks.friction.format()
@@ -123,10 +123,10 @@ def _tasks(report: Report) -> Iterator[Rich]:
 
 def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
     """Return the rows of the data table, and the given facts that are not a lettered number."""
-    problem, words = report.one.problem, report.words
-    facts = given(problem, words, [float(report.one.positions[0])])
+    problem, language = report.one.problem, report.language
+    facts = given_facts(problem, language, [float(report.one.positions[0])])
     if report.has(PartName.FORCES):
-        facts += mass_lines(problem, words)
+        facts += mass_lines(problem, language)
     rows: list[tuple[Rich, Rich, Rich]] = []
     further: list[Rich] = []
     series, driving = report.is_series, _driving(report)
@@ -142,38 +142,44 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
             rows.append((lettered(name), told[1], _value(told[2], report)))
     for slide in problem.slides.values():
         if slide.length is not None:
-            name = report.said["quantities"]["length"].format(of=report.link(slide.slider, "of"))
-            rows.append((name, f"l_{{{slide.slider}}}", _given(slide.length, "m", report)))
+            name = report.texts["quantities"]["length"].format(of=report.link(slide.slider, "of"))
+            rows.append((name, f"l_{{{slide.slider}}}", _input_quantity(slide.length, "m", report)))
     if report.has(PartName.FLYWHEEL):
-        tell = MachineTeller(drawing_of(flywheel_of(report.every), report.every.profile), words)
-        quantities = report.said["quantities"]
-        own = [fact.text for fact in tell.given() if fact not in facts]
+        narrator = MachineNarrator(
+            drawing_of(flywheel_of(report.every), report.every.profile), language
+        )
+        quantities = report.texts["quantities"]
+        own = [fact.text for fact in narrator.given_facts() if fact not in facts]
         for fact in own:
             told = _FACT.match(fact)
-            if told is not None and told[1] in ("δ", tell.letter("crank inertia")):
+            if told is not None and told[1] in ("δ", narrator.letter("crank inertia")):
                 key = "δ" if told[1] == "δ" else "crank inertia"
                 rows.append((str(quantities[key]).format(), told[1], told[2]))
-        if tell.flywheel.machine.cycle_deg != 360.0:
-            cycle = with_unit(report.say.given(tell.flywheel.machine.cycle_deg), report.unit("deg"))
+        if narrator.flywheel.machine.cycle_deg != 360.0:
+            cycle = with_unit(
+                report.notation.as_input(narrator.flywheel.machine.cycle_deg), report.unit("deg")
+            )
             rows.append((str(quantities["cycle"]).format(), "Φ", cycle))
-        ratio = tell.flywheel.machine.wheel.ratio
+        ratio = narrator.flywheel.machine.wheel.ratio
         if ratio != 1.0:
-            rows.append((str(quantities["flywheel ratio"]).format(), "i", report.say.given(ratio)))
+            rows.append(
+                (str(quantities["flywheel ratio"]).format(), "i", report.notation.as_input(ratio))
+            )
     listed = {symbol for _, symbol, _ in rows}
     return rows + [row for row in _teeth(report) if row[1] not in listed], further
 
 
-def _given(value: float, unit: str, report: Report) -> Rich:
-    return with_unit(report.say.given(value), report.unit(unit))
+def _input_quantity(value: float, unit: str, report: Report) -> Rich:
+    return with_unit(report.notation.as_input(value), report.unit(unit))
 
 
 def _driving(report: Report) -> dict[Rich, Rich]:
     """Return the names of the letters of the crank's rotational speed, or of its train's."""
-    geared, quantities = report.one.problem.drive.geared, report.said["quantities"]
+    geared, quantities = report.one.problem.drive.gear_drive, report.texts["quantities"]
     if geared is None:
         drive = report.one.problem.drive
         name = str(quantities["n"]).format(of=report.link(drive.link, "of"))
-        return {turns_symbol(report.one.problem, report.words): name}
+        return {turns_symbol(report.one.problem, report.language): name}
     letter = "n" if geared.unit == "n" else "ω"
     named = {f"{letter}_{{{x}}}": str(quantities[f"{letter}_train"]).format(of=x)
              for x, _ in geared.inputs}  # fmt: skip
@@ -183,13 +189,13 @@ def _driving(report: Report) -> dict[Rich, Rich]:
 
 def _ratio(report: Report) -> Rich:
     """Return the letter of the ratio from the input of the train to the crank, as given has it."""
-    geared = report.one.problem.drive.geared
+    geared = report.one.problem.drive.gear_drive
     return "" if geared is None else f"U_{{{geared.inputs[0][0]}-{geared.label}}}"
 
 
 def _teeth(report: Report) -> Iterator[tuple[Rich, Rich, Rich]]:
     """Yield the rows of the train and of the wheels in mesh."""
-    quantities, say = report.said["quantities"], report.say
+    quantities, notation = report.texts["quantities"], report.notation
 
     def row(key: str, symbol: Rich, value: Rich, **facts: object) -> tuple[Rich, Rich, Rich]:
         return str(quantities[key]).format(**facts), symbol, value
@@ -201,22 +207,27 @@ def _teeth(report: Report) -> Iterator[tuple[Rich, Rich, Rich]]:
     if train is not None:
         for label, wheel in train.wheels.items():
             if wheel.size is not None and train.counted(label):
-                yield row("z", f"z_{{{label}}}", say.given(float(wheel.size)), of=label)
+                yield row("z", f"z_{{{label}}}", notation.as_input(float(wheel.size)), of=label)
         unit = "1/min" if train.unit == "n" else "1/s"
         for body, speed in train.inputs.items():
             symbol = f"{train.letter}_{{{body}}}"
-            yield row(f"{train.letter}_train", symbol, _given(float(speed), unit, report), of=body)
+            yield row(
+                f"{train.letter}_train",
+                symbol,
+                _input_quantity(float(speed), unit, report),
+                of=body,
+            )
         for mesh in train.meshes:
             if mesh.eta is not None:
-                eta = say.given(float(mesh.eta))
+                eta = notation.as_input(float(mesh.eta))
                 yield row("eta_mesh", f"η_{{{mesh.name}}}", eta, of=mesh.name)
-        for carrier, count in train.satellites.items():
+        for carrier, count in train.planets.items():
             yield row("satellites", "k", str(count), of=carrier)
         is_told = ends is None or train.wheels[ends[0]].module is not None
         for module, wheels in train.modules.items() if is_told else ():
             labels = ", ".join(label for label in wheels if label not in (ends or ()))
             key = "module" if len(train.modules) == 1 and ends is None else "module_of"
-            mm = _given(float(module) * 1000.0, "mm", report)
+            mm = _input_quantity(float(module) * 1000.0, "mm", report)
             if labels:
                 yield row(key, "m", mm, labels=labels)
     if pair is not None:
@@ -224,22 +235,24 @@ def _teeth(report: Report) -> Iterator[tuple[Rich, Rich, Rich]]:
             for k, count in enumerate(pair.z, 1):
                 yield row("z_mesh", f"z_{{{k}}}", str(count), of=k)
         told = ends or ("1", "2")
-        yield row("module_mesh", "m", _given(pair.m, "mm", report), one=told[0], other=told[1])
+        yield row(
+            "module_mesh", "m", _input_quantity(pair.m, "mm", report), one=told[0], other=told[1]
+        )
 
 
 def _value(text: Rich, report: Report) -> Rich:
     """Return a value; of one that is constant that it is."""
     value, const, _ = text.partition(_CONST)
-    if report.one.problem.drive.geared is not None:
+    if report.one.problem.drive.gear_drive is not None:
         value = value.rpartition(" = ")[2]  # the name of the wheel is not part of the value
-    return report.said["front"].constant.format(value=value) if const else value
+    return report.texts["front"].constant.format(value=value) if const else value
 
 
 def _name(symbol: Rich, report: Report) -> Rich | None:
     """Return the name of a letter with its index; None if it does not have one."""
     letter, _, index = symbol.partition("_{")
     index = index.removesuffix("}")
-    quantities, problem = report.said["quantities"], report.one.problem
+    quantities, problem = report.texts["quantities"], report.one.problem
     if letter == "J":
         index = index.removeprefix("S")
     if letter in ("x", "y") and index in problem.guides:
@@ -263,7 +276,7 @@ def _loads(report: Report) -> list[Rich]:
 
 def _load_tables(report: Report) -> Iterator[Node]:
     """Yield the tables of the loads as in the file, so that the task can be repeated."""
-    said, say = report.said["front"], report.say
+    said, notation = report.texts["front"], report.notation
     dynamics = report.every.problem.dynamics
     for number, load in enumerate(dynamics.loads if dynamics is not None else ()):
         size = load.size
@@ -279,7 +292,7 @@ def _load_tables(report: Report) -> Iterator[Node]:
             yield sentences(said.indicator.format(name=load.name, **places))
             head = tuple(said["columns_indicator"])
             rows = [
-                (str(k), say.given(share), say.given(pressure * 1e-6))
+                (str(k), notation.as_input(share), notation.as_input(pressure * 1e-6))
                 for k, stroke in enumerate(told.strokes, 1)
                 for share, pressure in stroke
             ]
@@ -290,70 +303,77 @@ def _load_tables(report: Report) -> Iterator[Node]:
             yield sentences(template.format(name=load.name, key=key))
             head = (over, f"{load.name}, {unit}")
             at = [*size.at] or [float(k) for k in range(len(size.values))]
-            rows = [(say.given(x), say.given(y)) for x, y in zip(at, size.values, strict=True)]
+            rows = [
+                (notation.as_input(x), notation.as_input(y))
+                for x, y in zip(at, size.values, strict=True)
+            ]
         yield Table(head, tuple(rows), 0, name=said.load_data.format(name=load.name), key=key)
 
 
-def _beside(report: Report) -> Iterator[Rich]:
+def _further_data(report: Report) -> Iterator[Rich]:
     """Yield the balancing force's point, the friction data and the bearings."""
-    said: Words = report.said["front"]
-    problem, say = report.every.problem, report.say
+    texts: MessageTable = report.texts["front"]
+    problem, notation = report.every.problem, report.notation
     if problem.drive.pushed is not None:
-        way = push_way(problem, report.words.note)
-        yield said.pushed.format(point=mark(problem.drive.pushed.at), way=way)
+        way = push_direction(problem, report.language.note)
+        yield texts.pushed.format(point=mark(problem.drive.pushed.at), way=way)
     if rubbed(problem):
-        tell = FrictionTeller(lettered_forces(force_reading(report.one, 0), report.words))
-        yield said.friction.format(given="; ".join(tell.given()))
+        narrator = FrictionNarrator(lettered_forces(force_reading(report.one, 0), report.language))
+        yield texts.friction.format(given="; ".join(narrator.given_lines()))
     for joint, bearing in problem.dynamics.bearings.items() if problem.dynamics else ():
-        first, second, plane = (with_unit(say.given(z), report.unit("m"))
+        first, second, plane = (with_unit(notation.as_input(z), report.unit("m"))
                                 for z in (*bearing.at, bearing.plane))  # fmt: skip
-        yield said.bearings.format(joint=mark(joint), first=first, second=second, plane=plane)
+        yield texts.bearings.format(joint=mark(joint), first=first, second=second, plane=plane)
 
 
 def _load(load: Load | Couple, report: Report) -> Rich:
-    said: Words = report.said["front"]["loads"]
+    texts: MessageTable = report.texts["front"]["loads"]
     force = isinstance(load, Load)
     unit = "N" if force else "N·m"
     if isinstance(load.size, SizeTable):
         largest = report.quantity(max(load.size.values, key=abs), unit)
-        size = (said.table if force else said.table_couple).format(value=largest)
+        size = (texts.table if force else texts.table_couple).format(value=largest)
         if load.size.like is not None:
-            shift = with_unit(report.say.given(load.size.shift), report.unit("deg"))
-            size = said.like.format(other=load.size.like, shift=shift)
+            shift = with_unit(report.notation.as_input(load.size.shift), report.unit("deg"))
+            size = texts.like.format(other=load.size.like, shift=shift)
     else:
-        size = said.constant.format(value=with_unit(report.say.short(load.size), report.unit(unit)))
-    against = said.against if force else said.against_couple
+        size = texts.constant.format(
+            value=with_unit(report.notation.short(load.size), report.unit(unit))
+        )
+    against = texts.against if force else texts.against_couple
     sense = against.format() if isinstance(load.sense, Against) else ""
     if isinstance(load.sense, Fixed):
-        sense = said.fixed.format(way=_way(load, load.sense, report))
+        sense = texts.fixed.format(way=_direction_text(load, load.sense, report))
     moving = None if load.phase is None else load.phase.moving
     facts = {
         "link": report.link(load.link, "on"),
         "symbol": load.name,
         "size": size,
         "sense": sense,
-        "phase": str(said["moving"][moving.value]).format() if moving else "",
+        "phase": str(texts["moving"][moving.value]).format() if moving else "",
     }
     if isinstance(load, Load):
-        return said.force.format(point=load.at, **facts)
-    return said.couple.format(**facts)
+        return texts.force.format(point=load.at, **facts)
+    return texts.couple.format(**facts)
 
 
-def _way(load: Load | Couple, fixed: Fixed, report: Report) -> Rich:
+def _direction_text(load: Load | Couple, fixed: Fixed, report: Report) -> Rich:
     """Return the direction of a force that is constant on the paper."""
     largest = max(load.size.values, key=abs) if isinstance(load.size, SizeTable) else load.size
     angle = (fixed.angle + (180.0 if largest < 0 else 0.0)) % 360.0
-    forces = report.words.forces
+    forces = report.language.forces
     quarter = QUARTERS.get(round(angle, 6) % 360.0)
-    return forces[quarter] if quarter else forces.way_angle.format(angle=report.say.short(angle))
+    return (
+        forces[quarter] if quarter else forces.way_angle.format(angle=report.notation.short(angle))
+    )
 
 
 # Introduction ------------------------------------------------------------------------------------
 
 
 def _introduction(report: Report) -> Iterator[Node]:
-    said, structure = report.said["introduction"], report.one.structure
-    counts: Words = report.said["counts"]
+    said, structure = report.texts["introduction"], report.one.structure
+    counts: MessageTable = report.texts["counts"]
     many = structure.moving_links
     links = counts["links"][many] if many < len(counts["links"]) else counts.many.format(count=many)
     yield StructuralHeading(said.title.format())
@@ -362,7 +382,7 @@ def _introduction(report: Report) -> Iterator[Node]:
         said.object.format(roman=roman(structure.class_number), links=links),
         said.parts.format(parts=report.listed(others)) if others else "",
     )
-    ruler = f"{report.say.given(report.one.profile.ruler)}{NBSP}{report.unit('mm')}"
+    ruler = f"{report.notation.as_input(report.one.profile.ruler)}{NBSP}{report.unit('mm')}"
     calculated = said.calculated.format(
         number=report.project.calculated, symbol=report.coordinate, value=report.place
     )

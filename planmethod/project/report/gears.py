@@ -10,7 +10,6 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.gears.answers import answer
-from planmethod.gears.asked import parse
 from planmethod.gears.comparison import compare
 from planmethod.gears.conditions import conditions, judgement, sentence
 from planmethod.gears.construction import construct, read
@@ -20,27 +19,28 @@ from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import cutting, quality, table
-from planmethod.gears.involute.text import given as given_of_meshing
+from planmethod.gears.involute.text import given_facts as given_of_meshing
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
-from planmethod.gears.picture import draw
-from planmethod.gears.sheet import as_drawn, pictures
+from planmethod.gears.requested_quantities import parse
+from planmethod.gears.sheet import as_drawn, draw_views
+from planmethod.gears.sheet_texts import indexed, ratios, results, train_facts
 from planmethod.gears.text import (
     compared_sentences,
     compared_table,
     equation_of,
     fraction_text,
 )
-from planmethod.gears.told import given, indexed, ratios, results
+from planmethod.gears.velocity_diagrams import draw
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, raised
-from planmethod.note.wording import Words
+from planmethod.note.wording import MessageTable
 from planmethod.project.model import PartName
 from planmethod.project.report.context import Report, chain, displayed, items, sentences
-from planmethod.project.report.figures import bare, figure
+from planmethod.project.report.figures import figure, without_heading
 from planmethod.project.train import meshed, output_of
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes
@@ -54,32 +54,32 @@ COLUMN = 185.0
 _FURTHER = {"meshing.b", "meshing.cutter", "meshing.s_a_min"}
 """Given data of a meshing except the wheels and the rack, which the first sentence has."""
 
-SEEN = 0.005
+MIN_SHOWN_DIFFERENCE = 0.005
 """Minimum difference of construction and calculation that a table shows, per cent."""
 
 
 def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     """Yield the chapter on a gear train."""
-    said: Words = report.said["gears"]
-    motion, words = as_drawn(problem, report.one.profile), report.words
-    yield Chapter(said.title.format())
+    texts: MessageTable = report.texts["gears"]
+    motion, language = as_drawn(problem, report.one.profile), report.language
+    yield Chapter(texts.title.format())
     labels = sorted(motion.train.fixed)
-    form = said["fixed"]["one" if len(labels) == 1 else "many"]
-    facts = given(motion, words)
+    form = texts["fixed"]["one" if len(labels) == 1 else "many"]
+    facts = train_facts(motion, language)
     about = facts[: -1 if labels else None]
     paragraph = sentences(
-        said.about.format(facts="; ".join(fact.text for fact in about)),
+        texts.about.format(facts="; ".join(fact.text for fact in about)),
         str(form).format(labels=", ".join(labels)) if labels else "",
-        _module(report, motion, said),
+        _module(report, motion, texts),
     )
     yield replace(paragraph, facts=tuple(facts))
     yield from _figures(report, problem, motion, "train")
-    yield from _structure(report, problem, motion, said)
-    yield Part(said.analysis.format())
-    yield from _ratios(report, motion, said)
+    yield from _structure(report, problem, motion, texts)
+    yield Part(texts.analysis.format())
+    yield from _ratios(report, motion, texts)
     yield from _compared(report, problem, motion)
-    yield Part(said.pictures.format())
-    yield from _pictures(report, problem, motion, said)
+    yield Part(texts.pictures.format())
+    yield from _pictures(report, problem, motion, texts)
 
 
 def _compared(report: Report, problem: GearProblem, motion: TrainMotion) -> Iterator[Node]:
@@ -87,21 +87,21 @@ def _compared(report: Report, problem: GearProblem, motion: TrainMotion) -> Iter
     compared = compare(problem, motion)
     if compared is None:
         return
-    title = report.words.teeth["compared"]["title"]
+    title = report.language.teeth["compared"]["title"]
     yield Part(title)
-    yield sentences(*compared_sentences(compared, report.words))
-    told = compared_table(compared, report.words)
+    yield sentences(*compared_sentences(compared, report.language))
+    told = compared_table(compared, report.language)
     yield Table(told.head, told.rows, name=title, key="train_variants")
 
 
-def _module(report: Report, motion: TrainMotion, said: Words) -> Rich:
+def _module(report: Report, motion: TrainMotion, texts: MessageTable) -> Rich:
     """Return the sentence on the module of the scheme, where the train has none."""
     train, ends = motion.train, wheels_of(report)
     if not train.toothed or draw(motion) is None:
         return ""
     if ends is not None and train.module is not None and train.wheels[ends[0]].module is None:
-        return said.module_mesh.format(one=ends[0], other=ends[1])
-    return said.module_assumed.format() if train.module is None else ""
+        return texts.module_mesh.format(one=ends[0], other=ends[1])
+    return texts.module_assumed.format() if train.module is None else ""
 
 
 def wheels_of(report: Report) -> tuple[str, str] | None:
@@ -114,39 +114,39 @@ def wheels_of(report: Report) -> tuple[str, str] | None:
 
 
 def _structure(
-    report: Report, problem: GearProblem, motion: TrainMotion, said: Words
+    report: Report, problem: GearProblem, motion: TrainMotion, texts: MessageTable
 ) -> Iterator[Node]:
     found, roles = motion.structure, motion.roles
-    yield sentences(said.kind.format(kind=str(said["kinds"][found.kind.value]).format()))
+    yield sentences(texts.kind.format(kind=str(texts["kinds"][found.kind.value]).format()))
     w = str(found.formula).replace("-", MINUS)
-    classes = pair_classes(problem.sheet.notation, report.words)
+    classes = pair_classes(problem.sheet.notation, report.language)
     counts = {"n": found.moving, "low": found.lower, "high": found.higher}
-    yield displayed(said.mobility.format(w=w, **counts, **classes))
+    yield displayed(texts.mobility.format(w=w, **counts, **classes))
     carriers = [
-        said.carrier.format(
+        texts.carrier.format(
             carrier=carrier,
-            satellites=", ".join(roles.satellites[carrier]),
+            satellites=", ".join(roles.planets[carrier]),
             central=", ".join(roles.central[carrier]),
         )
         for carrier in motion.train.carriers
         if roles.central[carrier]
     ]
-    yield sentences(said.where.format(**classes), *carriers)
+    yield sentences(texts.where.format(**classes), *carriers)
 
 
-def _ratios(report: Report, motion: TrainMotion, said: Words) -> Iterator[Node]:
+def _ratios(report: Report, motion: TrainMotion, texts: MessageTable) -> Iterator[Node]:
     train = motion.train
-    yield sentences((said.willis if train.carriers else said.plain).format())
+    yield sentences((texts.willis if train.carriers else texts.plain).format())
     for text in (willis(motion, mesh, report) for mesh in train.meshes):
         yield displayed(f"{text}.")
-    yield from _derived(ratios(asked_of(motion, report), report.words), said)
-    yield sentences((said.solved if train.fixed else said.solved_plain).format())
+    yield from _derived(ratios(request_ratios(motion, report), report.language), texts)
+    yield sentences((texts.solved if train.fixed else texts.solved_plain).format())
     yield from chain(_speeds(motion, report))
     judged = conditions(motion)
     if judged:
         form = "one" if len(judged) == 1 else "many"
-        yield sentences(str(said["conditions"][form]).format())
-    yield from items(indexed(judgement(one, report.words)) for one in judged)
+        yield sentences(str(texts["conditions"][form]).format())
+    yield from items(indexed(judgement(one, report.language)) for one in judged)
 
 
 def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
@@ -158,7 +158,7 @@ def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
         return ", ".join(equation_of(motion, mesh))
 
     def speed(label: str, body: str) -> Rich:
-        if mesh.carrier is None or body in motion.roles.across:
+        if mesh.carrier is None or body in motion.roles.transverse:
             return f"{train.letter}_{{{label}}}"
         return f"{train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}}"
 
@@ -173,23 +173,23 @@ def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
     return f"U{hat}_{{{mesh.first}{mesh.second}}} = {speeds} = {found} = {ratio}"
 
 
-def _derived(lines: Iterable[DerivedLine], said: Words) -> Iterator[Node]:
+def _derived(lines: Iterable[DerivedLine], texts: MessageTable) -> Iterator[Node]:
     """Yield a derivation: formulas in chains, sentences between them."""
     for k, (is_formula, run) in enumerate(groupby(lines, lambda line: line.is_formula)):
         if not k:
-            yield sentences(said.derived.format())
+            yield sentences(texts.derived.format())
         if is_formula:
             yield from chain(line.text for line in run)
         else:
             yield from (sentences(f"{line.text}.") for line in run)
 
 
-def asked_of(motion: TrainMotion, report: Report) -> TrainMotion:
+def request_ratios(motion: TrainMotion, report: Report) -> TrainMotion:
     """Return a train with its requested ratios: those of the file, else input to output.
 
     For a train that drives the crank they include the overall ratio.
     """
-    train, geared = motion.train, report.one.problem.drive.geared
+    train, geared = motion.train, report.one.problem.drive.gear_drive
     ask = [one for one in train.ask if one.startswith("U")]
     more = [one for one in train.ask if one not in ask]
     if len(train.inputs) == 1:
@@ -203,7 +203,7 @@ def asked_of(motion: TrainMotion, report: Report) -> TrainMotion:
 
 def _speeds(motion: TrainMotion, report: Report) -> Iterator[Rich]:
     """Yield the speeds of the bodies that are not given."""
-    train, unit = motion.train, raised(report.words.gears["units"][motion.train.units[0]])
+    train, unit = motion.train, raised(report.language.gears["units"][motion.train.units[0]])
     for label in train.numbers:
         body = train.body_of[label]
         if body in train.inputs or body in train.fixed or body in train.racks:
@@ -215,93 +215,95 @@ def _speeds(motion: TrainMotion, report: Report) -> Iterator[Rich]:
 
 
 def _pictures(
-    report: Report, problem: GearProblem, motion: TrainMotion, said: Words
+    report: Report, problem: GearProblem, motion: TrainMotion, texts: MessageTable
 ) -> Iterator[Node]:
-    picture, say = draw(motion), report.say
+    picture, notation = draw(motion), report.notation
     if picture is None:
         drawn = seen = None
     else:
         drawn = construct(motion, picture)
         seen = read(drawn, report.one.profile)
-        inscriptions: Words = report.words.gears["sheet"]["inscriptions"]
+        inscriptions: MessageTable = report.language.gears["sheet"]["inscriptions"]
         yield sentences(
-            said.picture.format(
-                mu_l=inscriptions.mu_l.format(value=say.short(float(picture.mu_l), 4)),
-                mu_v=inscriptions.mu_v.format(value=say.short(picture.mu_v, 4)),
+            texts.picture.format(
+                mu_l=inscriptions.mu_l.format(value=notation.short(float(picture.mu_l), 4)),
+                mu_v=inscriptions.mu_v.format(value=notation.short(picture.mu_v, 4)),
             ),
-            said.angular.format(
-                pole=f"{say.given(float(picture.pole_mm))} {report.unit('mm')}",
+            texts.angular.format(
+                pole=f"{notation.as_input(float(picture.pole_mm))} {report.unit('mm')}",
                 scale=inscriptions.mu_omega.format(
-                    value=say.short(picture.mu_omega, 4),
-                    pole=say.given(float(picture.pole_mm)),
+                    value=notation.short(picture.mu_omega, 4),
+                    pole=notation.as_input(float(picture.pole_mm)),
                 ).partition(", ")[0],
             ),
         )
         yield from _figures(report, problem, motion, "angular")
-    rows = list(results(motion, drawn, seen, report.words))
-    yield sentences(said.speeds.format(), said.signs.format())
+    rows = list(results(motion, drawn, seen, report.language))
+    yield sentences(texts.speeds.format(), texts.signs.format())
     # The fraction of whole numbers has the same value as the decimal.
     fractions = any(fraction not in (exact, "—") for _, fraction, exact, *_ in rows)
-    heads = said["columns"] if drawn is not None else said["columns"][:3]
+    heads = texts["columns"] if drawn is not None else texts["columns"][:3]
     shown = [k for k in range(len(heads)) if fractions or k != FRACTION]
     yield Table(
         tuple(heads[k] for k in shown),
         tuple(tuple(row[k] for k in shown) for row in rows),
-        name=said.results.format(),
+        name=texts.results.format(),
         key="train_results",
     )
     if drawn is not None and seen is not None:
         offs = [
-            ComparedNumber(float(one.exact), float(seen.read.value[one.read])).share
-            for one in drawn.found
+            ComparedNumber(float(one.exact), float(seen.read.value[one.read])).percent_size
+            for one in drawn.quantities
             if one.exact
         ]
-        if offs and max(offs) < SEEN:
-            yield sentences(said.same)
+        if offs and max(offs) < MIN_SHOWN_DIFFERENCE:
+            yield sentences(texts.same)
         elif offs:
-            yield sentences(said.agree.format(most=say.number(f"{max(offs):.2f}")))
+            yield sentences(texts.agree.format(most=notation.number(f"{max(offs):.2f}")))
 
 
 def _figures(
     report: Report, problem: GearProblem, motion: TrainMotion, which: str
 ) -> Iterator[Node]:
-    said: Words = report.said["gears"]
+    texts: MessageTable = report.texts["gears"]
     has_picture = draw(motion) is not None
 
-    def made(letter: float) -> Block:
+    def draw_picture(letter: float) -> Block:
         sizes = Sizes(letter, letter, letter, COLUMN)
-        found = pictures(motion, report.one.profile, report.words, sizes)
-        return found[0] if which == "train" or found[1] is None else bare(found[1])
+        found = draw_views(motion, report.one.profile, report.language, sizes)
+        return found[0] if which == "train" or found[1] is None else without_heading(found[1])
 
     captions = {
-        "train": said.figure if has_picture else said.figure_scheme,
-        "angular": said.angular_figure,
+        "train": texts.figure if has_picture else texts.figure_scheme,
+        "angular": texts.angular_figure,
     }
-    yield figure(made, captions[which].format(), which, height=160.0)
+    yield figure(draw_picture, captions[which].format(), which, height=160.0)
 
 
 def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     """Yield the chapter on two wheels in mesh."""
-    said: Words = report.said["meshing"]
-    solved, words = SolvedMeshing(problem), report.words
-    say: Words = words.meshing
-    fields, ends = solved.fields(words.say), wheels_of(report)
+    said: MessageTable = report.texts["meshing"]
+    solved, language = SolvedMeshing(problem), report.language
+    say: MessageTable = language.meshing
+    fields, ends = solved.fields(language.notation), wheels_of(report)
     yield Chapter(said.title.format())
     form = "internal" if problem.cutter else "helical" if problem.beta else "external"
     told = {name: text.strip("()") for name, text in fields.items()}  # in no product
     way = "given" if problem.aim is None else problem.aim.value
     way = "distance" if problem.a_w is not None else way
-    facts = given_of_meshing(solved, words)
+    facts = given_of_meshing(solved, language)
     about = sentences(
         str(said["about"][form]).format(rack=report.cited()["rack"], **told),
         said.wheels.format(one=ends[0], other=ends[1]) if ends is not None else "",
         str(said["shifts"][way]).format(**told),
         facts[-1].text if way == "distance" and problem.aim is not None else "",
-        words.note.given.format(given="; ".join(x.text for x in facts if x.data.keys() & _FURTHER)),
+        language.note.given.format(
+            given="; ".join(x.text for x in facts if x.data.keys() & _FURTHER)
+        ),
     )
     yield replace(about, facts=tuple(facts))
     lead, lines = "", list[Rich]()
-    for key, formulas in groupby(solved.formulas(words), lambda one: one[0]):
+    for key, formulas in groupby(solved.formulas(language), lambda one: one[0]):
         if key in say["steps"] or key in say["beside"]:
             yield from _led(lead, lines)
             lead, lines = "", []
@@ -317,23 +319,23 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     yield from _led(lead, lines)
     yield Part(said.table.format())
     yield sentences(said.table_text.format())
-    pair, wheels, contact = solved.told()
+    pair, wheels, contact = solved.sized_quantities()
     heads: tuple[str, ...] = say["columns"]
-    whole = table([*pair, *contact], words, (*heads[:2], say.pair))
+    whole = table([*pair, *contact], language, (*heads[:2], say.pair))
     yield Table(whole.head, whole.rows, 2, name=said.table_pair.format(), key="meshing")
-    own = table(wheels, words, heads)
+    own = table(wheels, language, heads)
     yield Table(own.head, own.rows, 2, name=said.table_wheels.format(), key="wheels")
-    yield sentences(said.quality.format(facts="; ".join(quality(solved, words))))
+    yield sentences(said.quality.format(facts="; ".join(quality(solved, language))))
     yield figure(
-        lambda letter: meshing_picture(view_for(solved, 300.0, 240.0), words, letter),
+        lambda letter: meshing_picture(view_for(solved, 300.0, 240.0), language, letter),
         said.figure.format(),
         "meshing_picture",
     )
     pinion = solved.cuttings[0]
     assert pinion is not None  # only wheel 2 may be a ring
-    yield sentences(said.cutting_text.format(), *cutting(solved, words))
+    yield sentences(said.cutting_text.format(), *cutting(solved, language))
     yield figure(
-        lambda letter: cutting_picture(cutting_view(pinion, 260.0, 200.0), words, letter),
+        lambda letter: cutting_picture(cutting_view(pinion, 260.0, 200.0), language, letter),
         said.cutting_figure.format(),
         "cutting_picture",
     )
@@ -346,7 +348,7 @@ def _led(lead: Rich, lines: list[Rich]) -> Iterator[Node]:
     yield from chain(lines)
 
 
-def _undercut(solved: SolvedMeshing, report: Report, said: Words) -> Iterator[Rich]:
+def _undercut(solved: SolvedMeshing, report: Report, texts: MessageTable) -> Iterator[Rich]:
     """Yield the effect of the shift of every wheel that the rack would undercut unshifted."""
     least = solved.pair.x_min
     for k, (count, shift) in enumerate(zip(solved.problem.z, solved.problem.x, strict=True)):
@@ -354,29 +356,31 @@ def _undercut(solved: SolvedMeshing, report: Report, said: Words) -> Iterator[Ri
         if not np.isfinite(bound) or bound <= 0.0 or (k and solved.problem.cutter):
             continue
         form = "avoided" if shift >= bound else "stays"
-        yield str(said["is_undercut"][form]).format(
+        yield str(texts["is_undercut"][form]).format(
             wheel=k + 1,
             z=count,
-            x=report.say.number(f"{shift:.2f}"),
-            x_min=report.say.number(f"{bound:.2f}"),
+            x=report.notation.number(f"{shift:.2f}"),
+            x_min=report.notation.number(f"{bound:.2f}"),
         )
 
 
 def failed_quality(problem: MeshingProblem, report: Report) -> list[Rich]:
     """Return the limits of a meshing that its shifts do not keep."""
-    return [text for _, holds, text in SolvedMeshing(problem).sentences(report.words) if not holds]
+    return [
+        text for _, holds, text in SolvedMeshing(problem).sentences(report.language) if not holds
+    ]
 
 
 def failed_conditions(problem: GearProblem, report: Report) -> list[Rich]:
     """Return the conditions of the numbers of teeth that do not hold."""
-    judged = (one for one in conditions(solve_motion(problem)) if not one.holds)
-    told = (indexed(sentence(one, report.words)) for one in judged)
+    judged = (one for one in conditions(solve_motion(problem)) if not one.is_met)
+    told = (indexed(sentence(one, report.language)) for one in judged)
     return [f"{text[:1].lower()}{text[1:]}" for text in told]
 
 
 def ratios_of(problem: GearProblem, report: Report) -> list[Rich]:
     """Return the requested ratios and that of the whole train, with their symbols."""
-    motion = asked_of(solve_motion(problem), report)
+    motion = request_ratios(solve_motion(problem), report)
     known = tuple(motion.train.body_of)
     asked = [parse(name, known) for name in motion.train.ask if answer(motion, name).value]
-    return [by_speeds(motion, one, report.words) for one in asked if one.kind == "U"]
+    return [by_speeds(motion, one, report.language) for one in asked if one.kind == "U"]

@@ -31,7 +31,9 @@ from planmethod.project.report.structure import structure_chapter
 from planmethod.project.report.turn import diagrams_part, has_turn, transfer_chapter
 
 
-def note_document(project: Project, words: Language, sheets: Sequence[SheetEntry] = ()) -> Document:
+def note_document(
+    project: Project, language: Language, sheets: Sequence[SheetEntry] = ()
+) -> Document:
     """Return the explanatory note of a project (пояснительная записка).
 
     It has the chapters that the file has something for; its numbers are those of the sheets.
@@ -39,7 +41,7 @@ def note_document(project: Project, words: Language, sheets: Sequence[SheetEntry
     Parameters
     ----------
     project : Project
-    words : Language
+    language : Language
     sheets : sequence of SheetEntry
         The sheets of the project where they are drawn; else the parts are listed.
 
@@ -48,9 +50,9 @@ def note_document(project: Project, words: Language, sheets: Sequence[SheetEntry
     PositionError
         Where the mechanism cannot be assembled or a force plan does not close.
     """
-    units = sorted(set(words.note["units"].values()), key=len, reverse=True)
+    units = sorted(set(language.note["units"].values()), key=len, reverse=True)
     tie = re.compile(rf"(?<=\d) (?=(?:{'|'.join(map(re.escape, units))}|%)(?![^\W\d_]))")
-    return Document.of(_tied(node, tie) for node in _nodes(Report(project, words), sheets))
+    return Document.of(_tied(node, tie) for node in _nodes(Report(project, language), sheets))
 
 
 def _nodes(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:

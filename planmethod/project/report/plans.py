@@ -15,18 +15,18 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Equations, Formula, Node, Paragraph, Part
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.equations import equation_of
-from planmethod.note.narrate.formulas import knot_letter, view_name
+from planmethod.note.narrate.formulas import detail_view_letter, view_name
 from planmethod.note.narrate.letters import direction_text
-from planmethod.note.plaintext import given
-from planmethod.note.wording import Words
+from planmethod.note.plaintext import input_text
+from planmethod.note.wording import MessageTable
 from planmethod.plans.build import Section
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import RATES, PlanKind, Relation
-from planmethod.plans.motion.leads import Relative
+from planmethod.plans.motion.legs import Relative
 from planmethod.project.report.context import Report, chain, displayed, lettered, sentences
 from planmethod.project.report.figures import figure
 from planmethod.render.layout.block import Block
-from planmethod.render.pictures.planview import knot_pictures, plan_picture
+from planmethod.render.pictures.planview import detail_pictures, plan_picture
 
 
 class PlanChapter:
@@ -34,7 +34,7 @@ class PlanChapter:
 
     def __init__(self, report: Report, kind: PlanKind) -> None:
         self.report, self.kind = report, kind
-        self.said: Words = report.said["plan"]
+        self.texts: MessageTable = report.texts["plan"]
         self.names, self.narrator, self.say = report.names, report.narrator, report.formulas
         self.plan = report.one.construction.plan(kind)
         self._drawing: list[Rich] = []
@@ -44,17 +44,17 @@ class PlanChapter:
 
     def nodes(self) -> Iterator[Node]:
         """Yield the part."""
-        said, kind, position = self.said, self.kind.value, self.report.of_position
+        texts, kind, position = self.texts, self.kind.value, self.report.of_position
         scale = self.report.scale(self.kind)
-        yield Part(str(said["part"][kind]).format())
+        yield Part(str(texts["part"][kind]).format())
         assert self.plan.pole is not None
-        fixed = self.names.others(self.plan.pole)
+        fixed = self.names.further_letters(self.plan.pole)
         pole = self.names.pole(self.kind)
-        form = said["pole_one" if len(fixed) == 1 else "pole"][kind]
-        told = str(form).format(pole=pole, points=self.report.listed(fixed or [""]))
+        form = texts["pole_one" if len(fixed) == 1 else "pole"][kind]
+        text = str(form).format(pole=pole, points=self.report.listed(fixed or [""]))
         yield sentences(
-            str(said["scale"][kind]).format(position=position, scale=scale),
-            told if fixed else said.bare_pole.format(pole=pole),
+            str(texts["scale"][kind]).format(position=position, scale=scale),
+            text if fixed else texts.bare_pole.format(pole=pole),
         )
         yield from self._figures()
         sections = [s for s in self.report.one.construction.sections if s.kind is self.kind]
@@ -62,16 +62,16 @@ class PlanChapter:
             yield from self._section(section)
 
     def _section(self, section: Section) -> Iterator[Node]:
-        said, drive = self.said, self.report.one.problem.drive
+        texts, drive = self.texts, self.report.one.problem.drive
         made = {PointName(step.out) for step in section.steps}
         if section.group is None:
-            template = said.driver if drive.is_crank else said.driver_slider
+            template = texts.driver if drive.is_crank else texts.driver_slider
             lead = [template.format(link=drive.link)]
             if self.kind is PlanKind.ACCELERATION and drive.is_crank and not drive.accelerates:
-                lead.append(said.constant.format())
+                lead.append(texts.constant.format())
             yield sentences(*lead)
         else:
-            lead = [said.group.format(links="–".join(section.group.links))]
+            lead = [texts.group.format(links="–".join(section.group.links))]
             yield sentences(*lead, *self._known_turning(section), *self._coincident(section))
             yield from self._equations(made)
             if self.kind is PlanKind.ACCELERATION:
@@ -92,23 +92,23 @@ class PlanChapter:
         assert section.group is not None
         if self.kind is not PlanKind.VELOCITY:
             return
-        omega = self.names.kin.omega
+        omega = self.names.kinematics.omega
         own = {step.out for step in section.steps}
         for link in section.group.links:
             if link not in omega:
-                yield self.said.translating.format(link=link)
+                yield self.texts.translating.format(link=link)
                 continue
             other = self.names.owner(omega[link])
             if other != link and (omega[link] not in own or other in section.group.links):
                 symbols = {"symbol": f"ω_{{{link}}}", "same": f"ω_{{{other}}}"}
-                yield self.said.shared.format(link=link, other=other, **symbols)
+                yield self.texts.shared.format(link=link, other=other, **symbols)
 
     def _coincident(self, section: Section) -> Iterator[Rich]:
         """Yield the coincident points of two links."""
         assert section.group is not None
         if self.kind is not PlanKind.VELOCITY:
             return
-        for relative in self.names.kin.relatives.values():
+        for relative in self.names.kinematics.relatives.values():
             inside = {relative.of, relative.to} & {*section.group.links}
             if not inside:
                 continue
@@ -117,7 +117,7 @@ class PlanChapter:
                 continue
             head, tail = (self._capital(point) for point in (relative.head, relative.start))
             if head and tail and head != tail:
-                yield self.said.coincident.format(
+                yield self.texts.coincident.format(
                     head=head, of=relative.of, tail=tail, to=relative.to
                 )
 
@@ -129,7 +129,7 @@ class PlanChapter:
                 if ends == (relative.start, relative.head) and term.direction is not None:
                     index = term.symbol.partition("_{")[2].removesuffix("}")
                     tail = index.removeprefix(relative.point)
-                    yield self.said.on_frame.format(
+                    yield self.texts.on_frame.format(
                         head=relative.point,
                         of=relative.of,
                         guide=self.names.base(term.direction),
@@ -144,19 +144,19 @@ class PlanChapter:
         letter = self.names.point(point)
         return letter[:1].upper() + letter[1:]
 
-    def _equations(self, made: set[PointName]) -> Iterator[Node]:
-        found = [e for e in self.plan.equations if e.left.head in made]
+    def _equations(self, drawn_heads: set[PointName]) -> Iterator[Node]:
+        found = [e for e in self.plan.equations if e.left.head in drawn_heads]
         if not found:
             return
         heads = list(dict.fromkeys(self._capital(e.left.head) for e in found))
         form = "one" if len(found) == 1 else "pair" if len(heads) == 1 else "many"
-        template = str(self.said["equations"][self.kind.value][form])
+        template = str(self.texts["equations"][self.kind.value][form])
         yield sentences(template.format(points=self.report.listed(heads)))
-        directed = partial(direction_text, say=self.report.words.say)
+        directed = partial(direction_text, say=self.report.language.notation)
         equations = tuple(equation_of(equation, directed) for equation in found)
         yield Equations(equations, numbered=True)
         if self.kind is PlanKind.VELOCITY and found[0] is self._first:
-            yield sentences(self.said.legend.format())
+            yield sentences(self.texts.legend.format())
 
     @property
     def _first(self) -> object:
@@ -176,16 +176,16 @@ class PlanChapter:
     def _step(self, step: Step) -> Iterator[Node]:
         names = self.names
         if not self.say.readable(step.out) and not self.narrator.is_reading(step):
-            lines = self.narrator.tell(step)
+            lines = self.narrator.narrate(step)
             if lines:
                 yield from self._flush()
                 yield sentences(*lines)
             return
         match step:
-            case steps.LayOff():
+            case steps.LayOffLength():
                 yield from self._flush()
-                yield from self._laid(step)
-            case steps.MeetLines():
+                yield from self._explain_lay_off(step)
+            case steps.IntersectLines():
                 yield from self._flush()
                 yield sentences(self._meet(step))
             case steps.Similar():
@@ -194,10 +194,10 @@ class PlanChapter:
             case steps.Measure() | steps.MeasureAlong():
                 segment = names.segment(step.tail, step.head)
                 on_plan = step.tail in names.letters
-                read = given(abs(self.say.number(step.out)), self.report.words.note, 5)
-                told = f"{segment} = {read}"
-                told = f"{told} {self.report.unit('mm')}"
-                (self._measured if on_plan else self._drawing).append(told)
+                read = input_text(abs(self.say.number(step.out)), self.report.language.note, 5)
+                text = f"{segment} = {read}"
+                text = f"{text} {self.report.unit('mm')}"
+                (self._measured if on_plan else self._drawing).append(text)
             case Compute():
                 yield from self._computed(step)
             case _:
@@ -205,23 +205,23 @@ class PlanChapter:
 
     def _computed(self, step: Compute) -> Iterator[Node]:
         """Store a number computed from measurements."""
-        found = self.narrator.motion.found(step)
-        kind = next((k for k in RATES if step.out in self.names.kin.rates(k).values()), None)
+        found = self.narrator.motion.result_formulas(step)
+        kind = next((k for k in RATES if step.out in self.names.kinematics.rates(k).values()), None)
         if kind is None:
             self._formulas += found
             return
         # The sense has a sentence of its own.
         self._formulas.append(found[0].rpartition(", ")[0] if self.say.number(step.out) else "")
         self._formulas = [text for text in self._formulas if text]
-        read = self.names.kin.turnings[kind, self.names.owner(step.out)]
+        read = self.names.kinematics.turnings[kind, self.names.owner(step.out)]
         segment, symbol = self.names.segment(read.start, read.head), self.names.symbol(step.out)
         value = self.say.number(step.out)
         if not value:
-            self._senses.append(self.said.zero.format(segment=segment, symbol=symbol))
+            self._senses.append(self.texts.zero.format(segment=segment, symbol=symbol))
             return
-        note = self.report.words.note
+        note = self.report.language.note
         self._senses.append(
-            str(self.said["turning"][self.kind.value]).format(
+            str(self.texts["turning"][self.kind.value]).format(
                 link=self.names.owner(step.out),
                 segment=segment,
                 place=read.place,
@@ -234,25 +234,25 @@ class PlanChapter:
 
     def _flush(self) -> Iterator[Node]:
         """Yield the stored measurements and their results, and clear them."""
-        said = self.said
+        texts = self.texts
         if self._drawing:
-            yield sentences(said.on_drawing.format(segments=self.report.listed(self._drawing)))
+            yield sentences(texts.on_drawing.format(segments=self.report.listed(self._drawing)))
         if self._measured:
-            template = str(said["on_plan" if self._formulas else "measured"][self.kind.value])
+            template = str(texts["on_plan" if self._formulas else "measured"][self.kind.value])
             yield sentences(template.format(segments=self.report.listed(self._measured)))
         elif self._formulas:
-            yield sentences(said.computed.format())
+            yield sentences(texts.computed.format())
         yield from chain(self._formulas)
         if self._senses:
             yield sentences(*self._senses)
         for kept in (self._drawing, self._measured, self._formulas, self._senses):
             kept.clear()
 
-    def _laid(self, step: steps.LayOff) -> Iterator[Node]:
+    def _explain_lay_off(self, step: steps.LayOffLength) -> Iterator[Node]:
         *formulas, sentence = self.narrator.motion.lay_off(step)
         vector = self.names.vector(step.origin, step.out)
         if formulas and vector is not None:
-            kinds: Words = self.said["kinds"][self.kind.value]
+            kinds: MessageTable = self.texts["kinds"][self.kind.value]
             template = kinds.get(vector.kind.value, kinds.usual)
             towards = vector.direction
             ends = ("", "")
@@ -260,46 +260,46 @@ class PlanChapter:
                 ends = (towards.points[0], towards.points[1])
             yield sentences(template.format(symbol=vector.symbol, tail=ends[0], head=ends[1]))
         elif formulas:
-            yield sentences(self.said.computed.format())
-        where = self._where(step)
+            yield sentences(self.texts.computed.format())
+        where = self._new_letters(step)
         for k, text in enumerate(formulas, 1):
             last = k == len(formulas)
             end = "," if last and where else "." if last else ","
             yield displayed(f"{text}{end}") if k == 1 else Formula(f"{text}{end}")
         if where:
-            yield sentences(self.report.said.where.format(facts="; ".join(where)))
+            yield sentences(self.report.texts.where.format(facts="; ".join(where)))
         yield sentences(sentence)
 
-    def _where(self, step: steps.LayOff) -> list[Rich]:
+    def _new_letters(self, step: steps.LayOffLength) -> list[Rich]:
         """Return explanations of the letters of a product that are new."""
         length = self.names.step[step.length]
         assert isinstance(length, Compute)
         made = self.names.step[length.powers[0][0]]
         if not isinstance(made, Compute):
             return []
-        found, kin = [], self.names.kin
+        found, kinematics = [], self.names.kinematics
         dimensions = self.names.construction.draft.dimensions
-        describe: Words = self.said["describe"]
+        describe: MessageTable = self.texts["describe"]
         for name, _ in made.powers:
             symbol = self.names.symbol(name)
             if symbol in self.report.described:
                 continue
             self.report.described.add(symbol)
             told = dimensions.get(name)
-            if name in kin.omega.values():
+            if name in kinematics.omega.values():
                 found.append(describe.omega.format(symbol=symbol, of=self.names.owner(name)))
-            elif name in kin.epsilon.values():
+            elif name in kinematics.epsilon.values():
                 found.append(describe.epsilon.format(symbol=symbol, of=self.names.owner(name)))
             elif told is not None and told.kind is DimensionKind.LENGTH:
                 of = symbol.partition("_{")[2].removesuffix("}")
                 found.append(describe.length.format(symbol=symbol, of=lettered(of)))
-            elif any(name == relative.speed for relative in kin.relatives.values()):
+            elif any(name == relative.speed for relative in kinematics.relatives.values()):
                 found.append(describe.sliding.format(symbol=symbol))
         return found
 
-    def _meet(self, step: steps.MeetLines) -> Rich:
+    def _meet(self, step: steps.IntersectLines) -> Rich:
         first, second = (self._ray(line) for line in (step.first, step.second))
-        return self.said.rays.format(
+        return self.texts.rays.format(
             first=first,
             second=second,
             point=self.names.point(step.out),
@@ -308,21 +308,21 @@ class PlanChapter:
 
     def _ray(self, name: LineName) -> Rich:
         """Return a line that is drawn on the plan, and its vector."""
-        step, said = self.names.step[name], self.said
+        step, texts = self.names.step[name], self.texts
         ray = self.names.ray(name)
-        carried = "" if ray is None else said.carried.format(symbol=ray.symbol)
+        carried = "" if ray is None else texts.carried.format(symbol=ray.symbol)
         if isinstance(step, steps.Join):
             base = self.names.direction(name).base
-            return said.ray_join.format(base=base, carried=carried)
+            return texts.ray_join.format(base=base, carried=carried)
         assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle)
         base, angle = self.narrator.motion.direction(name, ray)
-        line = said["from"].format(of=self.names.of(step.through))
+        line = texts["from"].format(of=self.names.of(step.through))
         if angle in (0.0, 180.0):
-            return said.ray.format(line=line, base=base, carried=carried)
+            return texts.ray.format(line=line, base=base, carried=carried)
         if abs(angle) == 90.0:
-            return said.ray_across.format(line=line, base=base, carried=carried)
-        told = given(abs(angle), self.report.words.note)
-        return said.ray_angled.format(line=line, base=base, angle=told, carried=carried)
+            return texts.ray_across.format(line=line, base=base, carried=carried)
+        text = input_text(abs(angle), self.report.language.note)
+        return texts.ray_angled.format(line=line, base=base, angle=text, carried=carried)
 
     def _similar(self, step: steps.Similar) -> Iterator[Node]:
         *formulas, sentence = self.narrator.motion.similar(step)
@@ -331,46 +331,48 @@ class PlanChapter:
             parts = [text.rstrip(".,") for text in formulas]
             if len(parts) > 1:
                 figures = " ∼ ".join(f"△{c}" for c in self.narrator.motion.triangles(step))
-                yield sentences(self.said.similar_triangle.format(point=point, figures=figures))
+                yield sentences(self.texts.similar_triangle.format(point=point, figures=figures))
             else:
-                yield sentences(self.said.similar.format(point=point))
+                yield sentences(self.texts.similar.format(point=point))
             yield from chain(parts)
         yield sentences(sentence)
 
     # Figures -------------------------------------------------------------------------------------
 
     def _figures(self) -> Iterator[Node]:
-        solution, kind, words = self.report.one, self.kind, self.report.words
-        knots = solution.knots_of(kind, 0)
-        letters = tuple(knot_letter(knot, words) for knot in knots)
+        solution, kind, language = self.report.one, self.kind, self.report.language
+        knots = solution.detail_views_at(kind, 0)
+        letters = tuple(detail_view_letter(detail_view, language) for detail_view in knots)
         by_hand = True
 
         def plan(letter: float) -> Block:
             return plan_picture(
-                solution, kind, 0, letter_height=letter, by_hand=by_hand, knots=letters
+                solution, kind, 0, letter_height=letter, use_ruler=by_hand, detail_letters=letters
             )
 
         scale, position = self.report.scale(kind), self.report.of_position
-        caption = str(self.said["figure"][kind.value]).format(position=position, scale=scale)
+        caption = str(self.texts["figure"][kind.value]).format(position=position, scale=scale)
         yield figure(plan, caption, kind.value)
         if not knots:
             return
-        views = [view_name(knot, words) for knot in knots]
+        views = [view_name(detail_view, language) for detail_view in knots]
         keys = [f"{kind.value}_{number}" for number in range(len(views))]
         told = [
-            self.said.enlarged_at.format(view=view, key=key)
+            self.texts.enlarged_at.format(view=view, key=key)
             for view, key in zip(views, keys, strict=True)
         ]
-        yield Paragraph(self.said.enlarged_note.format(views=self.report.listed(told)))
+        yield Paragraph(self.texts.enlarged_note.format(views=self.report.listed(told)))
         for number, view in enumerate(views):
 
             def enlarged(letter: float, number: int = number) -> Block:
-                pictures = knot_pictures(solution, kind, 0, letter_height=letter, by_hand=by_hand)
+                pictures = detail_pictures(
+                    solution, kind, 0, letter_height=letter, use_ruler=by_hand
+                )
                 return pictures[number]
 
             yield figure(
                 enlarged,
-                str(self.said["enlarged"][kind.value]).format(view=view),
+                str(self.texts["enlarged"][kind.value]).format(view=view),
                 keys[number],
                 height=80.0,
                 grows=False,

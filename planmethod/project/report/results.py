@@ -9,12 +9,12 @@ import numpy as np
 from planmethod.note.compared import ComparedNumber, percent_text
 from planmethod.note.document import Node, Part, Table, table_of_columns
 from planmethod.note.formula import Rich
-from planmethod.note.narrate.given import told
-from planmethod.note.numbers import alike
+from planmethod.note.narrate.statement import reported_quantities
+from planmethod.note.numbers import format_column
 from planmethod.note.rounding import sigma_text
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.tables.series import motion_series
-from planmethod.note.wording import Words
+from planmethod.note.wording import MessageTable
 from planmethod.plans.legend import MOTION_KINDS, Quantity, QuantityKind, kinds_on
 from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, sentences
@@ -41,81 +41,81 @@ def compared(
 
 
 def worst(
-    found: Sequence[tuple[Quantity, ComparedNumber]],
+    comparisons: Sequence[tuple[Quantity, ComparedNumber]],
 ) -> tuple[Quantity, ComparedNumber] | None:
     """Return the quantity with the largest relative difference."""
-    return max(found, key=lambda pair: pair[1].share, default=None)
+    return max(comparisons, key=lambda pair: pair[1].percent_size, default=None)
 
 
 def results_parts(report: Report) -> Iterator[Node]:
     """Yield the tables of all positions, and the comparison."""
-    said: Words = report.said["results"]
+    texts: MessageTable = report.texts["results"]
     if report.is_series:
-        yield Part(said.part.format())
-        yield sentences(said.intro.format())
+        yield Part(texts.part.format())
+        yield sentences(texts.intro.format())
         for kinds, key in (
             (kinds_on(PlanKind.VELOCITY), "velocities"),
             (kinds_on(PlanKind.ACCELERATION), "accelerations"),
         ):
-            yield _by_positions(report, kinds, str(said[key]).format(), key)
-    yield Part(said.compared.format())
-    yield from _compared(report, said)
+            yield _by_positions(report, kinds, str(texts[key]).format(), key)
+    yield Part(texts.compared.format())
+    yield from _compared(report, texts)
     if report.is_series:
-        yield from _largest(report, said)
+        yield from _largest(report, texts)
 
 
 def _by_positions(report: Report, kinds: Sequence[QuantityKind], name: Rich, key: str) -> Table:
     every = report.every
-    lead = lead_columns(every.problem, report.project.positions, report.words.note)
+    lead = lead_columns(every.problem, report.project.positions, report.language.note)
     columns = []
-    for quantity in told(every, *kinds):
+    for quantity in reported_quantities(every, *kinds):
         values = [float(v) + 0.0 for v in every.read_off(quantity.label)]
-        columns.append([quantity.symbol, *map(report.say.number, alike(values))])
+        columns.append([quantity.symbol, *map(report.notation.number, format_column(values))])
     table = table_of_columns([*lead, *columns], repeated=len(lead))
     return Table(table.head, table.rows, 0, len(lead), name=name, key=key)
 
 
-def _compared(report: Report, said: Words) -> Iterator[Node]:
-    say = report.say
+def _compared(report: Report, texts: MessageTable) -> Iterator[Node]:
+    notation = report.notation
     found = compared(report.one, 0, *MOTION_KINDS)
-    yield sentences(said.intro_compared.format(position=report.of_position))
+    yield sentences(texts.intro_compared.format(position=report.of_position))
     rows = [
         (
             f"{of.symbol}, {report.unit(of.kind.unit)}",
-            say.found(one.read),
-            say.found(one.exact),
-            say.number(one.off_text),
-            say.number(one.percent_text(2)),
-            say.number(sigma_text(one.sigma)),
+            notation.computed(one.read),
+            notation.computed(one.exact),
+            notation.number(one.off_text),
+            notation.number(one.percent_text(2)),
+            notation.number(sigma_text(one.sigma)),
         )
         for of, one in found
         if one.sigma  # given values have no error
     ]
     yield Table(
-        tuple(text.format() for text in said["columns_compared"]),
+        tuple(text.format() for text in texts["columns_compared"]),
         tuple(rows),
-        name=said.compared_table.format(position=report.in_position),
+        name=texts.compared_table.format(position=report.in_position),
         key="compared",
     )
     beyond = [of.symbol for of, one in found if one.sigmas > MANY_SIGMAS]
     most = worst(found)
     yield sentences(
-        said.beyond.format(symbols=", ".join(beyond))
+        texts.beyond.format(symbols=", ".join(beyond))
         if beyond
-        else said.within.format(
-            most=say.number(f"{max(one.sigmas for _, one in found) + 0.05:.1f}")
+        else texts.within.format(
+            most=notation.number(f"{max(one.sigmas for _, one in found) + 0.05:.1f}")
         ),
         ""
         if most is None
-        else said.largest.format(
-            symbol=most[0].symbol, percent=say.number(percent_text(most[1].share))
+        else texts.largest.format(
+            symbol=most[0].symbol, percent=notation.number(percent_text(most[1].percent_size))
         ),
     )
 
 
-def _largest(report: Report, said: Words) -> Iterator[Node]:
+def _largest(report: Report, texts: MessageTable) -> Iterator[Node]:
     """Yield the largest difference of each quantity in all positions."""
-    every, say, rows = report.every, report.say, []
+    every, notation, rows = report.every, report.notation, []
     for series in motion_series(every, *MOTION_KINDS):
         quantity, off = series.quantity, np.abs(series.reads() - series.exact)
         peak = float(np.nanmax(np.abs(series.exact)))
@@ -128,17 +128,17 @@ def _largest(report: Report, said: Words) -> Iterator[Node]:
         rows.append(
             (
                 f"{quantity.symbol}, {report.unit(quantity.kind.unit)}",
-                say.found(peak),
-                say.number(alike([abs(one.off)], 2)[0]),
-                say.number(percent_text(100.0 * abs(one.off) / peak, 2)),
+                notation.computed(peak),
+                notation.number(format_column([abs(one.off)], 2)[0]),
+                notation.number(percent_text(100.0 * abs(one.off) / peak, 2)),
                 str(k),
-                say.number(sigma_text(one.sigma)),
+                notation.number(sigma_text(one.sigma)),
             )
         )
-    yield sentences(said.all_intro.format())
+    yield sentences(texts.all_intro.format())
     yield Table(
-        tuple(text.format() for text in said["columns_all"]),
+        tuple(text.format() for text in texts["columns_all"]),
         tuple(rows),
-        name=said.all_table.format(),
+        name=texts.all_table.format(),
         key="largest",
     )

@@ -76,7 +76,7 @@ def _coordinates(item: Item) -> Iterator[complex]:
             assert_never(item)
 
 
-def _is_bare(item: Item) -> bool:
+def _is_invisible(item: Item) -> bool:
     """Return whether an item leaves nothing on the paper; such items are skipped."""
     match item:
         case Stroke():
@@ -121,7 +121,7 @@ def draw(items: Iterable[Item], canvas: Canvas, title: str = "") -> None:
                 title,
                 item,
             )
-        if _is_bare(item):
+        if _is_invisible(item):
             continue
         match item:
             case Stroke():

@@ -12,9 +12,14 @@ Curve: TypeAlias = tuple[complex, complex, complex, complex]
 
 
 def arc_curves(
-    centre: complex, radius: float, start: float = 0.0, turn: float = tau, *, within: float = 1e-3
+    centre: complex,
+    radius: float,
+    start: float = 0.0,
+    turn: float = tau,
+    *,
+    tolerance: float = 1e-3,
 ) -> list[Curve]:
-    """Return cubic curves along an arc, at most ``within`` mm from it.
+    """Return cubic curves along an arc, at most ``tolerance`` mm from it.
 
     Parameters
     ----------
@@ -26,7 +31,7 @@ def arc_curves(
         Largest distance allowed, mm. The curve of a quarter circle leaves the circle by 2.7e-4 of
         the radius; this falls with the sixth power of the angle.
     """
-    finer = max(1.0, (2.8e-4 * radius / within) ** (1.0 / 6.0))
+    finer = max(1.0, (2.8e-4 * radius / tolerance) ** (1.0 / 6.0))
     count = max(1, ceil(turn / (tau / 4.0) * finer - 1e-9))
     step = turn / count
     pull = 4.0 / 3.0 * tan(step / 4.0) * 1j

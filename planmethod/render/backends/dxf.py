@@ -50,7 +50,7 @@ LINE_TYPES: Mapping[Pen, str] = MappingProxyType(
     }
 )
 
-_WITHIN = 2e-3  # mm: how far a polygon may leave the curve that it replaces
+_TOLERANCE = 2e-3  # mm: how far a polygon may leave the curve that it replaces
 _BY_BLOCK = -2  # line weight that is inherited from the block
 _SMOOTH = radians(20.0)
 _DEGREE = 3  # of splines
@@ -112,7 +112,7 @@ class DxfCanvas(Canvas):
         self._lettering: OutlineLettering
         # An item whose meaning depends on the next one: the shaft of an arrow, the inside of a
         # joint.
-        self._held: Stroke | Disc | None = None
+        self._pending: Stroke | Disc | None = None
         self._runs: list[Text] = []  # of one turned inscription
 
     def open(self, drawing: Drawing) -> None:
@@ -167,17 +167,17 @@ class DxfCanvas(Canvas):
     def _by_layer(self, layer: str, pen: Pen) -> dict[str, Any]:
         """Return the attributes of a line: only those that differ from its layer's."""
         own: dict[str, Any] = {"layer": layer}
-        return {**own, **_unlike(LAYERS[layer], pen)}
+        return {**own, **_list_overrides(LAYERS[layer], pen)}
 
     # Verbs ----------------------------------------------------------------------------------------
 
     def stroke(self, item: Stroke) -> None:
         """Draw a line or polyline, once the next item shows whether it is an arrow's shaft."""
-        self._let_go()
+        self._flush()
         if PENS[item.pen].dashes and len(set(item.points)) < 2:
             return
         if len(item.points) == 2 and not item.closed and PENS[item.pen].dashes is None:
-            self._held = item
+            self._pending = item
         else:
             self._line(item)
 
@@ -186,19 +186,19 @@ class DxfCanvas(Canvas):
         turn = sweep(item)
         if turn <= 0.0:
             return
-        held = self._held
+        held = self._pending
         if (
             isinstance(held, Disc)
             and turn >= tau
             and held.centre == item.centre
             and held.radius == item.radius
         ):
-            self._held = None
+            self._pending = None
             name = self._joint(item.radius, item.pen)
             place = (item.centre.real, item.centre.imag)
             self._space.add_blockref(name, place, dxfattribs={"layer": "SYMBOLS"})
             return
-        self._let_go()
+        self._flush()
         _add_arc(self._space, item, turn, self._by_layer(layer_of(item.tag, item.pen), item.pen))
 
     def fill(self, item: Fill | Disc) -> None:
@@ -206,9 +206,9 @@ class DxfCanvas(Canvas):
         if isinstance(item, Fill) and item.ink is Ink.BLACK and (head := _arrowhead(item.points)):
             self._arrow(item, *head)
             return
-        self._let_go()
+        self._flush()
         if isinstance(item, Disc) and item.ink is Ink.WHITE:
-            self._held = item
+            self._pending = item
         elif item.ink is Ink.WHITE:
             assert isinstance(item, Fill)
             self._mask(item.points)
@@ -231,7 +231,7 @@ class DxfCanvas(Canvas):
         in a CAD program it stays whole.
         """
         if not self._runs or item.label != self._runs[0].label:
-            self._let_go()
+            self._flush()
         if not self._stroked and item.label and item.angle % 360.0:
             self._runs.append(item)
         else:
@@ -276,7 +276,7 @@ class DxfCanvas(Canvas):
 
     def close(self) -> bytes:
         """Return the file, the same bytes for the same drawing."""
-        self._let_go()
+        self._flush()
         stream = StringIO()
         with _no_clock():
             self._document.write(stream)
@@ -284,14 +284,14 @@ class DxfCanvas(Canvas):
 
     # Parts ----------------------------------------------------------------------------------------
 
-    def _let_go(self) -> None:
+    def _flush(self) -> None:
         """Draw the held item on its own, and the runs of a turned inscription."""
         runs, self._runs = self._runs, []
         if len(runs) > 1:
             self._inscription(runs)
         elif runs:
             self._run(runs[0])
-        held, self._held = self._held, None
+        held, self._pending = self._pending, None
         if isinstance(held, Stroke):
             self._line(held)
         elif isinstance(held, Disc):
@@ -300,19 +300,19 @@ class DxfCanvas(Canvas):
     def _inscription(self, runs: Sequence[Text]) -> None:
         """Draw the runs of one inscription as a text of several heights."""
         whole, turn = max(runs, key=lambda run: run.height), exp(1j * radians(runs[0].angle))
-        said = ""
+        phrase = ""
         for run in runs:
             if run.height == whole.height:
-                said += _coded(run.text)
+                phrase += _coded(run.text)
                 continue
             is_above = ((run.at - whole.at) / turn).imag > 0.0
             index = f"{_stacked(run.text)}^ " if is_above else f"^ {_stacked(run.text)}"
-            said += f"{{\\H{run.height / whole.height:.3g}x;\\S{index};}}"
+            phrase += f"{{\\H{run.height / whole.height:.3g}x;\\S{index};}}"
         start = min(runs, key=lambda run: (run.at / turn).real)
         base = ((whole.at - start.at) / turn).imag  # an index may come first
         at = start.at + (base + whole.height) * 1j * turn  # the upper left corner of the capitals
         self._space.add_mtext(
-            said,
+            phrase,
             dxfattribs={
                 "layer": layer_of_text(whole.tag),
                 "style": TEXT_STYLE,
@@ -341,25 +341,31 @@ class DxfCanvas(Canvas):
             attributes["flags"] = 128  # the line type runs on through the corners
         self._space.add_lwpolyline(_pairs(item.points), close=item.closed, dxfattribs=attributes)
 
-    def _arrow(self, item: Fill, tip: complex, along: complex, length: float, wide: float) -> None:
+    def _arrow(
+        self, item: Fill, tip: complex, direction: complex, length: float, wide: float
+    ) -> None:
         """Draw an arrowhead, and the shaft that was held for it up to the very tip."""
-        held = self._held
+        held = self._pending
         layer = layer_of_area(item.tag)
-        if isinstance(held, Stroke) and held.tag == item.tag and _leads(held, tip, along, length):
-            self._held = None
+        if (
+            isinstance(held, Stroke)
+            and held.tag == item.tag
+            and _leads(held, tip, direction, length)
+        ):
+            self._pending = None
             start, stop = held.points
             line = layer_of(held.tag, held.pen)
             pen = held.pen
             if line == VECTORS and PENS[pen].width > PENS[Pen.THIN].width:
                 # A thick line would blunt the tip that it must reach: its thickness is a body.
-                side = along * 1j * PENS[pen].width / 2.0
+                side = direction * 1j * PENS[pen].width / 2.0
                 corners = (start + side, start - side, stop + side, stop - side)
                 self._space.add_solid(_pairs(corners), dxfattribs={"layer": ARROWS})
                 pen = Pen.THIN
             end = tip if line == VECTORS else stop
             (a, b) = _pairs((start, end))
             self._space.add_line(a, b, dxfattribs=self._by_layer(line, pen))
-        self._let_go()
+        self._flush()
         name = "ARROWHEAD"
         if name not in self._document.blocks:
             block = self._document.blocks.new(name)
@@ -373,7 +379,7 @@ class DxfCanvas(Canvas):
                 "layer": layer,
                 "xscale": length,
                 "yscale": wide,
-                "rotation": degrees(phase(along)),
+                "rotation": degrees(phase(direction)),
             },
         )
 
@@ -383,7 +389,7 @@ class DxfCanvas(Canvas):
         if name not in self._document.blocks:
             block = self._document.blocks.new(name)
             block.add_wipeout(_pairs(_circle(0j, radius)))
-            _add_arc(block, Arc(0j, radius), tau, _unlike(LAYERS["SYMBOLS"], pen))
+            _add_arc(block, Arc(0j, radius), tau, _list_overrides(LAYERS["SYMBOLS"], pen))
         return name
 
     def _letter(self, char: str) -> str:
@@ -400,14 +406,14 @@ class DxfCanvas(Canvas):
         return name if strokes else ""
 
 
-def _unlike(own: Pen, pen: Pen) -> dict[str, Any]:
-    """Return the attributes that a line of ``pen`` needs on a layer with the pen ``own``."""
+def _list_overrides(layer_pen: Pen, pen: Pen) -> dict[str, Any]:
+    """Return the attributes that a line of ``pen`` needs on a layer with the pen ``layer_pen``."""
     said: dict[str, Any] = {}
-    if line_weight(pen) != line_weight(own):
+    if line_weight(pen) != line_weight(layer_pen):
         said["lineweight"] = line_weight(pen)
-    if LINE_TYPES.get(pen) != LINE_TYPES.get(own):
+    if LINE_TYPES.get(pen) != LINE_TYPES.get(layer_pen):
         said["linetype"] = LINE_TYPES.get(pen, "Continuous")
-    if PENS[pen].grey != PENS[own].grey:
+    if PENS[pen].grey != PENS[layer_pen].grey:
         said["true_color"] = _grey(PENS[pen])
     return said
 
@@ -426,7 +432,7 @@ def _add_arc(space: Any, item: Arc, turn: float, attributes: dict[str, Any]) -> 
 
 
 def _circle(centre: complex, radius: float) -> list[complex]:
-    count = max(24, ceil(pi / acos(max(0.0, 1.0 - _WITHIN / radius))))
+    count = max(24, ceil(pi / acos(max(0.0, 1.0 - _TOLERANCE / radius))))
     return [centre + radius * exp(1j * tau * k / count) for k in range(count)]
 
 
@@ -450,10 +456,10 @@ def _arrowhead(points: Sequence[complex]) -> tuple[complex, complex, float, floa
     return (tip, along, length, width) if max(straight, cut) < 1e-6 else None
 
 
-def _leads(shaft: Stroke, tip: complex, along: complex, length: float) -> bool:
+def _leads(shaft: Stroke, tip: complex, direction: complex, length: float) -> bool:
     """Return whether a line runs into the arrowhead that ends at ``tip``."""
     start, stop = shaft.points
-    ahead = [(tip - point) / along for point in (start, stop)]
+    ahead = [(tip - point) / direction for point in (start, stop)]
     return all(abs(way.imag) < 1e-6 for way in ahead) and (
         ahead[0].real > ahead[1].real and 0.0 <= ahead[1].real <= length
     )

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import BinaryIO, NoReturn
 
 from planmethod.errors import OutputError
-from planmethod.languages import say
+from planmethod.languages import translate
 
 UNFINISHED = ".planmethod-*.tmp"
 """Name of a file or folder until it is complete; a killed process leaves one behind."""
@@ -36,7 +36,7 @@ _CAUSES = {
 }
 
 
-def write(path: Path | str, data: bytes, *, within: Path | None = None) -> None:
+def write(path: Path | str, data: bytes, *, output_root: Path | None = None) -> None:
     """Write ``data`` to ``path`` whole or not at all, see `opened`.
 
     Raises
@@ -44,7 +44,7 @@ def write(path: Path | str, data: bytes, *, within: Path | None = None) -> None:
     OutputError
         The file cannot be written; the message says why and what to do.
     """
-    with opened(path, within=within) as file:
+    with opened(path, output_root=output_root) as file:
         file.write(data)
 
 
@@ -52,8 +52,8 @@ def write_all(
     folder: Path,
     files: Mapping[str, bytes],
     *,
-    gone: Iterable[str] = (),
-    within: Path | None = None,
+    obsolete: Iterable[str] = (),
+    output_root: Path | None = None,
 ) -> None:
     """Write files into a folder, all of them or none.
 
@@ -63,9 +63,9 @@ def write_all(
     ----------
     files : mapping of str to bytes
         By their names in the folder.
-    gone : iterable of str
+    obsolete : iterable of str
         Names of older files that are removed afterwards.
-    within : Path, optional
+    output_root : Path, optional
         The folder of ``--out``: a link that leads out of it is refused.
 
     Raises
@@ -74,10 +74,10 @@ def write_all(
         One of them cannot be written; the message says why and what to do.
     """
     made = not folder.exists()
-    _stay(folder, within)
+    _require_inside(folder, output_root)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        modes = {name: _mode_to_keep(folder / name, folder / name) for name in files}
+        modes = {name: _preserved_mode(folder / name, folder / name) for name in files}
         aside = folder / f".planmethod-{os.urandom(6).hex()}.tmp"
         aside.mkdir()
         try:
@@ -87,7 +87,7 @@ def write_all(
                     (aside / name).chmod(mode)
             for name in files:
                 (aside / name).replace(folder / name)
-            for name in gone:
+            for name in obsolete:
                 (folder / name).unlink(missing_ok=True)
         finally:
             shutil.rmtree(aside, ignore_errors=True)
@@ -99,7 +99,7 @@ def write_all(
 
 
 @contextlib.contextmanager
-def opened(path: Path | str, *, within: Path | None = None) -> Iterator[BinaryIO]:
+def opened(path: Path | str, *, output_root: Path | None = None) -> Iterator[BinaryIO]:
     """Open a file for bytes that appear at ``path`` whole or not at all.
 
     The bytes go to a temporary file beside ``path``, which takes its place when the block ends: a
@@ -109,7 +109,7 @@ def opened(path: Path | str, *, within: Path | None = None) -> Iterator[BinaryIO
 
     Parameters
     ----------
-    within : Path, optional
+    output_root : Path, optional
         The folder of ``--out``: a link that leads out of it is refused, of a file or of a folder.
 
     Raises
@@ -118,12 +118,12 @@ def opened(path: Path | str, *, within: Path | None = None) -> Iterator[BinaryIO
         The file cannot be written; the message says why and what to do.
     """
     asked = Path(path)
-    _stay(asked, within)
+    _require_inside(asked, output_root)
     try:
         # Before links are followed: no directory is made at the target of one.
         asked.parent.mkdir(parents=True, exist_ok=True)
-        target = whither(asked)
-        mode = _mode_to_keep(target, asked)
+        target = resolve_output_path(asked)
+        mode = _preserved_mode(target, asked)
         temporary = target.with_name(f".planmethod-{os.urandom(6).hex()}.tmp")
         try:
             # "x": never through a link or a file that somebody put there; permissions by umask.
@@ -140,53 +140,53 @@ def opened(path: Path | str, *, within: Path | None = None) -> Iterator[BinaryIO
         _explain(asked, error)
 
 
-def _stay(asked: Path, within: Path | None) -> None:
+def _require_inside(path: Path, output_root: Path | None) -> None:
     """Refuse a path that links lead out of a folder; the folder itself may be a link."""
-    if within is None:
+    if output_root is None:
         return
-    target, root = Path(os.path.realpath(asked)), Path(os.path.realpath(within))
+    target, root = Path(os.path.realpath(path)), Path(os.path.realpath(output_root))
     if not target.is_relative_to(root):
         raise OutputError(
             "Cannot write {}: a link leads to {}, out of the folder {}. Remove the link.",
-            asked,
+            path,
             target,
-            within,
+            output_root,
         )
 
 
-def whither(asked: Path, *, within: Path | None = None) -> Path:
-    """Return the file that a path leads to; ``within`` as in `opened`.
+def resolve_output_path(path: Path, *, output_root: Path | None = None) -> Path:
+    """Return the file that a path leads to; ``output_root`` as in `opened`.
 
     Raises
     ------
     OutputError
         It is a dangling link, or a link out of the folder.
     """
-    _stay(asked, within)
-    target = Path(os.path.realpath(asked))
-    if asked.is_symlink() and not target.exists():
+    _require_inside(path, output_root)
+    target = Path(os.path.realpath(path))
+    if path.is_symlink() and not target.exists():
         raise OutputError(
             "Cannot write {}: it is a link to {}, which does not exist. Remove the link.",
-            asked,
+            path,
             target,
         )
     return target
 
 
-def _mode_to_keep(target: Path, asked: Path) -> int | None:
+def _preserved_mode(target: Path, path: Path) -> int | None:
     """Return the permissions of a replaceable file; reject any other existing path."""
     if target.is_dir():
-        raise OutputError("Cannot write {}: it is a directory. Give the name of a file.", asked)
+        raise OutputError("Cannot write {}: it is a directory. Give the name of a file.", path)
     if not target.exists():
         return None
     if not target.is_file():
         # Renaming over a device or a pipe would destroy it.
-        raise OutputError("Cannot write {}: it is not a regular file. Choose another name.", asked)
+        raise OutputError("Cannot write {}: it is not a regular file. Choose another name.", path)
     if not os.access(target, os.W_OK):
         raise OutputError(
             "Cannot write {}: the file is write-protected. Remove the protection, or "
             "choose another directory with --out.",
-            asked,
+            path,
         )
     return target.stat().st_mode & 0o777
 
@@ -197,8 +197,8 @@ def _explain(path: Path, error: OSError) -> NoReturn:
 
 def cause_of(error: OSError) -> str:
     """Return why a file cannot be written, and what to do, without the last point."""
-    other = say("{}. Check the path", error.strerror or error)
-    return say(_CAUSES[error.errno]) if error.errno in _CAUSES else other
+    other = translate("{}. Check the path", error.strerror or error)
+    return translate(_CAUSES[error.errno]) if error.errno in _CAUSES else other
 
 
 def unwritten(error: Exception) -> OSError | None:

@@ -49,19 +49,19 @@ class PdfCanvas(Canvas):
         """Begin a page whose unit is the millimetre; the first one begins the file."""
         size = (drawing.width * _MM, drawing.height * _MM)
         if self._pdf is None:
-            self._begin(size, drawing.title, registered(drawing.lettering))
+            self._start_file(size, drawing.title, registered(drawing.lettering))
         else:
             self._pdf.showPage()
             self._pdf.setPageSize(size)
             self._pen = self._ink = None  # every page starts without state
         self._pdf.scale(_MM, _MM)
-        self._take_lettering(drawing.lettering)
+        self._set_lettering(drawing.lettering)
 
-    def _take_lettering(self, lettering: OutlineLettering) -> None:
+    def _set_lettering(self, lettering: OutlineLettering) -> None:
         self._font, self._lettering = registered(lettering), lettering
         self._pdf.setLineJoin(1)
 
-    def _begin(self, size: tuple[float, float], title: str, font: str) -> None:
+    def _start_file(self, size: tuple[float, float], title: str, font: str) -> None:
         """Begin the file with the size of its first page, points."""
         self._pdf = Pages(
             self._file,
@@ -77,7 +77,7 @@ class PdfCanvas(Canvas):
         self._pdf.setCreator("planmethod")
         self._pdf.setSubject("")
 
-    def _take_pen(self, pen: Pen) -> None:
+    def _set_pen(self, pen: Pen) -> None:
         if pen is self._pen:
             return
         style = PENS[pen]
@@ -86,7 +86,7 @@ class PdfCanvas(Canvas):
         self._pdf.setStrokeGray(style.grey)
         self._pen = pen
 
-    def _take_ink(self, ink: Ink) -> None:
+    def _set_ink(self, ink: Ink) -> None:
         if ink is self._ink:
             return
         self._pdf.setFillGray(1.0 if ink is Ink.WHITE else 0.0)
@@ -97,7 +97,7 @@ class PdfCanvas(Canvas):
         lines = stroke_lines(item)
         if not lines:
             return
-        self._take_pen(item.pen)
+        self._set_pen(item.pen)
         path = self._pdf.beginPath()
         for line in lines:
             _trace(path, line)
@@ -110,7 +110,7 @@ class PdfCanvas(Canvas):
         spans = arc_spans(item)
         if not spans:
             return
-        self._take_pen(item.pen)
+        self._set_pen(item.pen)
         path = self._pdf.beginPath()
         for start, turn in spans:
             first = item.centre + item.radius * exp(1j * start)
@@ -122,7 +122,7 @@ class PdfCanvas(Canvas):
 
     def fill(self, item: Fill | Disc) -> None:
         """Fill a polygon or a circle."""
-        self._take_ink(item.ink)
+        self._set_ink(item.ink)
         path = self._pdf.beginPath()
         if isinstance(item, Disc):
             path.moveTo(item.centre.real + item.radius, item.centre.imag)
@@ -134,7 +134,7 @@ class PdfCanvas(Canvas):
 
     def text(self, item: Text) -> None:
         """Draw a run of letters as text."""
-        self._take_ink(Ink.BLACK)
+        self._set_ink(Ink.BLACK)
         run = self._pdf.beginText()
         run.setFont(self._font, self._lettering.em(item.height))
         along = exp(1j * radians(item.angle))
@@ -152,7 +152,7 @@ class PdfCanvas(Canvas):
         return self._file.getvalue()
 
 
-class OnPage(PdfCanvas):
+class PageCanvas(PdfCanvas):
     """Canvas that draws on an existing page of reportlab (на готовой странице)."""
 
     def __init__(self, page: Any) -> None:
@@ -161,7 +161,7 @@ class OnPage(PdfCanvas):
 
     def open(self, drawing: Drawing) -> None:
         """Take the lettering."""
-        self._take_lettering(drawing.lettering)
+        self._set_lettering(drawing.lettering)
 
 
 def _trace(path: Any, points: tuple[complex, ...]) -> None:

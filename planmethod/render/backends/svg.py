@@ -113,7 +113,7 @@ class SvgCanvas(Canvas):
     def _xy(self, point: complex) -> str:
         return f"{_number(point.real)} {_number(self._height - point.imag)}"
 
-    def _way(self, points: Sequence[complex]) -> str:
+    def _path_data(self, points: Sequence[complex]) -> str:
         """Return the path data of a polyline: its start, and its steps in thousandths of mm."""
         places = [(round(p.real, 3), round(self._height - p.imag, 3)) for p in points]
         steps = (f"{_number(c - a)} {_number(d - b)}" for (a, b), (c, d) in pairwise(places))
@@ -143,7 +143,7 @@ class SvgCanvas(Canvas):
 
     def stroke(self, item: Stroke) -> None:
         """Draw a polyline, or its dashes, as one path."""
-        data = "".join(map(self._way, stroke_lines(item)))
+        data = "".join(map(self._path_data, stroke_lines(item)))
         if data:
             path = self._sheet.path(data + ("Z" if closes(item) else ""))
             self._add(self._pen_group(item.pen), path, item.tag)
@@ -173,7 +173,7 @@ class SvgCanvas(Canvas):
             centre = (_number(item.centre.real), _number(self._height - item.centre.imag))
             element = self._sheet.circle(centre, _number(item.radius))
         else:
-            element = self._sheet.path(f"{self._way(item.points)}Z")
+            element = self._sheet.path(f"{self._path_data(item.points)}Z")
         group = self._in_group(f"ink-{item.ink.value}", fill=_INKS[item.ink], stroke="none")
         self._add(group, element, item.tag)
 
@@ -216,10 +216,10 @@ class SvgCanvas(Canvas):
         self._times[name] = self._times.get(name, 0) + 1
         return name
 
-    def _there(self, placed: tuple[str, str, str, str], *, kept: bool) -> str:
-        """Return the element of a placed run; if ``kept``, it refers to the definitions."""
+    def _run_element(self, placed: tuple[str, str, str, str], *, is_defined: bool) -> str:
+        """Return the element of a placed run; if ``is_defined``, it refers to the definitions."""
         name, x, y, tag = placed
-        if kept:
+        if is_defined:
             return f'<use{tag} x="{x}" xlink:href="#{name}" y="{y}"/>'
         turn, uses = self._runs[name]
         return f'<g{tag} transform="translate({x} {y}){turn}">{uses}</g>' if uses else ""
@@ -229,7 +229,7 @@ class SvgCanvas(Canvas):
         first, *rest = text.replace(" />", "/>").split(_Letters.TEXT)
         return first + "".join(map(str.__add__, letters, rest))
 
-    def _kept_runs(self, names: Iterable[str]) -> str:
+    def _define_runs(self, names: Iterable[str]) -> str:
         run = '<g id="{}" transform="{}">{}</g>'
         return "".join(run.format(name, *self._runs[name]) for name in names)
 
@@ -244,16 +244,16 @@ class SvgCanvas(Canvas):
             for run in self._written
         )
         x, y = _number(first.at.real, 1), _number(self._height - first.at.imag, 1)
-        size, said = _number(self._lettering.em(first.height), 1), "<text"
+        size, phrase = _number(self._lettering.em(first.height), 1), "<text"
         if size != self._words["font-size"]:
-            said += f' font-size="{size}"'
+            phrase += f' font-size="{size}"'
         if len(letters) > 1:
-            said += f' textLength="{_number(length, 1)}"'
+            phrase += f' textLength="{_number(length, 1)}"'
         if first.angle:
-            said += f' transform="rotate({_number(-first.angle, 4)} {x} {y})"'
+            phrase += f' transform="rotate({_number(-first.angle, 4)} {x} {y})"'
         elif first.height >= _HEADING and len(letters) > _LETTERS and not first.tag:
             self._headings.append(letters)
-        self._texts.append(f'{said} x="{x}" y="{y}">{_escaped(letters)}</text>')
+        self._texts.append(f'{phrase} x="{x}" y="{y}">{_escaped(letters)}</text>')
         self._written.clear()
 
     def close(self) -> bytes:
@@ -264,11 +264,11 @@ class SvgCanvas(Canvas):
         self._sheet.set_desc(title=self._title, desc="; ".join(self._headings) or None)
         kept = {name for name, times in self._times.items() if times > 1}
         runs = (
-            "".join(self._there(run, kept=run[0] in kept) for run in group)
+            "".join(self._run_element(run, is_defined=run[0] in kept) for run in group)
             for group in self._placed
         )
         text = self._with_letters(str(self._sheet.tostring()), ("".join(self._texts), *runs))
-        defined = self._kept_runs(name for name in self._runs if name in kept)
+        defined = self._define_runs(name for name in self._runs if name in kept)
         text = text.replace("</defs>", f"{defined}</defs>", 1)
         return b'<?xml version="1.0" encoding="UTF-8"?>\n' + text.encode("utf-8") + b"\n"
 
@@ -279,13 +279,16 @@ class SvgCanvas(Canvas):
         """
         self._drawn, self._group_key, self._placed = self._sheet.g(**_LINES), "", []
         draw(items, self)
-        runs = ("".join(self._there(run, kept=True) for run in group) for group in self._placed)
+        runs = (
+            "".join(self._run_element(run, is_defined=True) for run in group)
+            for group in self._placed
+        )
         return self._with_letters(str(self._drawn.tostring()), runs)
 
     def letters(self) -> str:
         """Return the letters and runs that occur, as elements."""
         glyphs = "".join(str(part.tostring()) for part in self._glyphs())
-        return glyphs + self._kept_runs(self._runs)
+        return glyphs + self._define_runs(self._runs)
 
     def _glyphs(self) -> list[Any]:
         shapes = {self._glyph_id(c): self._lettering.glyph(c).strokes for c in self._letters}

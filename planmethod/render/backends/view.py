@@ -34,7 +34,7 @@ class DrawingView(Struct, frozen=True):
         left, low, right, high = self.box
         return right - left, high - low
 
-    def shown(self) -> Drawing:
+    def crop(self) -> Drawing:
         """Return the shown part as a drawing of its own."""
         if self.box is None:
             return self.drawing
@@ -45,19 +45,19 @@ class DrawingView(Struct, frozen=True):
 
     def svg(self) -> str:
         """Return an SVG element."""
-        text = render(self.shown(), "svg").decode("utf-8")
+        text = render(self.crop(), "svg").decode("utf-8")
         return text[text.index("<svg") :].rstrip()
 
     def draw(self, canvas: Any) -> None:
         """Draw on a canvas of reportlab whose unit is the millimetre, the lower left at zero."""
         # The library of PDF is imported where a PDF is written.
-        from planmethod.render.backends.pdf import OnPage
+        from planmethod.render.backends.pdf import PageCanvas
 
         path = canvas.beginPath()
         path.rect(0.0, 0.0, *self.size)
         canvas.clipPath(path, stroke=0, fill=0)
-        draw_sheet(self.shown(), OnPage(canvas))
+        draw_sheet(self.crop(), PageCanvas(canvas))
 
     def png(self, dpi: float) -> bytes:
         """Return a PNG file with ``dpi`` dots to the inch."""
-        return render(self.shown(), "png", options=Options(dpi=dpi, packed=False))
+        return render(self.crop(), "png", options=Options(dpi=dpi, packed=False))

@@ -36,10 +36,10 @@ NEARER = 0.5
 """Difference of distances from which a letter without a leader line is taken for the nearer
 point's, mm."""
 
-ARROWS_APART = 1.0
+MIN_ARROW_SPACING = 1.0
 """Least white between two arrows of turns, mm."""
 
-WORDS_APART = 1.0
+MIN_WORD_SPACING = 1.0
 """Least white between two inscriptions on one level, mm: a word gap of letters of 2.5 mm."""
 
 _BAR = 25.0  # mm: a longer line is not the bar of a fraction
@@ -71,16 +71,16 @@ def misleading(
             arc = LineString([(p.real, p.imag) for p in arc_points(item, step=0.1)])
             arrows[item.tag] = arrows[item.tag].union(arc) if item.tag in arrows else arc
     yield from _long_leaders(items, writings)
-    yield from _of_other_points(items, writings, views)
-    yield from _nearer_to_others(writings, arrows)
-    yield from _of_other_forces(items, writings, views)
+    yield from _find_letters_at_other_points(items, writings, views)
+    yield from _find_letters_near_other_arrows(writings, arrows)
+    yield from _find_letters_at_other_forces(items, writings, views)
     yield from _run_into(items, arrows)
-    inside = [one for one in writings if any(holds(view.box, one.where) for view in views)]
+    inside = [one for one in writings if any(box_contains(view.box, one.place) for view in views)]
     yield from _words(inside)
     yield from _fractions(items, inside)
 
 
-def holds(box: Bounds, place: complex) -> bool:
+def box_contains(box: Bounds, place: complex) -> bool:
     """Return whether a place is in a box."""
     return box[0] <= place.real <= box[2] and box[1] <= place.imag <= box[3]
 
@@ -101,12 +101,12 @@ def is_of_point(name: str) -> bool:
     return name.startswith(_POINTS)
 
 
-def own_and_other(
+def measure_letter_distances(
     writings: Sequence[Writing], views: Sequence[View]
 ) -> Iterator[tuple[Writing, float, float]]:
     """Yield the letters of points with their distances from their own and another point, mm."""
     for view in views:
-        inside = [w for w in writings if is_of_point(w.name) and holds(view.box, w.where)]
+        inside = [w for w in writings if is_of_point(w.name) and box_contains(view.box, w.place)]
         there = [(w, at) for w in inside if (at := w.runs[0].names) is not None]
         points = np.asarray([at for _, at in there])
         boxes = np.asarray([w.ink.bounds for w, _ in there]).reshape(-1, 4)
@@ -117,7 +117,7 @@ def own_and_other(
             yield writing, own, float(other.min()) if other.size else inf
 
 
-def _of_other_points(
+def _find_letters_at_other_points(
     items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
 ) -> Iterator[Finding]:
     led = {
@@ -125,16 +125,16 @@ def _of_other_points(
         for item in items
         if isinstance(item, Stroke) and item.tag.startswith(LED)
     }
-    for writing, own, other in own_and_other(writings, views):
+    for writing, own, other in measure_letter_distances(writings, views):
         far = led.get(writing.name)
         facts = {"name": writing.shown}
         if far is None and own > other + NEARER:
-            yield Finding("PM-D14", writing.where, own, other, facts)
+            yield Finding("PM-D14", writing.place, own, other, facts)
         elif far is not None and AMONG < far <= LEADER and other < AT_OTHER:
-            yield Finding("PM-D14", writing.where, far, AMONG, facts)
+            yield Finding("PM-D14", writing.place, far, AMONG, facts)
 
 
-def _of_other_forces(
+def _find_letters_at_other_forces(
     items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
 ) -> Iterator[Finding]:
     """Find letters of forces without a leader line that are placed at another force's arrow."""
@@ -144,7 +144,7 @@ def _of_other_forces(
         for item in items:
             if not (isinstance(item, Stroke) and item.tag.startswith(_FORCES)):
                 continue
-            if holds(view.box, sum(item.points) / len(item.points)):
+            if box_contains(view.box, sum(item.points) / len(item.points)):
                 symbol = item.tag.partition(" ")[2]
                 line = LineString([(p.real, p.imag) for p in item.points])
                 arrows[symbol] = arrows[symbol].union(line) if symbol in arrows else line
@@ -152,16 +152,18 @@ def _of_other_forces(
             symbol = writing.name.rpartition(": ")[2]
             if symbol not in arrows or LED + writing.name in led:
                 continue
-            if not holds(view.box, writing.where):
+            if not box_contains(view.box, writing.place):
                 continue
             own = writing.ink.distance(arrows[symbol])
             others = (arrow for name, arrow in arrows.items() if name != symbol)
             other = min(map(writing.ink.distance, others), default=inf)
             if own > other + NEARER:
-                yield Finding("PM-D14", writing.where, own, other, {"name": writing.shown})
+                yield Finding("PM-D14", writing.place, own, other, {"name": writing.shown})
 
 
-def _nearer_to_others(writings: Sequence[Writing], arrows: Arrows) -> Iterator[Finding]:
+def _find_letters_near_other_arrows(
+    writings: Sequence[Writing], arrows: Arrows
+) -> Iterator[Finding]:
     for writing in writings:
         if writing.name not in arrows:
             continue
@@ -176,7 +178,9 @@ def _nearer_to_others(writings: Sequence[Writing], arrows: Arrows) -> Iterator[F
 
 def _run_into(items: Sequence[Item], arrows: Arrows) -> Iterator[Finding]:
     """Find arrows that touch one another, or lie on a slider."""
-    things = [(arc, f"arc {Pen.THIN.value} {tag}", ARROWS_APART) for tag, arc in arrows.items()]
+    things = [
+        (arc, f"arc {Pen.THIN.value} {tag}", MIN_ARROW_SPACING) for tag, arc in arrows.items()
+    ]
     things += [
         (Polygon([(p.real, p.imag) for p in item.points]), called(item), _TOUCH)
         for item in items
@@ -187,20 +191,20 @@ def _run_into(items: Sequence[Item], arrows: Arrows) -> Iterator[Finding]:
             if (room := arc.distance(other)) < apart:
                 middle = complex(arc.centroid.x, arc.centroid.y)
                 facts = {"name": tag, "thing": called_so}
-                yield Finding("PM-D15", middle, room, ARROWS_APART, facts)
+                yield Finding("PM-D15", middle, room, MIN_ARROW_SPACING, facts)
 
 
 def _words(writings: Sequence[Writing]) -> Iterator[Finding]:
     """Find inscriptions side by side on one level that read as one word."""
     boxes = [writing.ink.bounds for writing in writings]
     for (one, a), (two, b) in combinations(zip(writings, boxes, strict=True), 2):
-        if max(b[0] - a[2], a[0] - b[2]) >= WORDS_APART:
+        if max(b[0] - a[2], a[0] - b[2]) >= MIN_WORD_SPACING:
             continue
         level = min(a[3], b[3]) - max(a[1], b[1])
         gap = one.ink.distance(two.ink)
-        if 0.0 < gap < WORDS_APART and level > 0.6 * min(a[3] - a[1], b[3] - b[1]):
+        if 0.0 < gap < MIN_WORD_SPACING and level > 0.6 * min(a[3] - a[1], b[3] - b[1]):
             facts = {"one": one.shown, "two": two.shown}
-            yield Finding("PM-D16", one.where, gap, WORDS_APART, facts)
+            yield Finding("PM-D16", one.place, gap, MIN_WORD_SPACING, facts)
 
 
 def _fractions(items: Sequence[Item], writings: Sequence[Writing]) -> Iterator[Finding]:
@@ -228,4 +232,4 @@ def _fractions(items: Sequence[Item], writings: Sequence[Writing]) -> Iterator[F
             if min(a1, b1) - max(a0, b0) < 0.5 * min(a1 - a0, b1 - b0):
                 continue  # side by side
             facts = {"one": one.shown, "two": two.shown, "advice": "bar"}
-            yield Finding("PM-D16", left, 0.0, WORDS_APART, facts)
+            yield Finding("PM-D16", left, 0.0, MIN_WORD_SPACING, facts)

@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 from msgspec import Struct
 
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import Words, language
+from planmethod.note.wording import MessageTable, get_language
 from planmethod.paper import FORMATS
 from planmethod.render.ink.drawing import Pen
 
@@ -68,12 +68,12 @@ REMARKS: Mapping[str, Remark] = MappingProxyType(
 def number_text(value: float, lang: str, decimals: int | None = None) -> str:
     """Return a number with the decimal sign of a language."""
     text = f"{value:g}" if decimals is None else f"{value:.{decimals}f}"
-    return text.replace(".", language(lang).say.decimal)
+    return text.replace(".", get_language(lang).notation.decimal)
 
 
 def unit_text(unit: str, lang: str) -> str:
     """Return a unit of a remark in a language."""
-    return plain_text(language(lang).say.units.get(unit, unit))
+    return plain_text(get_language(lang).notation.units.get(unit, unit))
 
 
 def limit_text(limit: float, lang: str) -> str:
@@ -81,24 +81,24 @@ def limit_text(limit: float, lang: str) -> str:
     return number_text(round(limit, 2), lang)
 
 
-def unlike(value: float, limit: float, lang: str, decimals: int) -> str:
+def format_distinct(value: float, limit: float, lang: str, decimals: int) -> str:
     """Return a number with as many decimals, up to three, as distinguish it from a limit."""
     while decimals < 3 and round(value, decimals) == round(limit, decimals):
         decimals += 1
     return number_text(value, lang, decimals)
 
 
-def place_text(where: complex, lang: str) -> str:
+def place_text(place: complex, lang: str) -> str:
     """Return a place on the sheet: ``(50.0, 50.0) mm``, ``(50,0; 50,0) мм``."""
-    x, y = (number_text(part, lang, 1) for part in (where.real, where.imag))
-    return language(lang).control.place.format(x=x, y=y)
+    x, y = (number_text(part, lang, 1) for part in (place.real, place.imag))
+    return get_language(lang).control.place.format(x=x, y=y)
 
 
 def paper_text(name: str, lang: str) -> str:
     """Return the name of a format as a language writes it: ``А3 (книжная)``."""
-    words = language(lang).frame
-    paper = FORMATS[name].written(words.paper)
-    return words.portrait.format(paper=paper) if name.endswith(":portrait") else paper
+    texts = get_language(lang).frame
+    paper = FORMATS[name].written(texts.paper)
+    return texts.portrait.format(paper=paper) if name.endswith(":portrait") else paper
 
 
 def _fact(fact: str | float | Segments, limit: float, lang: str) -> str:
@@ -106,24 +106,26 @@ def _fact(fact: str | float | Segments, limit: float, lang: str) -> str:
         return paper_text(fact, lang) if fact in FORMATS else fact
     if isinstance(fact, tuple):
         mm = unit_text("mm", lang)
-        return ", ".join(f"{name} {unlike(length, limit, lang, 1)} {mm}" for name, length in fact)
+        return ", ".join(
+            f"{name} {format_distinct(length, limit, lang, 1)} {mm}" for name, length in fact
+        )
     return number_text(fact, lang)
 
 
-def thing_text(name: str, words: Words) -> str:
+def obstacle_text(name: str, texts: MessageTable) -> str:
     """Return the name of an obstacle (``stroke main``), or of a line by itself (``line axis``)."""
     kind, _, rest = name.partition(" ")
     # The names of pens may have a space, as may the tags that follow them.
     pen = max((p for p in Pen if f"{rest} ".startswith(f"{p.value} ")),
               key=lambda p: len(p.value), default=None)  # fmt: skip
     tag = rest if pen is None else rest[len(pen.value) :].strip()
-    told = f" ({tag})" if tag else ""
+    text = f" ({tag})" if tag else ""
     if kind == "line":
         assert pen is not None, f"a line without a pen: {name}"
-        line: str = words["lines"][pen.value]
-        return line + told
-    thing: str = words["things"][kind]
-    return thing.format(pen="" if pen is None else words["pens"][pen.value]) + told
+        line: str = texts["lines"][pen.value]
+        return line + text
+    thing: str = texts["things"][kind]
+    return thing.format(pen="" if pen is None else texts["pens"][pen.value]) + text
 
 
 class Finding(Struct, frozen=True):
@@ -133,7 +135,7 @@ class Finding(Struct, frozen=True):
     ----------
     code : str
         One of `REMARKS`.
-    where : complex, mm
+    place : complex, mm
         Place on the sheet, from its lower left corner.
     value, limit : float
         Measured and permitted value: mm, mm² for overlaps, per cent for unused paper.
@@ -146,7 +148,7 @@ class Finding(Struct, frozen=True):
     """
 
     code: str
-    where: complex
+    place: complex
     value: float
     limit: float
     facts: Facts
@@ -161,24 +163,24 @@ class Finding(Struct, frozen=True):
     @property
     def message(self) -> str:
         """Fault, place and numbers in English."""
-        return self.what("en")
+        return self.describe("en")
 
-    def what(self, lang: str) -> str:
+    def describe(self, lang: str) -> str:
         """Return the fault, its place and numbers in a language."""
-        return self._filled(language(lang).control["remarks"][self.code].what, lang)
+        return self._filled(get_language(lang).control["remarks"][self.code].what, lang)
 
     def action(self, lang: str) -> str:
         """Return the advice of the finding in a language."""
-        actions = language(lang).control["remarks"][self.code]["actions"]
+        actions = get_language(lang).control["remarks"][self.code]["actions"]
         return self._filled(actions[str(self.facts.get("advice", ""))], lang)
 
     def _filled(self, template: str, lang: str) -> str:
         places = {"scales": "[scales]"}
         places |= {key: _fact(fact, self.limit, lang) for key, fact in self.facts.items()}
         if "thing" in places:
-            places["thing"] = thing_text(places["thing"], language(lang).control)
+            places["thing"] = obstacle_text(places["thing"], get_language(lang).control)
         places |= {
-            "place": place_text(self.where, lang),
+            "place": place_text(self.place, lang),
             "value": number_text(self.value, lang, 2),
             "limit": limit_text(self.limit, lang),
         }

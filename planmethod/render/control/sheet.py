@@ -11,7 +11,7 @@ To the codes of `planmethod.render.control.texts`, which looks at texts, it adds
 ``PM-D19``  too little of the paper has ink
 ``PM-D13``  lines or inscriptions run into the title block or graph 26
 
-and those of `planmethod.render.control.misleading` and `planmethod.render.control.crowded`.
+and those of `planmethod.render.control.misleading` and `planmethod.render.control.label_density`.
 """
 
 from __future__ import annotations
@@ -22,11 +22,16 @@ from math import tau
 
 from msgspec.structs import replace
 
-from planmethod.render.control.crowded import crowded, unnamed
-from planmethod.render.control.misleading import holds, misleading
+from planmethod.render.control.label_density import find_crowded_schemes, find_unnamed_vectors
+from planmethod.render.control.misleading import box_contains, misleading
 from planmethod.render.control.remarks import Facts, Finding
-from planmethod.render.control.texts import beyond, lint, writings_of
-from planmethod.render.control.unused import ink_points, inked_share, largest_empty, share_of
+from planmethod.render.control.texts import lint, measure_overhang, writings_of
+from planmethod.render.control.unused import (
+    area_percentage,
+    ink_points,
+    inked_percentage,
+    largest_empty,
+)
 from planmethod.render.frame.frame import (
     FRAME_LEFT,
     FRAME_OTHER,
@@ -89,14 +94,14 @@ def _inspected(drawing: Drawing) -> list[Finding]:
         *run_into_graphs(drawing.items, drawing.views),
         *short_segments(drawing.views),
         *scales_missing(drawing.items, drawing.views),
-        *(() if drawing.goes_on else unused_paper(drawing.items, inner)),
+        *(() if drawing.is_continuation else unused_paper(drawing.items, inner)),
         *(_attributed(finding, drawing.views, inner) for finding in dashes_unseen(drawing.items)),
         *(
             _attributed(finding, drawing.views, inner)
             for finding in misleading(drawing.items, writings, drawing.views)
         ),
-        *crowded(writings, drawing.views),
-        *unnamed(writings, drawing.views),
+        *find_crowded_schemes(writings, drawing.views),
+        *find_unnamed_vectors(writings, drawing.views),
     ]
     return sorted(findings, key=lambda finding: finding.code)
 
@@ -104,10 +109,10 @@ def _inspected(drawing: Drawing) -> list[Finding]:
 def _attributed(finding: Finding, views: Iterable[View], inner: Bounds) -> Finding:
     """Return a finding with the view, or the title block, that contains its place."""
     for view in views:
-        if holds(view.box, finding.where):
+        if box_contains(view.box, finding.place):
             return replace(finding, view=view.kind)
     right, low = inner[2], inner[1]
-    if holds((right - STAMP_WIDTH, low, right, low + STAMP_HEIGHT), finding.where):
+    if box_contains((right - STAMP_WIDTH, low, right, low + STAMP_HEIGHT), finding.place):
         return replace(finding, view=STAMP)
     return finding
 
@@ -133,7 +138,7 @@ def lines_outside(items: Sequence[Item], views: Sequence[View], inner: Bounds) -
         if isinstance(item, (Fill, Disc)) and item.ink is Ink.WHITE:
             continue
         box = ink_bounds([item])
-        out = beyond(box, inner)
+        out = measure_overhang(box, inner)
         if out <= _TOUCH:
             continue
         kind = next((view.kind for view in views if _meet(view.box, box)), "")
@@ -155,7 +160,7 @@ def run_into_graphs(items: Sequence[Item], views: Sequence[View]) -> Iterator[Fi
         found = [_inside(item, box) for item, ink in others if _meet(box, ink)]
         depth, where = max(found, key=lambda one: one[0], default=(0.0, 0j))
         if depth > _TOUCH:
-            kind = next((view.kind for view in views if holds(view.box, where)), "")
+            kind = next((view.kind for view in views if box_contains(view.box, where)), "")
             yield Finding("PM-D13", where, depth, 0.0, {}, view=kind)
 
 
@@ -170,7 +175,7 @@ def _inside(item: Item, box: Bounds) -> tuple[float, complex]:
     found = (
         (min(p.real - box[0], box[2] - p.real, p.imag - box[1], box[3] - p.imag), p)
         for p in ink_points(item)
-        if holds(box, p)
+        if box_contains(box, p)
     )
     return max(found, key=lambda one: one[0], default=(0.0, 0j))
 
@@ -211,7 +216,7 @@ def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Fin
         if not letters:
             continue
         said = (
-            holds(view.box, writing.where)
+            box_contains(view.box, writing.place)
             and writing.shown.replace(" ", "").startswith(f"{letters}=")
             for writing in writings
         )
@@ -226,11 +231,11 @@ def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Fin
 def unused_paper(items: Sequence[Item], inner: Bounds) -> Iterator[Finding]:
     """Find an empty rectangle that is too large, and a field with little ink."""
     box = largest_empty(items, inner)
-    width, height, share = box[2] - box[0], box[3] - box[1], share_of(box, inner)
+    width, height, share = box[2] - box[0], box[3] - box[1], area_percentage(box, inner)
     if share > UNUSED:
         facts = {"width": float(round(width)), "height": float(round(height))}
         yield Finding("PM-D10", _middle(box), share, UNUSED, facts)
-    inked = inked_share(items, inner)
+    inked = inked_percentage(items, inner)
     if inked < INKED:
         yield Finding("PM-D19", _middle(inner), inked, INKED, {})
 

@@ -54,7 +54,7 @@ class Writing(Struct, frozen=True):
         return "".join(run.text for run in self.runs)
 
     @property
-    def where(self) -> complex:
+    def place(self) -> complex:
         """Place of its first run, mm."""
         return self.runs[0].at
 
@@ -125,7 +125,7 @@ def _overlaps(writings: Sequence[Writing]) -> Iterator[Finding]:
         common = inks[one].intersection(inks[two])
         if common.area > _TOUCH**2 and _depth(common) > _TOUCH:
             facts = {"one": writings[one].shown, "two": writings[two].shown}
-            yield Finding("PM-D01", writings[one].where, common.area, 0.0, facts)
+            yield Finding("PM-D01", writings[one].place, common.area, 0.0, facts)
 
 
 def _depth(area: BaseGeometry) -> float:
@@ -163,7 +163,7 @@ def _crossed(
             extent = common.length
             if extent > 2 * _TOUCH:
                 facts = {"shown": writing.shown, "thing": called(item)}
-                yield Finding("PM-D02", writing.where, extent, 0.0, facts)
+                yield Finding("PM-D02", writing.place, extent, 0.0, facts)
 
 
 def _is_white(item: Item) -> bool:
@@ -201,15 +201,15 @@ def _outside(items: Sequence[Item], inner: Bounds | None) -> Iterator[Finding]:
         if not isinstance(run, Text) or not run.text.strip():
             continue
         ink = text_bounds(run)
-        if run.box is not None and (out := beyond(ink, run.box)) > _TOUCH:
+        if run.box is not None and (out := measure_overhang(ink, run.box)) > _TOUCH:
             yield Finding("PM-D03", run.at, out, 0.0, {"shown": run.text})
         if inner is None or MARGIN_NOTE in run.tag.split():
             continue
-        if (out := beyond(ink, inner)) > _TOUCH:
+        if (out := measure_overhang(ink, inner)) > _TOUCH:
             yield Finding("PM-D04", run.at, out, 0.0, {"shown": run.text})
 
 
-def beyond(ink: Bounds, limits: Bounds) -> float:
+def measure_overhang(ink: Bounds, limits: Bounds) -> float:
     """Return how far a box sticks out of another, mm."""
     return max(limits[0] - ink[0], limits[1] - ink[1], ink[2] - limits[2], ink[3] - limits[3])
 
@@ -228,4 +228,4 @@ def _small(writings: Sequence[Writing]) -> Iterator[Finding]:
 def _shortened(writings: Sequence[Writing]) -> Iterator[Finding]:
     for writing in writings:
         if any(CUT in run.tag.split() for run in writing.runs):
-            yield Finding("PM-D06", writing.where, 1.0, 0.0, {"shown": writing.shown})
+            yield Finding("PM-D06", writing.place, 1.0, 0.0, {"shown": writing.shown})

@@ -24,7 +24,7 @@ def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
     rectangle is exact to one square at each side.
     """
     x0, y0, x1, y1 = inner
-    taken = _taken(items, inner)
+    taken = _find_inked_squares(items, inner)
     left, low, right, high = _largest(taken, len(taken[0]))
     return (
         x0 + left * CELL,
@@ -34,13 +34,13 @@ def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
     )
 
 
-def inked_share(items: Iterable[Item], inner: Bounds) -> float:
+def inked_percentage(items: Iterable[Item], inner: Bounds) -> float:
     """Return the share of the squares of `CELL` within the frame that ink touches, %."""
-    taken = _taken(items, inner)
+    taken = _find_inked_squares(items, inner)
     return 100.0 * sum(map(sum, taken)) / (len(taken) * len(taken[0]))
 
 
-def _taken(items: Iterable[Item], inner: Bounds) -> list[list[bool]]:
+def _find_inked_squares(items: Iterable[Item], inner: Bounds) -> list[list[bool]]:
     """Return the squares that ink touches as rows of flags from below."""
     x0, y0, x1, y1 = inner
     columns, rows = ceil((x1 - x0) / CELL), ceil((y1 - y0) / CELL)
@@ -53,7 +53,7 @@ def _taken(items: Iterable[Item], inner: Bounds) -> list[list[bool]]:
     return taken
 
 
-def share_of(box: Bounds, inner: Bounds) -> float:
+def area_percentage(box: Bounds, inner: Bounds) -> float:
     """Return the share of the field within the frame that a rectangle takes, %."""
     left, low, right, high = box
     return 100.0 * (right - left) * (high - low) / ((inner[2] - inner[0]) * (inner[3] - inner[1]))
@@ -63,19 +63,19 @@ def ink_points(item: Item) -> list[complex]:
     """Return points of an item's ink, close enough that no square of `CELL` is missed."""
     match item:
         case Stroke(points=path, closed=closed):
-            return _along([*path, path[0]] if closed and path else path)
+            return _sample_path([*path, path[0]] if closed and path else path)
         case Arc():
-            return _along(arc_points(item))
+            return _sample_path(arc_points(item))
         case Fill(points=path):
-            return _along([*path, *path[:1]])
+            return _sample_path([*path, *path[:1]])
         case Disc(centre=centre, radius=radius):
             return [centre, *(centre + radius * way for way in (1, 1j, -1, -1j))]
         case Text():
             first, second, third, fourth = text_corners(item)
-            return _along([first, second, third, fourth, first])
+            return _sample_path([first, second, third, fourth, first])
 
 
-def _along(path: Sequence[complex]) -> list[complex]:
+def _sample_path(path: Sequence[complex]) -> list[complex]:
     points = list(path[:1])
     for start, end in pairwise(path):
         count = max(1, ceil(abs(end - start) / (0.4 * CELL)))
@@ -83,11 +83,11 @@ def _along(path: Sequence[complex]) -> list[complex]:
     return points
 
 
-def _largest(taken: Sequence[Sequence[bool]], columns: int) -> tuple[int, int, int, int]:
+def _largest(occupied: Sequence[Sequence[bool]], columns: int) -> tuple[int, int, int, int]:
     """Return the largest free rectangle in squares: under a skyline that grows row by row."""
     best, most = (0, 0, 0, 0), 0
     free = [0] * (columns + 1)  # how many free squares end in this row; the last is a wall
-    for row, line in enumerate(taken):
+    for row, line in enumerate(occupied):
         starts: list[tuple[int, int]] = []  # column and height, rising
         for k in range(columns + 1):
             free[k] = 0 if k == columns or line[k] else free[k] + 1

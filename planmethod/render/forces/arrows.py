@@ -30,7 +30,7 @@ HEAD = 4.0
 COUPLE = "couple"
 """First word of the tags of circular arrows; the second is the letter."""
 
-MANNER = replace(BUSY, leader_from=4.5, stranger=25.0)
+FORCE_LABEL_STYLE = replace(BUSY, leader_from=4.5, stranger=25.0)
 """Label style of a force's letter: nearest to its own arrow, or with a leader."""
 
 _NEAR = 3.0  # mm: closer arrows would read as one
@@ -57,13 +57,13 @@ class Acting(Struct, frozen=True):
 class CoupleArc(Struct, frozen=True):
     """Couple to be drawn: its letter, a place on its link, mm, and its sense.
 
-    ``along`` is the lever segment that it acts on: its arrow may be placed anywhere on it.
+    ``segment`` is the lever segment that it acts on: its arrow may be placed anywhere on it.
     """
 
     symbol: str
     at: complex
     sense: int
-    along: Segment | None = None
+    segment: Segment | None = None
 
 
 def distance(place: complex, segment: Segment) -> float:
@@ -75,7 +75,7 @@ def distance(place: complex, segment: Segment) -> float:
     return abs(place - start - along * min(1.0, max(0.0, part)))
 
 
-def lay_forces(
+def place_force_arrows(
     forces: Sequence[Acting],
     bars: Sequence[Segment],
     joints: Sequence[complex] = (),
@@ -97,7 +97,7 @@ def lay_forces(
             outward = (force.at + along * near, force.at + along * far)
             inward = (force.at - along * far, force.at - along * near)
             for k, segment in enumerate((outward, inward)):
-                cost = 6.0 * level + 1.0 * k + _crowded(segment, [s for _, s in placed], bars)
+                cost = 6.0 * level + 1.0 * k + _arrow_cost(segment, [s for _, s in placed], bars)
                 reach = force.at, force.at + along * (far if k == 0 else -far)
                 others = (joint for joint in joints if abs(joint - force.at) > _NEAR)
                 cost += _STRANGER * sum(distance(joint, reach) < _NEAR for joint in others)
@@ -106,21 +106,23 @@ def lay_forces(
     return placed
 
 
-def _crowded(segment: Segment, arrows: Sequence[Segment], bars: Sequence[Segment]) -> float:
+def _arrow_cost(segment: Segment, arrows: Sequence[Segment], bars: Sequence[Segment]) -> float:
     """Return the cost of an arrow's place among other arrows and on links."""
-    near, on = _beside(segment, arrows, _NEAR), _beside(segment, bars, _ON)
+    near, on = _count_close_points(segment, arrows, _NEAR), _count_close_points(segment, bars, _ON)
     return float(
         np.where(near > 2, 8.0 * near, near).sum() + np.where(on > 2, 1.5 * on, 0.5 * on).sum()
     )
 
 
-def _beside(segment: Segment, others: Sequence[Segment], white: float) -> NDArray[np.intp]:
+def _count_close_points(
+    segment: Segment, segments: Sequence[Segment], white: float
+) -> NDArray[np.intp]:
     """Return for each other segment how many of ten points of this one are near (``white``)."""
-    if not others:
+    if not segments:
         return np.zeros(0, dtype=np.intp)
     tail, head = segment
     places = tail + (head - tail) * np.arange(1, 11)[:, None] / 10
-    ends = np.asarray(others)
+    ends = np.asarray(segments)
     ways = ends[:, 1] - ends[:, 0]
     reach = places - ends[:, 0]
     part = (reach * ways.conj()).real / np.maximum(np.abs(ways) ** 2, 1e-18)
@@ -145,7 +147,7 @@ def force_items(
                 gap=1.0,
                 priority=1,
                 name=f"{prefix} force {k}: {force.symbol}",
-                manner=MANNER,
+                style=FORCE_LABEL_STYLE,
             )
         )
     return items, labels
@@ -160,7 +162,7 @@ def couple_items(
     for k, couple in enumerate(couples):
         lines = list(lines_of([*around, *items]))
         centre, radius, middle = max(
-            (_room(place, lines) for place in _places(couple)), key=lambda room: room[0]
+            (_find_arc_place(place, lines) for place in _places(couple)), key=lambda room: room[0]
         )[1:]
         tag = f"{COUPLE} {couple.symbol}"
         items += turn_arrow(
@@ -176,7 +178,7 @@ def couple_items(
                 gap=1.5,
                 priority=1,
                 name=f"{prefix} couple {k}: {couple.symbol}",
-                manner=MANNER,
+                style=FORCE_LABEL_STYLE,
             )
         )
     return items, labels
@@ -189,13 +191,15 @@ _MATTERS = 4.0  # lines farther from the arrow do not matter, mm
 
 def _places(couple: CoupleArc) -> list[complex]:
     """Return the centres that the arrow of a couple may have, the best first, mm."""
-    if couple.along is None:
+    if couple.segment is None:
         return [couple.at]
-    start, end = couple.along
+    start, end = couple.segment
     return [couple.at, *(start + part * (end - start) for part in (0.25, 0.75))]
 
 
-def _room(centre: complex, lines: Sequence[Segment]) -> tuple[float, complex, float, float]:
+def _find_arc_place(
+    centre: complex, lines: Sequence[Segment]
+) -> tuple[float, complex, float, float]:
     """Return the place of a circular arrow about a centre with the fewest crossings.
 
     The result is the value of the place, the centre, the radius and the middle: mm, degrees.

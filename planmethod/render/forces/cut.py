@@ -13,9 +13,9 @@ from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.statement import point_name
 from planmethod.note.numbers import Notation
-from planmethod.plans.forces.polygons import CoupleOn, Edge, Moments, Share
+from planmethod.plans.forces.polygons import Component, CoupleOn, Edge, Moments
 from planmethod.problem.model import Slide
 from planmethod.render.forces.arms import ForceArm, arm_items, arms_of
 from planmethod.render.forces.arrows import (
@@ -24,11 +24,11 @@ from planmethod.render.forces.arrows import (
     Segment,
     couple_items,
     force_items,
-    lay_forces,
     lines_of,
+    place_force_arrows,
 )
 from planmethod.render.forces.guides import (
-    FAR,
+    MAX_DISTANCE,
     Pressed,
     drawn_length,
     point_items,
@@ -39,7 +39,7 @@ from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
 from planmethod.render.ink.drawing import Disc, Ink, Item
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
-from planmethod.render.labels.spots import shared_spots
+from planmethod.render.labels.merged_labels import merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.scheme import Scheme
@@ -48,15 +48,15 @@ from planmethod.render.symbols import SIZES, angle_of, before_links, revolute, s
 from planmethod.render.symbols.axes import axis_line
 from planmethod.solved.forces.guides import guides
 from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.reading import remembered
+from planmethod.solved.reading import memoized
 
 _AXIS = 26.0
 """Length of a cut guide's axis to both sides of the slider's pin, before ``factor``, mm."""
 
-_AXIS_BEYOND = 10.0
+_AXIS_EXTENSION = 10.0
 """Least length of it beyond the slider, mm."""
 
-_BEYOND_POINT = 5.0
+_POINT_EXTENSION = 5.0
 """Length of it beyond the place of a reaction, mm."""
 
 
@@ -87,20 +87,20 @@ class FreeBodyScheme(Scheme):
         u, pin = self.line_direction(slide), self.at(slide.pin)
         block = self.solution.problem.is_block(slide)
         if block and not slider_is_here:
-            self.bodies += self._body(slide, self.base(slide))
+            self.slider_items += self._body(slide, self.base(slide))
             return
         if block:
             self.bar(slide.slider, pin, self.base(slide))
         elif slider_is_here:
             half = drawn_length(self.solution, slide, self.factor) / 2
             edge = half * u
-            reach = max(_AXIS * self.factor, half + _AXIS_BEYOND, self.reach) * u
+            reach = max(_AXIS * self.factor, half + _AXIS_EXTENSION, self.reach) * u
             for side in (-1, 1):
                 self.guides += axis_line(pin + side * edge, pin + side * reach, tag="guide")
             name = self.solution.problem.guide_name(slide.label)
             self.axis_ends.append((name, pin - reach, pin + reach))
             self._name_slot(slide, pin - reach, pin + reach)
-            self.bodies += self._body(slide, pin)
+            self.slider_items += self._body(slide, pin)
 
     def _body(self, slide: Slide, middle: complex) -> list[Item]:
         """Return the slider of a cut pair, in its true length where that can be drawn."""
@@ -131,14 +131,14 @@ def drawn_items(scheme: Scheme) -> list[Item]:
     scheme.draw_joints()
     return [
         *scheme.guides,
-        *before_links([*scheme.bodies, *scheme.lines, *scheme.corners, *scheme.joints]),
+        *before_links([*scheme.slider_items, *scheme.lines, *scheme.corners, *scheme.joints]),
     ]
 
 
 def letters_of(scheme: Scheme, prefix: str, links: Iterable[str]) -> list[Label]:
     """Return the letters of the points, one for points that coincide, and the links' numbers."""
     height = scheme.letter_height
-    spots = shared_spots((scheme.at(point), [point_name(point)]) for point in scheme.named)
+    spots = merge_letters((scheme.at(point), [point_name(point)]) for point in scheme.named)
     gap = SIZES.joint / 2 * scheme.factor + 1.0
     labels = []
     for place, names in spots:
@@ -157,7 +157,7 @@ def _loaded_picture(
     couples: Sequence[CoupleArc],
     shifts: Sequence[Shifted],
     prefix: str,
-    say: Notation,
+    notation: Notation,
     guided: Sequence[Pressed] = (),
     arms: Sequence[ForceArm] = (),
     special: Sequence[tuple[str, complex]] = (),
@@ -167,10 +167,10 @@ def _loaded_picture(
     bars = [part for parts in scheme.segments.values() for part in parts]
     bars += [shift.line for shift in shifts]
     joints = [scheme.at(point) for point in scheme.named]
-    placed = lay_forces(forces, bars, joints, gap=SIZES.joint / 2 * scheme.factor + 0.5)
+    placed = place_force_arrows(forces, bars, joints, gap=SIZES.joint / 2 * scheme.factor + 0.5)
     arrows, labels = force_items(placed, scheme.letter_height, prefix)
     lines, letters = shift_items(shifts, placed, scheme.letter_height, prefix)
-    measured, sizes = arm_items(arms, placed, scheme.letter_height, prefix, say)
+    measured, sizes = arm_items(arms, placed, scheme.letter_height, prefix, notation)
     items += [*lines, *measured, *arrows]
     turns, more = couple_items(couples, items, scheme.letter_height, prefix)
     items += turns
@@ -186,8 +186,8 @@ def _loaded_picture(
     return lettered(items, [*labels, *more, *letters, *letters_of(scheme, prefix, links), *axes])
 
 
-@remembered
-def loads_picture(reading: ForceReading, letter_height: float, say: Notation) -> Picture:
+@memoized
+def loads_picture(reading: ForceReading, letter_height: float, notation: Notation) -> Picture:
     """Return the whole scheme with the weights, inertia forces and couples, external loads, mm."""
     solution, index = reading.solution, reading.index
     scheme = Scheme(solution, index, letter_height)
@@ -201,26 +201,28 @@ def loads_picture(reading: ForceReading, letter_height: float, say: Notation) ->
         elif given.couple is not None:
             couple = CoupleOn(one.name, one.link, given.couple)
             if not reading.is_no_couple(couple):
-                couples.append(turning(reading, scheme, couple, say))
+                couples.append(turning(reading, scheme, couple, notation))
     links = solution.problem.mechanism.links
-    shifts = shifts_on(reading, links, say)
-    return _loaded_picture(scheme, links, forces, couples, shifts, f"loads {index}", say)
+    shifts = shifts_on(reading, links, notation)
+    return _loaded_picture(scheme, links, forces, couples, shifts, f"loads {index}", notation)
 
 
-@remembered
-def cut_picture(reading: ForceReading, number: int, letter_height: float, say: Notation) -> Picture:
+@memoized
+def cut_picture(
+    reading: ForceReading, number: int, letter_height: float, notation: Notation
+) -> Picture:
     """Return the links of a force plan cut free, with all forces on them, mm."""
     plan = reading.plans[number]
     scheme = FreeBodyScheme(reading.solution, reading.index, letter_height, links=plan.links)
     prefix = f"cut {reading.index} {number}"
     return _cut(
-        reading, scheme, reading.shown(plan), reading.couples(plan), prefix, say, plan.moments
+        reading, scheme, reading.shown(plan), reading.couples(plan), prefix, notation, plan.moments
     )
 
 
-@remembered
+@memoized
 def inner_picture(
-    reading: ForceReading, number: int, letter_height: float, say: Notation
+    reading: ForceReading, number: int, letter_height: float, notation: Notation
 ) -> tuple[str, Picture] | None:
     """Return a link of a dyad cut free at its inner guide too, and its picture, mm.
 
@@ -234,11 +236,11 @@ def inner_picture(
     link, reaction = guided.on, guided.reaction
     assert reaction.couple is not None
     (balance,) = (one for one in plan.balances if one.links == (link,))
-    edges = [edge for edge in balance.edges if not reading.is_none(edge)]
+    edges = [edge for edge in balance.edges if not reading.is_negligible(edge)]
     couples = [couple for couple in reading.couples(plan) if couple.on == link]
     couples.append(CoupleOn(guided.symbol("M"), link, reaction.couple, reaction.force.at))
     scheme = FreeBodyScheme(reading.solution, reading.index, letter_height, links=(link,))
-    return link, _cut(reading, scheme, edges, couples, f"link {reading.index} {link}", say)
+    return link, _cut(reading, scheme, edges, couples, f"link {reading.index} {link}", notation)
 
 
 def _cut(
@@ -247,26 +249,30 @@ def _cut(
     edges: Sequence[Edge],
     couples: Sequence[CoupleOn],
     prefix: str,
-    say: Notation,
+    notation: Notation,
     equations: Sequence[Moments] = (),
 ) -> Picture:
     guided = pressed(reading, scheme.links, _link_lines(reading, scheme.links), scheme.factor)
     # The axis of a guide reaches the place of its reaction; a link that does so needs no axis.
     spans = [abs(one.span.end - one.span.start) for one in guided if one.span is not None]
-    scheme.reach = max((span + _BEYOND_POINT for span in spans if span <= FAR), default=0.0)
+    scheme.reach = max(
+        (span + _POINT_EXTENSION for span in spans if span <= MAX_DISTANCE), default=0.0
+    )
     replaced = {symbol for one in guided for symbol in one.replaced}
     # Components of reactions first, for their places are fixed: across or along the link, at its
     # end.
-    shown = sorted(edges, key=lambda edge: edge.share is Share.WHOLE)
+    shown = sorted(edges, key=lambda edge: edge.component is Component.TOTAL)
     forces = [force for one in guided for force in one.forces]
     forces += [
-        Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.way(edge))
+        Acting(notation.symbol(edge.symbol), reading.place(edge.at), reading.drawn_direction(edge))
         for edge in shown
         if edge.symbol not in replaced
     ]
-    turnings = [turning(reading, scheme, one, say) for one in couples if one.symbol not in replaced]
-    shifts = shifts_on(reading, scheme.links, say)
-    arms = [arm for arm in arms_of(reading, equations, say) if arm.symbol not in replaced]
+    turnings = [
+        turning(reading, scheme, one, notation) for one in couples if one.symbol not in replaced
+    ]
+    shifts = shifts_on(reading, scheme.links, notation)
+    arms = [arm for arm in arms_of(reading, equations, notation) if arm.symbol not in replaced]
     points = {one.point for one in reading.solution.construction.draft.special.values()}
     special = [
         (point_name(one.about), reading.place(one.about))
@@ -274,7 +280,7 @@ def _cut(
         if one.about in points
     ]
     return _loaded_picture(
-        scheme, scheme.links, forces, turnings, shifts, prefix, say, guided, arms, special
+        scheme, scheme.links, forces, turnings, shifts, prefix, notation, guided, arms, special
     )
 
 
@@ -285,9 +291,11 @@ def _link_lines(reading: ForceReading, links: Iterable[str]) -> list[Segment]:
     return [pair for ends in places for pair in combinations(ends, 2)]
 
 
-def turning(reading: ForceReading, scheme: Scheme, couple: CoupleOn, say: Notation) -> CoupleArc:
+def turning(
+    reading: ForceReading, scheme: Scheme, couple: CoupleOn, notation: Notation
+) -> CoupleArc:
     """Return the arc of a couple: about its own place, otherwise about the centre of mass."""
-    sense, symbol = 1 if reading.number(couple.moment) > 0 else -1, say.symbol(couple.symbol)
+    sense, symbol = 1 if reading.number(couple.moment) > 0 else -1, notation.symbol(couple.symbol)
     if couple.at is not None:
         return CoupleArc(symbol, reading.place(couple.at), sense)
     problem = scheme.solution.problem

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from planmethod.construct.steps import PointName
-from planmethod.render.forces.polygon import apart, drawn_edges
+from planmethod.render.forces.polygon import drawn_edges, find_overlap_shifts
 from planmethod.render.pictures.ellipses import Ellipses, shown_ellipses
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.reading import remembered
+from planmethod.solved.reading import memoized
 
 
-@remembered
+@memoized
 def vertex_ellipses(reading: ForceReading, number: int) -> Ellipses:
     """Return the ellipses around the vertices of a force plan.
 
     They are relative to the point where the construction of the plan begins, which is arbitrary. A
     vertex from which segments are drawn apart has its ellipse at the end of the first of them.
     """
-    edges, shifts = drawn_edges(reading, number), apart(reading, number)
+    edges, shifts = drawn_edges(reading, number), find_overlap_shifts(reading, number)
     places: dict[PointName, complex] = {}
     for ends in ([edge.head for edge in edges], [edge.tail for edge in edges]):
         for end, shift in zip(ends, shifts, strict=True):
@@ -25,5 +25,7 @@ def vertex_ellipses(reading: ForceReading, number: int) -> Ellipses:
     across = [place.real for place in places.values()]
     up = [place.imag for place in places.values()]
     size = max(max(across) - min(across), max(up) - min(up)) if places else 0.0
-    share = reading.share(number)
-    return shown_ellipses(drawn_forces(reading.statics), reading.index, places, size, share=share)
+    share = reading.enlargement(number)
+    return shown_ellipses(
+        drawn_forces(reading.statics), reading.index, places, size, magnification=share
+    )

@@ -28,7 +28,7 @@ from planmethod.render.forces.arrows import (
     Segment,
     couple_items,
     force_items,
-    lay_forces,
+    place_force_arrows,
 )
 from planmethod.render.forces.cut import FreeBodyScheme, drawn_items, letters_of, turning
 from planmethod.render.forces.guides import Pressed, point_items, pressed
@@ -38,16 +38,16 @@ from planmethod.render.labels import Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import SIZES, unit
-from planmethod.solved.forces.friction import RubbedReading, Rubbing
-from planmethod.solved.reading import remembered
+from planmethod.solved.forces.friction import FrictionPair, RubbedReading
+from planmethod.solved.reading import memoized
 
 CIRCLE, CONE = "friction circle", "friction cone"
 """First words of the tags; the second is the letter."""
 
-LEAST = 3.0
+MIN_RADIUS = 3.0
 """Radius of the smallest friction circle, mm: smaller ones are enlarged, all by one factor."""
 
-_MOST = 7.0  # mm: an enlarged circle is not larger
+_MAX_RADIUS = 7.0  # mm: an enlarged circle is not larger
 _REACH = 30.0  # length of the lines of a cone, mm
 
 
@@ -58,7 +58,7 @@ class Inclined(Struct, frozen=True):
     """
 
     acting: Acting
-    pair: Rubbing
+    pair: FrictionPair
     centre: complex
     radius: float = 0.0
     normal: complex = 0j
@@ -72,7 +72,9 @@ def is_enlarged(reading: RubbedReading) -> bool:
 def _factor(reading: RubbedReading) -> float:
     per_mm = reading.solution.scales[PlanKind.POSITION].per_mm
     found = [pair.rho / per_mm for pair in reading.friction.pairs if pair.rho]
-    return max(1.0, min(LEAST / min(found), max(_MOST / max(found), 1.0))) if found else 1.0
+    return (
+        max(1.0, min(MIN_RADIUS / min(found), max(_MAX_RADIUS / max(found), 1.0))) if found else 1.0
+    )
 
 
 def _letter(reading: RubbedReading, on: str, by: str, letter: str) -> str:
@@ -112,7 +114,7 @@ def _reactions(
 def _touching(
     reading: RubbedReading,
     reaction: Reaction,
-    pair: Rubbing,
+    pair: FrictionPair,
     one: Acting,
     sign: float,
     radius: float,
@@ -124,17 +126,17 @@ def _touching(
     return Inclined(acting, pair, one.at, radius)
 
 
-def _done(reading: RubbedReading, pair: Rubbing, force: float) -> float:
+def _done(reading: RubbedReading, pair: FrictionPair, force: float) -> float:
     """Return the fraction of a force's friction that one correction includes, at most 1."""
     rub = reading.friction.rub(pair, reading.friction.corrected)
     friction = float(rub[reading.index])
-    return min(1.0, friction / (pair.share * force))
+    return min(1.0, friction / (pair.coefficient * force))
 
 
-def _off_normal(reading: RubbedReading, pair: Rubbing, one: Acting, sign: float) -> Inclined:
+def _off_normal(reading: RubbedReading, pair: FrictionPair, one: Acting, sign: float) -> Inclined:
     """Incline the force of a guide against the sliding."""
     index = reading.index
-    rub = -sign * pair.sense[index] * complex(pair.along[index]) * pair.f * abs(one.direction)
+    rub = -sign * pair.sense[index] * complex(pair.direction[index]) * pair.f * abs(one.direction)
     whole = abs(complex(reading.friction.corrected.reactions[pair.number][index]))
     rub *= _done(reading, pair, max(whole, 1e-12)) if one.symbol.count("'") == 0 else 1.0
     symbol = one.symbol.replace("F", "R", 1)
@@ -142,9 +144,9 @@ def _off_normal(reading: RubbedReading, pair: Rubbing, one: Acting, sign: float)
     return Inclined(acting, pair, one.at, normal=one.direction)
 
 
-@remembered
+@memoized
 def friction_picture(
-    reading: RubbedReading, number: int, letter_height: float, say: Notation
+    reading: RubbedReading, number: int, letter_height: float, notation: Notation
 ) -> Picture:
     """Return the links of a force plan cut free, with loads and inclined reactions, mm."""
     plan, index, solution = reading.plans[number], reading.index, reading.solution
@@ -166,19 +168,19 @@ def friction_picture(
         if one.kind is LoadKind.FRICTION or one.link not in plan.links:
             continue
         if given.force is not None and abs(complex(one.force[index])) > 1e-9 * reading.peak:
-            at, way = reading.place(given.force.at), reading.way(given.force)
-            forces.append(Acting(say.symbol(one.name), at, way))
+            at, way = reading.place(given.force.at), reading.drawn_direction(given.force)
+            forces.append(Acting(notation.symbol(one.name), at, way))
         elif given.couple is not None:
             couple = CoupleOn(one.name, one.link, given.couple)
             if not reading.is_no_couple(couple):
-                couples.append(turning(reading, scheme, couple, say))
+                couples.append(turning(reading, scheme, couple, notation))
     forces += [
-        Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.way(edge))
+        Acting(notation.symbol(edge.symbol), reading.place(edge.at), reading.drawn_direction(edge))
         for edge in reading.shown(plan)
         if edge.symbol == reading.balancing_symbol
     ]
     couples += [
-        turning(reading, scheme, couple, say)
+        turning(reading, scheme, couple, notation)
         for couple in reading.couples(plan)
         if (couple.symbol == reading.balancing_symbol or couple.symbol.startswith("M_{"))
         and couple.symbol not in replaced
@@ -188,7 +190,7 @@ def friction_picture(
     items = [*drawn_items(scheme), *point_items(guided, scheme.factor)]
     lines = [part for parts in scheme.segments.values() for part in parts]
     joints = [scheme.at(point) for point in scheme.named]
-    placed = lay_forces(forces, lines, joints, gap=SIZES.joint / 2 * scheme.factor + 0.5)
+    placed = place_force_arrows(forces, lines, joints, gap=SIZES.joint / 2 * scheme.factor + 0.5)
     arrows, labels = force_items(placed, letter_height, prefix)
     marks, letters = _marks(reading, inclined, placed, letter_height, prefix)
     items += [*marks, *arrows]

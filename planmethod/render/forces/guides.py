@@ -21,7 +21,7 @@ from planmethod.solved.forces.guides import Guided, guides
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
 
-FAR = 45.0
+MAX_DISTANCE = 45.0
 """Distance from its joint up to which a reaction is drawn where it acts, mm."""
 
 POINT = "point of a reaction"
@@ -31,7 +31,7 @@ DIMENSION = "dimension"
 """First word of the tags of dimensions; the second is the letter."""
 
 _SHORTEST = 8.0  # of a slider that is drawn to scale, mm
-_LEAST = 1.5  # mm: a distance below it is not dimensioned
+_MIN_DIMENSION = 1.5  # mm: a distance below it is not dimensioned
 _LEVELS = (9.0, 14.0, 19.0, 25.0, 31.0)  # from the guide to a dimension line, mm
 _CLEAR = 2.5  # mm: a closer dimension line crowds a line of the drawing
 
@@ -40,7 +40,7 @@ def drawn_length(solution: Solution, slide: Slide, factor: float) -> float:
     """Return the drawn length of a slider, mm: to scale if it looks like one, else the symbol's."""
     if slide.length is not None:
         true = slide.length / solution.scales[PlanKind.POSITION].per_mm
-        if _SHORTEST <= true <= 2 * FAR:
+        if _SHORTEST <= true <= 2 * MAX_DISTANCE:
             return true
     return SIZES.slider_length * factor
 
@@ -97,7 +97,7 @@ def _origin(guided: Guided) -> complex:
     place = reading.place(guided.reaction.force.at)
     if guided.on == contact.slide.slider:
         return place
-    line = complex(contact.along[reading.index])
+    line = complex(contact.direction[reading.index])
     arm = complex(contact.joint.at[reading.index] - contact.base[reading.index])
     off = (arm * line.conjugate()).imag / _per_mm(guided)
     return place - 1j * line * off
@@ -121,7 +121,7 @@ def _at_edges(guided: Guided, factor: float) -> Pressed | None:
     if not edges:
         return None
     reading, contact = guided.reading, guided.contact
-    along = complex(contact.along[reading.index])
+    along = complex(contact.direction[reading.index])
     middle = float(contact.middle[reading.index]) / _per_mm(guided)
     half = drawn_length(reading.solution, contact.slide, factor) / 2
     places = tuple(_origin(guided) + along * (middle + side * half) for side in (1, -1))
@@ -129,7 +129,7 @@ def _at_edges(guided: Guided, factor: float) -> Pressed | None:
         Acting(guided.symbol("F", primes), place, edge.force, gap=_face(factor))
         for primes, place, edge in zip(("'", "''"), places, edges, strict=True)
     )
-    span = DimensionSpan(guided.own.symbol("a"), places[1], places[0])
+    span = DimensionSpan(guided.as_planned.symbol("a"), places[1], places[0])
     return Pressed(_replaced(guided), forces, places, span)
 
 
@@ -139,12 +139,16 @@ def _at_point(guided: Guided, bars: Sequence[Segment], factor: float) -> Pressed
     reading, contact = guided.reading, guided.contact
     origin = _origin(guided)
     shift = guided.b / _per_mm(guided)
-    place = origin + complex(contact.along[reading.index]) * shift
-    if abs(shift) > FAR and all(distance(place, bar) > 1.0 for bar in bars):
+    place = origin + complex(contact.direction[reading.index]) * shift
+    if abs(shift) > MAX_DISTANCE and all(distance(place, bar) > 1.0 for bar in bars):
         return None
     force = guided.sense * complex(contact.joint.force[reading.index])
     acting = Acting(guided.symbol("F"), place, force, gap=_face(factor))
-    span = DimensionSpan(guided.own.symbol("l"), origin, place) if abs(shift) >= _LEAST else None
+    span = (
+        DimensionSpan(guided.as_planned.symbol("l"), origin, place)
+        if abs(shift) >= _MIN_DIMENSION
+        else None
+    )
     return Pressed(_replaced(guided), (acting,), (place,), span)
 
 
@@ -169,7 +173,7 @@ def span_dimension(
     along = unit(span.end - span.start)
     out = min(
         (side * 1j * along * level for level in _LEVELS for side in (1, -1)),
-        key=lambda out: _crowded(span, out, lines),
+        key=lambda out: _dimension_cost(span, out, lines),
     )
     start, end = span.start + out, span.end + out
     tag = f"{DIMENSION} {span.symbol}"
@@ -186,7 +190,7 @@ def span_dimension(
     return items, label
 
 
-def _crowded(span: DimensionSpan, out: complex, lines: Iterable[Segment]) -> float:
+def _dimension_cost(span: DimensionSpan, out: complex, lines: Iterable[Segment]) -> float:
     """Return the cost of a dimension line among other lines; a nearer one costs less."""
     start, end = span.start + out, span.end + out
     places = [start + (end - start) * k / 6 for k in range(-2, 9)]

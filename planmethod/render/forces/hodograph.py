@@ -10,9 +10,9 @@ from planmethod.problem.model import Convention
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.polar import polar_picture
 from planmethod.solved.cycle import Cycle
-from planmethod.solved.forces.reading import FAINT_SHARE
+from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.reading import Complexes, remembered
+from planmethod.solved.reading import Complexes, memoized
 
 
 def hodograph_scale(cycle: Cycle, number: int, side: float) -> Scale:
@@ -33,7 +33,7 @@ def polar_groups(cycle: Cycle) -> list[list[int]]:
     reactions = statics_of(cycle.solution).board.reactions
     groups: list[list[int]] = []
     for k, reaction in enumerate(reactions):
-        if reaction.couple is not None or cycle.is_nothing(k):
+        if reaction.couple is not None or cycle.is_negligible(k):
             continue
         for group in groups:
             if opposite(cycle, group[0], k) is not None:
@@ -47,13 +47,13 @@ def polar_groups(cycle: Cycle) -> list[list[int]]:
 def opposite(cycle: Cycle, one: int, two: int) -> bool | None:
     """Return whether two reactions are always opposite (True) or equal (False); None if neither."""
     a, b = cycle.joints[one].force, cycle.joints[two].force
-    least = FAINT_SHARE * cycle.peak(one).size
+    least = NEGLIGIBLE_FRACTION * cycle.peak(one).size
     if float(np.max(np.abs(a + b))) <= least:
         return True
     return False if float(np.max(np.abs(a - b))) <= least else None
 
 
-@remembered
+@memoized
 def hodograph_picture(cycle: Cycle, number: int, per_mm: float, letter_height: float) -> Picture:
     """Return the polar diagram of a reaction, its pole at the origin, mm."""
     parts = [piece.values / per_mm for piece in cycle.force(number)]

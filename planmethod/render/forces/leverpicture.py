@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planmethod.note.narrate.forces.resultants import force_symbol
-from planmethod.note.narrate.letters import shown_letters
+from planmethod.note.narrate.letters import plan_letters
 from planmethod.note.numbers import Notation
 from planmethod.plans.model import PlanKind
 from planmethod.render.forces.arms import arm_items, arm_of
@@ -12,25 +12,25 @@ from planmethod.render.forces.arrows import (
     CoupleArc,
     couple_items,
     force_items,
-    lay_forces,
+    place_force_arrows,
 )
 from planmethod.render.forces.shifts import Shifted, shift_items
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.labels import NEAREST
-from planmethod.render.labels.spots import shared_spots, spot_labels
+from planmethod.render.labels.merged_labels import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.planview import similar_lines
 from planmethod.solved.forces.lever import LeverCouple, LeverReading
 from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.reading import remembered
+from planmethod.solved.reading import memoized
 
 LEVER = "lever"
 """Tag of the lines of the lever."""
 
 
-@remembered
-def lever_picture(reading: ForceReading, letter_height: float, say: Notation) -> Picture:
+@memoized
+def lever_picture(reading: ForceReading, letter_height: float, notation: Notation) -> Picture:
     """Return the lever with all its forces and couples, its pole at the origin, mm."""
     solution = reading.solution
     lever, plan = LeverReading(reading), solution.construction.plan(PlanKind.VELOCITY)
@@ -42,16 +42,18 @@ def lever_picture(reading: ForceReading, letter_height: float, say: Notation) ->
         if abs(lever.place(head) - lever.place(tail)) > 0.3
     ]
     items: list[Item] = [Stroke(bar, Pen.THIN, tag=LEVER) for bar in bars]
-    letters = shown_letters(solution.problem, plan)
+    letters = plan_letters(solution.problem, plan)
     ordered = sorted(letters.items(), key=lambda pair: pair[0] != plan.pole)
-    spots = shared_spots((lever.place(name), own) for name, own in ordered)
+    spots = merge_letters((lever.place(name), own) for name, own in ordered)
     items += [Disc(place, 0.7, Ink.BLACK) for place, _ in spots]
     prefix = f"lever {reading.index}"
-    labels = spot_labels(spots, letter_height, f"{prefix}: point", manner=NEAREST)
-    forces = [Acting(say.symbol(force.symbol), force.at, force.force) for force in lever.forces]
+    labels = label_merged_letters(spots, letter_height, f"{prefix}: point", style=NEAREST)
+    forces = [
+        Acting(notation.symbol(force.symbol), force.at, force.force) for force in lever.forces
+    ]
     shifts = [Shifted(force_symbol(one.link), one.letters[1], *one.line) for one in lever.shifts]
-    shifts = [one for one in shifts if one.is_seen]
-    placed = lay_forces(forces, [one.line for one in shifts])
+    shifts = [one for one in shifts if one.is_visible]
+    placed = place_force_arrows(forces, [one.line for one in shifts])
     arrows, letters_of_forces = force_items(placed, letter_height, prefix)
     lines, letters_of_shifts = shift_items(shifts, placed, letter_height, prefix)
     arms = [
@@ -59,15 +61,15 @@ def lever_picture(reading: ForceReading, letter_height: float, say: Notation) ->
         for acting, force in zip(forces, lever.forces, strict=True)
         if force.arm
     ]
-    measured, sizes = arm_items(arms, placed, letter_height, prefix, say)
+    measured, sizes = arm_items(arms, placed, letter_height, prefix, notation)
     items += [*lines, *measured, *arrows]
-    turnings = [_turning(one, say) for one in lever.couples if one.lever_moment]
+    turnings = [_turning(one, notation) for one in lever.couples if one.lever_moment]
     turns, letters_of_couples = couple_items(turnings, items, letter_height, prefix)
     named = [*sizes, *letters_of_forces, *letters_of_couples, *letters_of_shifts, *labels]
     return lettered([*items, *turns], named)
 
 
-def _turning(one: LeverCouple, say: Notation) -> CoupleArc:
+def _turning(one: LeverCouple, notation: Notation) -> CoupleArc:
     place = 0j if one.segment is None else sum(one.segment) / 2
     sense = 1 if one.lever_moment > 0 else -1
-    return CoupleArc(say.symbol(one.symbol), place, sense, one.segment)
+    return CoupleArc(notation.symbol(one.symbol), place, sense, one.segment)

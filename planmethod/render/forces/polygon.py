@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from planmethod.note.numbers import Notation
-from planmethod.plans.forces.polygons import Edge, Share
-from planmethod.render.forces.arrows import MANNER, Segment, distance
+from planmethod.plans.forces.polygons import Component, Edge
+from planmethod.render.forces.arrows import FORCE_LABEL_STYLE, Segment, distance
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen
 from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import Label
@@ -13,14 +13,14 @@ from planmethod.render.pictures.ellipses import Ellipses
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import PLAN_FORCE, unit, vector_arrow
 from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.reading import remembered
+from planmethod.solved.reading import memoized
 
 START = "start of a force plan"
 """Tag of the disc where the construction of a plan begins: one for each plan."""
 
 NO_ELLIPSES = Ellipses()
 
-_LEAST = 0.3
+_MIN_LENGTH = 0.3
 """Shortest segment that is drawn, mm."""
 
 
@@ -42,7 +42,7 @@ def drawn_edges(reading: ForceReading, number: int) -> list[Edge]:
     others = [*reading.wholes(plan), *reading.inner(plan)]
     for edge, is_side in (*((e, True) for e in reading.shown(plan)), *((e, False) for e in others)):
         places = frozenset(_rounded(reading.corner(number, end)) for end in (edge.tail, edge.head))
-        if abs(reading.drawn(number, edge)) >= _LEAST and (is_side or places not in ends):
+        if abs(reading.drawn(number, edge)) >= _MIN_LENGTH and (is_side or places not in ends):
             ends.add(places)
             result.append(edge)
     return result
@@ -52,14 +52,14 @@ def _rounded(place: complex) -> complex:
     return complex(round(place.real, 3), round(place.imag, 3))
 
 
-def _written(reading: ForceReading, number: int, edge: Edge, say: Notation) -> str:
+def _written(reading: ForceReading, number: int, edge: Edge, notation: Notation) -> str:
     """Return the inscription of a segment: all reactions that it shows.
 
     A component may be the whole reaction; the inner reaction may be the same line.
     """
     plan = reading.plans[number]
     others = [*plan.wholes, *plan.inner]
-    written = [vector_markup(say.symbol(edge.symbol))]
+    written = [vector_markup(notation.symbol(edge.symbol))]
     tail, head = reading.corner(number, edge.tail), reading.corner(number, edge.head)
     for other in others:
         ends = reading.corner(number, other.tail), reading.corner(number, other.head)
@@ -72,7 +72,7 @@ def _written(reading: ForceReading, number: int, edge: Edge, say: Notation) -> s
     return " = ".join(written)
 
 
-def apart(reading: ForceReading, number: int) -> list[complex]:
+def find_overlap_shifts(reading: ForceReading, number: int) -> list[complex]:
     """Return the offsets at which the segments of a plan are drawn beside their places, mm.
 
     Overlapping segments would hide each other's heads.
@@ -84,7 +84,7 @@ def apart(reading: ForceReading, number: int) -> list[complex]:
         along = unit(head - tail)
         across = 1j * (along if (along.imag, along.real) > (0.0, 0.0) else -along)
         for step in (0, 1, -1, 2, -2, 3, -3):
-            shift = step * _BESIDE * across
+            shift = step * _SPACING * across
             if not any(_hides((tail + shift, head + shift), other) for other in placed):
                 break
         placed.append((tail + shift, head + shift))
@@ -92,28 +92,28 @@ def apart(reading: ForceReading, number: int) -> list[complex]:
     return shifts
 
 
-_BESIDE = 1.8
+_SPACING = 1.8
 _HIDES = 0.3
 """Between segments drawn beside one another; between those that hide one another, mm."""
 
 
-def _hides(one: Segment, other: Segment) -> bool:
+def _hides(one: Segment, second: Segment) -> bool:
     """Return whether two segments overlap along more than a point."""
-    short, long = sorted((one, other), key=lambda part: abs(part[1] - part[0]))
+    short, long = sorted((one, second), key=lambda part: abs(part[1] - part[0]))
     places = [short[0] + (short[1] - short[0]) * k / 8 for k in range(9)]
     return sum(distance(place, long) < _HIDES for place in places) > 2
 
 
-@remembered
+@memoized
 def polygon_picture(
     reading: ForceReading,
     number: int,
     letter_height: float,
-    say: Notation,
+    notation: Notation,
     ellipses: Ellipses = NO_ELLIPSES,
 ) -> Picture:
     """Return the force plan of a group or of the driver, its first point at the origin, mm."""
-    edges, shifts = drawn_edges(reading, number), apart(reading, number)
+    edges, shifts = drawn_edges(reading, number), find_overlap_shifts(reading, number)
     items: list[Item] = list(ellipses.strokes)
     labels: list[Label] = []
     ends = [reading.corner(number, end) for edge in edges for end in (edge.tail, edge.head)] or [0j]
@@ -123,19 +123,19 @@ def polygon_picture(
             reading.corner(number, edge.tail) + shift,
             reading.corner(number, edge.head) + shift,
         )
-        thin = edge.share is not Share.WHOLE
+        thin = edge.component is not Component.TOTAL
         pen = Pen.THIN if thin else Pen.MAIN
-        symbol = say.symbol(edge.symbol)
+        symbol = notation.symbol(edge.symbol)
         items += vector_arrow(tail, head, pen=pen, length=4.0, tag=f"{PLAN_FORCE} {symbol}")
         labels.append(
             Label(
-                typeset(_written(reading, number, edge, say), letter_height),
+                typeset(_written(reading, number, edge, notation), letter_height),
                 (tail + head) / 2,
                 (tail, head),
                 prefer=(tail + head) / 2 - centre,
                 gap=1.0,
                 name=f"plan {reading.index} {number} {k}: {symbol}",
-                manner=MANNER,
+                style=FORCE_LABEL_STYLE,
             )
         )
     items.append(Disc(start_place(reading, number), 0.7, Ink.BLACK, tag=START))

@@ -18,27 +18,27 @@ from planmethod.solved.forces.reading import ForceReading
 SHIFT = "shift"
 """First word of the tags of the lines; the second is the letter of the point."""
 
-_LEAST = 0.3  # mm: a nearer point coincides with the centre of mass
-_ROOM = 6.0  # mm: a shorter shift has no room for the mark of its right angle
+_MIN_SHIFT = 0.3  # mm: a nearer point coincides with the centre of mass
+_MIN_WITH_MARK = 6.0  # mm: a shorter shift has no room for the mark of its right angle
 _CORNER = 2.0  # side of that mark, mm
 
 
 class Shifted(Struct, frozen=True):
     """Force moved off the centre of mass: its letter, its point's letter, both places, mm.
 
-    ``told`` is the inscription of the line between them.
+    ``text`` is the inscription of the line between them.
     """
 
     force: str
     letter: str
     centre: complex
     at: complex
-    told: str = ""
+    text: str = ""
 
     @property
-    def is_seen(self) -> bool:
+    def is_visible(self) -> bool:
         """True if there is a line to be drawn."""
-        return abs(self.at - self.centre) >= _LEAST
+        return abs(self.at - self.centre) >= _MIN_SHIFT
 
     @property
     def line(self) -> Segment:
@@ -46,7 +46,7 @@ class Shifted(Struct, frozen=True):
         return self.centre, self.at
 
 
-def shifts_on(reading: ForceReading, links: Iterable[str], say: Notation) -> list[Shifted]:
+def shifts_on(reading: ForceReading, links: Iterable[str], notation: Notation) -> list[Shifted]:
     """Return the visible shifts on some links."""
     found = []
     for link in links:
@@ -54,10 +54,10 @@ def shifts_on(reading: ForceReading, links: Iterable[str], say: Notation) -> lis
         if shift is not None:
             centre, at = reading.place(shift.centre), reading.place(shift.at)
             read = abs(reading.read_number(shift.length))
-            length = f"{say.number(f'{half_up(read, 1):.1f}')} {say.units['mm']}"
-            told = f"{shift_symbol(link)} = {length}"
-            found.append(Shifted(force_symbol(link), shift.letter, centre, at, told))
-    return [one for one in found if one.is_seen]
+            length = f"{notation.number(f'{half_up(read, 1):.1f}')} {notation.units['mm']}"
+            text = f"{shift_symbol(link)} = {length}"
+            found.append(Shifted(force_symbol(link), shift.letter, centre, at, text))
+    return [one for one in found if one.is_visible]
 
 
 def shift_items(
@@ -86,7 +86,7 @@ def _line_of_action(one: Shifted, end: complex) -> list[Item]:
     """Return the line from the point of a force to its arrow, square to the shift."""
     along, back = end - one.at, one.centre - one.at
     items: list[Item] = [Stroke((one.at, end), Pen.THIN, tag="line of action")]
-    if abs(back) >= _ROOM:
+    if abs(back) >= _MIN_WITH_MARK:
         a, b = _CORNER * unit(along), _CORNER * unit(back)
         corner = (one.at + a, one.at + a + b, one.at + b)
         items.append(Stroke(corner, Pen.THIN, tag="right angle"))
@@ -103,18 +103,18 @@ def _letters(one: Shifted, height: float, prefix: str) -> list[Label]:
             gap=1.5,
             name=f"{prefix}: point {one.letter}",
             priority=2,
-            manner=BUSY,
+            style=BUSY,
         )
     ]
-    if one.told:
+    if one.text:
         labels.append(
             Label(
-                typeset(one.told, height),
+                typeset(one.text, height),
                 (one.centre + one.at) / 2,
                 one.line,
                 gap=1.0,
-                name=f"{prefix}: {one.told}",
-                manner=BUSY,
+                name=f"{prefix}: {one.text}",
+                style=BUSY,
             )
         )
     return labels

@@ -33,7 +33,7 @@ class Form(Struct, frozen=True):
 
     Attributes
     ----------
-    thick, thin : tuple of Bounds
+    thick_lines, thin_lines : tuple of Bounds
         Lines, from (x0, y0) to (x1, y1); the outline is drawn besides. Thick ones part the graphs,
         thin ones the rows and the three small cells of "Лит.".
     captions : tuple of (str, Bounds, Align)
@@ -49,8 +49,8 @@ class Form(Struct, frozen=True):
     name: str
     width: float
     height: float
-    thick: tuple[Bounds, ...]
-    thin: tuple[Bounds, ...]
+    thick_lines: tuple[Bounds, ...]
+    thin_lines: tuple[Bounds, ...]
     captions: tuple[Caption, ...]
     cells: Mapping[str, FormCell]
     organisation: FormCell | None = None
@@ -77,7 +77,7 @@ def _header(y: float) -> tuple[Caption, ...]:
     return tuple((caption, (x0, y, x1, y + 5), "centre") for caption, x0, x1 in _COLUMNS)
 
 
-def _hands(rows: Sequence[str]) -> Iterator[tuple[str, FormCell]]:
+def _signature_cells(rows: Sequence[str]) -> Iterator[tuple[str, FormCell]]:
     """Yield the cells of surnames and dates; the roles of ``rows`` go from the bottom up."""
     for y, role in zip(range(0, 5 * len(rows), 5), rows, strict=True):
         yield role, FormCell((17, y, 40, y + 5), 2.5, "left")
@@ -108,14 +108,14 @@ def _small_cells(y0: float, y1: float) -> tuple[Bounds, ...]:
     return tuple((x, y0, x + 5, y1) for x in (135.0, 140.0, 145.0))
 
 
-_HANDS_1 = ("approver", "norm_control", "extra", "t_control", "checker", "author")
+_SIGNATURES_1 = ("approver", "norm_control", "extra", "t_control", "checker", "author")
 _LETTERS_1, _LETTERS_2 = _small_cells(20, 35), _small_cells(15, 20)
 
 FORM_1 = Form(
     name="1",
     width=STAMP_WIDTH,
     height=STAMP_HEIGHT,
-    thick=(
+    thick_lines=(
         *_uprights(30, 55),
         (0, 30, 65, 30),
         (0, 35, 65, 35),
@@ -128,10 +128,10 @@ FORM_1 = Form(
         (167, 20, 167, 40),
         (155, 15, 155, 20),
     ),
-    thin=_rows(5, 10, 15, 20, 25, 40, 45, 50),
+    thin_lines=_rows(5, 10, 15, 20, 25, 40, 45, 50),
     captions=(
         *_header(30),
-        *_roles(_HANDS_1),
+        *_roles(_SIGNATURES_1),
         ("letter", (135, 35, 150, 40), "centre"),
         ("mass", (150, 35, 167, 40), "centre"),
         ("scale", (167, 35, 185, 40), "centre"),
@@ -147,7 +147,7 @@ FORM_1 = Form(
             "scale": FormCell((167, 20, 185, 35), 3.5),
             "sheet": FormCell((146, 15, 155, 20), 2.5),
             "sheets": FormCell((171, 15, 185, 20), 2.5),
-            **dict(_hands(_HANDS_1)),
+            **dict(_signature_cells(_SIGNATURES_1)),
         }
     ),
     organisation=FormCell((135, 0, 185, 15), 3.5),
@@ -155,13 +155,13 @@ FORM_1 = Form(
 )
 """Form 1: every sheet of a drawing (185x55 mm)."""
 
-_HANDS_2 = tuple(role for role in _HANDS_1 if role != "t_control")
+_SIGNATURES_2 = tuple(role for role in _SIGNATURES_1 if role != "t_control")
 
 FORM_2 = Form(
     name="2",
     width=185.0,
     height=40.0,
-    thick=(
+    thick_lines=(
         *_uprights(25, 40),
         (0, 25, 185, 25),
         (0, 30, 65, 30),
@@ -171,10 +171,10 @@ FORM_2 = Form(
         (150, 15, 150, 25),
         (165, 15, 165, 25),
     ),
-    thin=_rows(5, 10, 15, 20, 35),
+    thin_lines=_rows(5, 10, 15, 20, 35),
     captions=(
         *_header(25),
-        *_roles(_HANDS_2),
+        *_roles(_SIGNATURES_2),
         ("letter", (135, 20, 150, 25), "centre"),
         ("sheet", (150, 20, 165, 25), "centre"),
         ("sheets", (165, 20, 185, 25), "centre"),
@@ -185,7 +185,7 @@ FORM_2 = Form(
             "title": FormCell((65, 0, 135, 25), 5.0),
             "sheet": FormCell((150, 15, 165, 20), 2.5),
             "sheets": FormCell((165, 15, 185, 20), 2.5),
-            **dict(_hands(_HANDS_2)),
+            **dict(_signature_cells(_SIGNATURES_2)),
         }
     ),
     organisation=FormCell((135, 0, 185, 15), 3.5),
@@ -197,13 +197,13 @@ FORM_2A = Form(
     name="2a",
     width=185.0,
     height=15.0,
-    thick=(
+    thick_lines=(
         *_uprights(0, 15),
         (175, 0, 175, 15),
         (0, 5, 65, 5),
         (175, 8, 185, 8),
     ),
-    thin=_rows(10),
+    thin_lines=_rows(10),
     captions=(*_header(0), ("sheet", (175, 8, 185, 15), "centre")),
     cells=MappingProxyType(
         {

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
-from planmethod.note.wording import Words, language
+from planmethod.note.wording import MessageTable, get_language
 from planmethod.paper import (
     FORMATS,
     FRAME_LEFT,
@@ -56,12 +56,12 @@ MARGIN_NOTE = "margin"
 
 
 class Frame(NamedTuple):
-    """Frame of a sheet: its items, and the area that it leaves, mm, see `Room`."""
+    """Frame of a sheet: its items, and the area that it leaves, mm, see `DrawingArea`."""
 
     items: list[Item]
     inner: Bounds
     stamp: Bounds
-    taken: tuple[Bounds, ...]
+    reserved: tuple[Bounds, ...]
 
 
 def sheet_frame(
@@ -77,7 +77,7 @@ def sheet_frame(
     ----------
     paper : Format or str
     fields : mapping
-        Texts by the keys of `planmethod.problem.head.TITLE_BLOCK`.
+        Texts by the keys of `planmethod.problem.common.TITLE_BLOCK`.
     furniture : Furniture
         Which form and which additional graphs.
     sheet : int
@@ -92,21 +92,21 @@ def sheet_frame(
     check_fields(fields)
     if not {"sheet", "sheets"} & fields.keys():
         fields = {**fields, "sheets": "1"}  # GOST 2.104: a single sheet is counted, not numbered
-    words = language(furniture.lang).frame
-    room = furniture.room(paper, sheet)
+    texts = get_language(furniture.lang).frame
+    room = furniture.drawing_area(paper, sheet)
     edge = rectangle((0.0, 0.0, paper.width, paper.height), Pen.THIN, "edge")
     items: list[Item] = [edge, rectangle(room.inner, Pen.FRAME, "frame")]
     corner = complex(room.stamp[0], room.stamp[1])
     items += shifted(title_block(fields, furniture.form_of(sheet), lang=furniture.lang), corner)
-    turn = 90.0 if paper.stands and paper.size != "A4" else 180.0
+    turn = 90.0 if paper.is_portrait and paper.size != "A4" else 180.0
     for number, box in furniture.graphs(paper, sheet).items():
         items.append(rectangle(box, Pen.FRAME, STAMP))
         if number == "26" and fields.get("designation"):
-            items += _turned_into(str(fields["designation"]), FormCell(box, 7.0), turn, STAMP)
+            items += _fill_rotated(str(fields["designation"]), FormCell(box, 7.0), turn, STAMP)
     if furniture.side_columns:
-        items += _side_columns(paper, fields, words, first=furniture.is_first(sheet))
-    items += _under_the_frame(paper, words)
-    return Frame(items, room.inner, room.stamp, room.taken)
+        items += _side_columns(paper, fields, texts, first=furniture.is_first(sheet))
+    items += _under_the_frame(paper, texts)
+    return Frame(items, room.inner, room.stamp, room.reserved)
 
 
 # In the binding margin -------------------------------------------------------------------------
@@ -126,7 +126,7 @@ _FROM_ABOVE = (("first_use", 60.0), ("reference", 60.0))
 
 
 def _side_columns(
-    paper: Format, fields: Mapping[str, str], words: Words, *, first: bool
+    paper: Format, fields: Mapping[str, str], texts: MessageTable, *, first: bool
 ) -> Iterator[Item]:
     """Yield the cells in the binding margin; their texts read from the bottom up."""
     _, low, _, high = paper.inner
@@ -139,16 +139,16 @@ def _side_columns(
         high -= length
     for key, bottom, top in cells:
         for (x0, x1), text, size in (
-            (_CAPTION_COLUMN, words["captions"][key], 2.5),
+            (_CAPTION_COLUMN, texts["captions"][key], 2.5),
             (_VALUE_COLUMN, str(fields.get(key, "")), 3.5),
         ):
             box = (x0, bottom, x1, top)
             yield rectangle(box, Pen.FRAME, STAMP)
             if text:
-                yield from _turned_into(text, FormCell(box, size), 90.0, f"{STAMP} {MARGIN_NOTE}")
+                yield from _fill_rotated(text, FormCell(box, size), 90.0, f"{STAMP} {MARGIN_NOTE}")
 
 
-def _turned_into(text: str, cell: FormCell, angle: float, tag: str) -> list[Item]:
+def _fill_rotated(text: str, cell: FormCell, angle: float, tag: str) -> list[Item]:
     """Put a text into its cell turned by a multiple of 90 degrees, counter-clockwise."""
     x0, y0, x1, y1 = cell.box
     middle = complex(x0 + x1, y0 + y1) / 2
@@ -159,10 +159,10 @@ def _turned_into(text: str, cell: FormCell, angle: float, tag: str) -> list[Item
         middle.real + wide / 2,
         middle.imag + tall / 2,
     )
-    return list(_turned(filled(text, cell._replace(box=flat), tag), middle, angle, cell.box))
+    return list(_rotate(filled(text, cell._replace(box=flat), tag), middle, angle, cell.box))
 
 
-def _turned(items: Iterable[Item], about: complex, angle: float, box: Bounds) -> Iterator[Item]:
+def _rotate(items: Iterable[Item], about: complex, angle: float, box: Bounds) -> Iterator[Item]:
     """Yield the letters and overbars of a text turned about a point, in their new cell."""
     turn = cmath.exp(1j * radians(angle))
     for item in items:
@@ -173,11 +173,11 @@ def _turned(items: Iterable[Item], about: complex, angle: float, box: Bounds) ->
             yield replace(item, points=tuple(about + turn * (p - about) for p in item.points))
 
 
-def _under_the_frame(paper: Format, words: Words) -> list[Item]:
+def _under_the_frame(paper: Format, texts: MessageTable) -> list[Item]:
     """Return the notes below the title block: copyist and format (графы 31, 32)."""
     right = paper.width - FRAME_OTHER
     base = (FRAME_OTHER - 2.5) / 2
-    copied = typeset(words.copied, 2.5)
-    name = typeset(words.format.format(paper=paper.written(words.paper)), 2.5)
+    copied = typeset(texts.copied, 2.5)
+    name = typeset(texts.format.format(paper=paper.written(texts.paper)), 2.5)
     items = copied.at(complex(right - STAMP_WIDTH + 75.0, base), tag=MARGIN_NOTE)
     return items + name.at(complex(right - 35.0, base), tag=MARGIN_NOTE)

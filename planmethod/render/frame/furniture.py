@@ -11,7 +11,7 @@ from msgspec import Struct
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
 from planmethod.paper import FRAME_OTHER, Format
-from planmethod.problem.head import SheetSettings
+from planmethod.problem.common import SheetSettings
 from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
 from planmethod.render.ink.drawing import Bounds, Item
 from planmethod.render.ink.extent import ink_bounds, overlap
@@ -29,15 +29,15 @@ FORMS: Mapping[str, tuple[Form, Form]] = MappingProxyType(
 Graphs: TypeAlias = Mapping[str, Bounds]
 """Cells of additional graphs by number, mm on the sheet."""
 
-_BESIDE = 67.0  # mm: graphs 27 to 29 beside graph 26
-_ABOVE = {"1": 8.0, "2": 22.0}  # mm: graph 30, or 27 to 30, above the title block
+_GRAPHS_27_29_WIDTH = 67.0  # mm: graphs 27 to 29 beside graph 26
+_GRAPHS_HEIGHT = {"1": 8.0, "2": 22.0}  # mm: graph 30, or 27 to 30, above the title block
 
 
 CLEARANCE = 4.0
 """Least white between drawn items and a graph within the frame (свободное поле), mm."""
 
 
-class Room(Struct, frozen=True):
+class DrawingArea(Struct, frozen=True):
     """Area of a sheet available for the drawing (поле чертежа), mm.
 
     Attributes
@@ -46,18 +46,18 @@ class Room(Struct, frozen=True):
         Inside of the frame.
     stamp : Bounds
         Title block, with the graphs above it, in the lower right corner of the inside.
-    taken : tuple of Bounds
+    reserved : tuple of Bounds
         Other occupied boxes of the inside: graph 26 and those beside it.
     """
 
     inner: Bounds
     stamp: Bounds
-    taken: tuple[Bounds, ...] = ()
+    reserved: tuple[Bounds, ...] = ()
 
     def is_clear(self, items: Iterable[Item]) -> bool:
         """Return whether no item comes near a graph; items are compared by their boxes."""
-        boxes = [ink_bounds([item]) for item in items] if self.taken else []
-        return not any(overlap(box, graph, CLEARANCE) for box in boxes for graph in self.taken)
+        boxes = [ink_bounds([item]) for item in items] if self.reserved else []
+        return not any(overlap(box, graph, CLEARANCE) for box in boxes for graph in self.reserved)
 
 
 class Furniture(Struct, frozen=True):
@@ -129,13 +129,13 @@ class Furniture(Struct, frozen=True):
             found |= _for_the_customer(paper, form, 70.0 if shown else 0.0)
         return MappingProxyType(found)
 
-    def room(self, paper: Format, sheet: int = 1) -> Room:
+    def drawing_area(self, paper: Format, sheet: int = 1) -> DrawingArea:
         """Return the area that a sheet, counted from 1, has within its furniture."""
         form, inner = self.form_of(sheet), paper.inner
-        above = _ABOVE.get(form.name, 0.0) if self.graphs_27_30 else 0.0
+        above = _GRAPHS_HEIGHT.get(form.name, 0.0) if self.graphs_27_30 else 0.0
         stamp = (inner[2] - form.width, inner[1], inner[2], inner[1] + form.height + above)
         graphs = self.graphs(paper, sheet).values()
-        return Room(inner, stamp, tuple(box for box in graphs if not _within(box, stamp)))
+        return DrawingArea(inner, stamp, tuple(box for box in graphs if not _is_inside(box, stamp)))
 
     def numbers(self, sheet: int, sheets: int) -> dict[str, str]:
         """Return graphs 7 and 8 of one of ``sheets`` sheets.
@@ -159,14 +159,14 @@ def upper_corner(
     from the frame.
     """
     left, _, right, top = paper.inner
-    if paper.stands and paper.size != "A4":
+    if paper.is_portrait and paper.size != "A4":
         return (right - 14.0 + low, top - end, right - 14.0 + high, top - start)
     return (left + start, top - 14.0 + low, left + end, top - 14.0 + high)
 
 
 def _for_the_customer(paper: Format, form: Form, start: float) -> dict[str, Bounds]:
     """Return graphs 27 to 30; forms without a place for them have none."""
-    if form.name not in _ABOVE:
+    if form.name not in _GRAPHS_HEIGHT:
         return {}
     right, top = paper.width - FRAME_OTHER, FRAME_OTHER + form.height
     whole = {"30": (right - 120.0, top, right, top + 8.0)}
@@ -177,7 +177,7 @@ def _for_the_customer(paper: Format, form: Form, start: float) -> dict[str, Boun
             "28": (right - 106.0, y0, right - 53.0, y1),
             "29": (right - 53.0, y0, right, y1),
         }
-    end = start + _BESIDE
+    end = start + _GRAPHS_27_29_WIDTH
     return whole | {
         "27": upper_corner(paper, start, start + 14.0),
         "28": upper_corner(paper, start + 14.0, end, low=7.0),
@@ -185,5 +185,5 @@ def _for_the_customer(paper: Format, form: Form, start: float) -> dict[str, Boun
     }
 
 
-def _within(box: Bounds, other: Bounds) -> bool:
-    return other[0] <= box[0] and other[1] <= box[1] and box[2] <= other[2] and box[3] <= other[3]
+def _is_inside(box: Bounds, outer: Bounds) -> bool:
+    return outer[0] <= box[0] and outer[1] <= box[1] and box[2] <= outer[2] and box[3] <= outer[3]

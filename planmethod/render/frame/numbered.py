@@ -25,7 +25,7 @@ def numbered(drawing: Drawing, furniture: Furniture, sheet: int) -> Drawing:
     sheet : int
         Number of the sheet among these, counted from 1.
     """
-    form = FORM_2A if drawing.goes_on else furniture.form_of(sheet)
+    form = FORM_2A if drawing.is_continuation else furniture.form_of(sheet)
     by = complex(drawing.width - FRAME_OTHER - form.width, FRAME_OTHER)
     # A single sheet is counted, not numbered (GOST 2.104).
     texts = furniture.numbers(sheet, sheet) or {"sheets": "1"}
@@ -40,9 +40,9 @@ def numbered(drawing: Drawing, furniture: Furniture, sheet: int) -> Drawing:
             boxes.append((x0 + by.real, y0 + by.imag, x1 + by.real, y1 + by.imag))
             if key in texts:
                 items += shifted(filled(texts[key], cell), by)
-    kept = [one for one in drawing.items if not _stands_in(one, boxes)]
+    kept = [one for one in drawing.items if not _is_in_cell(one, boxes)]
     return replace(drawing, items=[*kept, *items])
 
 
-def _stands_in(item: Item, boxes: list[tuple[float, float, float, float]]) -> bool:
+def _is_in_cell(item: Item, boxes: list[tuple[float, float, float, float]]) -> bool:
     return isinstance(item, Text) and item.tag.startswith(STAMP) and item.box in boxes

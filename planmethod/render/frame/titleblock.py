@@ -6,15 +6,15 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES, say
-from planmethod.note.wording import language
-from planmethod.problem.head import TITLE_BLOCK
-from planmethod.problem.names import near_hint
+from planmethod.languages import LANGUAGES, translate
+from planmethod.note.wording import get_language
+from planmethod.problem.common import TITLE_BLOCK
+from planmethod.problem.names import nearest_name_hint
 from planmethod.render.frame.forms import FORM_1, Form, FormCell
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.style import HEIGHTS
 from planmethod.render.ink.typeset import smaller_heights
-from planmethod.render.layout.block import fit
+from planmethod.render.layout.block import fit_text
 
 STAMP = "stamp"
 """Tag of the lines and texts of the title block."""
@@ -57,14 +57,14 @@ def title_block(
         If a field is unknown.
     """
     check_fields(fields)
-    captions = language(lang).frame["captions"]
+    captions = get_language(lang).frame["captions"]
     values = merged({key: str(value).strip() for key, value in fields.items()})
     letters = values.get("letter", "").replace(" ", "")
     divided = len(letters) <= len(form.letters)
     items: list[Item] = []
     for lines, pen in (
-        ((*form.thin, *(form.dividers if divided else ())), Pen.THIN),
-        (form.thick, Pen.FRAME),
+        ((*form.thin_lines, *(form.dividers if divided else ())), Pen.THIN),
+        (form.thick_lines, Pen.FRAME),
     ):
         items += [
             Stroke((complex(x0, y0), complex(x1, y1)), pen, tag=STAMP) for x0, y0, x1, y1 in lines
@@ -102,7 +102,9 @@ def check_fields(fields: Iterable[str]) -> None:
     """
     for key in fields:
         if key not in TITLE_BLOCK:
-            hint = near_hint(key, TITLE_BLOCK, say("Known: {}.", ", ".join(TITLE_BLOCK)))
+            hint = nearest_name_hint(
+                key, TITLE_BLOCK, translate("Known: {}.", ", ".join(TITLE_BLOCK))
+            )
             raise LayoutError("Unknown field {!r} of the title block. {}", key, hint)
 
 
@@ -112,7 +114,7 @@ def filled(text: str, cell: FormCell, tag: str = STAMP, *, shrink_first: bool = 
     pad = 0.45 if wide <= 7 else 0.45 if wide <= 10 else 0.6 if wide <= 25 else 1.5
     # 2.5 mm is the smallest for drawings; 1.8, the smallest of all, is better than a cut surname.
     heights = (*smaller_heights(cell.height), HEIGHTS[0])
-    return fit(text, cell.box, heights, align=cell.align, pad=pad, tag=tag,
+    return fit_text(text, cell.box, heights, align=cell.align, pad=pad, tag=tag,
                shrink_first=shrink_first)  # fmt: skip
 
 

@@ -109,16 +109,16 @@ class Span(Struct, frozen=True):
     """One segment of a plan as it lies on the sheet (отрезок плана).
 
     ``name`` is its letters, ``position`` the number of the position on the sheet (None if there is
-    only one), ``start`` and ``end`` are mm; ``share`` is its enlargement relative to the scale of
-    its view: a plan may have a scale of its own. ``label`` is the name of the inscription that
-    names its vector; empty if it needs none.
+    only one), ``start`` and ``end`` are mm; ``magnification`` is its enlargement relative to the
+    scale of its view: a plan may have a scale of its own. ``label`` is the name of the inscription
+    that names its vector; empty if it needs none.
     """
 
     name: str
     position: int | None
     start: complex
     end: complex
-    share: float = 1.0
+    magnification: float = 1.0
     label: str = ""
 
     @property
@@ -162,8 +162,8 @@ class Drawing(Struct):
     """Display list of one sheet, drawn in order (чертёж), and its views.
 
     ``lettering`` is the one that its texts were measured in: the output formats draw them in it.
-    ``is_cut_down`` means that optional blocks were left out to make room for the others;
-    ``goes_on``, that the sheet continues the one before.
+    ``has_omissions`` means that optional blocks were left out to make room for the others;
+    ``is_continuation``, that the sheet continues the one before.
     """
 
     width: float
@@ -172,8 +172,8 @@ class Drawing(Struct):
     items: list[Item] = field(default_factory=list)
     views: list[View] = field(default_factory=list)
     lettering: OutlineLettering = field(default_factory=in_use)
-    is_cut_down: bool = False
-    goes_on: bool = False
+    has_omissions: bool = False
+    is_continuation: bool = False
 
     def _repr_svg_(self) -> str:
         """Return the SVG that a notebook shows."""

@@ -23,12 +23,12 @@ class Dashes(Struct, frozen=True):
     """Dash pattern: stroke, gap, and for a dash-dot line the dots evenly in the gap.
 
     ``stroke`` is the length aimed at; the strokes of one line are equal, stretched or shrunk (to
-    ``least`` at most) so that the line starts and ends with a stroke. ``gap`` is the whole gap
+    ``min_stroke`` at most) so that the line starts and ends with a stroke. ``gap`` is the whole gap
     between two strokes, ``dot`` the length of the short strokes inside it, ``dots`` their number.
     """
 
     stroke: float
-    least: float
+    min_stroke: float
     gap: float
     dot: float = 0.0
     dots: int = 1
@@ -64,33 +64,35 @@ class PenStyle(Struct, frozen=True):
 # GOST 2.303: s is 0.5..1.4, on training drawings 0.8..1.0; thin lines are s/3..s/2, and lines of
 # one type have one width on the whole sheet.
 S = 0.8
-_THIN = 0.3
-_MIDDLE = 0.5
+_THIN_WIDTH = 0.3
+_MEDIUM_WIDTH = 0.5
 
 PENS: Mapping[Pen, PenStyle] = MappingProxyType(
     {
         Pen.MAIN: PenStyle(S),
-        Pen.THIN: PenStyle(_THIN),
+        Pen.THIN: PenStyle(_THIN_WIDTH),
         # GOST 2.301, 2.104: frame and outline of the title block are solid main lines.
         Pen.FRAME: PenStyle(S, cap="butt"),
         # GOST 2.303, dash-dot thin: strokes 5..30, 3..5 between them [mem].
-        Pen.AXIS: PenStyle(_THIN, Dashes(stroke=12.0, least=5.0, gap=4.0, dot=1.0), cap="butt"),
+        Pen.AXIS: PenStyle(
+            _THIN_WIDTH, Dashes(stroke=12.0, min_stroke=5.0, gap=4.0, dot=1.0), cap="butt"
+        ),
         # GOST 2.303, dash-dot thick: width s/2..2s/3, strokes 3..8, 3..4 between them [mem].
         Pen.THICK_AXIS: PenStyle(
-            _MIDDLE, Dashes(stroke=5.5, least=3.0, gap=3.5, dot=1.0), cap="butt"
+            _MEDIUM_WIDTH, Dashes(stroke=5.5, min_stroke=3.0, gap=3.5, dot=1.0), cap="butt"
         ),
         # GOST 2.303, dash-dot with two dots: strokes 5..30, 4..6 between them [mem].
         Pen.PHANTOM: PenStyle(
-            _THIN, Dashes(stroke=12.0, least=5.0, gap=5.0, dot=1.0, dots=2), cap="butt"
+            _THIN_WIDTH, Dashes(stroke=12.0, min_stroke=5.0, gap=5.0, dot=1.0, dots=2), cap="butt"
         ),
         # GOST 2.303, dashed: width s/3..s/2, strokes 2..8, gaps 1..2 [mem].
-        Pen.HIDDEN: PenStyle(_THIN, Dashes(stroke=4.0, least=2.0, gap=1.5), cap="butt"),
+        Pen.HIDDEN: PenStyle(_THIN_WIDTH, Dashes(stroke=4.0, min_stroke=2.0, gap=1.5), cap="butt"),
         # GOST 2.303: hatching is a solid thin line.
-        Pen.HATCH: PenStyle(_THIN, cap="butt"),
+        Pen.HATCH: PenStyle(_THIN_WIDTH, cap="butt"),
         # GOST 2.303: a break is a thin line by hand; its waves are drawn, not dashed.
-        Pen.BREAK: PenStyle(_THIN),
+        Pen.BREAK: PenStyle(_THIN_WIDTH),
         # The standard knows no grey: thin lines set back so that the main position is prominent.
-        Pen.PALE: PenStyle(_THIN, grey=0.5),
+        Pen.PALE: PenStyle(_THIN_WIDTH, grey=0.5),
     }
 )
 
@@ -142,7 +144,7 @@ def dash_spans(
         return ()
     open_end = 0 if closed else 1
     gaps = round((length - open_end * dashes.stroke) / (dashes.stroke + dashes.gap))
-    most = int((length - open_end * dashes.least) / (dashes.gap + dashes.least) + 1e-9)
+    most = int((length - open_end * dashes.min_stroke) / (dashes.gap + dashes.min_stroke) + 1e-9)
     # A line that has room for two strokes shows what it is.
     gaps = min(max(gaps, open_end), most)
     if gaps < 1:

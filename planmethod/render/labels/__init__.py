@@ -10,11 +10,11 @@
 """
 
 from planmethod.render.labels.model import (
-    ALONE,
     BUSY,
-    CROWDED,
     NAMING,
     NEAREST,
+    SERIES,
+    SPARSE,
     UNDER_LABEL,
     Label,
     LabelStyle,
@@ -22,15 +22,15 @@ from planmethod.render.labels.model import (
     segment_label,
 )
 from planmethod.render.labels.place import place_labels
-from planmethod.render.labels.spare import BESIDE, spare_labels
+from planmethod.render.labels.spare import SIDE_GAP, spare_labels
 
 __all__ = [
-    "ALONE",
-    "BESIDE",
     "BUSY",
-    "CROWDED",
     "NAMING",
     "NEAREST",
+    "SERIES",
+    "SIDE_GAP",
+    "SPARSE",
     "UNDER_LABEL",
     "Label",
     "LabelStyle",

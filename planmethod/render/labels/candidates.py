@@ -12,15 +12,15 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from planmethod.render.ink.drawing import Bounds
-from planmethod.render.labels.model import ALONE, CLEAR, Label, Placed
+from planmethod.render.labels.model import CLEAR, SPARSE, Label, Placed
 from planmethod.render.symbols import unit
 
 Floats: TypeAlias = NDArray[np.float64]
 Complexes: TypeAlias = NDArray[np.complex128]
 
-_ALONG = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
-_BESIDE = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
-_OTHER_SIDE = 3.0  # cost of the side of its segment that is not preferred, mm of distance
+_SEGMENT_FRACTIONS = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
+_SEGMENT_DISTANCES = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
+_OTHER_SIDE_COST = 3.0  # cost of the side of its segment that is not preferred, mm of distance
 _LEVEL = 0.6  # a leader line that rises no more reads as the bar of a fraction, mm
 
 
@@ -59,7 +59,7 @@ class Candidates(Struct, frozen=True, dict=True):
     @cached_property
     def led(self) -> NDArray[np.bool_]:
         """Flags of the places that are far enough to need a leader line."""
-        return np.abs(self.ends - self.starts) > self.label.manner.leader_from
+        return np.abs(self.ends - self.starts) > self.label.style.leader_from
 
     @cached_property
     def leaders(self) -> Floats:
@@ -69,7 +69,7 @@ class Candidates(Struct, frozen=True, dict=True):
         return segments
 
     @cached_property
-    def within(self) -> tuple[Floats, Floats]:
+    def corners(self) -> tuple[Floats, Floats]:
         """Lower left and upper right corner of the box around all places, mm."""
         around = self.around
         return around[:, :2].min(axis=0), around[:, 2:].max(axis=0)
@@ -86,19 +86,19 @@ class Candidates(Struct, frozen=True, dict=True):
         return around
 
 
-def near(label: Label) -> Candidates:
+def near_candidates(label: Label) -> Candidates:
     """Return the places beside the segment, or on rings about the point."""
-    if label.along is not None:
-        return _beside(label, *label.along)
-    return _rings(label, label.manner.rings, label.manner.angles)
+    if label.segment is not None:
+        return _segment_candidates(label, *label.segment)
+    return _ring_candidates(label, label.style.rings, label.style.angles)
 
 
-def far(label: Label) -> Candidates:
+def far_candidates(label: Label) -> Candidates:
     """Return places further away, with a leader line."""
-    return _rings(label, label.manner.far_rings, label.manner.far_angles)
+    return _ring_candidates(label, label.style.far_rings, label.style.far_angles)
 
 
-def everywhere(label: Label, bounds: Bounds) -> Candidates:
+def grid_candidates(label: Label, bounds: Bounds) -> Candidates:
     """Return places all over the bounds: the last resort of a crowded drawing."""
     x0, y0, x1, y1 = bounds
     ink = label.inscription
@@ -106,12 +106,12 @@ def everywhere(label: Label, bounds: Bounds) -> Candidates:
     xs = np.arange(x0 + ink.width / 2, x1 - ink.width / 2 + 1e-9, max(2.0, ink.width / 2))
     ys = np.arange(y0 + tall / 2, y1 - tall / 2 + 1e-9, max(2.0, tall / 2))
     if not len(xs) or not len(ys):
-        return near(label)
+        return near_candidates(label)
     centres = (xs[None, :] + 1j * ys[:, None]).ravel()
-    return _made(label, centres, np.abs(centres - label.anchor))
+    return _build_candidates(label, centres, np.abs(centres - label.anchor))
 
 
-def _made(label: Label, centres: Complexes, dislike: Floats) -> Candidates:
+def _build_candidates(label: Label, centres: Complexes, dislike: Floats) -> Candidates:
     half_w = label.inscription.width / 2
     half_h = (label.inscription.ascent + label.inscription.descent) / 2
     x, y = centres.real, centres.imag
@@ -119,7 +119,7 @@ def _made(label: Label, centres: Complexes, dislike: Floats) -> Candidates:
     return Candidates(label, boxes, dislike, *_leader_ends(label, boxes))
 
 
-def _rings(label: Label, rings: Sequence[float], angles: int) -> Candidates:
+def _ring_candidates(label: Label, rings: Sequence[float], angles: int) -> Candidates:
     """Return places about a point: the box touches the ring with its inner side or corner."""
     half_w = label.inscription.width / 2
     half_h = (label.inscription.ascent + label.inscription.descent) / 2
@@ -133,11 +133,11 @@ def _rings(label: Label, rings: Sequence[float], angles: int) -> Candidates:
     radii = label.gap + np.asarray(rings)
     centres = (label.anchor + radii[:, None] * turns + support).ravel()
     away = (1 - np.cos(tau * np.arange(angles) / angles)) / 2 if label.prefer else np.zeros(angles)
-    dislike = (np.asarray(rings)[:, None] + label.manner.turned * away).ravel()
-    return _made(label, centres, dislike)
+    dislike = (np.asarray(rings)[:, None] + label.style.turn_cost * away).ravel()
+    return _build_candidates(label, centres, dislike)
 
 
-def _beside(label: Label, start: complex, end: complex) -> Candidates:
+def _segment_candidates(label: Label, start: complex, end: complex) -> Candidates:
     """Return places beside a segment, near its middle, on both sides."""
     half_w = label.inscription.width / 2
     half_h = (label.inscription.ascent + label.inscription.descent) / 2
@@ -146,28 +146,28 @@ def _beside(label: Label, start: complex, end: complex) -> Candidates:
     centres: list[complex] = []
     dislike: list[float] = []
     reach = abs(normal.real) * half_w + abs(normal.imag) * half_h
-    alone = label.manner == ALONE
-    for beyond in _BESIDE if alone else label.manner.rings:
+    alone = label.style == SPARSE
+    for beyond in _SEGMENT_DISTANCES if alone else label.style.rings:
         for side in (first, -first):
-            for part in _ALONG:
+            for part in _SEGMENT_FRACTIONS:
                 away = normal * side * (label.gap + beyond + reach)
                 centres.append(start + (end - start) * part + away)
                 slid = min(abs(end - start), 40.0) * abs(part - 0.5) * 0.3
-                turned = _OTHER_SIDE if side != first and label.prefer else 0.0
+                turned = _OTHER_SIDE_COST if side != first and label.prefer else 0.0
                 dislike.append(beyond * (2 if alone else 1) + slid + turned)
-    return _made(label, np.asarray(centres), np.asarray(dislike))
+    return _build_candidates(label, np.asarray(centres), np.asarray(dislike))
 
 
 def _leader_ends(label: Label, boxes: Floats) -> tuple[Complexes, Complexes]:
     """Return the ends of leader lines: near the point or segment, and at the edge of each box."""
     anchor = np.full(len(boxes), label.anchor)
-    if label.along is not None:
-        start, way = label.along[0], label.along[1] - label.along[0]
+    if label.segment is not None:
+        start, way = label.segment[0], label.segment[1] - label.segment[0]
         middles = (boxes[:, 0] + boxes[:, 2] + 1j * (boxes[:, 1] + boxes[:, 3])) / 2
         part = ((middles - start) * np.conj(way)).real / max(abs(way) ** 2, 1e-12)
         anchor = start + way * np.clip(part, 0.0, 1.0)
     up = np.clip(anchor.imag, boxes[:, 1], boxes[:, 3])
-    if label.manner.slanted:  # to the further edge of a box that lies level with its point
+    if label.style.slanted:  # to the further edge of a box that lies level with its point
         far = np.where(2 * up > boxes[:, 1] + boxes[:, 3], boxes[:, 1], boxes[:, 3])
         up = np.where(np.abs(up - anchor.imag) <= _LEVEL, far, up)
     ends = np.clip(anchor.real, boxes[:, 0], boxes[:, 2]) + 1j * up

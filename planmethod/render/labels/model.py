@@ -9,7 +9,7 @@ from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke, 
 from planmethod.render.ink.typeset import Inscription, typeset
 
 CLEAR = 0.7  # white between a label and a line, mm
-APART = 0.9  # white between two labels one above the other, mm
+VERTICAL_GAP = 0.9  # white between two labels one above the other, mm
 
 UNDER_LABEL = "under a label"
 """Tag of the white under a label that breaks the thin lines behind it."""
@@ -34,11 +34,11 @@ class LabelStyle(Struct, frozen=True):
         Distance from its point or segment beyond which it gets a leader line (линия-выноска).
     leader : float
         Cost of a leader line, in mm of distance.
-    turned : float
+    turn_cost : float
         Cost of the direction opposite to the preferred one, in mm of distance.
     stranger : float
         Cost of a place nearer to another label's point than to its own, in mm of distance.
-    beside : float
+    side_gap : float
         White between it and another label side by side: closer they would read as one.
     heavy : float
         Cost of a thick line between it and its point or segment, in mm of distance.
@@ -52,14 +52,14 @@ class LabelStyle(Struct, frozen=True):
     far_angles: int = 32
     leader_from: float = 8.0
     leader: float = 25.0
-    turned: float = 3.0
+    turn_cost: float = 3.0
     stranger: float = 0.0
-    beside: float = 2.0
+    side_gap: float = 2.0
     heavy: float = 7.0
     slanted: bool = False
 
 
-ALONE = LabelStyle()
+SPARSE = LabelStyle()
 """A letter among few: eighty places around its point."""
 
 BUSY = LabelStyle(
@@ -67,20 +67,20 @@ BUSY = LabelStyle(
     angles=24,
     leader_from=5.0,
     leader=10.0,
-    beside=3.2,
+    side_gap=3.2,
     heavy=20.0,
 )
 """A letter among few, on a drawing with many lines."""
 
-CROWDED = LabelStyle(
+SERIES = LabelStyle(
     rings=(0.0, 0.5, 1.1, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 15.5),
     angles=20,
     far_rings=(18.5, 22.0, 26.0, 31.0, 37.0, 44.0),
     leader_from=3.2,
     leader=8.0,
-    turned=7.0,
+    turn_cost=7.0,
     stranger=30.0,
-    beside=3.2,
+    side_gap=3.2,
     heavy=12.0,
 )
 """One of a series of labels: many places, a strict direction, an early leader line."""
@@ -118,7 +118,7 @@ class Label(Struct, frozen=True):
     inscription : Inscription
     anchor : complex, mm
         The point it names; the middle of a segment.
-    along : (complex, complex) or None, mm
+    segment : (complex, complex) or None, mm
         The segment it names: it is then placed beside it, near its middle.
     prefer : complex
         Preferred direction from the anchor; 0 for none. For a segment only its side matters.
@@ -128,7 +128,7 @@ class Label(Struct, frozen=True):
         Labels of higher priority are placed earlier.
     name : str
         Name of the inscription for the lint. Default: made of markup and place.
-    manner : LabelStyle
+    style : LabelStyle
         Its placement style.
     series : str
         Name of its series: labels of a series whose points are close together form a column.
@@ -138,12 +138,12 @@ class Label(Struct, frozen=True):
 
     inscription: Inscription
     anchor: complex
-    along: tuple[complex, complex] | None = None
+    segment: tuple[complex, complex] | None = None
     prefer: complex = 0j
     gap: float = 1.5
     priority: int = 0
     name: str = ""
-    manner: LabelStyle = ALONE
+    style: LabelStyle = SPARSE
     series: str = ""
     optional: bool = False
 
@@ -169,7 +169,7 @@ class Placed(Struct, frozen=True):
     def items(self) -> list[Item]:
         """Return the letters, the leader line and the white under the letters."""
         items = self.label.inscription.at(self.at, label=self.label.name)
-        if self.label.along is None:
+        if self.label.segment is None:
             named = self.label.anchor
             items = [replace(i, names=named) if isinstance(i, Text) else i for i in items]
         if self.ground:

@@ -21,7 +21,7 @@ from planmethod.render.labels.candidates import (
     crossing,
     inside,
 )
-from planmethod.render.labels.model import ALONE, BREAKABLE, CLEAR
+from planmethod.render.labels.model import BREAKABLE, CLEAR, SPARSE
 
 FORBIDDEN = 1e6
 CROSSED = 4000.0  # a label on a line, and its share per mm of line under it
@@ -30,9 +30,9 @@ _BETWEEN = 7.0  # per thin line between a label and its point or segment
 _THROUGH = 60.0  # per filled area, an arrowhead mostly, that the leader runs through
 _ROUND_LINES = CLEAR * np.array([-1, -1, 1, 1])
 ROUND_AREAS = 0.54  # white between a label and a filled area, mm
-_BESIDE = 0.6  # more of it at the sides of letters, mm: closer they would read as one word
-_ALONG_LINE = 25.0  # a leader line along a line
-_ALONG = 0.2  # radians: lines at a smaller angle run along each other
+_TEXT_SIDE_GAP = 0.6  # more of it at the sides of letters, mm: closer they would read as one word
+_PARALLEL_COST = 25.0  # a leader line along a line
+_PARALLEL_ANGLE = 0.2  # radians: lines at a smaller angle run along each other
 _AT = 0.3  # mm: a nearer line goes through the point
 _SAGITTA = 0.05  # how far the chords of a large arc may be off, mm
 _PIECE = 12.0  # longest piece of a line in the tree, mm
@@ -58,7 +58,7 @@ class Paper:
     def __init__(self, obstacles: Iterable[Item], bounds: Bounds) -> None:
         self.segments, self.breakable, areas = _split(obstacles)
         self.bounds = bounds
-        self._ways: dict[complex, Complexes] = {}
+        self._directions: dict[complex, Complexes] = {}
         if len(self.segments):
             self.segments, self.breakable = _chopped(self.segments, self.breakable)
         self._lines = STRtree(linestrings(self.segments)) if len(self.segments) else None
@@ -67,7 +67,7 @@ class Paper:
     def free(self, many: Sequence[Candidates]) -> list[NDArray[np.intp]]:
         """Return which places of each label are within the bounds, on no line and on no area."""
         boxes = np.concatenate([c.boxes for c in many])
-        ask = np.flatnonzero(self._within(boxes))
+        ask = np.flatnonzero(self._are_inside(boxes))
         if self._lines is not None:
             grown = boxes[ask] + _ROUND_LINES
             which, line = self._lines.query(box(*grown.T))
@@ -101,25 +101,25 @@ class Paper:
         little: it will break them.
         """
         led = np.concatenate([c.led for c in many])
-        manners = [c.label.manner for c in many]
+        manners = [c.label.style for c in many]
         counts = [len(c.boxes) for c in many]
         costs = np.concatenate([c.dislike for c in many])
         if not free:
             boxes = np.concatenate([c.boxes for c in many])
             costs += self._line_costs(boxes, breaking=breaking)
-            costs += np.where(self._within(boxes), 0.0, FORBIDDEN)
+            costs += np.where(self._are_inside(boxes), 0.0, FORBIDDEN)
             costs += self._area_costs(boxes)
         costs += np.where(led, np.repeat([m.leader for m in manners], counts), 0.0)
         costs += self._between(many, led, costs)
         split = np.split(costs, np.cumsum(counts)[:-1])
         return [
             cost
-            + np.maximum(_stranger_costs(c, cost, strangers), _other_line_costs(c, cost, lines))
-            + self._along_costs(c, cost)
+            + np.maximum(_stranger_costs(c, cost, strangers), _other_segment_costs(c, cost, lines))
+            + self._parallel_costs(c, cost)
             for c, cost in zip(many, split, strict=True)
         ]
 
-    def _within(self, boxes: Floats) -> NDArray[np.bool_]:
+    def _are_inside(self, boxes: Floats) -> NDArray[np.bool_]:
         """Return flags of the boxes that are within the bounds."""
         x0, y0, x1, y1 = self.bounds
         return np.asarray(
@@ -149,19 +149,19 @@ class Paper:
         return costs
 
     def _between(
-        self, many: Sequence[Candidates], led: NDArray[np.bool_], so_far: Floats
+        self, many: Sequence[Candidates], led: NDArray[np.bool_], base_costs: Floats
     ) -> Floats:
         """Return the cost of items between the places and their named points or segments.
 
         With a line between, the label is read as another item's, with a leader line or without.
         """
-        costs = np.zeros(len(so_far))
+        costs = np.zeros(len(base_costs))
         starts, ends = [c.starts for c in many], [c.ends for c in many]
         paths = as_segments(np.concatenate(starts), np.concatenate(ends))
-        ask = np.flatnonzero(so_far < CROSSED)
+        ask = np.flatnonzero(base_costs < CROSSED)
         lines = linestrings(paths[ask])
         if self._lines is not None and len(ask):
-            heavy = np.repeat([c.label.manner.heavy for c in many], [len(c.boxes) for c in many])
+            heavy = np.repeat([c.label.style.heavy for c in many], [len(c.boxes) for c in many])
             step = max(1, _PAIRS // len(self.segments))
             for first in range(0, len(ask), step):
                 some = ask[first : first + step]
@@ -182,31 +182,31 @@ class Paper:
             np.add.at(costs, ask[which[met]], _THROUGH)
         return costs
 
-    def _along_costs(self, candidates: Candidates, so_far: Floats) -> Floats:
+    def _parallel_costs(self, candidates: Candidates, base_costs: Floats) -> Floats:
         """Return the cost of leader lines of a crowd that run along a line from the same point."""
-        costs = np.zeros(len(so_far))
+        costs = np.zeros(len(base_costs))
         label = candidates.label
-        ask = np.flatnonzero(candidates.led & (so_far < CROSSED))
-        if self._lines is None or label.manner == ALONE or not len(ask):
+        ask = np.flatnonzero(candidates.led & (base_costs < CROSSED))
+        if self._lines is None or label.style == SPARSE or not len(ask):
             return costs
-        ways = self._ways_from(label.anchor)
+        ways = self._line_directions(label.anchor)
         lines = candidates.ends[ask] - candidates.starts[ask]
         if len(ways):
             turn = np.abs(np.angle(lines[:, None] / ways[None, :])).min(axis=1)
-            costs[ask] = np.where(turn < _ALONG, _ALONG_LINE, 0.0)
+            costs[ask] = np.where(turn < _PARALLEL_ANGLE, _PARALLEL_COST, 0.0)
         return costs
 
-    def _ways_from(self, place: complex) -> Complexes:
+    def _line_directions(self, place: complex) -> Complexes:
         """Return the directions of the lines that go through a place."""
         if self._lines is None:
             return np.empty(0, dtype=complex)
-        if place not in self._ways:
+        if place not in self._directions:
             near = self._lines.query(box(*_square(place, _AT)))
             ends = self.segments[near][:, :, 0] + 1j * self.segments[near][:, :, 1]
             meets = inside(self.segments[near], np.asarray([_square(place, _AT)])) >= 0
             ways = (ends[meets] - place).ravel()
-            self._ways[place] = ways[np.abs(ways) > 2 * _AT]
-        return self._ways[place]
+            self._directions[place] = ways[np.abs(ways) > 2 * _AT]
+        return self._directions[place]
 
 
 AT_LINE = 2.0
@@ -217,11 +217,13 @@ def _square(place: complex, half: float) -> Bounds:
     return place.real - half, place.imag - half, place.real + half, place.imag + half
 
 
-def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[complex]) -> Floats:
+def _stranger_costs(
+    candidates: Candidates, base_costs: Floats, strangers: Sequence[complex]
+) -> Floats:
     """Return the cost of places nearer to another label's point, reduced with a leader line."""
-    costs = np.zeros(len(so_far))
-    dislike = candidates.label.manner.stranger
-    ask = np.flatnonzero(so_far < CROSSED)
+    costs = np.zeros(len(base_costs))
+    dislike = candidates.label.style.stranger
+    ask = np.flatnonzero(base_costs < CROSSED)
     if not dislike or not len(ask):
         return costs
     anchor = candidates.label.anchor
@@ -235,28 +237,28 @@ def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[
     return costs
 
 
-def _other_line_costs(
-    candidates: Candidates, so_far: Floats, lines: Sequence[tuple[complex, complex]]
+def _other_segment_costs(
+    candidates: Candidates, base_costs: Floats, lines: Sequence[tuple[complex, complex]]
 ) -> Floats:
     """Return the cost of places of a segment's name that are nearer to another label's segment.
 
     A name with a leader line may not be at another segment either.
     """
-    costs = np.zeros(len(so_far))
+    costs = np.zeros(len(base_costs))
     label = candidates.label
-    others = [line for line in lines if line != label.along]
-    ask = np.flatnonzero(so_far < CROSSED)
-    if label.along is None or not label.manner.stranger or not others or not len(ask):
+    others = [line for line in lines if line != label.segment]
+    ask = np.flatnonzero(base_costs < CROSSED)
+    if label.segment is None or not label.style.stranger or not others or not len(ask):
         return costs
     boxes = candidates.boxes[ask]
-    own = distances(boxes, _along(label.along)).min(axis=1)
-    other = distances(boxes, np.concatenate([_along(line) for line in others])).min(axis=1)
+    own = distances(boxes, _sample_segment(label.segment)).min(axis=1)
+    other = distances(boxes, np.concatenate([_sample_segment(line) for line in others])).min(axis=1)
     nearer = np.where(candidates.led[ask], other < AT_LINE, other < 1.3 * own + 0.4)
-    costs[ask] = np.where(nearer, 2.0 * label.manner.stranger, 0.0)
+    costs[ask] = np.where(nearer, 2.0 * label.style.stranger, 0.0)
     return costs
 
 
-def _along(line: tuple[complex, complex]) -> NDArray[np.complex128]:
+def _sample_segment(line: tuple[complex, complex]) -> NDArray[np.complex128]:
     """Return places along a segment, mm."""
     return np.asarray(line[0] + (line[1] - line[0]) * _PARTS, dtype=np.complex128)
 
@@ -291,7 +293,7 @@ def _split(
             case Disc():
                 discs.append(item)
             case Text():
-                sides = (-_BESIDE, _BESIDE, _BESIDE, -_BESIDE)
+                sides = (-_TEXT_SIDE_GAP, _TEXT_SIDE_GAP, _TEXT_SIDE_GAP, -_TEXT_SIDE_GAP)
                 outlines.append([p + s for p, s in zip(text_corners(item), sides, strict=True)])
             case Fill():
                 pass  # no area

@@ -20,20 +20,20 @@ from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.labels.candidates import (
     Candidates,
     Floats,
-    everywhere,
-    far,
-    near,
+    far_candidates,
+    grid_candidates,
+    near_candidates,
 )
-from planmethod.render.labels.ladder import dense, ladder
-from planmethod.render.labels.model import ALONE, Label, Placed
-from planmethod.render.labels.others import LEADERS_CROSS, Met, Others
+from planmethod.render.labels.label_column import arrange_in_column, dense
+from planmethod.render.labels.model import SPARSE, Label, Placed
 from planmethod.render.labels.paper import CROSSED, FORBIDDEN, Paper
+from planmethod.render.labels.placed_labels import LEADERS_CROSS, OverlapCosts, PlacedLabels
 
-_FAR_IF = 200.0  # cost from which a label of a crowd tries its far places
+_FAR_COST = 200.0  # cost from which a label of a crowd tries its far places
 _AT_ONCE = 24  # places checked together
 _PASSES = 4  # times that all labels of a crowd try again
 _POOR = 45.0  # cost from which a better place is sought, even by displacing others
-_WORTH = 5.0  # least gain of a displacement
+_MIN_GAIN = 5.0  # least gain of a displacement
 _SENT_AWAY = 2  # largest number of labels that one may displace
 _TRIED = 12  # places for which it may
 _LONG = 30.0  # length of a leader line from which a letter breaks thin lines instead, mm
@@ -90,20 +90,20 @@ def _placed(
     places.fill([k for k in firm if labels[k].series])
     if not breaking and len(places.unfree()) >= _HOPELESS:
         return places.result()
-    if any(labels[k].manner != ALONE for k in firm):
-        places.look_again()
+    if any(labels[k].style != SPARSE for k in firm):
+        places.reconsider()
         places.improve()
     for k in places.unfree():
-        places.send_away(k)
+        places.displace_others(k)
     for k in places.unfree() if breaking else ():
         places.break_lines(k)
-    for k in places.far_away():
-        places.come_near(k)
+    for k in places.list_distant():
+        places.bring_near(k)
     places.fill([k for k, label in enumerate(labels) if label.optional])
     return places.result()
 
 
-class _Choice(Struct):
+class _CandidateSet(Struct):
     """A set of places of one label with their costs, the cheapest first.
 
     It has only the free ones of ``every`` place until none of them will do; then ``every`` is None.
@@ -112,21 +112,21 @@ class _Choice(Struct):
     candidates: Candidates
     costs: Floats
     order: NDArray[np.intp]
-    met: Met
+    overlaps: OverlapCosts
     every: Candidates | None = None
 
     @classmethod
     def of(
         cls, candidates: Candidates, costs: Floats, labels: int, every: Candidates | None = None
-    ) -> _Choice:
+    ) -> _CandidateSet:
         order = np.argsort(np.round(costs, 9), kind="stable")
-        return cls(candidates, costs, order, Met.of(candidates, labels), every)
+        return cls(candidates, costs, order, OverlapCosts.of(candidates, labels), every)
 
 
-class _Taken(Struct):
+class _Placement(Struct):
     """The place that a label has."""
 
-    choice: _Choice
+    choice: _CandidateSet
     row: int
     cost: float
     stamp: int
@@ -138,19 +138,19 @@ class _Places:
 
     def __init__(self, paper: Paper, labels: Sequence[Label]) -> None:
         self.paper, self.labels = paper, labels
-        self.taken: dict[int, _Taken] = {}
+        self.placements: dict[int, _Placement] = {}
         self.stamps = count()
         self.strangers = list(
-            dict.fromkeys(label.anchor for label in self.labels if label.manner.stranger)
+            dict.fromkeys(label.anchor for label in self.labels if label.style.stranger)
         )
         self.lines = list(
             dict.fromkeys(
-                label.along for label in self.labels if label.along and label.manner.stranger
+                label.segment for label in self.labels if label.segment and label.style.stranger
             )
         )
-        sets = [near(label) for label in self.labels]
+        sets = [near_candidates(label) for label in self.labels]
         self.choices = [[choice] for choice in self._free(sets)]
-        self.others = Others(self.labels)
+        self.placed_labels = PlacedLabels(self.labels)
         self.lined: set[int] = set()
         self._costs: dict[int, tuple[int, float]] = {}
 
@@ -164,17 +164,19 @@ class _Places:
         numbers = {id(label): k for k, label in enumerate(self.labels)}
         for name in names:
             for series in dense([label for label in self.labels if label.series == name]):
-                found = ladder(self.paper, series, self._standing)
+                found = arrange_in_column(self.paper, series, self._placed_costs)
                 for label, place in zip(series.labels, found, strict=True):
                     if place is not None:
                         k = numbers[id(label)]
-                        if self._standing(place, np.zeros(1, dtype=np.intp))[0] < LEADERS_CROSS:
-                            self._take(k, self._taken(self._choice(place, place.dislike), 0, 0.0))
+                        if self._placed_costs(place, np.zeros(1, dtype=np.intp))[0] < LEADERS_CROSS:
+                            self._assign(
+                                k, self._make_placement(self._choice(place, place.dislike), 0, 0.0)
+                            )
                             self.lined.add(k)
 
-    def _standing(self, candidates: Candidates, rows: NDArray[np.intp]) -> Floats:
+    def _placed_costs(self, candidates: Candidates, rows: NDArray[np.intp]) -> Floats:
         """Return the costs of a new label's places from the labels already placed, shape (n,)."""
-        return self.others.costs(-1, candidates, rows)
+        return self.placed_labels.costs(-1, candidates, rows)
 
     # One label -------------------------------------------------------------------------------
 
@@ -183,55 +185,59 @@ class _Places:
         free = {k: int(np.sum(self.choices[k][0].costs < CROSSED)) for k in numbers}
         # Labels with few free places go first, or the others would take these places.
         for k in sorted(numbers, key=lambda k: (-self.labels[k].priority, free[k], k)):
-            if k in self.taken:
+            if k in self.placements:
                 continue
             best = self._best(k)
             if best.cost < CROSSED or not self.labels[k].optional:
-                self._take(k, best)
+                self._assign(k, best)
 
-    def _take(self, k: int, taken: _Taken) -> None:
-        self.taken[k] = taken
-        self.others.put(k, taken.choice.candidates, taken.row, taken.stamp)
+    def _assign(self, k: int, placement: _Placement) -> None:
+        self.placements[k] = placement
+        self.placed_labels.add(k, placement.choice.candidates, placement.row, placement.stamp)
 
-    def _taken(self, choice: _Choice, row: int, cost: float) -> _Taken:
-        return _Taken(choice, row, cost, next(self.stamps))
+    def _make_placement(self, choice: _CandidateSet, row: int, cost: float) -> _Placement:
+        return _Placement(choice, row, cost, next(self.stamps))
 
-    def _leave(self, k: int) -> None:
-        self.taken.pop(k, None)
-        self.others.lift(k)
+    def _release(self, k: int) -> None:
+        self.placements.pop(k, None)
+        self.placed_labels.remove(k)
 
-    def _best(self, k: int) -> _Taken:
+    def _best(self, k: int) -> _Placement:
         """Return the cheapest place of a label, a further one when all near ones are occupied."""
         best = self._sought(k, self._wider)
         if self.labels[k].optional:
             return best
         if best.cost >= CROSSED and any(choice.every is not None for choice in self.choices[k]):
-            best = self._sought(k, self._whole)
+            best = self._sought(k, self._complete_set)
         return best
 
-    def _sought(self, k: int, choice: Callable[[int, int], _Choice]) -> _Taken:
+    def _sought(self, k: int, choice: Callable[[int, int], _CandidateSet]) -> _Placement:
         """Return the cheapest of some places of a label, of further ones where it is needed."""
         best = self._cheapest(k, choice(k, 0))
         # A label of a crowd tries further places before its leader line crosses others, but breaks
         # a line sooner than moving to the other end of the drawing.
-        alone = self.labels[k].manner == ALONE
+        alone = self.labels[k].style == SPARSE
         for number in (1, 2) if alone else (1,):
-            if best.cost < (CROSSED if alone else _FAR_IF):
+            if best.cost < (CROSSED if alone else _FAR_COST):
                 break
             further = self._cheapest(k, choice(k, number))
             if further.cost < best.cost:
                 best = further
         return best
 
-    def _wider(self, k: int, number: int) -> _Choice:
+    def _wider(self, k: int, number: int) -> _CandidateSet:
         """Return the free ones of the places near a label (0), far (1), all over the bounds (2)."""
         while len(self.choices[k]) <= number:
             label = self.labels[k]
-            more = far(label) if len(self.choices[k]) == 1 else everywhere(label, self.paper.bounds)
+            more = (
+                far_candidates(label)
+                if len(self.choices[k]) == 1
+                else grid_candidates(label, self.paper.bounds)
+            )
             self.choices[k] += self._free([more])
         return self.choices[k][number]
 
-    def _whole(self, k: int, number: int) -> _Choice:
+    def _complete_set(self, k: int, number: int) -> _CandidateSet:
         """Return the same with the places that are not free."""
         choice = self._wider(k, number)
         if choice.every is not None:
@@ -244,7 +250,7 @@ class _Places:
             choice = self.choices[k][number] = self._choice(every, costs)
         return choice
 
-    def _cheapest(self, k: int, choice: _Choice) -> _Taken:
+    def _cheapest(self, k: int, choice: _CandidateSet) -> _Placement:
         """Return the cheapest place of a set, comparing only places that may be the cheapest."""
         best, cost = 0, np.inf
         first, count = 0, _AT_ONCE
@@ -252,14 +258,14 @@ class _Places:
             rows = choice.order[first : first + count]
             if choice.costs[rows[0]] >= (min(cost, FORBIDDEN) if first else cost):
                 break
-            costs = np.round(choice.costs[rows] + self._met(k, choice, rows), 9)
+            costs = np.round(choice.costs[rows] + self._overlap_costs(k, choice, rows), 9)
             least = int(np.argmin(costs))
             if costs[least] < cost:
                 best, cost = int(rows[least]), float(costs[least])
             first, count = first + count, 2 * count
-        return self._taken(choice, best, cost)
+        return self._make_placement(choice, best, cost)
 
-    def _free(self, sets: Sequence[Candidates]) -> list[_Choice]:
+    def _free(self, sets: Sequence[Candidates]) -> list[_CandidateSet]:
         """Return the free places of sets, with their costs."""
         free = self.paper.free(sets)
         chosen = [every.chosen(rows) for every, rows in zip(sets, free, strict=True)]
@@ -269,12 +275,16 @@ class _Places:
 
     def _choice(
         self, candidates: Candidates, costs: Floats, every: Candidates | None = None
-    ) -> _Choice:
-        return _Choice.of(candidates, costs, len(self.labels), every)
+    ) -> _CandidateSet:
+        return _CandidateSet.of(candidates, costs, len(self.labels), every)
 
-    def _met(self, k: int, choice: _Choice, rows: NDArray[np.intp]) -> Floats:
+    def _overlap_costs(self, k: int, choice: _CandidateSet, rows: NDArray[np.intp]) -> Floats:
         """Return the costs of some places of a label from the other labels, shape (n,)."""
-        return np.asarray(self.others.met(choice.met, rows, self.others.but(k)).sum(axis=1))
+        return np.asarray(
+            self.placed_labels.overlap_costs(
+                choice.overlaps, rows, self.placed_labels.all_except(k)
+            ).sum(axis=1)
+        )
 
     # Repair ----------------------------------------------------------------------------------
 
@@ -289,13 +299,13 @@ class _Places:
     def _cost(self, k: int) -> float:
         """Return the cost of a label's place with all others where they are now."""
         changes, cost = self._costs.get(k, (-1, 0.0))
-        if changes != self.others.changes:
-            choice, row = self.taken[k].choice, self.taken[k].row
-            cost = float(choice.costs[row] + self._met(k, choice, np.array([row]))[0])
-            self._costs[k] = self.others.changes, cost
+        if changes != self.placed_labels.changes:
+            choice, row = self.placements[k].choice, self.placements[k].row
+            cost = float(choice.costs[row] + self._overlap_costs(k, choice, np.array([row]))[0])
+            self._costs[k] = self.placed_labels.changes, cost
         return cost
 
-    def look_again(self) -> None:
+    def reconsider(self) -> None:
         """Move every label to a better place, if any, now that all are placed."""
         for _ in range(_PASSES):
             moved = False
@@ -303,11 +313,11 @@ class _Places:
                 if k in self.lined:
                     continue  # out of its column it would be cheaper, but not better
                 now, near = self._cost(k), self.choices[k][0]
-                if now < _FAR_IF and len(near.order) and now <= near.costs[near.order[0]]:
+                if now < _FAR_COST and len(near.order) and now <= near.costs[near.order[0]]:
                     continue  # no place is cheaper, whichever label moves
                 best = self._best(k)
                 if best.cost < now - 1e-6:
-                    self._take(k, best)
+                    self._assign(k, best)
                     moved = True
             if not moved:
                 return
@@ -317,43 +327,43 @@ class _Places:
         costs = {k: self._cost(k) for k in self._firm if k not in self.lined}
         bad = [k for k, cost in costs.items() if _POOR < cost < CROSSED]
         for k in sorted(bad, key=lambda k: (-costs[k], k)):
-            self.send_away(k)
+            self.displace_others(k)
 
-    def send_away(self, k: int) -> None:
+    def displace_others(self, k: int) -> None:
         """Give a label a better place by displacing one or two others."""
         now = self._cost(k)
         if now < _POOR:
             return  # better since another one was repaired
         for choice in list(self.choices[k]):
             rows = choice.order[:_TRIED]
-            rows = rows[choice.costs[rows] < min(now, CROSSED) - _WORTH]
+            rows = rows[choice.costs[rows] < min(now, CROSSED) - _MIN_GAIN]
             if not len(rows):
                 continue
-            there = self.others.but(k)
-            meets = self.others.met(choice.met, rows, there) >= LEADERS_CROSS
+            there = self.placed_labels.all_except(k)
+            meets = self.placed_labels.overlap_costs(choice.overlaps, rows, there) >= LEADERS_CROSS
             for row, met in zip(rows, meets, strict=True):
                 sent = there[met].tolist()
                 if self.lined.isdisjoint(sent) and len(sent) <= _SENT_AWAY:
-                    taken = self._taken(choice, int(row), 0.0)
-                    if self._moved(k, taken, sent):
+                    taken = self._make_placement(choice, int(row), 0.0)
+                    if self._try_displacing(k, taken, sent):
                         return
 
-    def _moved(self, k: int, to: _Taken, sent: Sequence[int]) -> bool:
+    def _try_displacing(self, k: int, to: _Placement, sent: Sequence[int]) -> bool:
         """Put a label in the place of others, and these elsewhere, if that is better in total."""
-        before = {other: self.taken[other] for other in (k, *sent)}
+        before = {other: self.placements[other] for other in (k, *sent)}
         crossed, cost = self._state(before)
         for other in before:
-            self._leave(other)
-        self._take(k, to)
+            self._release(other)
+        self._assign(k, to)
         for other in sent:
-            self._take(other, self._best(other))
+            self._assign(other, self._best(other))
         now, costs = self._state(before)
-        if now <= crossed and costs < cost - _WORTH:
+        if now <= crossed and costs < cost - _MIN_GAIN:
             return True
         for other in before:
-            self._leave(other)
+            self._release(other)
         for other, taken in before.items():
-            self._take(other, taken)
+            self._assign(other, taken)
         return False
 
     def _state(self, numbers: Iterable[int]) -> tuple[int, float]:
@@ -364,7 +374,7 @@ class _Places:
     def break_lines(self, k: int) -> None:
         """Put a label of a crowd on thin lines that its white ground breaks: the last resort."""
         label = self.labels[k]
-        if label.manner == ALONE or self._cost(k) < CROSSED:
+        if label.style == SPARSE or self._cost(k) < CROSSED:
             return
         for number in (0, 1):
             choice = self._wider(k, number)
@@ -373,23 +383,23 @@ class _Places:
             best = self._cheapest(k, self._choice(candidates, costs))
             if best.cost < CROSSED:
                 best.ground = True
-                self._take(k, best)
+                self._assign(k, best)
                 return
-        best = self._cheapest(k, self._whole(k, 2))
+        best = self._cheapest(k, self._complete_set(k, 2))
         if best.cost < self._cost(k):
-            self._take(k, best)
+            self._assign(k, best)
 
-    def far_away(self) -> list[int]:
+    def list_distant(self) -> list[int]:
         """Return the letters of a crowd whose leader lines are too long to follow."""
-        crowd = (k for k in self._firm if self.labels[k].manner != ALONE)
+        crowd = (k for k in self._firm if self.labels[k].style != SPARSE)
         return [k for k in crowd if k not in self.lined and self._leader(k) > _LONG]
 
     def _leader(self, k: int) -> float:
         """Return the length of the leader line of a label, mm; 0 without one."""
-        candidates, row = self.taken[k].choice.candidates, self.taken[k].row
+        candidates, row = self.placements[k].choice.candidates, self.placements[k].row
         return float(np.nan_to_num(abs(candidates.ends[row] - candidates.starts[row])))
 
-    def come_near(self, k: int) -> None:
+    def bring_near(self, k: int) -> None:
         """Put a letter at the end of a long leader line beside its point on a few thin lines."""
         choice = self._wider(k, 0)
         candidates = choice.every or choice.candidates
@@ -397,14 +407,14 @@ class _Places:
         best = self._cheapest(k, self._choice(candidates, costs))
         if best.cost < _FEW_BROKEN:
             best.ground = True
-            self._take(k, best)
+            self._assign(k, best)
 
     def result(self) -> tuple[Placed, ...]:
         """Return the labels with their places."""
-        return tuple(self._placed(k) for k in sorted(self.taken))
+        return tuple(self._placed(k) for k in sorted(self.placements))
 
     def _placed(self, k: int) -> Placed:
-        label, taken = self.labels[k], self.taken[k]
+        label, taken = self.labels[k], self.placements[k]
         candidates, row = taken.choice.candidates, taken.row
         x0, y0 = candidates.boxes[row, :2]
         leader = None

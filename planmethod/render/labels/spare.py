@@ -7,14 +7,14 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from planmethod.render.ink.drawing import Bounds, Item
-from planmethod.render.labels.candidates import near
+from planmethod.render.labels.candidates import near_candidates
 from planmethod.render.labels.model import Label, Placed
 from planmethod.render.labels.paper import CROSSED, ROUND_AREAS, Paper
 
 NEAR = 8.0
 """Largest distance of an optional label's middle from its point or segment, mm."""
 
-BESIDE = 1.0
+SIDE_GAP = 1.0
 """Extra white on either side of a label, so that it is not read together with another."""
 
 
@@ -34,9 +34,9 @@ def spare_labels(
     if not labels:
         return []
     paper = Paper(obstacles, bounds)
-    sets = [near(label) for label in labels]
+    sets = [near_candidates(label) for label in labels]
     free = [every.chosen(rows) for every, rows in zip(sets, paper.free(sets), strict=True)]
-    white = np.array([-BESIDE, 0, BESIDE, 0]) + ROUND_AREAS * np.array([-1, -1, 1, 1])
+    white = np.array([-SIDE_GAP, 0, SIDE_GAP, 0]) + ROUND_AREAS * np.array([-1, -1, 1, 1])
     taken = np.empty((0, 4))
     found = []
     for label, places, costs in zip(labels, free, paper.costs(free, free=True), strict=True):
@@ -48,7 +48,7 @@ def spare_labels(
             continue
         box = places.boxes[k]
         middle = (complex(*box[:2]) + complex(*box[2:])) / 2
-        if _off(middle, *(label.along or (label.anchor, label.anchor))) < NEAR:
+        if _off(middle, *(label.segment or (label.anchor, label.anchor))) < NEAR:
             at = complex(box[0], box[1] + label.inscription.descent)
             found.append(Placed(label, at, None, free=True, ground=False))
             taken = np.concatenate([taken, [box + white]])

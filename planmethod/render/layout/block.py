@@ -52,34 +52,34 @@ class Block(Protocol):
         ...
 
 
-class Shapes(Struct, frozen=True):
+class Alternatives(Struct, frozen=True):
     """A block with several layouts (варианты блока); by itself it is the first one.
 
     ``grows``: a larger layout has a larger scale, and is not only looser.
     """
 
-    ways: tuple[Block, ...]
+    blocks: tuple[Block, ...]
     grows: bool = False
 
     @property
     def width(self) -> float:
         """Width, mm."""
-        return self.ways[0].width
+        return self.blocks[0].width
 
     @property
     def height(self) -> float:
         """Height, mm."""
-        return self.ways[0].height
+        return self.blocks[0].height
 
     def place(self, corner: complex) -> list[Item]:
         """Return the items of the first layout."""
-        return self.ways[0].place(corner)
+        return self.blocks[0].place(corner)
 
 
-def shaped(ways: Iterable[Block], *, grows: bool = False) -> Block:
+def make_alternatives(blocks: Iterable[Block], *, grows: bool = False) -> Block:
     """Return a block with several layouts, or the only layout."""
-    found = tuple(ways)
-    return Shapes(found, grows) if len(found) > 1 else found[0]
+    found = tuple(blocks)
+    return Alternatives(found, grows) if len(found) > 1 else found[0]
 
 
 class Spacer(Struct, frozen=True):
@@ -253,7 +253,7 @@ def heading(markup: str, height: float = 5.0, *, width: float | None = None) -> 
     return paragraph(markup, height, width, align="centre")
 
 
-_ALONE = 12
+_ORPHAN_LENGTH = 12
 """Length of a word, with its markup, below which it is not left alone in a line."""
 
 
@@ -281,7 +281,7 @@ def _in_company(
     lines: list[str], words: Sequence[str], height: float, width: float | None
 ) -> list[str]:
     """Return lines without a single short word in the last, if the line before can spare a word."""
-    alone = len(lines) > 1 and lines[-1] == words[-1] and len(words[-1]) < _ALONE
+    alone = len(lines) > 1 and lines[-1] == words[-1] and len(words[-1]) < _ORPHAN_LENGTH
     if not alone or lines[-2] == words[-2]:
         return lines
     last = f"{words[-2]} {words[-1]}"
@@ -315,7 +315,7 @@ def wrapped(words: Sequence[str], height: float, width: float | None) -> list[st
     return lines
 
 
-def fit(
+def fit_text(
     text: str,
     box: Bounds,
     heights: Iterable[float],
@@ -362,41 +362,41 @@ def fit(
 
 def _fitting(
     parts: Sequence[str],
-    room: tuple[float, float],
+    space: tuple[float, float],
     sizes: Sequence[float],
     align: Align,
-    alone: int,
+    unwrapped: int,
 ) -> tuple[Lines, bool]:
     """Choose lines and height; return also whether the text had to be cut.
 
-    ``alone`` are the heights tried in one line before words are wrapped.
+    ``unwrapped`` are the heights tried in one line before words are wrapped.
     """
 
-    def made(lines: Sequence[str], size: float, step: float) -> Lines:
+    def build(lines: Sequence[str], size: float, step: float) -> Lines:
         return Lines(tuple(typeset(s, size) for s in lines or [""]), step, align)
 
-    tries = [(list(parts), size, line_step(size)) for size in sizes[:alone]]
+    tries = [(list(parts), size, line_step(size)) for size in sizes[:unwrapped]]
     words = [split_words(part) for part in parts]
     for size in sizes:
-        lines = [line for part in words for line in _balanced(part, size, room[0])]
+        lines = [line for part in words for line in _balanced(part, size, space[0])]
         tries.append((lines, size, line_step(size)))
     size = sizes[-1]
     broken: list[str] = []
     for part in words:
-        pieces = [piece for word in part for piece in _broken(word, size, room[0])]
-        broken += wrapped(pieces, size, room[0])
+        pieces = [piece for word in part for piece in _broken(word, size, space[0])]
+        broken += wrapped(pieces, size, space[0])
     # Finally, the lines are set as close as their ink allows: a date in two lines, for example.
     tries += [(broken, size, line_step(size)), (broken, size, 0.0)]
     for lines, height, step in tries:
-        block = made(lines, height, step)
-        if _fits(block, room):
+        block = build(lines, height, step)
+        if _block_fits(block, space):
             return block, False
-    while len(broken) > 1 and not _fits(made(broken, size, 0.0), room):
+    while len(broken) > 1 and not _block_fits(build(broken, size, 0.0), space):
         broken.pop()
     last = re.findall(_SIGNS, broken[-1]) if broken else []
-    while last and typeset("".join(last) + "…", size).width > room[0]:
+    while last and typeset("".join(last) + "…", size).width > space[0]:
         last.pop()
-    return made([*broken[:-1], "".join(last).rstrip() + "…"], size, 0.0), True
+    return build([*broken[:-1], "".join(last).rstrip() + "…"], size, 0.0), True
 
 
 def _caps(block: Lines) -> float:
@@ -404,11 +404,11 @@ def _caps(block: Lines) -> float:
     return block.inscriptions[0].height + sum(block.steps())
 
 
-def _fits(block: Lines, room: tuple[float, float]) -> bool:
+def _block_fits(block: Lines, space: tuple[float, float]) -> bool:
     # Text is centred by cap height, so the larger of the overhangs counts twice.
     first, last = block.inscriptions[0], block.inscriptions[-1]
     overhang = max(first.ascent - first.height, last.descent, 0.0)
-    return block.width <= room[0] and _caps(block) + 2 * overhang <= room[1] + 1e-9
+    return block.width <= space[0] and _caps(block) + 2 * overhang <= space[1] + 1e-9
 
 
 def _balanced(words: Sequence[str], size: float, width: float) -> list[str]:
@@ -440,6 +440,6 @@ def _broken(word: str, size: float, width: float) -> list[str]:
     return [*pieces, "".join(signs)]
 
 
-def _hyphened(signs: Sequence[str], take: int) -> str:
-    hyphen = "-" if signs[take - 1].isalpha() and signs[take].isalpha() else ""
-    return "".join(signs[:take]) + hyphen
+def _hyphened(signs: Sequence[str], count: int) -> str:
+    hyphen = "-" if signs[count - 1].isalpha() and signs[count].isalpha() else ""
+    return "".join(signs[:count]) + hyphen

@@ -10,12 +10,12 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.render.ink.drawing import Bounds
-from planmethod.render.layout.block import Block, Shapes
+from planmethod.render.layout.block import Alternatives, Block
 
 GAP = 9.0
 """Least white between two blocks, mm."""
 
-TOGETHER = 0.6
+GROUP_WHITE_FRACTION = 0.6
 """Part of a group's spare white that stays between its blocks; the rest is around the group."""
 
 CLEAR = 3.0
@@ -26,21 +26,21 @@ _OPTIONS = 12  # cuttings kept for one run of blocks: widths from the narrowest 
 Arrange: TypeAlias = Literal["free", "row", "column"]
 
 
-class Packed(Struct, frozen=True):
+class LayoutItem(Struct, frozen=True):
     """A block to be packed; a ``text`` is joined with neighbouring texts."""
 
     block: Block
     text: bool = False
 
     @property
-    def ways(self) -> tuple[Block, ...]:
+    def alternatives(self) -> tuple[Block, ...]:
         """All layouts of the block."""
-        return self.block.ways if isinstance(self.block, Shapes) else (self.block,)
+        return self.block.blocks if isinstance(self.block, Alternatives) else (self.block,)
 
     @property
     def grows(self) -> bool:
         """True if larger layouts are at larger scales."""
-        return isinstance(self.block, Shapes) and self.block.grows
+        return isinstance(self.block, Alternatives) and self.block.grows
 
 
 class Group(Struct, frozen=True):
@@ -49,14 +49,14 @@ class Group(Struct, frozen=True):
     ``arrange`` is their arrangement: free, side by side, one under another.
     """
 
-    members: tuple[Packed | Group, ...]
+    members: tuple[LayoutItem | Group, ...]
     arrange: Arrange = "free"
 
     def inner(self) -> Group:
         """Return only the innermost groups, freely arranged."""
-        members: list[Packed | Group] = []
+        members: list[LayoutItem | Group] = []
         for member in self.members:
-            if isinstance(member, Packed):
+            if isinstance(member, LayoutItem):
                 members.append(member)
             elif any(isinstance(one, Group) for one in member.members):
                 members += member.inner().members
@@ -68,10 +68,10 @@ class Group(Struct, frozen=True):
         """Return the parts without groups."""
         return Group(tuple(self.parts()))
 
-    def parts(self) -> Iterator[Packed]:
+    def parts(self) -> Iterator[LayoutItem]:
         """Yield the parts in reading order."""
         for member in self.members:
-            if isinstance(member, Packed):
+            if isinstance(member, LayoutItem):
                 yield member
             else:
                 yield from member.parts()
@@ -89,14 +89,14 @@ class Leaf(Struct, frozen=True):
 
 
 class GuillotineCut(Struct, frozen=True):
-    """Two parts side by side (``across`` false) or one above the other.
+    """Two parts side by side (``is_stacked`` false) or one above the other.
 
     ``text``: all its blocks are texts, which stay together; ``group``: it is a whole group.
     """
 
     first: Node
     second: Node
-    across: bool
+    is_stacked: bool
     width: float
     height: float
     text: bool
@@ -112,9 +112,9 @@ _Size: TypeAlias = "tuple[float, float, Node, Node, bool]"
 """Width and height of a cut, its parts, and whether one is above the other."""
 
 
-def fits(node: Node, room: tuple[float, float]) -> bool:
+def node_fits(node: Node, space: tuple[float, float]) -> bool:
     """Return whether a part of the sheet fits an area of a width and height, mm."""
-    return node.width <= room[0] + 1e-6 and node.height <= room[1] + 1e-6
+    return node.width <= space[0] + 1e-6 and node.height <= space[1] + 1e-6
 
 
 # Cuttings -----------------------------------------------------------------------------------------
@@ -123,30 +123,30 @@ def fits(node: Node, room: tuple[float, float]) -> bool:
 def cuttings(
     group: Group,
     leaves: Iterator[Sequence[Leaf]],
-    room: tuple[float, float],
+    space: tuple[float, float],
     *,
-    whole: bool = False,
-    settled: dict[int, list[Node]] | None = None,
+    exhaustive: bool = False,
+    cached: dict[int, list[Node]] | None = None,
 ) -> list[Node]:
     """Return cuttings of a group, none narrower and lower than another.
 
-    For the ``whole`` sheet all cuttings that fit are returned, to be compared by their white.
-    ``settled`` caches the cuttings of groups, by their identity, for further sheets of the same
+    For the ``exhaustive`` sheet all cuttings that fit are returned, to be compared by their white.
+    ``cached`` caches the cuttings of groups, by their identity, for further sheets of the same
     area; it must have an empty entry for each group to be cached.
     """
     options: list[list[Node]] = []
     for member in group.members:
-        if isinstance(member, Packed):
+        if isinstance(member, LayoutItem):
             options.append(list(next(leaves)))
-        elif settled is not None and settled.get(id(member)):
-            options.append(settled[id(member)])
+        elif cached is not None and cached.get(id(member)):
+            options.append(cached[id(member)])
             _ = [next(leaves) for _ in member.parts()]
         else:
             made: list[Node] = [
-                replace(node, group=True) for node in cuttings(member, leaves, room)
+                replace(node, group=True) for node in cuttings(member, leaves, space)
             ]
-            if settled is not None and id(member) in settled:
-                settled[id(member)] = made
+            if cached is not None and id(member) in cached:
+                cached[id(member)] = made
             options.append(made)
     ways = {"free": (False, True), "row": (False,), "column": (True,)}[group.arrange]
     count = len(options)
@@ -157,23 +157,26 @@ def cuttings(
             found = [
                 size
                 for middle in range(start + 1, end)
-                for size in _sizes(kept[start, middle], kept[middle, end], ways, room)
+                for size in _sizes(kept[start, middle], kept[middle, end], ways, space)
             ]
-            chosen = found if whole and length == count else _pareto(found)
+            chosen = found if exhaustive and length == count else _pareto(found)
             kept[start, end] = [_joined(*size) for size in chosen]
-    return [node for node in kept[0, count] if fits(node, room)]
+    return [node for node in kept[0, count] if node_fits(node, space)]
 
 
 def _sizes(
-    ones: Sequence[Node], twos: Sequence[Node], ways: Sequence[bool], room: tuple[float, float]
+    ones: Sequence[Node],
+    twos: Sequence[Node],
+    directions: Sequence[bool],
+    space: tuple[float, float],
 ) -> Iterator[_Size]:
     """Yield the sizes of all cuts of two parts that fit: most of them are discarded."""
-    wide, tall = room[0] + 1e-6, room[1] + 1e-6
+    wide, tall = space[0] + 1e-6, space[1] + 1e-6
     twos_sizes = [(two, two.width, two.height) for two in twos]
     for one in ones:
         width, height = one.width, one.height
         for two, second_width, second_height in twos_sizes:
-            for across in ways:
+            for across in directions:
                 if across:
                     w = width if width >= second_width else second_width
                     h = height + GAP + second_height
@@ -184,8 +187,8 @@ def _sizes(
                     yield w, h, one, two, across
 
 
-def _joined(width: float, height: float, one: Node, two: Node, across: bool) -> GuillotineCut:
-    return GuillotineCut(one, two, across, width, height, one.text and two.text)
+def _joined(width: float, height: float, one: Node, two: Node, is_stacked: bool) -> GuillotineCut:
+    return GuillotineCut(one, two, is_stacked, width, height, one.text and two.text)
 
 
 def _pareto(sizes: list[_Size]) -> list[_Size]:
@@ -204,12 +207,12 @@ def _pareto(sizes: list[_Size]) -> list[_Size]:
 # Larger layouts -----------------------------------------------------------------------------------
 
 
-def grown(node: Node, ways: Sequence[Sequence[Leaf]], room: tuple[float, float]) -> Node:
+def grow(node: Node, alternatives: Sequence[Sequence[Leaf]], space: tuple[float, float]) -> Node:
     """Return a cutting whose blocks have larger layouts, as far as all of it fits the area.
 
     A larger layout is wider or higher and nowhere smaller: a picture at a larger scale. Blocks grow
-    in turn, a layout each. ``ways`` are the layouts of every block by its number, empty for blocks
-    that do not grow.
+    in turn, a layout each. ``alternatives`` are the layouts of every block by its number, empty for
+    blocks that do not grow.
     """
     standing = {leaf.number: leaf for leaf in _leaves(node)}
     refused: list[Leaf] = []
@@ -217,13 +220,15 @@ def grown(node: Node, ways: Sequence[Sequence[Leaf]], room: tuple[float, float])
     while turns:
         for number in tuple(turns):
             now = standing[number]
-            larger = [way for way in ways[number] if _is_larger(way, now) and way not in refused]
+            larger = [
+                way for way in alternatives[number] if _is_larger(way, now) and way not in refused
+            ]
             if not larger:
                 turns.remove(number)
                 continue
             way = min(larger, key=lambda way: way.width * way.height)
-            tried = _with(node, replace(way, group=now.group))
-            if fits(tried, room):
+            tried = _replace_leaf(node, replace(way, group=now.group))
+            if node_fits(tried, space):
                 node, standing[number] = tried, way
             else:
                 refused.append(way)  # it will not fit when others have grown either
@@ -243,14 +248,14 @@ def _leaves(node: Node) -> Iterator[Leaf]:
         yield from _leaves(node.second)
 
 
-def _with(node: Node, way: Leaf) -> Node:
+def _replace_leaf(node: Node, leaf: Leaf) -> Node:
     """Return a cutting with a block in another layout."""
     if isinstance(node, Leaf):
-        return way if node.number == way.number else node
-    one, two = _with(node.first, way), _with(node.second, way)
+        return leaf if node.number == leaf.number else node
+    one, two = _replace_leaf(node.first, leaf), _replace_leaf(node.second, leaf)
     both = ((one.width, two.width), (one.height, two.height))
-    wide, high = (max, sum) if node.across else (sum, max)
-    gap = complex(0.0, GAP) if node.across else complex(GAP, 0.0)
+    wide, high = (max, sum) if node.is_stacked else (sum, max)
+    gap = complex(0.0, GAP) if node.is_stacked else complex(GAP, 0.0)
     return replace(
         node, first=one, second=two, width=wide(both[0]) + gap.real, height=high(both[1]) + gap.imag
     )
@@ -266,41 +271,41 @@ def units_of(node: Node, box: Bounds, *, anchored: bool) -> Iterator[Unit]:
     within their areas.
     """
     if node.group and not anchored:
-        box = _drawn_together(node, box)
+        box = _tighten(node, box)
     if isinstance(node, Leaf) or node.text:
         yield node, box
         return
     left, low, right, high = box
-    if node.across:
+    if node.is_stacked:
         spare = high - low - node.height
-        cut = high - node.first.height - spare * _share(node, across=True) - GAP / 2
+        cut = high - node.first.height - spare * _white_fraction(node, is_stacked=True) - GAP / 2
         first, second = (left, cut + GAP / 2, right, high), (left, low, right, cut - GAP / 2)
     else:
         spare = right - left - node.width
-        cut = left + node.first.width + spare * _share(node, across=False) + GAP / 2
+        cut = left + node.first.width + spare * _white_fraction(node, is_stacked=False) + GAP / 2
         first, second = (left, low, cut - GAP / 2, high), (cut + GAP / 2, low, right, high)
     yield from units_of(node.first, first, anchored=False)
     yield from units_of(node.second, second, anchored=anchored)
 
 
-def _drawn_together(node: Node, box: Bounds) -> Bounds:
+def _tighten(node: Node, box: Bounds) -> Bounds:
     left, low, right, high = box
-    across = (right - left - node.width) * (1 - TOGETHER) / 2
-    along = (high - low - node.height) * (1 - TOGETHER) / 2
+    across = (right - left - node.width) * (1 - GROUP_WHITE_FRACTION) / 2
+    along = (high - low - node.height) * (1 - GROUP_WHITE_FRACTION) / 2
     return (left + across, low + along, right - across, high - along)
 
 
-def _share(node: GuillotineCut, *, across: bool) -> float:
+def _white_fraction(node: GuillotineCut, *, is_stacked: bool) -> float:
     """Return the first part's share of spare white: by the number of blocks in that direction."""
-    one, two = _steps(node.first, across=across), _steps(node.second, across=across)
+    one, two = _steps(node.first, is_stacked=is_stacked), _steps(node.second, is_stacked=is_stacked)
     return one / (one + two)
 
 
-def _steps(node: Node, *, across: bool) -> int:
+def _steps(node: Node, *, is_stacked: bool) -> int:
     if isinstance(node, Leaf) or node.text:
         return 1
-    one, two = _steps(node.first, across=across), _steps(node.second, across=across)
-    return one + two if node.across is across else max(one, two)
+    one, two = _steps(node.first, is_stacked=is_stacked), _steps(node.second, is_stacked=is_stacked)
+    return one + two if node.is_stacked is is_stacked else max(one, two)
 
 
 def box_of(unit: Unit) -> Bounds:
@@ -313,13 +318,13 @@ def box_of(unit: Unit) -> Bounds:
 def corners_of(unit: Unit) -> Iterator[tuple[Leaf, complex]]:
     """Yield a unit's blocks with their upper left corners, the unit centred in its box."""
     left, _, _, high = box_of(unit)
-    yield from _set_together(unit[0], complex(left, high))
+    yield from _leaf_corners(unit[0], complex(left, high))
 
 
-def _set_together(node: Node, corner: complex) -> Iterator[tuple[Leaf, complex]]:
+def _leaf_corners(node: Node, corner: complex) -> Iterator[tuple[Leaf, complex]]:
     if isinstance(node, Leaf):
         yield node, corner
         return
-    yield from _set_together(node.first, corner)
-    step = -1j * (node.first.height + GAP) if node.across else node.first.width + GAP
-    yield from _set_together(node.second, corner + step)
+    yield from _leaf_corners(node.first, corner)
+    step = -1j * (node.first.height + GAP) if node.is_stacked else node.first.width + GAP
+    yield from _leaf_corners(node.second, corner + step)

@@ -146,9 +146,9 @@ def equation_block(
     vectors = [_vector(term) for term in (*equation.left, *equation.right)]
     plus = ["+" for _ in vectors]
     if equation.right:
-        return _fitted(vectors, ["", "=", *plus[2:]], height, width, hangs=True)
+        return _fit_equation(vectors, ["", "=", *plus[2:]], height, width, hangs=True)
     whole = [Term(equation.name), *vectors, Term("0")]
-    return _fitted(whole, ["", "=", *plus[1:], "="], height, width, hangs=False)
+    return _fit_equation(whole, ["", "=", *plus[1:], "="], height, width, hangs=False)
 
 
 def _vector(term: Term) -> Term:
@@ -156,8 +156,8 @@ def _vector(term: Term) -> Term:
     return Term(vector_markup(term.symbol), term.underlines, term.direction)
 
 
-def _fitted(
-    told: Sequence[Term],
+def _fit_equation(
+    equation_terms: Sequence[Term],
     signs: Sequence[str],
     height: float,
     width: float | None,
@@ -169,7 +169,7 @@ def _fitted(
         small = max(2.5, index_height(size))
         terms = [
             _Term(typeset(term.symbol, size), typeset(term.direction, small), term.underlines)
-            for term in told
+            for term in equation_terms
         ]
         block = EquationBlock(_rows(terms, signs, size, width, hangs=hangs), size)
         if width is None or block.width <= width:
@@ -196,7 +196,7 @@ def _rows(
             setter = _RowSetter(size, start=indent)
         if sign:
             setter.sign(sign)
-        setter.put(term)
+        setter.add(term)
         if hangs and k == 1:
             # Under the first term after the sign "=", or further left if the note there sticks out.
             indent = max(0.0, setter.sign_x)
@@ -246,7 +246,7 @@ class _RowSetter:
         tail = 0.0 if last else self._set("+").width + _SIGN_GAP * self.size
         return max(placed.right, placed.x + placed.inscription.width + tail)
 
-    def put(self, term: _Term) -> None:
+    def add(self, term: _Term) -> None:
         placed, sign_x = self._next(term, self.pending)
         if self.pending:
             self.placed.append((sign_x, self._set(self.pending)))

@@ -17,7 +17,7 @@ Play: TypeAlias = tuple[float, float, float]
 """Range of an edge, from and to, and its coordinate in the middle of its box, mm."""
 
 
-def on_grid(units: Sequence[Unit], last: complex, kept: Sequence[Bounds]) -> list[Unit]:
+def on_grid(units: Sequence[Unit], last: complex, reserved: Sequence[Bounds]) -> list[Unit]:
     """Return units moved within their boxes to common left edges and common upper lines.
 
     Parameters
@@ -25,7 +25,7 @@ def on_grid(units: Sequence[Unit], last: complex, kept: Sequence[Bounds]) -> lis
     units : sequence of Unit
     last : complex, mm
         Upper left corner of the last block, which is fixed: its lines are lines of the grid.
-    kept : sequence of Bounds, mm
+    reserved : sequence of Bounds, mm
         Boxes that must stay free: a unit that would come too near keeps its place.
     """
     across, along = [], []
@@ -38,7 +38,7 @@ def on_grid(units: Sequence[Unit], last: complex, kept: Sequence[Bounds]) -> lis
     for unit, left, top in zip(units, lefts, tops, strict=True):
         node, _ = unit
         moved = (left, top - node.height, left + node.width, top)
-        clear = not any(overlap(moved, other, CLEAR) for other in kept)
+        clear = not any(overlap(moved, other, CLEAR) for other in reserved)
         found.append((node, moved) if clear else unit)
     return found
 

@@ -31,15 +31,15 @@ from planmethod.render.layout.cuttings import (
     CLEAR,
     GAP,
     Group,
+    LayoutItem,
     Leaf,
     Node,
-    Packed,
     Unit,
     box_of,
     corners_of,
     cuttings,
-    fits,
-    grown,
+    grow,
+    node_fits,
     units_of,
 )
 from planmethod.render.layout.grid import on_grid
@@ -53,21 +53,21 @@ BACK = 0.15
 VOID = 4.0
 """Cost of an empty rectangle as large as the paper."""
 
-_LOOKED_AT = 40  # cheapest cuttings by the first two parts: their empty rectangles are measured
+_MAX_MEASURED = 40  # cheapest cuttings by the first two parts: their empty rectangles are measured
 
 
 def pack(
-    whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds] = ()
+    root: Group, inner: Bounds, stamp: Bounds, reserved: Sequence[Bounds] = ()
 ) -> list[Placed] | None:
     """Return the blocks with their upper left corners, mm, or None when they do not fit a sheet.
 
     Parameters
     ----------
-    whole : Group
+    root : Group
         The blocks in reading order; the last one is placed above the title block or left of it.
     inner, stamp : Bounds, mm
         Inside of the frame, and the title block in its lower right corner.
-    taken : sequence of Bounds, mm
+    reserved : sequence of Bounds, mm
         Boxes inside the frame that must stay free, such as graph 26. A block that would cover one
         is moved aside within its area; if it cannot be, all blocks keep clear of the strip along
         the frame that contains the box.
@@ -75,51 +75,51 @@ def pack(
     if stamp[0] <= inner[0]:  # as wide as the sheet: no space is left beside it
         inner = (inner[0], stamp[3] - EDGE + GAP / 2, *inner[2:])
         stamp = (inner[2], stamp[3], inner[2], stamp[3])
-    for free in (inner, *_without(inner, stamp, taken)):
-        placed = _packed(whole, free, stamp, taken)
+    for free in (inner, *_exclude_reserved(inner, stamp, reserved)):
+        placed = _pack_into(root, free, stamp, reserved)
         if placed is not None:
             return placed
     return None
 
 
-def _packed(
-    whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]
+def _pack_into(
+    root: Group, inner: Bounds, stamp: Bounds, reserved: Sequence[Bounds]
 ) -> list[Placed] | None:
     """Return the cheapest cutting of a group, if one fits."""
-    *_, last = whole.parts()
+    *_, last = root.parts()
     # Groups before the last block have the same cuttings for all its places.
-    settled: dict[int, list[Node]] = {id(one): [] for one in whole.members[:-1]}
+    settled: dict[int, list[Node]] = {id(one): [] for one in root.members[:-1]}
     found = [
         option
-        for end in last.ways
+        for end in last.alternatives
         for corner in _last_corners(end, inner, stamp)
-        for option in _options(whole, inner, stamp, taken, end, corner, settled)
+        for option in _options(root, inner, stamp, reserved, end, corner, settled)
     ]
     if not found:
         return None
     found.sort(key=lambda option: option.cost)
 
     best, least = found[0], inf
-    for option in found[:_LOOKED_AT]:
+    for option in found[:_MAX_MEASURED]:
         if option.cost >= least:  # and so are all that follow
             break
         boxes = [box_of(unit) for unit in option.units[:-1]]
-        void = VOID * emptiest_share([*boxes, option.last, stamp, *taken], inner)
+        void = VOID * largest_empty_fraction([*boxes, option.last, stamp, *reserved], inner)
         if option.cost + void < least:
             best, least = option, option.cost + void
-    ways = [some if one.grows else () for one, some in zip(whole.parts(), best.ways, strict=True)]
-    larger = _units(grown(best.node, ways, _room(inner)), inner, best.last, taken)
+    ways = [some if one.grows else () for one, some in zip(root.parts(), best.leaves, strict=True)]
+    larger = _units(grow(best.node, ways, _inner_size(inner)), inner, best.last, reserved)
     *units, end = larger or best.units
     if not units:
-        best = best._replace(last=_alone(best.last, inner, stamp, taken))
-    units = on_grid(units, complex(best.last[0], best.last[3]), [*taken, best.last])
+        best = best._replace(last=_centre_single(best.last, inner, stamp, reserved))
+    units = on_grid(units, complex(best.last[0], best.last[3]), [*reserved, best.last])
     put = {leaf.number: (leaf.block, at) for unit in units for leaf, at in corners_of(unit)}
     (leaf, _), *_ = corners_of(end)
     put[leaf.number] = (leaf.block, complex(best.last[0], best.last[3]))
     return [put[number] for number in sorted(put)]
 
 
-def _alone(box: Bounds, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> Bounds:
+def _centre_single(box: Bounds, inner: Bounds, stamp: Bounds, reserved: Sequence[Bounds]) -> Bounds:
     """Return the box of the only block of a sheet, centred beside or above the title block.
 
     It stays below the boxes that must stay free, or beside them.
@@ -127,14 +127,14 @@ def _alone(box: Bounds, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -
     if box[1] < stamp[3]:
         return box
     middle = (inner[0] + inner[2]) / 2
-    left = max([inner[0], *(other[2] for other in taken if other[2] < middle)])
-    right = min([inner[2], *(other[0] for other in taken if other[0] > middle)])
-    below = (inner[0], inner[2], min([inner[3], *(other[1] for other in taken)]))
+    left = max([inner[0], *(other[2] for other in reserved if other[2] < middle)])
+    right = min([inner[2], *(other[0] for other in reserved if other[0] > middle)])
+    below = (inner[0], inner[2], min([inner[3], *(other[1] for other in reserved)]))
     for start, end, high in (below, (left, right, inner[3])):
         across = (start + end - box[0] - box[2]) / 2
         up = max(0.0, (max(stamp[3], box[1]) + high - box[1] - box[3]) / 2)
         moved = (box[0] + across, box[1] + up, box[2] + across, box[3] + up)
-        clear = not any(overlap(moved, other, CLEAR) for other in taken)
+        clear = not any(overlap(moved, other, CLEAR) for other in reserved)
         if clear and moved[0] >= start and moved[3] <= high:
             return moved
     return box
@@ -158,30 +158,30 @@ Placed: TypeAlias = tuple[Block, complex]
 class _Option(NamedTuple):
     """A cutting that fits: its cost without empty rectangles, its units, the last block's box.
 
-    ``ways`` are the layouts of all its blocks.
+    ``leaves`` are the layouts of all its blocks.
     """
 
     cost: float
     units: list[Unit]
     last: Bounds
     node: Node
-    ways: Sequence[Sequence[Leaf]]
+    leaves: Sequence[Sequence[Leaf]]
 
 
 def _options(
-    whole: Group,
+    root: Group,
     inner: Bounds,
     stamp: Bounds,
-    taken: Sequence[Bounds],
+    reserved: Sequence[Bounds],
     end: Block,
     corner: complex,
-    settled: dict[int, list[Node]],
+    cached: dict[int, list[Node]],
 ) -> Iterator[_Option]:
     """Yield the cuttings that fit with the last block in a given layout and place."""
-    parts = tuple(whole.parts())
-    room = _room(inner)
+    parts = tuple(root.parts())
+    room = _inner_size(inner)
     leaves = [
-        [Leaf(k, way, way.width, way.height, part.text) for way in part.ways]
+        [Leaf(k, way, way.width, way.height, part.text) for way in part.alternatives]
         for k, part in enumerate(parts)
     ]
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
@@ -191,69 +191,69 @@ def _options(
     wide = max(box[2] - corner.real, min(stamp[2] - stamp[0] - EDGE, room[0]))
     high = max(corner.imag, stamp[3]) - box[1]
     leaves[-1] = [Leaf(len(parts) - 1, end, wide, high, text=False)]
-    turns = _turns(whole)
-    for asked in (whole, *_with_the_last(whole)):
-        for node in cuttings(asked, iter(leaves), room, whole=True, settled=settled):
-            units = _units(node, inner, last, taken)
+    turns = _turns(root)
+    for asked in (root, *_join_last(root)):
+        for node in cuttings(asked, iter(leaves), room, exhaustive=True, cached=cached):
+            units = _units(node, inner, last, reserved)
             if units:
-                cost = _unevenness(units, room) + BACK * _way_back(units, turns, room)
+                cost = _unevenness(units, room) + BACK * _eye_return(units, turns, room)
                 yield _Option(cost, units, last, node, leaves)
 
 
-def _units(node: Node, inner: Bounds, last: Bounds, taken: Sequence[Bounds]) -> list[Unit]:
+def _units(node: Node, inner: Bounds, last: Bounds, reserved: Sequence[Bounds]) -> list[Unit]:
     """Return the area of each unit of a cutting, clear of boxes; empty if impossible."""
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
     units = list(units_of(node, box, anchored=True))
-    if taken:
-        moved = [_clear(unit, taken) for unit in units[:-1]]
-        if None in moved or any(overlap(last, other, CLEAR) for other in taken):
+    if reserved:
+        moved = [_clear(unit, reserved) for unit in units[:-1]]
+        if None in moved or any(overlap(last, other, CLEAR) for other in reserved):
             return []
         units = [*(unit for unit in moved if unit is not None), units[-1]]
     return units
 
 
-def _room(inner: Bounds) -> tuple[float, float]:
+def _inner_size(inner: Bounds) -> tuple[float, float]:
     return (inner[2] - inner[0] - 2 * EDGE, inner[3] - inner[1] - 2 * EDGE)
 
 
-def _with_the_last(whole: Group) -> Iterator[Group]:
+def _join_last(root: Group) -> Iterator[Group]:
     """Yield the sheet whose last block is among the blocks of the group before it.
 
     For example, the results under the texts of a plan, to the right of the plan.
     """
-    *before, group, last = (None, *whole.members)
+    *before, group, last = (None, *root.members)
     if not isinstance(group, Group) or last is None:
         return
-    if {whole.arrange, group.arrange} == {"free"}:
-        views = [one for one in group.members if not (isinstance(one, Packed) and one.text)]
-        texts = tuple(one for one in group.members if isinstance(one, Packed) and one.text)
+    if {root.arrange, group.arrange} == {"free"}:
+        views = [one for one in group.members if not (isinstance(one, LayoutItem) and one.text)]
+        texts = tuple(one for one in group.members if isinstance(one, LayoutItem) and one.text)
         if group.members == (*views, *texts):
             joined = Group((*views, *([Group(texts)] if texts else []), last))
-            yield Group((*whole.members[: len(before) - 1], joined))
+            yield Group((*root.members[: len(before) - 1], joined))
 
 
 # Cost ---------------------------------------------------------------------------------------------
 
 
-def _unevenness(units: Sequence[Unit], room: tuple[float, float]) -> float:
+def _unevenness(units: Sequence[Unit], space: tuple[float, float]) -> float:
     """Return the unevenness of white: the squares of each unit's spare width and height."""
     total = 0.0
     for node, (left, low, right, high) in units:
-        total += ((right - left - node.width) / room[0]) ** 2
-        total += ((high - low - node.height) / room[1]) ** 2
+        total += ((right - left - node.width) / space[0]) ** 2
+        total += ((high - low - node.height) / space[1]) ** 2
     return total
 
 
-def _turns(whole: Group) -> list[int]:
+def _turns(root: Group) -> list[int]:
     """Return for every block the number of its member of the whole sheet."""
     return [
         turn
-        for turn, member in enumerate(whole.members)
+        for turn, member in enumerate(root.members)
         for _ in (member.parts() if isinstance(member, Group) else (member,))
     ]
 
 
-def _way_back(units: Sequence[Unit], turns: Sequence[int], room: tuple[float, float]) -> float:
+def _eye_return(units: Sequence[Unit], turns: Sequence[int], space: tuple[float, float]) -> float:
     """Return the upward way of the eye between members of the sheet, in paper heights."""
     spans: dict[int, tuple[float, float]] = {}
     for node, (_, low, _, high) in units:
@@ -261,14 +261,14 @@ def _way_back(units: Sequence[Unit], turns: Sequence[int], room: tuple[float, fl
         before = spans.get(turn, (low, high))
         spans[turn] = (min(low, before[0]), max(high, before[1]))
     middles = [(low + high) / 2 for _, (low, high) in sorted(spans.items())]
-    return sum(max(0.0, after - before) for before, after in pairwise(middles)) / room[1]
+    return sum(max(0.0, after - before) for before, after in pairwise(middles)) / space[1]
 
 
 def _first(node: Node) -> int:
     return node.number if isinstance(node, Leaf) else _first(node.first)
 
 
-def emptiest_share(boxes: Sequence[Bounds], inner: Bounds) -> float:
+def largest_empty_fraction(boxes: Sequence[Bounds], inner: Bounds) -> float:
     """Return the area of the largest rectangle without boxes as a part of the inside of the frame.
 
     Its sides are on the sides of boxes: only these are tried.
@@ -293,22 +293,24 @@ def emptiest_share(boxes: Sequence[Bounds], inner: Bounds) -> float:
 # Boxes that must stay free ------------------------------------------------------------------------
 
 
-def _clear(unit: Unit, taken: Sequence[Bounds]) -> Unit | None:
+def _clear(unit: Unit, reserved: Sequence[Bounds]) -> Unit | None:
     """Return a unit with the part of its area that is clear of boxes, or None.
 
     It is moved as little as possible.
     """
     start = _middle(unit)
-    for other in taken:
+    for other in reserved:
         if not overlap(box_of(unit), other, CLEAR):
             continue
         node, box = unit
-        rooms = ((part, (part[2] - part[0], part[3] - part[1])) for part in _beside(box, other))
-        others = [(node, part) for part, room in rooms if fits(node, room)]
+        rooms = (
+            (part, (part[2] - part[0], part[3] - part[1])) for part in _split_around(box, other)
+        )
+        others = [(node, part) for part, room in rooms if node_fits(node, room)]
         if not others:
             return None
         unit = min(others, key=lambda moved: abs(_middle(moved) - start))
-    return None if any(overlap(box_of(unit), other, CLEAR) for other in taken) else unit
+    return None if any(overlap(box_of(unit), other, CLEAR) for other in reserved) else unit
 
 
 def _middle(unit: Unit) -> complex:
@@ -316,21 +318,21 @@ def _middle(unit: Unit) -> complex:
     return complex(left + right, low + high) / 2
 
 
-def _beside(box: Bounds, taken: Bounds) -> tuple[Bounds, ...]:
+def _split_around(box: Bounds, reserved: Bounds) -> tuple[Bounds, ...]:
     """Return the parts of a box below, right of, left of and above a taken one."""
     left, low, right, high = box
     return (
-        (left, low, right, min(high, taken[1] - CLEAR)),
-        (max(left, taken[2] + CLEAR), low, right, high),
-        (left, low, min(right, taken[0] - CLEAR), high),
-        (left, max(low, taken[3] + CLEAR), right, high),
+        (left, low, right, min(high, reserved[1] - CLEAR)),
+        (max(left, reserved[2] + CLEAR), low, right, high),
+        (left, low, min(right, reserved[0] - CLEAR), high),
+        (left, max(low, reserved[3] + CLEAR), right, high),
     )
 
 
-def _without(inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> list[Bounds]:
+def _exclude_reserved(inner: Bounds, stamp: Bounds, reserved: Sequence[Bounds]) -> list[Bounds]:
     """Return parts of the inside below or right of taken boxes, with the title block."""
-    rooms = [inner] if taken else []
-    for box in taken:
+    rooms = [inner] if reserved else []
+    for box in reserved:
         rooms = [
             part
             for left, low, right, high in rooms

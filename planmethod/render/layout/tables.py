@@ -48,14 +48,14 @@ class TableColumn(Struct, frozen=True):
 
     ``width`` is the width aimed at, mm: values that do not fit shrink to the next GOST height,
     and if they still do not, the column grows. Without it the column is as wide as its text needs,
-    ``least`` at least. ``joined``: a table is not cut between it and the column before.
+    ``min_width`` at least. ``joined``: a table is not cut between it and the column before.
     """
 
     head: str
     values: tuple[TableCell | str, ...]
     unit: str = ""
     width: float | None = None
-    least: float = 12.0
+    min_width: float = 12.0
     joined: bool = False
 
     @property
@@ -101,9 +101,9 @@ class TablePart(Struct, frozen=True, dict=True):
         values = zip(*(column.values for column in self.columns), strict=True)
         heads = [[c.head for c in self.columns], [c.unit for c in self.columns]]
         heads = heads[: self._head_rows()]
-        return [max(map(self._room, row)) for row in [*heads, *map(list, values)]]
+        return [max(map(self._min_row_height, row)) for row in [*heads, *map(list, values)]]
 
-    def _room(self, text: Inscription) -> float:
+    def _min_row_height(self, text: Inscription) -> float:
         """Return the least height of a row with this text, which is centred by its cap height."""
         overhang = max(text.descent, text.ascent - text.height, 0.0)
         return max(self.row_height, text.height + 2 * overhang + 1.0)
@@ -120,14 +120,14 @@ class TablePart(Struct, frozen=True, dict=True):
                     box = (xs[first], ys[2], xs[last + 1], ys[1])
                     items += _centred(self.columns[first].unit, box)
         for k, column in enumerate(self.columns):
-            bottom = ys[head_rows] if self._whole_head(k) else ys[1]
+            bottom = ys[head_rows] if self._spans_head(k) else ys[1]
             items += _centred(column.head, (xs[k], bottom, xs[k + 1], ys[0]))
             for row in range(len(column.values)):
                 top, bottom = ys[head_rows + row], ys[head_rows + row + 1]
                 items += _value(column, row, (xs[k], bottom, xs[k + 1], top))
         return items
 
-    def _whole_head(self, k: int) -> bool:
+    def _spans_head(self, k: int) -> bool:
         """Return True when the head of a column, having no unit, takes both head rows."""
         return self.units != "none" and not self.columns[k].source.unit
 
@@ -156,7 +156,7 @@ class TablePart(Struct, frozen=True, dict=True):
                 continue
             if row < head:
                 # The line between symbols and units stops at heads that take both rows.
-                for whole, group in groupby(range(len(self.columns)), self._whole_head):
+                for whole, group in groupby(range(len(self.columns)), self._spans_head):
                     members = list(group)
                     if not whole:
                         ends = (
@@ -237,8 +237,8 @@ def table_block(
 def _check(columns: Sequence[TableColumn]) -> None:
     counts = {len(column.values) for column in columns}
     if len(counts) != 1:
-        told = ", ".join(f"{c.head}: {len(c.values)}" for c in columns) or "no columns"
-        raise LayoutError("Cannot draw a table from columns of different lengths ({}).", told)
+        text = ", ".join(f"{c.head}: {len(c.values)}" for c in columns) or "no columns"
+        raise LayoutError("Cannot draw a table from columns of different lengths ({}).", text)
 
 
 def _set_all(columns: Sequence[TableColumn], size: float) -> tuple[_Set, ...]:
@@ -252,7 +252,7 @@ def _set_column(column: TableColumn, size: float) -> _Set:
         made = _set_at(column, height, in_use())
         if column.width is None or made.width <= column.width:
             break
-    least = column.width if column.width is not None else column.least
+    least = column.width if column.width is not None else column.min_width
     return replace(made, width=max(made.width, least))
 
 
@@ -307,10 +307,10 @@ def _split(columns: tuple[_Set, ...], limit: float, leading: int) -> list[tuple[
     return [(*lead, *part) for part in _filled(rest, even)]
 
 
-def _filled(members: Sequence[tuple[_Set, ...]], room: float) -> list[tuple[_Set, ...]]:
+def _filled(members: Sequence[tuple[_Set, ...]], space: float) -> list[tuple[_Set, ...]]:
     parts: list[tuple[_Set, ...]] = [()]
     for columns in members:
-        if parts[-1] and _total(parts[-1]) + _total(columns) > room + 1e-9:
+        if parts[-1] and _total(parts[-1]) + _total(columns) > space + 1e-9:
             parts.append(())
         parts[-1] += columns
     return parts

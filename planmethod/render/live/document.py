@@ -14,7 +14,7 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 from planmethod.render.ink.typeset import typeset
 
 POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'"
@@ -29,7 +29,7 @@ def html_document(
     *,
     lang: str,
     body: str,
-    made: str,
+    credit: str,
     letters: str,
     scene: Any,
     script: str,
@@ -40,7 +40,7 @@ def html_document(
     ----------
     body : str
         Contents under the title, as HTML.
-    made : str
+    credit : str
         Credit line of the page, plain text.
     letters : str
         Letters of the drawn texts, as SVG.
@@ -59,7 +59,7 @@ def html_document(
         f"<title>{title}</title>\n<style>{style}</style>\n"
         f"</head>\n<body>\n<header><h1>{title}</h1>"
         f"<p>{escape(problem.source)}</p></header>\n{body}\n"
-        f"<footer>{escape(made)}</footer>\n"
+        f"<footer>{escape(credit)}</footer>\n"
         f'<svg width="0" height="0" aria-hidden="true"><defs>{letters}</defs>'
         f'</svg>\n<script type="application/json" id="scene">{_data(scene)}</script>\n'
         f"<script>{script}</script>\n</body>\n</html>\n"

@@ -8,18 +8,18 @@ from PIL import Image
 
 from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options
-from planmethod.render.live.film import Film
+from planmethod.render.live.animation import Animation
 
 _GREYS = 8  # levels of grey with which the edges of black lines are smooth
 
 
-def gif(film: Film, seconds: float, dpi: float) -> bytes:
+def gif(animation: Animation, seconds: float, dpi: float) -> bytes:
     """Return a GIF that repeats endlessly, ``seconds`` a cycle."""
     options = Options(dpi=dpi)
     levels = [round(255 * k / (_GREYS - 1)) for k in range(_GREYS)]
     table = [min(range(_GREYS), key=lambda k: abs(levels[k] - grey)) for grey in range(256)]
     frames = []
-    for drawing in film.frames():
+    for drawing in animation.frames():
         with Image.open(BytesIO(render(drawing, "png", options=options))) as picture:
             frame = picture.convert("L").point(table)
         frame = Image.frombytes("P", frame.size, frame.tobytes())

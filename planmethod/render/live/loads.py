@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from planmethod.problem.bodies import rotation
 from planmethod.problem.load_records import (
     Couple,
     Fixed,
@@ -16,8 +15,9 @@ from planmethod.problem.load_records import (
     TurningSense,
 )
 from planmethod.problem.model import Problem
-from planmethod.solved.course.motion import TurnMotion
-from planmethod.solved.forces.loads import AHEAD, in_time
+from planmethod.problem.placement import rotation
+from planmethod.solved.course.motion import CycleMotion
+from planmethod.solved.forces.loads import MOTION_DIRECTIONS, in_time
 
 
 def cycle_deg(problem: Problem) -> float:
@@ -63,7 +63,7 @@ def _load(problem: Problem, index: int, row: Mapping[str, int]) -> dict[str, Any
     data: dict[str, Any] = {"omega": row[f"{load.link}.omega"]}
     if isinstance(size, SizeTable):
         if size.over in (Over.PATH, Over.STROKES):
-            turn = TurnMotion(problem)
+            turn = CycleMotion(problem)
             data["stroke"], size = _stroke(turn, index), in_time(turn.first, size, index)
         data["over"], data["step"] = size.over.value, size.interpolation is Interpolation.STEP
         data["at"], data["values"] = list(size.at), list(size.values)
@@ -73,7 +73,7 @@ def _load(problem: Problem, index: int, row: Mapping[str, int]) -> dict[str, Any
     if phase is not None:
         data["spans"] = [list(span) for span in phase.phi]
         if phase.moving is not None:
-            ahead = AHEAD[phase.moving]
+            ahead = MOTION_DIRECTIONS[phase.moving]
             data["ahead"] = [ahead.real, ahead.imag]
         if phase.turning is not None:
             data["turning"] = 1 if phase.turning is TurningSense.CCW else -1
@@ -88,7 +88,7 @@ def _load(problem: Problem, index: int, row: Mapping[str, int]) -> dict[str, Any
     return data
 
 
-def _stroke(turn: TurnMotion, index: int) -> dict[str, Any]:
+def _stroke(turn: CycleMotion, index: int) -> dict[str, Any]:
     stroke = turn.stroke_of(index)
     arc: dict[str, Any] = {}
     if stroke.centre is not None:

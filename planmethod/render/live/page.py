@@ -13,10 +13,10 @@ from importlib.resources import files
 from typing import Any
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.wording import language
-from planmethod.plans.closing import Start
+from planmethod.note.narrate.statement import point_name
+from planmethod.note.wording import get_language
+from planmethod.plans.assembly_mode import Start
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.render.backends.canvas import Options
@@ -44,8 +44,8 @@ def live_page(problem: Problem, lang: str) -> str:
 
 class _Page:
     def __init__(self, problem: Problem, lang: str) -> None:
-        self.problem, self.words = problem, language(lang)
-        self.scene = LiveScene(problem, self.words)
+        self.problem, self.language = problem, get_language(lang)
+        self.scene = LiveScene(problem, self.language)
         self.canvas = SvgCanvas(Options())
         self.canvas.open(Drawing(0.0, 0.0))
 
@@ -54,29 +54,29 @@ class _Page:
         script = files("planmethod.render.live").joinpath("page.js").read_text("utf-8")
         return html_document(
             self.problem,
-            lang=self.words.lang,
+            lang=self.language.lang,
             body="\n".join((self._bar(), self._views(), self._numbers())),
-            made=self.words.live.made,
+            credit=self.language.live.made,
             letters=self.canvas.letters(),
             scene=self._scene(),
             script=self.scene.sweep.javascript() + script,
         )
 
     def _bar(self) -> str:
-        said, drive, low, high = self.words.live, self.problem.drive, *self.scene.way
+        texts, drive, low, high = self.language.live, self.problem.drive, *self.scene.driver_range
         label = rich(drive.coordinate.symbol)
-        unit = rich(self.words.say.units[drive.coordinate.unit])
+        unit = rich(self.language.notation.units[drive.coordinate.unit])
         follows = ""
         if self.scene.flywheel is not None:
-            told = rich(said.follows.format(speed=f"ω_{{{drive.link}}}(φ)"))
-            follows = f'<label><input id="follows" type="checkbox"> {told}</label>'
+            text = rich(texts.follows.format(speed=f"ω_{{{drive.link}}}(φ)"))
+            follows = f'<label><input id="follows" type="checkbox"> {text}</label>'
         return (
-            f'<div id="bar"><section><button id="play" aria-label="{escape(said.play)}">▶</button>'
+            f'<div id="bar"><section><button id="play" aria-label="{escape(texts.play)}">▶</button>'
             f'<input id="slider" type="range" min="{low!r}" max="{high!r}" step="any" '
-            f'aria-label="{escape(said.driver)}"><label>{label} = <input id="exact" type="number" '
-            f'step="any"> {unit}</label>{speed_choice(said.speed)}'
+            f'aria-label="{escape(texts.driver)}"><label>{label} = <input id="exact" type="number" '
+            f'step="any"> {unit}</label>{speed_choice(texts.speed)}'
             '<label><input id="trace" type="checkbox" checked> '
-            f"{escape(said.traces)}</label>{follows}</section>"
+            f"{escape(texts.traces)}</label>{follows}</section>"
             '<section id="why" role="status" hidden></section></div>'
         )
 
@@ -86,18 +86,18 @@ class _Page:
         return '<main id="views">' + "\n".join(map(self._view, self.scene.views)) + "</main>"
 
     def _view(self, view: LiveView) -> str:
-        say, convention = self.words.say, self.problem.scales.convention
+        notation, convention = self.language.notation, self.problem.scales.convention
         box = " ".join(f"{value:.3f}" for value in view.box)
         scheme = view.id == "scheme"
         zoom = "" if scheme else f'<span id="zoom-{view.id}"></span>'
         labels = "".join(
             f'<g id="label-{view.id}-{number}" role="img" '
-            f'aria-label="{escape(_plain(one["text"]))}">{self._lettered(view, one)}</g>'
+            f'aria-label="{escape(_strip_markup(one["text"]))}">{self._lettered(view, one)}</g>'
             for number, one in enumerate(view.labels)
         )
         return (
             f"<figure><figcaption>{rich(view.title)} "
-            f"<span>{rich(scale_inscription(view.scale, convention, say))}</span> {zoom}"
+            f"<span>{rich(scale_inscription(view.scale, convention, notation))}</span> {zoom}"
             f'</figcaption><svg id="svg-{view.id}" viewBox="{box}">'
             f'<g class="traces"></g>{"".join(self._parts()) if scheme else ""}'
             f'<g class="lines"></g>{labels}</svg><output id="told-{view.id}"></output></figure>'
@@ -124,27 +124,27 @@ class _Page:
     # Numbers ---------------------------------------------------------------------------------
 
     def _numbers(self) -> str:
-        said, note = self.words.live, self.words.note
+        texts, note = self.language.live, self.language.note
         tables: dict[str, list[str]] = {}
         for number, quantity in enumerate(self.scene.quantities):
             kind = quantity.kind
             title = (
-                said.forces if kind.is_force
+                texts.forces if kind.is_force
                 else note.table_links if kind in TURNING
                 else note.table_sliding if kind.is_number
                 else note.table_points
             )  # fmt: skip
             tables.setdefault(title, []).append(self._row(number, quantity))
         if self.scene.flywheel is not None:
-            tables[said.steady] = [self._steady_row()]
-        told = "".join(
+            tables[texts.steady] = [self._steady_row()]
+        text = "".join(
             f"<table><caption>{escape(title)}</caption><tbody>{''.join(rows)}</tbody></table>"
             for title, rows in tables.items()
         )
         return (
-            f'<section><h2>{escape(said.diagrams)}</h2><p class="hint">{escape(said.choose)}</p>'
-            f'<div id="diagrams"></div></section>\n<section><h2>{escape(said.numbers)}</h2>'
-            f'<div id="numbers">{told}</div></section>'
+            f'<section><h2>{escape(texts.diagrams)}</h2><p class="hint">{escape(texts.choose)}</p>'
+            f'<div id="diagrams"></div></section>\n<section><h2>{escape(texts.numbers)}</h2>'
+            f'<div id="numbers">{text}</div></section>'
         )
 
     def _steady_row(self) -> str:
@@ -154,11 +154,11 @@ class _Page:
         return (
             f'<tr><th><button id="choose-{number}" aria-pressed="false">{symbol}</button></th>'
             f'<td><span id="cell-{row}" data-row="{row}"></span></td>'
-            f"<td>{rich(self.words.say.units['1/s'])}</td></tr>"
+            f"<td>{rich(self.language.notation.units['1/s'])}</td></tr>"
         )
 
     def _row(self, number: int, quantity: Quantity) -> str:
-        unit = rich(self.words.say.units[quantity.kind.unit])
+        unit = rich(self.language.notation.units[quantity.kind.unit])
         symbol = rich(self._symbol(quantity))
         first = self.scene.row(quantity.columns[0])
         cells = [f'<span id="cell-{first + k}" data-row="{first + k}"></span>' for k in (0, 1)]
@@ -174,10 +174,10 @@ class _Page:
         )
 
     def _symbol(self, quantity: Quantity) -> str:
-        balancing, say = self.problem.drive.balancing, self.words.say
+        balancing, notation = self.problem.drive.balancing, self.language.notation
         roles = {"dr": balancing.symbol, "lever": f"lever {balancing.quantity}"}
         if quantity.kind.is_force and quantity.of in roles:
-            return say.symbol(roles[quantity.of])
+            return notation.symbol(roles[quantity.of])
         return point_name(quantity.of) if quantity.kind is QuantityKind.PLACE else quantity.symbol
 
     # Data ------------------------------------------------------------------------------------
@@ -185,32 +185,38 @@ class _Page:
     def _cam(self) -> dict[str, Any] | None:
         """Return the law by which a cam's follower drives."""
         drive = self.problem.drive
-        if drive.followed is None:
+        if drive.cam_drive is None:
             return None
         return {
-            "pieces": [piece._asdict() for piece in drive.followed.pieces],
-            "lowest": drive.followed.lowest,
-            "degrees": drive.followed.turns,
+            "pieces": [piece._asdict() for piece in drive.cam_drive.pieces],
+            "lowest": drive.cam_drive.lowest,
+            "degrees": drive.cam_drive.turns,
             "rate": drive.rate,
         }
 
     def _scene(self) -> dict[str, Any]:
-        scene, drive, say, said = self.scene, self.problem.drive, self.words.say, self.words.live
+        scene, drive, notation, texts = (
+            self.scene,
+            self.problem.drive,
+            self.language.notation,
+            self.language.live,
+        )
         closings = scene.sweep.branches.values()
         chosen = scene.chosen()
         forces = scene.rows_of(lambda kind: kind.is_force)
         return {
             "rows": [row.name for row in scene.sweep.rows],
-            "way": list(scene.way),
+            "way": list(scene.driver_range),
             "start": scene.start,
             "crank": drive.goes_round,
             "sense": -1 if drive.rate < 0 else 1,
             "symbol": runs(drive.coordinate.symbol),
-            "unit": ("" if drive.goes_round else " ") + _plain(say.units[drive.coordinate.unit]),
+            "unit": ("" if drive.goes_round else " ")
+            + _strip_markup(notation.units[drive.coordinate.unit]),
             "branches": [
-                {"places": one.followed.places, "values": one.values, "turn": one.followed.period}
+                {"places": one.tracked.places, "values": one.values, "turn": one.tracked.period}
                 if isinstance(one, Start)
-                else {"changes": list(one.changes), "start": one.start, "turn": one.turn}
+                else {"changes": list(one.changes), "start": one.start, "turn": one.period}
                 for one in closings
             ],
             "cam": self._cam(),
@@ -219,26 +225,26 @@ class _Page:
             "forces": forces,
             "reasons": [runs(text) for text in scene.reasons()],
             "parts": [
-                {"id": f"part-{k}", "at": scene.place(scene.foot(part.link)),
+                {"id": f"part-{k}", "at": scene.place(scene.anchor_point(part.link)),
                  "turn": scene.row(f"{part.link}.phi_deg")}
                 for k, part in enumerate(scene.parts) if part.link != FRAME
             ],
-            "views": [self._told(view) for view in scene.views],
+            "views": [self._view_data(view) for view in scene.views],
             "quantities": [
                 {
                     "rows": [scene.row(column) for column in one.columns],
                     "vector": len(one.columns) > 1,
                     "symbol": runs(self._symbol(one)),
-                    "unit": runs(say.units[one.kind.unit]),
+                    "unit": runs(notation.units[one.kind.unit]),
                     "chosen": one.label in chosen,
                 }
                 for one in scene.quantities
             ] + self._steady(),
             "motion": scene.motion(),
             "words": {
-                "play": said.play, "pause": said.pause, "touch": said.touch,
-                "nearest": said.nearest, "unknown": said.unknown,
-                "decimal": say.decimal, "mm": _plain(say.units["mm"]),
+                "play": texts.play, "pause": texts.pause, "touch": texts.touch,
+                "nearest": texts.nearest, "unknown": texts.unknown,
+                "decimal": notation.decimal, "mm": _strip_markup(notation.units["mm"]),
             },
         }  # fmt: skip
 
@@ -250,13 +256,13 @@ class _Page:
                 "rows": [len(self.scene.sweep.rows) + 1],
                 "vector": False,
                 "symbol": runs(f"ω_{{{self.problem.drive.link}}}(φ)"),
-                "unit": runs(self.words.say.units["1/s"]),
+                "unit": runs(self.language.notation.units["1/s"]),
                 "chosen": True,
                 "steady": True,
             }
         ]
 
-    def _told(self, view: LiveView) -> dict[str, Any]:
+    def _view_data(self, view: LiveView) -> dict[str, Any]:
         segments = [
             {k: runs(v) if k in ("name", "symbol") else v for k, v in one.items()}
             for one in view.segments
@@ -265,7 +271,7 @@ class _Page:
             "id": view.id,
             "per_mm": view.per_mm,
             "mu": view.scale.per_mm,
-            "unit": runs(self.words.say.units[view.scale.unit]),
+            "unit": runs(self.language.notation.units[view.scale.unit]),
             "box": list(view.box),
             "segments": segments,
             "labels": view.labels,
@@ -290,7 +296,7 @@ class _Page:
         """Return the lines of the moving parts that inscriptions keep clear of."""
         return [
             {
-                "at": self.scene.place(self.scene.foot(part.link)),
+                "at": self.scene.place(self.scene.anchor_point(part.link)),
                 "turn": self.scene.row(f"{part.link}.phi_deg"),
                 "bars": [
                     [round(v, 3) for end in bar for v in (end.real, end.imag)]
@@ -302,5 +308,5 @@ class _Page:
         ]
 
 
-def _plain(markup: str) -> str:
+def _strip_markup(markup: str) -> str:
     return "".join(text for text, _ in runs(markup))

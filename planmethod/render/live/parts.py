@@ -100,14 +100,14 @@ def _drawn(scheme: Scheme, slide: Slide, letter_height: float) -> Scheme:
     return alone
 
 
-def _on_link(alone: Scheme, slide: Slide) -> Iterator[MovingPart]:
+def _on_link(scheme: Scheme, slide: Slide) -> Iterator[MovingPart]:
     """Yield stone or block with the parts rigid with it, and the bar through a block."""
-    body = slide.host if alone.solution.problem.is_block(slide) else slide.slider
-    yield MovingPart(body, alone.index, BODIES, tuple(alone.bodies))
+    body = slide.host if scheme.solution.problem.is_block(slide) else slide.slider
+    yield MovingPart(body, scheme.index, BODIES, tuple(scheme.slider_items))
     for link in (slide.host, slide.slider):
-        lines = (one for one in alone.lines if one.tag == f"link {link}")
-        yield MovingPart(link, alone.index, LINES, tuple(lines))
-    yield MovingPart(body, alone.index, LINES, tuple(alone.corners))
+        lines = (one for one in scheme.lines if one.tag == f"link {link}")
+        yield MovingPart(link, scheme.index, LINES, tuple(lines))
+    yield MovingPart(body, scheme.index, LINES, tuple(scheme.corners))
 
 
 def _on_frame(scheme: Scheme, slide: Slide) -> Iterator[MovingPart]:

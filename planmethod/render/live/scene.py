@@ -16,16 +16,16 @@ import numpy.typing as npt
 from msgspec import Struct, field
 
 from planmethod.construct.scale import Scale, series_near
-from planmethod.construct.steps import Hold, Name, PointName
+from planmethod.construct.steps import Name, PointName, TriadPose
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.statement import link_names
-from planmethod.note.narrate.given import point_name
-from planmethod.note.narrate.letters import mark, shown_letters
+from planmethod.note.narrate.letters import mark, plan_letters
+from planmethod.note.narrate.statement import point_name
 from planmethod.note.wording import Language
-from planmethod.plans.closing import comes_again
+from planmethod.plans.assembly_mode import assembly_period
 from planmethod.plans.draft import cis
-from planmethod.plans.forces.polygons import Edge, Share
+from planmethod.plans.forces.polygons import Component, Edge
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.plans.motion.position import link_of_axis
@@ -51,7 +51,7 @@ Ref = list[int]
 BOX = (105.0, 80.0)
 """Size of a view's picture, mm: on a telephone its letters of 5 mm are legible."""
 
-LEAST = 0.6 * BOX[0]
+MIN_WIDTH = 0.6 * BOX[0]
 """Least width of a view for its picture, mm, so that letters are not too large."""
 
 SHAPE = 1.3
@@ -63,7 +63,7 @@ SPEEDS = 720
 """Number of angles of a turn at which the page has the speed of a machine."""
 
 _STEPS = {True: 72, False: 60}  # of the positions in which the scheme is drawn
-_LOOKS = 4  # refinement of the driver's range for the search
+_FINER_STEPS = 4  # refinement of the driver's range for the search
 
 
 class LiveView(Struct):
@@ -90,7 +90,7 @@ class LiveScene:
     Parameters
     ----------
     problem : Problem
-    words : Language
+    language : Language
     is_round : bool
         Whether the scales are of the series; otherwise the boxes are filled best.
 
@@ -112,8 +112,8 @@ class LiveScene:
         None of the positions exists.
     """
 
-    def __init__(self, problem: Problem, words: Language, *, is_round: bool = False) -> None:
-        self.problem, self.words, self.is_round = problem, words, is_round
+    def __init__(self, problem: Problem, language: Language, *, is_round: bool = False) -> None:
+        self.problem, self.language, self.is_round = problem, language, is_round
         self._drawn: dict[Name, int] = {}
         self.flywheel = None
         if problem.machine is not None:
@@ -138,10 +138,10 @@ class LiveScene:
         ]
         self.sweep = Sweep(problem, forces=has_loads, drawn=tuple(self._drawn))
         assert [row.name for row in self.sweep.rows][: len(self._row)] == self.columns
-        self._look()
+        self._explore_range()
         self.parts: list[MovingPart]
         self.parts, self.drawing = parts_of(self.shown, LETTER)
-        self._fit()
+        self._fit_views()
         # Obstacles for inscriptions besides the segments: of the frame, and the sliders.
         still = [bar for part in self.parts if part.link == FRAME for bar in self.bars(part)]
         self.fixed = [[[end.real, -end.imag] for end in bar] for bar in still]
@@ -154,7 +154,7 @@ class LiveScene:
         """Return the origin of a link's own axes where its part is drawn, mm, and their turn, °."""
         if part.link == FRAME:
             return 0j, 0.0
-        start = complex(self.shown.paper.point(self.foot(part.link))[part.index])
+        start = complex(self.shown.paper.point(self.anchor_point(part.link))[part.index])
         return start, float(self.shown.links[part.link].phi_deg[part.index])
 
     def bars(self, part: MovingPart) -> list[tuple[complex, complex]]:
@@ -178,7 +178,7 @@ class LiveScene:
         """Return the outputs of the place of a point of the mechanism."""
         return [self._row[f"{point}.x"]]
 
-    def foot(self, link: str) -> PointName:
+    def anchor_point(self, link: str) -> PointName:
         """Return the point of a link that its parts follow."""
         return PointName(next(iter(self.problem.bodies[link].points)))
 
@@ -196,7 +196,7 @@ class LiveScene:
 
     def _scheme(self) -> LiveView:
         kind = PlanKind.POSITION
-        view = LiveView("scheme", self.words.sheets["views"][kind.value][0], _unit(kind))
+        view = LiveView("scheme", self.language.sheets["views"][kind.value][0], _unit(kind))
         bodies = self.problem.bodies
         points = dict.fromkeys(p for body in bodies.values() for p in body.points)
         known = [p for p in points if f"{p}.x" in self._row]
@@ -223,8 +223,8 @@ class LiveScene:
 
     def _plan(self, kind: PlanKind) -> LiveView:
         plan, problem = self.construction.plan(kind), self.problem
-        view = LiveView(kind.value, self.words.sheets["views"][kind.value][0], _unit(kind))
-        letters = shown_letters(problem, plan)
+        view = LiveView(kind.value, self.language.sheets["views"][kind.value][0], _unit(kind))
+        letters = plan_letters(problem, plan)
         for tail, head in similar_lines(Solution(problem, positions=[]), plan):
             view.segments.append({"a": self._ref(tail), "b": self._ref(head), "style": "similar"})
         for vector in plan.vectors:
@@ -246,40 +246,40 @@ class LiveScene:
 
     def _forces(self) -> list[LiveView]:
         assert self.planned is not None
-        said, found = self.words.sheets, []
+        texts, found = self.language.sheets, []
         for number, plan in enumerate(self.planned.board.plans):
-            whose = said.plan_of_group if len(plan.links) > 1 else said.plan_of_link
+            whose = texts.plan_of_group if len(plan.links) > 1 else texts.plan_of_link
             title = whose.format(links=link_names(plan.links))
             view = LiveView(f"forces-{number}", title, _unit(PlanKind.FORCE))
             for edge in (*plan.polygon, *plan.wholes, *plan.inner):
-                self._edge(view, edge, beside=edge not in plan.polygon)
+                self._edge(view, edge, is_extra=edge not in plan.polygon)
             found.append(view)
         lever = self._lever()
         return [*found, lever] if lever is not None else found
 
-    def _edge(self, view: LiveView, edge: Edge, *, beside: bool) -> None:
-        symbol = self.words.say.symbol(edge.symbol)
+    def _edge(self, view: LiveView, edge: Edge, *, is_extra: bool) -> None:
+        symbol = self.language.notation.symbol(edge.symbol)
         view.labels.append({"text": symbol, "height": SMALL, "of": len(view.segments)})
         view.segments.append(
             {
                 "a": self._ref(edge.tail),
                 "b": self._ref(edge.head),
-                "style": "main" if edge.share is Share.WHOLE else "thin",
+                "style": "main" if edge.component is Component.TOTAL else "thin",
                 "arrow": True,
                 "symbol": symbol,
-                "beside": beside,
+                "beside": is_extra,
             }
         )
 
     def _lever(self) -> LiveView | None:
         assert self.planned is not None
-        lever, say = self.planned.lever, self.words.say
+        lever, notation = self.planned.lever, self.language.notation
         if lever is None:
             return None
         velocity = self.construction.plan(PlanKind.VELOCITY)
-        view = LiveView("lever", self.words.sheets.lever, _unit(PlanKind.LEVER))
+        view = LiveView("lever", self.language.sheets.lever, _unit(PlanKind.LEVER))
         bare = Solution(self.problem, positions=[])
-        letters = shown_letters(self.problem, velocity)
+        letters = plan_letters(self.problem, velocity)
         lines = [(vector.tail, vector.head) for vector in velocity.vectors]
         for tail, head in [*lines, *similar_lines(bare, velocity)]:
             a, b = [*self._ref(tail), 1], [*self._ref(head), 1]
@@ -289,14 +289,14 @@ class LiveScene:
 
         def push(at: Ref, symbol: str, tail: PointName, head: PointName) -> None:
             view.labels.append(
-                {"text": say.symbol(symbol), "height": SMALL, "push": len(view.pushes)}
+                {"text": notation.symbol(symbol), "height": SMALL, "push": len(view.pushes)}
             )
             ends = {"tail": self._ref(tail), "head_at": self._ref(head)}
-            view.pushes.append({"at": at, "symbol": say.symbol(symbol), **ends})
+            view.pushes.append({"at": at, "symbol": notation.symbol(symbol), **ends})
 
         def turn(link: str, symbol: str, couple: Name) -> None:
             view.labels.append(
-                {"text": say.symbol(symbol), "height": SMALL, "turn": len(view.turns)}
+                {"text": notation.symbol(symbol), "height": SMALL, "turn": len(view.turns)}
             )
             omega = self._row[f"{link}.omega"]
             view.turns.append(
@@ -304,11 +304,11 @@ class LiveScene:
             )
 
         for hung in lever.loads:
-            one = hung.given.applied
-            if hung.at is None and hung.given.couple is not None:
-                turn(one.link, one.name, hung.given.couple)
-            elif hung.at is not None and hung.given.force is not None:
-                push(self._ref(hung.at), one.name, *hung.given.force.ends)
+            one = hung.load.applied
+            if hung.at is None and hung.load.couple is not None:
+                turn(one.link, one.name, hung.load.couple)
+            elif hung.at is not None and hung.load.force is not None:
+                push(self._ref(hung.at), one.name, *hung.load.force.ends)
         drive, driving = self.problem.drive, self.planned.driving
         motion, symbol = self.construction.kinematics.velocity, drive.balancing.symbol
         if driving.between is not None and driving.force is not None:
@@ -332,7 +332,7 @@ class LiveScene:
     @property
     def period(self) -> float:
         """Driver angle after which the links have the same places, degrees."""
-        again = comes_again(self.construction.draft.choice, 360.0)
+        again = assembly_period(self.construction.draft.choice, 360.0)
         return again if isfinite(again) else 360.0
 
     def motion(self) -> dict[str, Any] | None:
@@ -340,7 +340,7 @@ class LiveScene:
         wheel = self.flywheel
         if wheel is None:
             return None
-        omega, _ = wheel.speeds(wheel.turned(SPEEDS * wheel.turns))
+        omega, _ = wheel.speeds(wheel.even_rotations(SPEEDS * wheel.turns))
         return {
             "omega": [round(value, 9) for value in omega.tolist()],
             "first": wheel.turn.start_deg,
@@ -363,21 +363,21 @@ class LiveScene:
 
     # Range of the driver ---------------------------------------------------------------------
 
-    def _look(self) -> None:
+    def _explore_range(self) -> None:
         """Find the range of the mechanism; choose the scales."""
         drive = self.problem.drive
         if drive.goes_round:
             turns = (round(way / 360.0) for way in (cycle_deg(self.problem), self.period))
-            self.way = (0.0, 360.0 * lcm(*turns))
+            self.driver_range = (0.0, 360.0 * lcm(*turns))
         else:
-            self.way = self._reach()
-        count = _STEPS[drive.goes_round] * _LOOKS
-        self.grid = np.linspace(*self.way, count + 1)
+            self.driver_range = self._reach()
+        count = _STEPS[drive.goes_round] * _FINER_STEPS
+        self.grid = np.linspace(*self.driver_range, count + 1)
         values, failed = self._run(self.grid)
         own = np.asarray(drive.positions, dtype=float)
         own_values, own_failed = self._run(own)
         self.values = np.hstack((values, own_values))
-        able, mine = self.grid[failed < 0][::_LOOKS], own[own_failed < 0]
+        able, mine = self.grid[failed < 0][::_FINER_STEPS], own[own_failed < 0]
         if not (able.size or mine.size):
             failure = self.sweep.failure(float(own[0]))
             raise AssemblyError(str(failure) if failure is not None else "no position exists")
@@ -396,7 +396,7 @@ class LiveScene:
         self.shown = Solution(self.problem, positions=chosen.tolist(), scales=unit)
         self.start = float(mine[0] if mine.size else able[0])
         if drive.goes_round:
-            self.start %= self.way[1]
+            self.start %= self.driver_range[1]
 
     def _run(self, positions: Array) -> tuple[Array, Array]:
         """Return the outputs in some positions, and the first guard that fails, or -1.
@@ -434,7 +434,7 @@ class LiveScene:
 
     # Boxes -----------------------------------------------------------------------------------
 
-    def _fit(self) -> None:
+    def _fit_views(self) -> None:
         """Choose the box and the scale of every view; the scheme has that of its parts."""
         for view in self.views:
             view.scale = self.scales[kind_of(view)]
@@ -474,20 +474,20 @@ class LiveScene:
 
     def reasons(self) -> list[str]:
         """Return for every guard of the tape why a position has no results if it fails."""
-        said = self.words.live
+        texts = self.language.live
         sentences = {
-            PlanKind.POSITION: said.no_place,
-            PlanKind.FORCE: said.no_forces,
-            PlanKind.LEVER: said.no_forces,
+            PlanKind.POSITION: texts.no_place,
+            PlanKind.FORCE: texts.no_forces,
+            PlanKind.LEVER: texts.no_forces,
         }
         held: dict[Name, str] = {
-            step.out: said.not_held.format(link=link_of_axis(step))
+            step.out: texts.not_held.format(link=link_of_axis(step))
             for step in self.sweep.program.steps
-            if isinstance(step, Hold)
+            if isinstance(step, TriadPose)
         }
         return [
             held.get(step)
-            or sentences.get(kind, said.dead).format(point=point_name(step.partition("~")[0]))
+            or sentences.get(kind, texts.dead).format(point=point_name(step.partition("~")[0]))
             for step, kind in self.sweep.guards
         ]
 
@@ -509,6 +509,6 @@ def _box(places: Array, margin: float) -> tuple[float, float, float, float]:
     low = complex(places.real.min(), places.imag.min())
     high = complex(places.real.max(), places.imag.max())
     middle, size = (low + high) / 2, high - low
-    width = 2 * margin + max(size.real, SHAPE * (size.imag + 2 * margin) - 2 * margin, LEAST)
+    width = 2 * margin + max(size.real, SHAPE * (size.imag + 2 * margin) - 2 * margin, MIN_WIDTH)
     height = width / SHAPE
     return middle.real - width / 2, -middle.imag - height / 2, width, height

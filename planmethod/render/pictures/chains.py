@@ -19,10 +19,10 @@ from planmethod.mechanism.groups import AssurGroup, Joint, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
 from planmethod.note.narrate.letters import pair_letters
-from planmethod.render.pictures.embedding import Bar, Net, places
+from planmethod.render.pictures.embedding import Bar, SchemeGraph, places
 
 
-class Far(Enum):
+class JointEnd(Enum):
     """Kind of the other side of a joint."""
 
     CHAIN = "chain"  # another link of the same picture
@@ -35,7 +35,7 @@ class Pin(Struct, frozen=True):
 
     node: str
     links: tuple[str, ...]
-    far: Far
+    joint_end: JointEnd
     text: str
     to: str = ""
     count: int = 1
@@ -48,9 +48,9 @@ class DrawnSlide(Struct, frozen=True):
     """
 
     node: str
-    stone: str
+    block: str
     bar: str
-    far: Far
+    joint_end: JointEnd
     text: str
     to: str = ""
     pinned: bool = False
@@ -84,7 +84,7 @@ class Chain(Struct, frozen=True):
     pins: tuple[Pin, ...]
     slides: tuple[DrawnSlide, ...]
     shapes: tuple[Shape, ...]
-    net: Net
+    graph: SchemeGraph
     replacing: frozenset[str] = frozenset()
 
     def shape(self, link: str) -> Shape:
@@ -94,13 +94,13 @@ class Chain(Struct, frozen=True):
 
 def mechanism_chain(mechanism: Mechanism, structure: Structure) -> Chain:
     """Return the chain of the whole mechanism."""
-    seen: list[_Seen] = []
+    seen: list[_ChainJoint] = []
     joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
     for joint in joints:
         ends = links_of(joint)
         own = tuple(link for link in ends if link != FRAME)
-        far = (Far.FRAME, mechanism.frame) if FRAME in ends else (Far.CHAIN,)
-        seen.append(_Seen(joint, own, *far))
+        far = (JointEnd.FRAME, mechanism.frame) if FRAME in ends else (JointEnd.CHAIN,)
+        seen.append(_ChainJoint(joint, own, *far))
     rank = {mechanism.driver: 0.0}
     for k, group in enumerate(structure.groups):
         rank |= dict.fromkeys(group.links, k + 1.0)
@@ -112,82 +112,89 @@ def driver_chain(mechanism: Mechanism) -> Chain:
     driver = mechanism.driver
     joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
     first = next(joint for joint in joints if {FRAME, driver} <= set(links_of(joint)))
-    chain = _chain(mechanism, [_Seen(first, (driver,), Far.FRAME, mechanism.frame)], {driver: 0.0})
+    chain = _chain(
+        mechanism, [_ChainJoint(first, (driver,), JointEnd.FRAME, mechanism.frame)], {driver: 0.0}
+    )
     if isinstance(first, Prismatic):
         return chain
     pin = chain.pins[0].node
     shape = Shape(driver, (pin, f"{pin}>"))
-    net = Net((pin,), low=frozenset((pin,)), bars=(Bar(driver, pin, f"{pin}>"),))
+    net = SchemeGraph((pin,), low=frozenset((pin,)), bars=(Bar(driver, pin, f"{pin}>"),))
     return Chain(chain.pins, (), (shape,), net)
 
 
 def group_chain(mechanism: Mechanism, group: AssurGroup) -> Chain:
     """Return a group taken apart, its outer joints open (структурная группа)."""
     outer: dict[Joint, list[str]] = {}
-    to = {lead.joint: mechanism.called(lead.to) for lead in group.leads}
-    for lead in group.leads:
+    to = {lead.joint: mechanism.called(lead.to) for lead in group.legs}
+    for lead in group.legs:
         outer.setdefault(lead.joint, []).append(lead.link)
-    seen = [_Seen(joint, tuple(own), Far.OPEN, to[joint]) for joint, own in outer.items()]
+    seen = [
+        _ChainJoint(joint, tuple(own), JointEnd.OPEN, to[joint]) for joint, own in outer.items()
+    ]
     for joint in group.inner:
         own = tuple(link for link in links_of(joint) if link in group.links)
-        seen.append(_Seen(joint, own, Far.CHAIN))
+        seen.append(_ChainJoint(joint, own, JointEnd.CHAIN))
     rank = {link: 0.7 * k for k, link in enumerate(group.links)}
     return _chain(mechanism, seen, rank)
 
 
-class _Seen(Struct, frozen=True):
+class _ChainJoint(Struct, frozen=True):
     """Joint of a picture: its links in the picture, and the other side."""
 
     joint: Joint
-    own: tuple[str, ...]
-    far: Far
+    links: tuple[str, ...]
+    joint_end: JointEnd
     to: str = ""
 
 
-def _chain(mechanism: Mechanism, seen: Sequence[_Seen], rank: Mapping[str, float]) -> Chain:
+def _chain(mechanism: Mechanism, joints: Sequence[_ChainJoint], rank: Mapping[str, float]) -> Chain:
     count = dict.fromkeys(rank, 0)
-    for one in seen:
-        for link in one.own:
+    for one in joints:
+        for link in one.links:
             count[link] += 1
     pins = [
         Pin(
             one.joint.point,
-            one.own,
-            one.far,
+            one.links,
+            one.joint_end,
             pair_letters(one.joint.point),
             one.to,
-            len(one.own) - (one.far is Far.CHAIN),
+            len(one.links) - (one.joint_end is JointEnd.CHAIN),
         )
-        for one in seen
+        for one in joints
         if isinstance(one.joint, Revolute)
     ]
-    slides = _slides(mechanism, seen, pins, count)
+    slides = _slides(mechanism, joints, pins, count)
     shapes, between = _shapes(rank, pins, slides)
-    net = _net(pins, slides, shapes, between, rank)
+    net = _build_graph(pins, slides, shapes, between, rank)
     replacing = frozenset(pair.by for pair in mechanism.higher)
     return Chain(tuple(pins), tuple(slides), tuple(shapes), net, replacing)
 
 
 def _slides(
-    mechanism: Mechanism, seen: Sequence[_Seen], pins: Sequence[Pin], count: Mapping[str, int]
+    mechanism: Mechanism,
+    chain_joints: Sequence[_ChainJoint],
+    pins: Sequence[Pin],
+    count: Mapping[str, int],
 ) -> list[DrawnSlide]:
     """Return for every prismatic pair its stone and the node of the rectangle."""
     names = {(p.point, frozenset(p.links)): p.name for p in pairs(mechanism)}
     taken: set[str] = set()
     bars: set[str] = set()
-    found: dict[_Seen, DrawnSlide] = {}
-    sliding = [one for one in seen if isinstance(one.joint, Prismatic)]
+    found: dict[_ChainJoint, DrawnSlide] = {}
+    sliding = [one for one in chain_joints if isinstance(one.joint, Prismatic)]
     # Stones on moving links first: a slider of the frame is also clear at a place of its own.
-    for one in sorted(sliding, key=lambda one: one.far is not Far.CHAIN):
+    for one in sorted(sliding, key=lambda one: one.joint_end is not JointEnd.CHAIN):
         joint = one.joint
         assert isinstance(joint, Prismatic)
-        choices = [link for link in (joint.slider, joint.host) if link in one.own]
+        choices = [link for link in (joint.slider, joint.host) if link in one.links]
         free = [
             (link, pin.node)
             for link in choices
             for pin in pins
             if link in pin.links and count[link] == 2 and pin.node not in taken
-            if one.far is not Far.FRAME or pin.far is Far.CHAIN
+            if one.joint_end is not JointEnd.FRAME or pin.joint_end is JointEnd.CHAIN
         ]
         name = names[joint.pin, frozenset(links_of(joint))]
         if free:
@@ -202,7 +209,7 @@ def _slides(
         bar = next((link for link in choices if link != stone), "")
         bars.add(bar)
         text = "" if free else pair_letters(name)
-        found[one] = DrawnSlide(node, stone, bar, one.far, text, one.to, bool(free))
+        found[one] = DrawnSlide(node, stone, bar, one.joint_end, text, one.to, bool(free))
     return [found[one] for one in sliding]
 
 
@@ -211,13 +218,13 @@ def _shapes(
 ) -> tuple[list[Shape], dict[str, tuple[str, str, float]]]:
     """Return the links' shapes and the nodes that lie on a bar between two others."""
     between: dict[str, tuple[str, str, float]] = {}
-    fixed = {pin.node for pin in pins if pin.far is Far.FRAME}
-    fixed |= {slide.node for slide in slides if slide.far is Far.FRAME}
+    fixed = {pin.node for pin in pins if pin.joint_end is JointEnd.FRAME}
+    fixed |= {slide.node for slide in slides if slide.joint_end is JointEnd.FRAME}
     shapes: list[Shape] = []
     for link in links:
         through = [slide.node for slide in slides if slide.bar == link]
         solid = [pin.node for pin in pins if link in pin.links and pin.node not in through]
-        solid += [s.node for s in slides if s.stone == link and s.node not in solid]
+        solid += [s.node for s in slides if s.block == link and s.node not in solid]
         outline, on = tuple(solid), ""
         tips: list[tuple[str, str]] = []
         if len(solid) == 2 and len(through) == 1:
@@ -250,17 +257,17 @@ def _rests_on(
     return False
 
 
-def _net(
+def _build_graph(
     pins: Sequence[Pin],
     slides: Sequence[DrawnSlide],
     shapes: Sequence[Shape],
     between: Mapping[str, tuple[str, str, float]],
     rank: Mapping[str, float],
-) -> Net:
+) -> SchemeGraph:
     """Return the graph to be embedded."""
     members: dict[str, list[str]] = {pin.node: list(pin.links) for pin in pins}
     for slide in slides:
-        members.setdefault(slide.node, []).extend(x for x in (slide.stone, slide.bar) if x)
+        members.setdefault(slide.node, []).extend(x for x in (slide.block, slide.bar) if x)
     for shape in shapes:
         for start, _ in shape.tips:
             members.setdefault(start, [shape.link])
@@ -288,21 +295,21 @@ def _net(
             tip = f"{shape.link}:{stone}>"
             everywhere[tip] = (start, stone, 1.4)
             bars += [Bar(shape.link, start, stone), Bar(shape.link, stone, tip, 0.6)]
-    low = {pin.node for pin in pins if pin.far is Far.FRAME}
-    low |= {slide.node for slide in slides if slide.far is Far.FRAME}
+    low = {pin.node for pin in pins if pin.joint_end is JointEnd.FRAME}
+    low |= {slide.node for slide in slides if slide.joint_end is JointEnd.FRAME}
     wish = {
         node: 1.6 * sum(rank[link] for link in links) / len(links)
         for node, links in members.items()
     }
     every: tuple[Pin | DrawnSlide, ...] = (*pins, *slides)
-    opened = {joint.node for joint in every if joint.far is Far.OPEN}
-    return Net(
+    opened = {joint.node for joint in every if joint.joint_end is JointEnd.OPEN}
+    return SchemeGraph(
         tuple(node for node in members if node not in between),
         frozenset(low),
         everywhere,
         tuple(bars),
         tuple(faces),
-        frozenset(slide.node for slide in slides if slide.far is Far.FRAME),
+        frozenset(slide.node for slide in slides if slide.joint_end is JointEnd.FRAME),
         wish,
         frozenset(opened),
     )
@@ -320,7 +327,7 @@ def textbook_places(chain: Chain) -> dict[str, complex] | None:
     if chain.slides or len(base) != 1 or len(base) + len(bars) != len(chain.shapes):
         return None
     corners = base[0].outline
-    if any(pin.far is Far.OPEN for pin in chain.pins if pin.node in corners):
+    if any(pin.joint_end is JointEnd.OPEN for pin in chain.pins if pin.node in corners):
         return None
     # Three legs extend from the corners of the base link (трёхповодковая группа).
     found: dict[str, complex] = {}
@@ -330,34 +337,34 @@ def textbook_places(chain: Chain) -> dict[str, complex] | None:
             if corner in bar.outline:
                 end = next(node for node in bar.outline if node != corner)
                 found[end] = 2.2 * exp(1j * radians(turn - 14.0))
-    return found if set(found) == set(chain.net.nodes) else None
+    return found if set(found) == set(chain.graph.nodes) else None
 
 
 def _dyad(chain: Chain) -> dict[str, complex] | None:
     """Return the places of a dyad's joints, from the left to the right."""
     joints: tuple[Pin | DrawnSlide, ...] = (*chain.pins, *chain.slides)
-    outer = [joint for joint in joints if joint.far is Far.OPEN]
-    inner = next(joint for joint in joints if joint.far is Far.CHAIN)
+    outer = [joint for joint in joints if joint.joint_end is JointEnd.OPEN]
+    inner = next(joint for joint in joints if joint.joint_end is JointEnd.CHAIN)
     if len(outer) != 2 or len({joint.node for joint in outer}) != 2:
         return None
     outer.sort(key=lambda joint: isinstance(joint, DrawnSlide))
     first, last = outer
     if isinstance(inner, Pin) and inner.node not in (first.node, last.node):
         top = 1.1 + 1.25j if isinstance(last, Pin) else 1.2 + 1.0j
-        return _if_whole(chain, {first.node: 0j, inner.node: top, last.node: 2.3 + 0j})
+        return _complete_places(chain, {first.node: 0j, inner.node: top, last.node: 2.3 + 0j})
     if isinstance(inner, Pin):
         # The inner pin is on one of the sliders; the other is at the end of an arm.
         own, other = (first, last) if inner.node == first.node else (last, first)
         from_left = {own.node: 1.7 + 0j, other.node: 1.15j}
         mirrored = {own.node: 1.15j, other.node: 1.7 + 0j}
-        return _if_whole(chain, from_left if own is last else mirrored)
+        return _complete_places(chain, from_left if own is last else mirrored)
     if isinstance(last, DrawnSlide):
-        return _if_whole(chain, {last.node: 0j, inner.node: 1.5j})
+        return _complete_places(chain, {last.node: 0j, inner.node: 1.5j})
     if inner.node in (first.node, last.node):
-        return _if_whole(chain, {first.node: 0j, last.node: 1.7 + 1.15j})
+        return _complete_places(chain, {first.node: 0j, last.node: 1.7 + 1.15j})
     return None
 
 
-def _if_whole(chain: Chain, found: dict[str, complex]) -> dict[str, complex] | None:
-    """Return the places of all nodes if ``found`` has exactly the free ones, otherwise None."""
-    return places(chain.net, found) if set(found) == set(chain.net.nodes) else None
+def _complete_places(chain: Chain, free: dict[str, complex]) -> dict[str, complex] | None:
+    """Return the places of all nodes if ``free`` has exactly the free ones, otherwise None."""
+    return places(chain.graph, free) if set(free) == set(chain.graph.nodes) else None

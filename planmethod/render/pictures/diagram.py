@@ -27,13 +27,13 @@ AXIS = "diagram axis"
 CURVE = "diagram curve"
 """Tags of the axes, and of the curves (with the curve's letter)."""
 
-_BEYOND = 8.0  # mm: extension of an axis beyond the curves
+_EXTENSION = 8.0  # mm: extension of an axis beyond the curves
 _TICK = 1.2  # mm: half of a tick
-_APART = 11.0  # mm: between the numbers of the axis of ordinates
-_RAYS_APART = 18.0  # mm: the same if rays end on it
+_NUMBER_SPACING = 11.0  # mm: between the numbers of the axis of ordinates
+_RAY_NUMBER_SPACING = 18.0  # mm: the same if rays end on it
 _HEAD = 4.0  # mm: arrowhead of an axis
-_BESIDE_AXIS = 25.0  # mm: nearer to the axis of ordinates curves avoid their letters
-_BESIDE_NUMBERS = 8.0  # mm: a curve below this has its letter above it
+_AXIS_CLEARANCE = 25.0  # mm: nearer to the axis of ordinates curves avoid their letters
+_NUMBERS_CLEARANCE = 8.0  # mm: a curve below this has its letter above it
 _DASHED = 20.0  # mm: shorter parts of a curve show no dashes
 _DOT = 0.7  # mm: a position that is a part of a curve alone
 _MARK = 1.3  # mm: half of a mark
@@ -59,19 +59,19 @@ class Ordinates(Struct, frozen=True):
 
     name: str
     per_mm: float
-    say: Notation
+    notation: Notation
 
 
 class Abscissae(Struct, frozen=True):
     """Axis of abscissae: its name at the arrow, the drawn positions (mm) and their numbers.
 
-    It extends ``beyond`` the curves, mm.
+    It extends ``extension`` the curves, mm.
     """
 
     name: str
     at: tuple[float, ...]
     numbers: tuple[str, ...]
-    beyond: float = _BEYOND
+    extension: float = _EXTENSION
 
 
 def mark_items(mark: Mark, at: complex) -> list[Item]:
@@ -87,8 +87,8 @@ def mark_items(mark: Mark, at: complex) -> list[Item]:
 
 
 def diagram_picture(
-    across: Abscissae,
-    up: Ordinates,
+    x_axis: Abscissae,
+    y_axis: Ordinates,
     curves: Sequence[Curve],
     marks: Iterable[tuple[Mark, complex]] = (),
     *,
@@ -116,22 +116,24 @@ def diagram_picture(
     places = [place for curve in curves for part in curve.parts for place in part]
     heights = [0.0, *(place.imag for place in places)]
     low, high = min(heights), max(heights)
-    far = max([*across.at, *(place.real for place in places)])
+    far = max([*x_axis.at, *(place.real for place in places)])
     size = max(2.5, 0.7 * letter_height)
-    items = [*_axes(across, up, (low, high, far), letter_height), *construction]
-    ordinates = _ordinates(up, low, high, apart=_RAYS_APART if labels else _APART)
+    items = [*_axes(x_axis, y_axis, (low, high, far), letter_height), *construction]
+    ordinates = _ordinates(
+        y_axis, low, high, spacing=_RAY_NUMBER_SPACING if labels else _NUMBER_SPACING
+    )
     for y, number in ordinates:
         items.append(Stroke((complex(-_TICK, y), complex(_TICK, y)), Pen.THIN, tag=AXIS))
         if not labels:
             text = typeset(number, size)
             items += text.at(complex(-_TICK - 1.2 - text.width, y - size / 2))
-    for x in across.at:
+    for x in x_axis.at:
         items.append(Stroke((complex(x, -_TICK), complex(x, _TICK)), Pen.THIN, tag=AXIS))
     for curve in curves:
         items += _curve_items(curve)
     for mark, at in marks:
         items += mark_items(mark, at)
-    every = _every(across.at, 2.0 * size)
+    every = _every(x_axis.at, 2.0 * size)
     numbers = [
         Label(
             typeset(number, size),
@@ -140,25 +142,25 @@ def diagram_picture(
             gap=1.6,
             name=f"{name}: position {k}",
         )
-        for k, (x, number) in enumerate(zip(across.at, across.numbers, strict=True))
+        for k, (x, number) in enumerate(zip(x_axis.at, x_axis.numbers, strict=True))
         if number and k % every == 0
     ]
     values = [
         Label(typeset(number, size), 1j * y, prefer=1 + 0j, gap=1.6, name=f"{name}: value {number}",
-              manner=BUSY)
+              style=BUSY)
         for y, number in (ordinates if labels else ())
     ]  # fmt: skip
     return lettered(items, [*numbers, *values, *labels, *_letters(curves, letter_height, name)])
 
 
-def _every(at: Sequence[float], least: float) -> int:
-    """Return the step of numbered positions with gaps of at least ``least`` mm."""
+def _every(at: Sequence[float], min_gap: float) -> int:
+    """Return the step of numbered positions with gaps of at least ``min_gap`` mm."""
     gaps = [abs(end - start) for start, end in pairwise(sorted(at)) if end != start]
-    return max(1, ceil(least / min(gaps, default=least) - 1e-9))
+    return max(1, ceil(min_gap / min(gaps, default=min_gap) - 1e-9))
 
 
 def _axes(
-    across: Abscissae, up: Ordinates, reach: tuple[float, float, float], height: float
+    x_axis: Abscissae, y_axis: Ordinates, reach: tuple[float, float, float], height: float
 ) -> list[Item]:
     """Return both axes with arrows and names, extended beyond the curves.
 
@@ -166,24 +168,26 @@ def _axes(
     """
     low, high, far = reach
     # If all curves are below the axis of abscissae, the upper arrow keeps clear of its numbers.
-    right, top = far + across.beyond, max(high + _BEYOND, 3.0 * height)
+    right, top = far + x_axis.extension, max(high + _EXTENSION, 3.0 * height)
     items: list[Item] = [
         Stroke((0j, complex(right - _HEAD / 2, 0.0)), Pen.THIN, tag=AXIS),
         Stroke((complex(0.0, low), complex(0.0, top - _HEAD / 2)), Pen.THIN, tag=AXIS),
         *arrowhead(complex(right, 0.0), 1 + 0j, length=_HEAD, tag=AXIS),
         *arrowhead(complex(0.0, top), 1j, length=_HEAD, tag=AXIS),
     ]
-    name = typeset(across.name, height)
+    name = typeset(x_axis.name, height)
     items += name.at(complex(right - name.width, name.descent + 2.5))
-    return [*items, *typeset(up.name, height).at(complex(2.5, top - height))]
+    return [*items, *typeset(y_axis.name, height).at(complex(2.5, top - height))]
 
 
-def _ordinates(up: Ordinates, low: float, high: float, *, apart: float) -> list[tuple[float, str]]:
+def _ordinates(
+    y_axis: Ordinates, low: float, high: float, *, spacing: float
+) -> list[tuple[float, str]]:
     """Return heights of round numbers on the axis of ordinates, without zero."""
-    step = series_near(apart * up.per_mm, up=True)
-    first, last = low * up.per_mm / step, high * up.per_mm / step
+    step = series_near(spacing * y_axis.per_mm, up=True)
+    first, last = low * y_axis.per_mm / step, high * y_axis.per_mm / step
     return [
-        (k * step / up.per_mm, up.say.number(trimmed(k * step, 4)))
+        (k * step / y_axis.per_mm, y_axis.notation.number(trimmed(k * step, 4)))
         for k in range(ceil(first - 1e-9), floor(last + 1e-9) + 1)
         if k
     ]
@@ -230,13 +234,17 @@ def _letters(curves: Sequence[Curve], height: float, name: str) -> list[Label]:
         )
         off = others - places[:, None]
         gaps = np.where(np.abs(off.real) < 6.0, np.abs(off.imag), np.inf).min(1, initial=np.inf)
-        near_axis = np.maximum(0.0, _BESIDE_AXIS - places.real)  # the axis has its own name there
+        near_axis = np.maximum(
+            0.0, _AXIS_CLEARANCE - places.real
+        )  # the axis has its own name there
         alone = np.where(gaps < np.inf, gaps, 99.0) + 0.2 * np.abs(places.imag) - near_axis
         at = complex(places[np.argmax(alone)])
         beside = others[np.abs(others.real - at.real) < 6.0].imag
         above, below = np.sum(beside < at.imag), np.sum(beside >= at.imag)
         # The numbers of the positions are along the axis.
-        up = (above >= below if len(others) else at.imag >= 0) or 0.0 <= at.imag < _BESIDE_NUMBERS
+        up = (
+            above >= below if len(others) else at.imag >= 0
+        ) or 0.0 <= at.imag < _NUMBERS_CLEARANCE
         labels.append(
             Label(
                 typeset(curve.symbol, height),
@@ -245,7 +253,7 @@ def _letters(curves: Sequence[Curve], height: float, name: str) -> list[Label]:
                 gap=1.5,
                 priority=1,
                 name=f"{name}: curve {k}",
-                manner=BUSY,
+                style=BUSY,
             )
         )
     return labels

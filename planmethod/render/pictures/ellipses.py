@@ -16,7 +16,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Fill, Item, Pen, Stroke
 from planmethod.render.ink.style import PENS
 from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.reading import Reals, remembered
+from planmethod.solved.reading import Reals, memoized
 from planmethod.solved.scaling import extent, plan_extent
 from planmethod.solved.solution import Solution
 
@@ -44,15 +44,15 @@ _CORNERS = 64
 class Ellipses(Struct, frozen=True):
     """Ellipses of one view, and the facts for its inscription.
 
-    ``strained`` means that some are dashed, ``too_large`` that some are larger than half of the
-    view, ``undefined`` that linear error propagation gives no ellipse somewhere; ``enlarged`` is
-    the enlargement of the ellipses relative to the view.
+    ``has_nonlinear`` means that some are dashed, ``has_oversized`` that some are larger than half
+    of the view, ``undefined`` that linear error propagation gives no ellipse somewhere;
+    ``enlarged`` is the enlargement of the ellipses relative to the view.
     """
 
     strokes: tuple[Stroke, ...] = ()
     enlarged: int = 1
-    strained: bool = False
-    too_large: bool = False
+    has_nonlinear: bool = False
+    has_oversized: bool = False
     undefined: bool = False
 
     @property
@@ -90,10 +90,10 @@ def ellipse(centre: complex, covariance: Reals, pen: Pen = Pen.THIN) -> Stroke:
     return Stroke(points, pen, closed=True, tag=TAG)
 
 
-@remembered
+@memoized
 def error_ellipses(solution: Solution, kind: PlanKind, index: int) -> Ellipses:
     """Return the ellipses of a view's moving points in one position."""
-    scheme, per_mm = kind is PlanKind.POSITION, solution.own_scale(kind, index).per_mm
+    scheme, per_mm = kind is PlanKind.POSITION, solution.plan_scale(kind, index).per_mm
     construction, si = solution.construction, solution.si
     size = extent(construction, si, kind) if scheme else plan_extent(construction, si, kind, index)
     return shown_ellipses(
@@ -111,7 +111,7 @@ def shown_ellipses(
     places: Mapping[PointName, complex],
     size: float,
     *,
-    share: float = 1.0,
+    magnification: float = 1.0,
     enlarged: Sequence[int] = (1,),
 ) -> Ellipses:
     """Return the ellipses around some points of a view in one position.
@@ -129,12 +129,12 @@ def shown_ellipses(
         Places of the points on the drawing, mm.
     size : float, mm
         Size of the view.
-    share : float
+    magnification : float
         Enlargement of the view relative to the drawing that ``errors`` belong to.
     enlarged : sequence of int
         Enlargements to choose from, the largest first; the last is 1.
     """
-    found = {point: errors.ellipse(point, index) * share**2 for point in places}
+    found = {point: errors.ellipse(point, index) * magnification**2 for point in places}
     known = {point: each for point, each in found.items() if np.isfinite(each).all()}
     across = {point: 2 * SIGMAS * half_axes(each)[0] for point, each in known.items()}
     shown = [point for point in known if across[point] <= READABLE * size]
@@ -143,15 +143,15 @@ def shown_ellipses(
     strokes: list[Stroke] = []
     for point in shown:
         if across[point] * times > PENS[Pen.THIN].width:
-            pen = Pen.HIDDEN if errors.strained(point)[index] else Pen.THIN
+            pen = Pen.HIDDEN if errors.flag_unreliable(point)[index] else Pen.THIN
             stroke = ellipse(places[point], known[point] * times**2, pen)
-            if not any(_alike(stroke, other) for other in strokes):
+            if not any(_coincide(stroke, other) for other in strokes):
                 strokes.append(stroke)
     return Ellipses(
         tuple(strokes),
         times,
-        strained=any(stroke.pen is Pen.HIDDEN for stroke in strokes),
-        too_large=len(shown) < len(known),
+        has_nonlinear=any(stroke.pen is Pen.HIDDEN for stroke in strokes),
+        has_oversized=len(shown) < len(known),
         undefined=len(known) < len(found),
     )
 
@@ -170,32 +170,32 @@ def _places(solution: Solution, kind: PlanKind, index: int) -> Iterator[tuple[Po
         yield point, complex(solution.paper.point(point)[index])
 
 
-def _alike(one: Stroke, two: Stroke) -> bool:
+def _coincide(one: Stroke, two: Stroke) -> bool:
     """Return whether two ellipses would coincide on the drawing."""
     return all(abs(p - q) < 0.02 for p, q in zip(one.points, two.points, strict=True))
 
 
 def ellipse_inscription(
-    solution: Solution, kind: PlanKind, indices: Sequence[int], words: Language
+    solution: Solution, kind: PlanKind, indices: Sequence[int], language: Language
 ) -> list[str]:
     """Return the lines that explain the ellipses of a view."""
     shown = [error_ellipses(solution, kind, i) for i in indices]
-    return told_ellipses(shown, solution.profile, words)
+    return describe_ellipses(shown, solution.profile, language)
 
 
-def told_ellipses(shown: Sequence[Ellipses], profile: Profile, words: Language) -> list[str]:
+def describe_ellipses(shown: Sequence[Ellipses], profile: Profile, language: Language) -> list[str]:
     """Return the lines that explain some ellipses for a drafting profile."""
-    said = words.sheets
-    hand = words.note["profiles"].get(profile.name, profile.name)
-    if not any(view.strokes or view.too_large or view.undefined for view in shown):
-        return [said.ellipses_thin.format(sigmas=SIGMAS, profile=hand)]
+    texts = language.sheets
+    hand = language.note["profiles"].get(profile.name, profile.name)
+    if not any(view.strokes or view.has_oversized or view.undefined for view in shown):
+        return [texts.ellipses_thin.format(sigmas=SIGMAS, profile=hand)]
     enlarged = max(view.enlarged for view in shown)
-    head = said.ellipses_enlarged if enlarged > 1 else said.ellipses
+    head = texts.ellipses_enlarged if enlarged > 1 else texts.ellipses
     lines = [head.format(sigmas=SIGMAS, times=enlarged, profile=hand)]
-    if any(view.strained for view in shown):
-        lines.append(said.ellipses_strained)
-    if any(view.too_large for view in shown):
-        lines.append(said.ellipses_large)
+    if any(view.has_nonlinear for view in shown):
+        lines.append(texts.ellipses_strained)
+    if any(view.has_oversized for view in shown):
+        lines.append(texts.ellipses_large)
     if any(view.undefined for view in shown):
-        lines.append(said.ellipses_undefined)
+        lines.append(texts.ellipses_undefined)
     return lines

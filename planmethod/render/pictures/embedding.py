@@ -26,8 +26,8 @@ _ROWS = (1.0, 1.5, 2.0, 2.5, 3.0)
 
 _CROSSING = 40.0
 _CLOSE = 30.0  # per unit of missing distance
-_NODE_ROOM = 1.0  # between two joints
-_BAR_ROOM = 0.6  # between a joint and a bar of another link
+_MIN_NODE_GAP = 1.0  # between two joints
+_MIN_BAR_GAP = 0.6  # between a joint and a bar of another link
 _SHORTEST = 0.9
 _ACUTE = 0.78  # cosine of the least angle between two bars in a joint
 _ALTITUDE = 0.85  # least height of a triangle
@@ -42,7 +42,7 @@ class Bar(Struct, frozen=True):
     length: float = 1.7
 
 
-class Net(Struct, frozen=True):
+class SchemeGraph(Struct, frozen=True):
     """Graph to be embedded (граф структурной схемы).
 
     Attributes
@@ -75,60 +75,60 @@ class Net(Struct, frozen=True):
     spread: frozenset[str] = frozenset()
 
 
-def places(net: Net, free: Mapping[str, complex]) -> dict[str, complex]:
+def places(graph: SchemeGraph, free: Mapping[str, complex]) -> dict[str, complex]:
     """Return the places of all nodes from those of the free ones, grid units."""
     found = dict(free)
-    for name, (start, end, part) in net.between.items():
+    for name, (start, end, part) in graph.between.items():
         found[name] = found[start] + part * (found[end] - found[start])
     return found
 
 
-def embed(net: Net) -> dict[str, complex]:
+def embed(graph: SchemeGraph) -> dict[str, complex]:
     """Find a place for every node (укладка графа), grid units.
 
     Coordinate descent over a grid from several starts; the best result counts. The same net gives
     the same places: the starts come from a fixed seed.
     """
-    if len(net.nodes) == 1:
-        return places(net, {net.nodes[0]: 0j if net.low else 1j})
-    judge = _Judge(net)
-    widest = max([*net.wish.values(), 1.0]) + 1.0
+    if len(graph.nodes) == 1:
+        return places(graph, {graph.nodes[0]: 0j if graph.low else 1j})
+    judge = _LayoutCost(graph)
+    widest = max([*graph.wish.values(), 1.0]) + 1.0
     xs = np.arange(0.0, widest + 2.0 + 1e-9, _STEP)
-    high = np.asarray(_ROWS if net.low else (0.0, 0.5, *_ROWS))
+    high = np.asarray(_ROWS if graph.low else (0.0, 0.5, *_ROWS))
     grid = (xs[:, None] + 1j * high[None, :]).ravel()
     row = xs.astype(np.complex128)
     random = Random(1)
     best: Complexes | None = None
     least = np.inf
     for start in range(_STARTS):
-        free = np.array([_start(net, name, random if start else None) for name in net.nodes])
-        free, cost = _descend(net, judge, free, row, grid)
+        free = np.array([_start(graph, name, random if start else None) for name in graph.nodes])
+        free, cost = _descend(graph, judge, free, row, grid)
         if cost < least - 1e-6:
             best, least = free, cost
     assert best is not None
-    return places(net, {name: complex(z) for name, z in zip(net.nodes, best, strict=True)})
+    return places(graph, {name: complex(z) for name, z in zip(graph.nodes, best, strict=True)})
 
 
-def _start(net: Net, name: str, random: Random | None) -> complex:
-    x = net.wish.get(name, 0.0)
-    y = 0.0 if name in net.low else 1.5
+def _start(graph: SchemeGraph, name: str, random: Random | None) -> complex:
+    x = graph.wish.get(name, 0.0)
+    y = 0.0 if name in graph.low else 1.5
     if random is not None:
         x += 3.0 * (random.random() - 0.5)
-        y = 0.0 if name in net.low else 1.0 + 2.0 * random.random()
+        y = 0.0 if name in graph.low else 1.0 + 2.0 * random.random()
     return complex(max(0.0, round(x / _STEP) * _STEP), round(y / _STEP) * _STEP)
 
 
 def _descend(
-    net: Net, judge: _Judge, free: Complexes, row: Complexes, grid: Complexes
+    graph: SchemeGraph, layout_cost: _LayoutCost, free: Complexes, row: Complexes, grid: Complexes
 ) -> tuple[Complexes, float]:
     """Move one node after another to its cheapest place until the cost no longer falls."""
-    cost = float(judge.costs(free[None, :])[0])
+    cost = float(layout_cost.costs(free[None, :])[0])
     for _ in range(_SWEEPS):
         before = cost
-        for k, name in enumerate(net.nodes):
-            tries = np.repeat(free[None, :], len(row if name in net.low else grid), axis=0)
-            tries[:, k] = row if name in net.low else grid
-            costs = judge.costs(tries)
+        for k, name in enumerate(graph.nodes):
+            tries = np.repeat(free[None, :], len(row if name in graph.low else grid), axis=0)
+            tries[:, k] = row if name in graph.low else grid
+            costs = layout_cost.costs(tries)
             pick = int(np.argmin(np.round(costs, 6)))
             if costs[pick] < cost - 1e-6:
                 free, cost = tries[pick], float(costs[pick])
@@ -137,26 +137,26 @@ def _descend(
     return free, cost
 
 
-class _Judge:
+class _LayoutCost:
     """Cost of many layouts at once (оценка укладки): arrays of shape (layouts, nodes)."""
 
-    def __init__(self, net: Net) -> None:
-        names = [*net.nodes, *net.between]
+    def __init__(self, graph: SchemeGraph) -> None:
+        names = [*graph.nodes, *graph.between]
         index = {name: k for k, name in enumerate(names)}
-        self.net = net
-        self.weights = _weights(net, index)
-        self.starts = np.array([index[bar.start] for bar in net.bars], dtype=int)
-        self.ends = np.array([index[bar.end] for bar in net.bars], dtype=int)
-        self.lengths = np.array([bar.length for bar in net.bars])
-        ends = [{bar.start, bar.end} for bar in net.bars]
-        couples = list(combinations(range(len(net.bars)), 2))
+        self.graph = graph
+        self.weights = _weights(graph, index)
+        self.starts = np.array([index[bar.start] for bar in graph.bars], dtype=int)
+        self.ends = np.array([index[bar.end] for bar in graph.bars], dtype=int)
+        self.lengths = np.array([bar.length for bar in graph.bars])
+        ends = [{bar.start, bar.end} for bar in graph.bars]
+        couples = list(combinations(range(len(graph.bars)), 2))
         apart = [(s, t) for s, t in couples if not ends[s] & ends[t]]
-        self.apart = np.array(apart, dtype=int).reshape(-1, 2)
+        self.separate_bars = np.array(apart, dtype=int).reshape(-1, 2)
         # Two bars that meet: +1 where the bar starts in the common node, -1 where it ends there.
         meet = [
-            (s, t, _way(net.bars[s], node), _way(net.bars[t], node))
+            (s, t, _end_sign(graph.bars[s], node), _end_sign(graph.bars[t], node))
             for s, t in couples
-            if net.bars[s].link != net.bars[t].link
+            if graph.bars[s].link != graph.bars[t].link
             for node in ends[s] & ends[t]
         ]
         self.meet = np.array(meet, dtype=int).reshape(-1, 4)
@@ -166,29 +166,31 @@ class _Judge:
         near = [
             (index[name], s)
             for name in names
-            for s, bar in enumerate(net.bars)
-            if name not in ends[s] and not _of_same(net, name, bar)
+            for s, bar in enumerate(graph.bars)
+            if name not in ends[s] and not _is_collinear(graph, name, bar)
         ]
         self.near = np.array(near, dtype=int).reshape(-1, 2)
-        self.flat = np.array([s for s, bar in enumerate(net.bars) if ends[s] & net.flat], dtype=int)
+        self.flat = np.array(
+            [s for s, bar in enumerate(graph.bars) if ends[s] & graph.flat], dtype=int
+        )
         self.faces = [
             tuple(index[name] for name in (face[0], face[k], face[k + 1]))
-            for face in net.faces
+            for face in graph.faces
             for k in range(1, len(face) - 1)
         ]
         inside = [
-            (f, s, _way(bar, node))
+            (f, s, _end_sign(bar, node))
             for f, face in enumerate(self.faces)
-            for s, bar in enumerate(net.bars)
+            for s, bar in enumerate(graph.bars)
             for node in ends[s]
             if index[node] in face and not {index[n] for n in ends[s]} <= set(face)
         ]
         self.inside = inside
-        wished = [name for name in net.nodes if name in net.wish]
+        wished = [name for name in graph.nodes if name in graph.wish]
         self.wished = np.array([index[name] for name in wished], dtype=int)
-        self.wishes = np.array([net.wish[name] for name in wished])
-        self.high = np.array([index[n] for n in net.nodes if n not in net.low], dtype=int)
-        self.open = np.array([index[n] for n in net.nodes if n in net.spread], dtype=int)
+        self.wishes = np.array([graph.wish[name] for name in wished])
+        self.high = np.array([index[n] for n in graph.nodes if n not in graph.low], dtype=int)
+        self.open = np.array([index[n] for n in graph.nodes if n in graph.spread], dtype=int)
 
     def costs(self, free: Complexes) -> Floats:
         """Return the cost of each layout of the free nodes, an array of shape (layouts,)."""
@@ -212,16 +214,16 @@ class _Judge:
         return total
 
     def _crossings(self, a: Complexes, b: Complexes) -> Floats:
-        s, t = self.apart[:, 0], self.apart[:, 1]
+        s, t = self.separate_bars[:, 0], self.separate_bars[:, 1]
         p, q, r, u = a[:, s], b[:, s], a[:, t], b[:, t]
         one = _turn(p, q, r) * _turn(p, q, u)
         two = _turn(r, u, p) * _turn(r, u, q)
         found: Floats = _CROSSING * ((one < 0) & (two < 0)).sum(axis=1)
         return found
 
-    def _angles(self, along: Complexes) -> Floats:
+    def _angles(self, directions: Complexes) -> Floats:
         s, t = self.meet[:, 0], self.meet[:, 1]
-        u, v = along[:, s] * self.meet[:, 2], along[:, t] * self.meet[:, 3]
+        u, v = directions[:, s] * self.meet[:, 2], directions[:, t] * self.meet[:, 3]
         cosine = (u * v.conjugate()).real
         acute = np.maximum(0.0, cosine - _ACUTE) / (1 - _ACUTE)
         # Two links in one straight line look like one link.
@@ -229,15 +231,15 @@ class _Judge:
         found: Floats = (12.0 * acute + 1.5 * straight).sum(axis=1)
         return found
 
-    def _closeness(self, z: Complexes, a: Complexes, way: Complexes, size: Floats) -> Floats:
+    def _closeness(self, z: Complexes, a: Complexes, vectors: Complexes, size: Floats) -> Floats:
         gaps = np.abs(z[:, self.pairs[:, 0]] - z[:, self.pairs[:, 1]])
-        total: Floats = _CLOSE * np.maximum(0.0, _NODE_ROOM - gaps).sum(axis=1)
+        total: Floats = _CLOSE * np.maximum(0.0, _MIN_NODE_GAP - gaps).sum(axis=1)
         node, s = self.near[:, 0], self.near[:, 1]
-        along = way[:, s] / size[:, s]
+        along = vectors[:, s] / size[:, s]
         from_start = (z[:, node] - a[:, s]) * along.conjugate()
         beyond = from_start.real - np.clip(from_start.real, 0.0, size[:, s])
         distance = np.hypot(beyond, from_start.imag)
-        total += _CLOSE * np.maximum(0.0, _BAR_ROOM - distance).sum(axis=1)
+        total += _CLOSE * np.maximum(0.0, _MIN_BAR_GAP - distance).sum(axis=1)
         return total
 
     def _insides(self, z: Complexes, a: Complexes, b: Complexes) -> Floats:
@@ -256,25 +258,25 @@ class _Judge:
         return total
 
 
-def _weights(net: Net, index: Mapping[str, int]) -> Floats:
+def _weights(graph: SchemeGraph, index: Mapping[str, int]) -> Floats:
     """Return the matrix from the free nodes to all nodes."""
-    count = len(net.nodes)
+    count = len(graph.nodes)
     rows: list[Floats] = list(np.eye(count))
-    for start, end, part in net.between.values():
+    for start, end, part in graph.between.values():
         rows.append((1 - part) * rows[index[start]] + part * rows[index[end]])
     return np.array(rows)
 
 
-def _way(bar: Bar, node: str) -> int:
+def _end_sign(bar: Bar, node: str) -> int:
     return 1 if bar.start == node else -1
 
 
-def _of_same(net: Net, name: str, bar: Bar) -> bool:
+def _is_collinear(graph: SchemeGraph, name: str, bar: Bar) -> bool:
     """Return whether a node lies on the line of a bar by construction."""
     ends = {bar.start, bar.end}
-    if name in net.between and ends & set(net.between[name][:2]):
+    if name in graph.between and ends & set(graph.between[name][:2]):
         return True
-    return any(name in net.between[end][:2] for end in ends if end in net.between)
+    return any(name in graph.between[end][:2] for end in ends if end in graph.between)
 
 
 def _turn(p: Complexes, q: Complexes, r: Complexes) -> Floats:
@@ -283,7 +285,7 @@ def _turn(p: Complexes, q: Complexes, r: Complexes) -> Floats:
     return area
 
 
-def turned_outwards(names: Sequence[str], at: Mapping[str, complex]) -> tuple[str, ...]:
+def sort_around(names: Sequence[str], at: Mapping[str, complex]) -> tuple[str, ...]:
     """Return nodes in the order of their directions from their middle (обход контура)."""
     middle = sum(at[name] for name in names) / len(names)
     return tuple(sorted(names, key=lambda name: float(np.angle(at[name] - middle))))

@@ -6,7 +6,7 @@ from math import radians
 
 import numpy as np
 
-from planmethod.note.narrate.turn import radius_names
+from planmethod.note.narrate.cycle import radius_names
 from planmethod.plans.draft import cis
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
@@ -28,19 +28,24 @@ _LEVELS = np.arange(12.0, 60.0, 3.0)  # mm from the guide to the dimension of th
 _CLEAR = 2.5  # mm: a closer dimension line crowds a line of the scheme
 
 
-def construction_items(made: ExtremesConstruction, height: float) -> tuple[list[Item], list[Label]]:
+def construction_items(
+    construction: ExtremesConstruction, height: float
+) -> tuple[list[Item], list[Label]]:
     """Return thin lines and the names of the radii, mm of the scheme.
 
     The links drawn in these positions are the radii and tangents themselves.
     """
     items: list[Item] = []
     labels: list[Label] = []
-    pivot = made.place(made.pivot)
-    crank, total, less = radius_names(made)
+    pivot = construction.place(construction.pivot)
+    crank, total, less = radius_names(construction)
     for k, prime in enumerate(PRIMES):
-        pin, end = made.place(f"{made.pin}{prime}"), made.place(f"{made.end}{prime}")
-        if made.locus is Locus.TANGENTS:
-            centre = made.place(made.centre)
+        pin, end = (
+            construction.place(f"{construction.pin}{prime}"),
+            construction.place(f"{construction.end}{prime}"),
+        )
+        if construction.locus is Locus.TANGENTS:
+            centre = construction.place(construction.centre)
             along, inward = ((p - pin) / abs(p - pin) for p in (centre, pivot))
             corner = (along * _RIGHT, (along + inward) * _RIGHT, inward * _RIGHT)
             items.append(Stroke(tuple(pin + one for one in corner), Pen.THIN, tag=EXTREME))
@@ -49,13 +54,13 @@ def construction_items(made: ExtremesConstruction, height: float) -> tuple[list[
             radius, turn = abs(end - pivot), float(np.angle(end - pivot))
             half = min(_NOTCH / radius, radians(30.0))
             items.append(Arc(pivot, radius, turn - half, turn + half, Pen.THIN, EXTREME))
-            name = total if made.far[k] else less
+            name = total if construction.sum_arcs[k] else less
             ends = (pivot + 0.25 * (end - pivot), end)
-        if k and made.locus is Locus.TANGENTS:
+        if k and construction.locus is Locus.TANGENTS:
             continue  # both radii are the crank's
         labels.append(
-            Label(typeset(name, height), sum(ends) / 2, along=ends, gap=0.8,
-                  prefer=1j * (ends[1] - ends[0]), name=f"{EXTREME} {k}", manner=BUSY)
+            Label(typeset(name, height), sum(ends) / 2, segment=ends, gap=0.8,
+                  prefer=1j * (ends[1] - ends[0]), name=f"{EXTREME} {k}", style=BUSY)
         )  # fmt: skip
     return items, labels
 
@@ -81,7 +86,7 @@ def stroke_items(
         out = complex(outs[int(np.argmin(costs))])
         along = (ends[0] + out, ends[1] + out)
         label = Label(typeset("H", height), sum(along) / 2, along, out, gap=0.8, priority=3,
-                      name=f"{STROKE} H", manner=BUSY)  # fmt: skip
+                      name=f"{STROKE} H", style=BUSY)  # fmt: skip
         return dimension(*ends, out, tag=STROKE), [label]
     centre = paths.pivot(point)
     assert centre is not None
@@ -92,5 +97,5 @@ def stroke_items(
     best = float(radii[int(np.argmin(nearness(places, there, _CLEAR).sum(axis=1)))])
     middle = cis(float(np.degrees(low + high)) / 2)
     label = Label(typeset("ψ", height), centre + best * middle, prefer=middle, gap=0.8, priority=3,
-                  name=f"{STROKE} ψ", manner=BUSY)  # fmt: skip
+                  name=f"{STROKE} ψ", style=BUSY)  # fmt: skip
     return angle_dimension(centre, best, low, high, tag=STROKE), [label]

@@ -11,14 +11,14 @@ import numpy as np
 
 from planmethod.construct.scale import series_near
 from planmethod.construct.steps import PointName
-from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.narrate.machine import MachineNarrator
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead
-from planmethod.solved.enlarging import RATIOS
+from planmethod.solved.detail_views import RATIOS
 from planmethod.solved.machine.drawing import FlywheelDrawing
 
 _BEYOND, _HEAD, _TICK = 10.0, 4.0, 1.2  # mm: an axis beyond its diagram, its arrowhead, a tick
@@ -29,17 +29,19 @@ _WIDEST, _ABOVE = 130.0, 26.0  # mm: width of the enlarged curve; distance from 
 _STEP = 0.01  # rad: between points of an exact curve
 
 
-def construction_picture(drawing: FlywheelDrawing, tell: MachineTeller, letter: float) -> Picture:
+def construction_picture(
+    drawing: FlywheelDrawing, narrator: MachineNarrator, letter: float
+) -> Picture:
     """Return the diagrams of the construction, mm; ``letter`` is the height of its letters."""
-    return _Sketch(drawing, tell, letter).picture()
+    return _Sketch(drawing, narrator, letter).picture()
 
 
 class _Sketch:
     """Draws the diagrams, mm of the construction."""
 
-    def __init__(self, drawing: FlywheelDrawing, tell: MachineTeller, letter: float) -> None:
-        self.drawing, self.tell, self.height = drawing, tell, letter
-        self.made, self.size = drawing.made, max(2.5, 0.7 * letter)
+    def __init__(self, drawing: FlywheelDrawing, narrator: MachineNarrator, letter: float) -> None:
+        self.drawing, self.narrator, self.height = drawing, narrator, letter
+        self.made, self.size = drawing.construction, max(2.5, 0.7 * letter)
         self.items: list[Item] = []
         self.labels: list[Label] = []
 
@@ -50,14 +52,15 @@ class _Sketch:
         return [self.at(name) for name in names]
 
     def picture(self) -> Picture:
-        made, tell = self.made, self.tell
+        made, narrator = self.made, self.narrator
         length = self.drawing.length
         feet = {key: self.at(axes.origin) for key, axes in made.axes.items()}
-        units = {"M": tell.moment + f", {tell.unit('N·m')}", "A": f"A, {tell.unit('J')}",
-                 "T": f"{tell.letter('energy gain')}, {tell.unit('J')}",
-                 "J": f"{tell.letter('reduced inertia')}, {tell.unit('kg·m²')}",
-                 "T_II": f"{tell.letter('second energy')}, {tell.unit('J')}",
-                 "T_I": f"{tell.letter('first energy')}, {tell.unit('J')}"}  # fmt: skip
+        units = {"M": f"{narrator.moment}, {narrator.unit('N·m')}",
+                 "A": f"A, {narrator.unit('J')}",
+                 "T": f"{narrator.letter('energy gain')}, {narrator.unit('J')}",
+                 "J": f"{narrator.letter('reduced inertia')}, {narrator.unit('kg·m²')}",
+                 "T_II": f"{narrator.letter('second energy')}, {narrator.unit('J')}",
+                 "T_I": f"{narrator.letter('first energy')}, {narrator.unit('J')}"}  # fmt: skip
         points = {"M": made.moments, "A": made.work, "T": made.energies, "J": made.inertias}
         if self.drawing.by_mertsalov:
             points |= {"T_II": made.second, "T_I": made.curve}
@@ -81,39 +84,39 @@ class _Sketch:
 
     # Parts -----------------------------------------------------------------------------------
 
-    def _thin(self, *points: complex, pen: Pen = Pen.THIN) -> None:
+    def _thin_line(self, *points: complex, pen: Pen = Pen.THIN) -> None:
         self.items.append(Stroke(points, pen, tag="diagram construction"))
 
     def _axes(
         self,
-        foot: complex,
+        origin: complex,
         right: float,
         ordinates: Sequence[float],
-        up: str,
-        across: str,
+        y_name: str,
+        x_name: str,
         *,
         left: bool = False,
     ) -> None:
         """Draw the axes of a diagram; ``left``: the name of the ordinates is left of them."""
         low, high = min([0.0, *ordinates]), max([0.0, *ordinates])
-        tip, top = foot + right + _BEYOND, foot + 1j * (high + _BEYOND)
+        tip, top = origin + right + _BEYOND, origin + 1j * (high + _BEYOND)
         self.items += [
-            Stroke((foot, tip - _HEAD / 2), Pen.THIN, tag="diagram axis"),
-            Stroke((foot + 1j * low, top - 1j * _HEAD / 2), Pen.THIN, tag="diagram axis"),
+            Stroke((origin, tip - _HEAD / 2), Pen.THIN, tag="diagram axis"),
+            Stroke((origin + 1j * low, top - 1j * _HEAD / 2), Pen.THIN, tag="diagram axis"),
             *arrowhead(tip, 1 + 0j, length=_HEAD, tag="diagram axis"),
             *arrowhead(top, 1j, length=_HEAD, tag="diagram axis"),
         ]
-        self._label(across, tip - 2.0, -1j, f"axis {up}", large=True)
-        name = typeset(up, self.height)
+        self._label(x_name, tip - 2.0, -1j, f"axis {y_name}", large=True)
+        name = typeset(y_name, self.height)
         beside = -name.width - 3.0 if left else 2.5
         self.items += name.at(top + complex(beside, -self.height))
 
-    def _numbers(self, key: str, foot: complex, ordinates: Sequence[float]) -> None:
+    def _numbers(self, key: str, origin: complex, ordinates: Sequence[float]) -> None:
         count = self.drawing.count
         step = self.drawing.length / count
         every = next(n for n in (1, 2, 3, 4, 6, 12, count) if n * step >= 3.0 * self.size)
         for k, number in enumerate(self.drawing.flywheel.turn.numbers(count)):
-            place = foot + k * step
+            place = origin + k * step
             self.items.append(
                 Stroke((place - 1j * _TICK, place + 1j * _TICK), Pen.THIN, tag="diagram axis")
             )
@@ -127,7 +130,7 @@ class _Sketch:
         size = self.height if large else self.size
         self.labels.append(
             Label(typeset(text, size), at, prefer=prefer, gap=1.4, name=f"flywheel {name}",
-                  priority=int(large), manner=BUSY)
+                  priority=int(large), style=BUSY)
         )  # fmt: skip
 
     def _curve(self, parts: Iterable[Sequence[complex]], letter: str, pen: Pen = Pen.MAIN) -> None:
@@ -136,7 +139,7 @@ class _Sketch:
     def _dots(self, places: Sequence[complex]) -> None:
         self.items += [Disc(place, _POINT, Ink.BLACK, "diagram point") for place in places]
 
-    def _moment(self, foot: complex) -> None:
+    def _moment(self, origin: complex) -> None:
         flywheel, drawing = self.drawing.flywheel, self.drawing
         scales, made = drawing.scales, self.made
         pieces: list[list[complex]] = []
@@ -145,7 +148,7 @@ class _Sketch:
             at = np.linspace(low, high, max(int((high - low) / _STEP), 1) + 1)
             inside = np.clip(at, low + 1e-9, high - 1e-9)
             heights = flywheel.sign * flywheel.moment.value(inside) / scales.moment
-            piece = [foot + complex(t / scales.phi, y) for t, y in zip(at, heights, strict=True)]
+            piece = [origin + complex(t / scales.phi, y) for t, y in zip(at, heights, strict=True)]
             if pieces and abs(pieces[-1][-1] - piece[0]) < 0.05:
                 pieces[-1] += piece[1:]
             else:
@@ -161,33 +164,33 @@ class _Sketch:
         for k in range(drawing.count):
             cut = self.at(PointName(f"A cut {k}"))
             cuts.append(cut)
-            self._thin(pole, cut)
+            self._thin_line(pole, cut)
         for place in self.places(made.middles):
-            self._thin(complex(place.real, foot.imag), place)
-            self._thin(complex(foot.real, place.imag), place)
+            self._thin_line(complex(place.real, origin.imag), place)
+            self._thin_line(complex(origin.real, place.imag), place)
         self._dots([pole])
         self._label("P", pole, -1.0, "pole", large=True)
         below = min(z.imag for z in cuts) - 6.0
-        self._dimension(complex(pole.real, foot.imag), foot, below, "H_{A}")
+        self._dimension(complex(pole.real, origin.imag), origin, below, "H_{A}")
         constant = float(drawing.points.work[-1]) / flywheel.cycle / scales.moment
-        level = foot + 1j * constant
-        self._thin(level, level + length, pen=Pen.HIDDEN)
-        keeps = self.tell.letter(f"{self.tell.keeps} moment")
+        level = origin + 1j * constant
+        self._thin_line(level, level + length, pen=Pen.HIDDEN)
+        keeps = self.narrator.letter(f"{self.narrator.keeps} moment")
         self._label(keeps, level + 0.9 * length, 1j, "constant", large=True)
 
     def _dimension(self, tail: complex, head: complex, low: float, letter: str) -> None:
         """Draw a dimension along +x, at a height."""
         low = min(low, tail.imag - 6.0)
         one, two = complex(tail.real, low), complex(head.real, low)
-        self._thin(tail, one - 2j)
-        self._thin(head, two - 2j)
-        self._thin(one, two)
+        self._thin_line(tail, one - 2j)
+        self._thin_line(head, two - 2j)
+        self._thin_line(one, two)
         self.items += [*arrowhead(one, -1 + 0j, length=3.0), *arrowhead(two, 1 + 0j, length=3.0)]
         text = typeset(letter, self.size)
         above = 1.0 + 0.5 * self.size * ("_" in letter)  # an index hangs below its letter
         self.items += text.at((one + two) / 2 + complex(-text.width / 2, above))
 
-    def _work(self, foot: complex) -> None:
+    def _work(self, origin: complex) -> None:
         places = self.places(self.made.work)
         self._curve([places], "A")
         self._dots(places)
@@ -196,26 +199,26 @@ class _Sketch:
         along = places[0] + (places[-1] - places[0]) * 0.62
         side = 1j if (places[third] - places[0]).imag < (along - places[0]).imag / 2 else -1j
         self._label(
-            self.tell.letter(f"{self.tell.keeps} work"), along, side, "straight", large=True
+            self.narrator.letter(f"{self.narrator.keeps} work"), along, side, "straight", large=True
         )
         k = 2 * len(places) // 3
-        self._label(self.tell.work, places[k], -side, "work", large=True)
+        self._label(self.narrator.work, places[k], -side, "work", large=True)
         numbers = self.drawing.flywheel.turn.numbers(self.drawing.count)
         for k in range(1, len(places) - 1):
             level, number = self.at(PointName(f"D {k}")), numbers[k]
-            self._thin(level, places[k])
+            self._thin_line(level, places[k])
             side = 1j if places[k].imag > level.imag else -1j
             self._label(f"{number}''", places[k], side, f"A {number}")
 
     def _ordinates(
-        self, key: str, upright: Sequence[PointName], names: Sequence[PointName], foot: complex
+        self, key: str, upright: Sequence[PointName], names: Sequence[PointName], origin: complex
     ) -> None:
         """Draw a smooth curve through points, with the ordinates of some of them."""
         places = self.places(names)
         self._curve([_smooth(places)], key)
         self._dots(places)
         for place in self.places(upright):
-            self._thin(complex(place.real, foot.imag), place)
+            self._thin_line(complex(place.real, origin.imag), place)
 
     def _differences(self, feet: dict[str, complex]) -> None:
         """Mark the highest and the lowest point of dT_I, and AB between their levels."""
@@ -223,49 +226,49 @@ class _Sketch:
         ends = self.at(made.upper), self.at(made.lower)
         right = foot.real + self.drawing.length + 2.0 * _BEYOND
         for letter, end, side in zip(made.letters, ends, (1j, -1j), strict=True):
-            self._thin(end, complex(right + 2.0, end.imag))
+            self._thin_line(end, complex(right + 2.0, end.imag))
             self.items.append(Disc(end, 1.5 * _POINT, Ink.BLACK, letter))
             self._label(letter, end, side, letter, large=True)
         high, low = (complex(right, end.imag) for end in ends)
-        self._thin(low, high)
+        self._thin_line(low, high)
         self.items += [*arrowhead(high, 1j, length=3.0), *arrowhead(low, -1j, length=3.0)]
         self._label(made.segment, (high + low) / 2, 1.0, made.segment, large=True)
         start = self.drawing.second_start
         for key, energy in (("T_II", start), ("T_I", -start)) if start else ():
-            told = f"{self.tell.say.short(energy, 4)} {self.tell.unit('J')}"
-            self._label(told, feet[key], -1.0, f"start of {key}")
+            text = f"{self.narrator.notation.short(energy, 4)} {self.narrator.unit('J')}"
+            self._label(text, feet[key], -1.0, f"start of {key}")
 
     def _inertia(self, feet: dict[str, complex]) -> None:
         made = self.made
         places = self.places(made.inertias)
         self._curve([_smooth(places)], "J")
         self._dots(places)
-        turned, curve = self.places(made.turned), self.places(made.curve)
+        turned, curve = self.places(made.diagonal), self.places(made.curve)
         corner = complex(feet["E"].real, feet["J"].imag)
         reach = max((spot - corner).real for spot in turned) + 6.0
-        self._thin(corner, corner + reach * (1 + 1j))
+        self._thin_line(corner, corner + reach * (1 + 1j))
         self._label("45°", corner + reach * (1 + 1j), 1.0, "45")
         for place, spot, point in zip(places, turned, curve, strict=False):
-            self._thin(complex(place.real, feet["J"].imag), place)
-            self._thin(place, spot)
-            self._thin(spot, point)
+            self._thin_line(complex(place.real, feet["J"].imag), place)
+            self._thin_line(place, spot)
+            self._thin_line(spot, point)
         for place, point in zip(self.places(made.energies), curve, strict=False):
-            self._thin(place, point)
+            self._thin_line(place, point)
 
-    def _energy_mass(self, foot: complex) -> None:
-        made, tell = self.made, self.tell
+    def _energy_mass(self, origin: complex) -> None:
+        made, narrator = self.made, self.narrator
         curve = self.places(made.curve)
-        width = max((z - foot).real for z in curve)
+        width = max((z - origin).real for z in curve)
         upper, lower = self.at(made.upper), self.at(made.lower)
-        heights = [(z - foot).imag for z in (*curve, upper, lower)]
-        up = f"{tell.letter('energy gain')}, {tell.unit('J')}"
-        self._axes(foot, width + 8.0, heights, up, tell.letter("reduced inertia"), left=True)
+        heights = [(z - origin).imag for z in (*curve, upper, lower)]
+        up = f"{narrator.letter('energy gain')}, {narrator.unit('J')}"
+        self._axes(origin, width + 8.0, heights, up, narrator.letter("reduced inertia"), left=True)
         self._curve([_smooth([*curve, curve[0]])], "E")
         self._dots(curve)
         every = max(1, self.drawing.count // 12)
         middle = sum(curve) / len(curve)
         numbers = self.drawing.flywheel.turn.numbers(self.drawing.count)
-        if self._enlarge(foot + 1j * max(heights), curve, numbers):
+        if self._enlarge(origin + 1j * max(heights), curve, numbers):
             numbers = numbers[:1]
         told: list[complex] = []
         for k, (place, number) in enumerate(zip(curve, numbers, strict=False)):
@@ -286,7 +289,7 @@ class _Sketch:
             self.items.append(Stroke((cut, beyond), Pen.MAIN, tag="diagram tangent"))
             self.items.append(Disc(cut, _POINT, Ink.BLACK, letter))
             self._label(letter, cut, -1.0, letter, large=True)
-            psi = f"ψ_{{{name}}} = {tell._angle(self.drawing.psi[number])}°"
+            psi = f"ψ_{{{name}}} = {narrator._angle(self.drawing.psi[number])}°"
             self._label(psi, beyond, 1j if number == 0 else 1.0, f"psi {name}")
 
     def _enlarge(self, below: complex, curve: Sequence[complex], numbers: Sequence[int]) -> bool:
@@ -302,7 +305,7 @@ class _Sketch:
         fitting = [n for n in RATIOS if n * width <= _WIDEST and n * height <= room]
         if not fitting:
             return False
-        times, say, tell = fitting[-1], self.tell.say, self.tell
+        times, notation, narrator = fitting[-1], self.narrator.notation, self.narrator
         low = complex(min(z.real for z in curve), min(z.imag for z in curve))
         corner = below + complex(_BEYOND, _ABOVE)
         larger = [corner + times * (z - low) for z in curve]
@@ -317,19 +320,23 @@ class _Sketch:
                 self._label(str(number), place, place - middle, f"enlarged {number}")
         level = corner.imag - 8.0
         end = corner.real + times * width + _BEYOND
-        self._thin(complex(corner.real - _BEYOND, level), complex(end, level))
+        self._thin_line(complex(corner.real - _BEYOND, level), complex(end, level))
         self.items += arrowhead(complex(end, level), 1 + 0j, length=_HEAD, tag="diagram axis")
-        self._label(tell.letter("reduced inertia"), complex(end - 2.0, level), -1j, "enlarged J")
+        self._label(
+            narrator.letter("reduced inertia"), complex(end - 2.0, level), -1j, "enlarged J"
+        )
         inertia = self.drawing.points.inertia
         first, last = float(np.min(inertia)), float(np.max(inertia))
         step = series_near((last - first) / 3.0, up=True)
         for n in range(int(np.ceil(first / step)), int(np.floor(last / step)) + 1):
             x = corner.real + times * (n * step - first) / self.drawing.scales.inertia
-            self._thin(complex(x, level - _TICK), complex(x, level + _TICK))
-            told = say.given(float(f"{n * step:.6g}"))
+            self._thin_line(complex(x, level - _TICK), complex(x, level + _TICK))
+            told = notation.as_input(float(f"{n * step:.6g}"))
             self._label(told, complex(x, level), -1j, f"enlarged J {n}")
-        text = tell.said.loop.format(
-            times=say.given(times), letter=tell.letter("reduced inertia"), unit=tell.unit("kg·m²")
+        text = narrator.texts.loop.format(
+            times=notation.as_input(times),
+            letter=narrator.letter("reduced inertia"),
+            unit=narrator.unit("kg·m²"),
         )
         heading = complex(corner.real - _BEYOND, corner.imag + times * height + 2.5 * self.height)
         self.items += typeset(text, self.size).at(heading)

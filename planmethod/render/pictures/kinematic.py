@@ -11,7 +11,7 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import PointName
-from planmethod.note.narrate.turn import output_symbol
+from planmethod.note.narrate.cycle import output_symbol
 from planmethod.note.numbers import Notation
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke, shifted
 from planmethod.render.ink.extent import ink_bounds
@@ -22,18 +22,18 @@ from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diag
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.turn.diagrams import Diagrams, Graph, smooth
 
-FOUND = "diagram point"
+POINT_TAG = "diagram point"
 """Tag of a found point of a diagram, followed by the diagram: ``diagram point v``."""
 
 EXACT = "exact"
 """Letter of the thin exact curves in their tags."""
 
 _NUMBERED = 12  # largest number of positions with numbers on rays and all axes
-_APART = 4.0  # mm between two diagrams
+_DIAGRAM_GAP = 4.0  # mm between two diagrams
 _CLEAR = 3.2  # mm between numbers of rays on the axis
 
 
-def kinematic_picture(diagrams: Diagrams, letter_height: float, say: Notation) -> Picture:
+def kinematic_picture(diagrams: Diagrams, letter_height: float, notation: Notation) -> Picture:
     """Return the three diagrams, mm; the origin is that of the path.
 
     The points have the places of the construction over their axes.
@@ -43,8 +43,8 @@ def kinematic_picture(diagrams: Diagrams, letter_height: float, say: Notation) -
     trace = evaluate(graph.program, dict(graph.data), Float64())
     pictures = [
         diagram_picture(
-            _across(diagrams, numbered=not number or diagrams.count <= _NUMBERED),
-            Ordinates(f"{symbol}, {say.units[unit]}", scale.per_mm, say),
+            _x_axis(diagrams, numbered=not number or diagrams.count <= _NUMBERED),
+            Ordinates(f"{symbol}, {notation.units[unit]}", scale.per_mm, notation),
             _curves(diagrams, graph, trace, number),
             letter_height=letter_height,
             name=f"diagram {'sva'[number]}",
@@ -56,7 +56,7 @@ def kinematic_picture(diagrams: Diagrams, letter_height: float, say: Notation) -
     items: list[Item] = []
     low = 0.0
     for number, picture in enumerate(pictures):
-        moved = 0.0 if not number else low - _APART - picture.bounds[3]
+        moved = 0.0 if not number else low - _DIAGRAM_GAP - picture.bounds[3]
         items += shifted(picture.items, 1j * moved)
         low = moved + picture.bounds[1]
     return Picture(tuple(items), ink_bounds(items))
@@ -65,19 +65,19 @@ def kinematic_picture(diagrams: Diagrams, letter_height: float, say: Notation) -
 def _axes(diagrams: Diagrams) -> Iterator[tuple[str, str, Scale]]:
     """Yield symbol, unit and scale of each ordinate."""
     scales = {scale.symbol: scale for scale in diagrams.scales}
-    symbol = output_symbol(diagrams.turn.output)
+    symbol = output_symbol(diagrams.cycle.output)
     index = symbol.partition("_")[2]
-    letters = ("φ", "ω", "ε") if diagrams.turn.output.slide is None else ("s", "v", "a")
+    letters = ("φ", "ω", "ε") if diagrams.cycle.output.slide is None else ("s", "v", "a")
     for letter, name in zip(letters, ("mu_s", "mu_v", "mu_a"), strict=True):
         if name in scales:
             yield f"{letter}_{index}", scales[name].unit, scales[name]
 
 
-def _across(diagrams: Diagrams, *, numbered: bool) -> Abscissae:
+def _x_axis(diagrams: Diagrams, *, numbered: bool) -> Abscissae:
     """Return the axis of φ; with many positions only the first diagram has numbers."""
     # In a range the axis ends with its last position.
-    at = diagrams.x(diagrams.shares)[: None if diagrams.turn.range is None else -1]
-    names = diagrams.turn.numbers
+    at = diagrams.x(diagrams.fractions)[: None if diagrams.cycle.range is None else -1]
+    names = diagrams.cycle.numbers
     numbers = [str(names[k % diagrams.count]) if numbered else "" for k in range(len(at))]
     return Abscissae("φ", tuple(at.tolist()), tuple(numbers))
 
@@ -129,7 +129,7 @@ def _construction(graph: Graph, trace: Trace, number: int) -> list[Item]:
     else:
         for (_, tail), (_, head) in pairwise(there):
             items.append(Stroke((tail, head), Pen.THIN, tag="diagram chord"))
-    dots = (Disc(place, 0.7, Ink.BLACK, f"{FOUND} {axes.name}") for _, place in there)
+    dots = (Disc(place, 0.7, Ink.BLACK, f"{POINT_TAG} {axes.name}") for _, place in there)
     return [*items, *dots]
 
 
@@ -156,7 +156,7 @@ def _letters(
     if len(graph.points[number]) > _NUMBERED:
         return labels
     size, taken = max(2.5, 0.5 * height), [0.0]
-    names, first = diagrams.turn.numbers, float(diagrams.x(diagrams.shares)[0])
+    names, first = diagrams.cycle.numbers, float(diagrams.x(diagrams.fractions)[0])
     ends = int(graph.at[number][0] - first > 1e-6 * diagrams.length)
     for k in range(len(graph.points[number])):
         name = names[(k + ends) % diagrams.count]
@@ -166,6 +166,6 @@ def _letters(
             ray = pole + (cut - pole) * 0.86
             labels.append(
                 Label(typeset(str(name), size), ray, prefer=1j * (cut - pole), gap=0.4,
-                      name=f"diagram {letter}: ray {name}", manner=BUSY)
+                      name=f"diagram {letter}: ray {name}", style=BUSY)
             )  # fmt: skip
     return labels

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from planmethod.errors import LayoutError
 from planmethod.render.ink.drawing import Fill, Item
 from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.labels import BESIDE, Label, Placed, place_labels, spare_labels
+from planmethod.render.labels import SIDE_GAP, Label, Placed, place_labels, spare_labels
 from planmethod.render.layout.block import Picture
 
-ROOMS = (26.0, 60.0)
+MARGINS = (26.0, 60.0)
 """Margins around a picture for its letters, mm: the larger if the smaller has no free place."""
 
 LONGEST = 50_000.0
@@ -18,7 +18,7 @@ LONGEST = 50_000.0
 scales may be finer, and plans next to a dead position are many times larger."""
 
 
-def refuse_long(left: float, low: float, right: float, high: float) -> None:
+def reject_oversized(left: float, low: float, right: float, high: float) -> None:
     """Reject a picture that fits no paper before time and memory are spent on it.
 
     Raises
@@ -48,9 +48,9 @@ def lettered(
     are labels that are left out if they have no free place within the picture.
     """
     left, low, right, high = ink_bounds(items)
-    refuse_long(left, low, right, high)
+    reject_oversized(left, low, right, high)
     for hidden in (clear, ()) if clear else ((),):
-        for room in ROOMS:
+        for room in MARGINS:
             bounds = (left - room, low - room, right + room, high + room)
             placed = place_labels(labels, [*items, *hidden], bounds)
             if all(label.free for label in placed):
@@ -59,15 +59,17 @@ def lettered(
             continue
         break
     whole = [*items, *(item for label in placed for item in label.items())]
-    for label in spare_labels(welcome, [*whole, *clear, *map(_beside, placed)], ink_bounds(whole)):
+    for label in spare_labels(
+        welcome, [*whole, *clear, *map(_keep_out_area, placed)], ink_bounds(whole)
+    ):
         whole += label.items()
     return Picture(tuple(whole), ink_bounds(whole))
 
 
-def _beside(placed: Placed) -> Fill:
+def _keep_out_area(placed: Placed) -> Fill:
     """Return the area around a label that must stay free for it to be read alone."""
     left, low, right, high = placed.bounds
-    left, right = left - BESIDE, right + BESIDE
+    left, right = left - SIDE_GAP, right + SIDE_GAP
     return Fill(
         (complex(left, low), complex(right, low), complex(right, high), complex(left, high))
     )

@@ -15,10 +15,10 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
+from planmethod.solved.driver_path import DriverPath
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.travel import Travel
-from planmethod.solved.turn.turn import turn_of
+from planmethod.solved.turn.cycle import crank_cycle_of
 
 TRAJECTORY = "trajectory"
 """Tag of the line that a point moves along: ``trajectory B``."""
@@ -30,7 +30,9 @@ Further off the line would fit no sheet: a dead position lies between two drawn 
 """
 
 _FLAT = 0.02  # mm off its chord: a straight line on the paper
-_THIN = 0.05  # area of a closed line over that of a circle as long: it has no inside below that
+_MIN_ROUNDNESS = (
+    0.05  # area of a closed line over that of a circle as long: it has no inside below that
+)
 
 
 class Paths(Struct, frozen=True, dict=True):
@@ -39,14 +41,14 @@ class Paths(Struct, frozen=True, dict=True):
     solution: Solution
 
     @cached_property
-    def course(self) -> Travel:
+    def driver_path(self) -> DriverPath:
         """The driver positions that the lines go through."""
-        return Travel(self.solution)
+        return DriverPath(self.solution)
 
     @cached_property
     def _between(self) -> Solution:
         s = self.solution
-        return s.moved(self.course.positions.tolist()).drawn_at(s.scales)
+        return s.with_positions(self.driver_path.positions.tolist()).drawn_at(s.scales)
 
     @cached_property
     def _trace(self) -> dict[str, Complexes]:
@@ -111,7 +113,7 @@ class Paths(Struct, frozen=True, dict=True):
         ring = np.append(way, way[0])
         area = float(np.sum((np.conj(ring[:-1]) * ring[1:]).imag)) / 2
         length = float(np.sum(np.abs(np.diff(ring))))
-        if self.course.closed and abs(area) > _THIN * length**2 / (2 * tau):
+        if self.driver_path.closed and abs(area) > _MIN_ROUNDNESS * length**2 / (2 * tau):
             side = -1j if area > 0 else 1j
         else:
             bend = float(np.sum((np.conj(np.diff(way)[:-1]) * np.diff(way)[1:]).imag))
@@ -130,7 +132,7 @@ class Paths(Struct, frozen=True, dict=True):
         """Last link of the groups that is joined with the frame, and its moving point."""
         s = self.solution
         if s.problem.cycle is not None:
-            output = turn_of(s).output
+            output = crank_cycle_of(s).output
             return output.link, output.point
         bodies, fixed = s.problem.bodies, s.problem.bodies[FRAME].points
         on_frame = {
@@ -154,8 +156,8 @@ class Paths(Struct, frozen=True, dict=True):
         """
         if self.output is None:
             return ()
-        if self.course.closed and self.solution.problem.drive.goes_round:
-            turn = turn_of(self.solution)
+        if self.driver_path.closed and self.solution.problem.drive.goes_round:
+            turn = crank_cycle_of(self.solution)
             whole = turn.period
             return tuple(sorted(round(end.phi % whole, 9) % whole for end in turn.ends or ()))
         link, point = self.output
@@ -183,9 +185,9 @@ class Paths(Struct, frozen=True, dict=True):
         bend = a - 2 * b + c
         if abs(bend) < 1e-12:
             return None
-        step = float(self.course.positions[1] - self.course.positions[0])
+        step = float(self.driver_path.positions[1] - self.driver_path.positions[0])
         # The vertex of the parabola through three places.
-        return float(self.course.positions[k]) + step * (a - c) / (2 * bend)
+        return float(self.driver_path.positions[k]) + step * (a - c) / (2 * bend)
 
 
 def _middle(values: Reals) -> float:

@@ -6,25 +6,25 @@ from collections.abc import Mapping
 from math import inf, isfinite
 
 from planmethod.construct.steps import PointName, Similar
-from planmethod.note.narrate.letters import shown_letters
+from planmethod.note.narrate.letters import plan_letters
 from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import NAMING, NEAREST, Label
-from planmethod.render.labels.spots import shared_spots, spot_labels
+from planmethod.render.labels.merged_labels import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
-from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
-from planmethod.render.pictures.enlarged import (
+from planmethod.render.pictures.detail_views import (
     ENLARGED,
-    enlarged_picture,
-    knot_mark,
+    detail_mark,
+    detail_picture,
     placed_in,
     radius_of,
 )
+from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.traces import Shown, plan_traces
 from planmethod.render.symbols import vector_arrow
-from planmethod.solved.reading import remembered
+from planmethod.solved.reading import memoized
 from planmethod.solved.solution import Solution
 
 POLE = "pole"
@@ -55,24 +55,24 @@ def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, Point
 
 
 def plan_places(
-    solution: Solution, kind: PlanKind, index: int, *, by_hand: bool = False
+    solution: Solution, kind: PlanKind, index: int, *, use_ruler: bool = False
 ) -> dict[PointName, complex]:
     """Return the places of the points of a plan in one position, mm from its pole.
 
-    ``by_hand`` selects the plan drawn with the ruler, whose segments are those of the calculation;
-    if one of its points cannot be drawn so, the exact plan.
+    ``use_ruler`` selects the plan drawn with the ruler, whose segments are those of the
+    calculation; if one of its points cannot be drawn so, the exact plan.
     """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
     ends = {e for v in plan.vectors for e in (v.tail, v.head)} | set(plan.letters) | {plan.pole}
-    for reading in (solution.by_hand, solution.paper) if by_hand else (solution.paper,):
+    for reading in (solution.ruler_reading, solution.paper) if use_ruler else (solution.paper,):
         at = {name: complex(reading.point(name)[index]) for name in ends}
         if all(isfinite(abs(place)) for place in at.values()):
             break
     return at
 
 
-@remembered
+@memoized
 def plan_picture(
     solution: Solution,
     kind: PlanKind,
@@ -80,20 +80,20 @@ def plan_picture(
     *,
     letter_height: float = 5.0,
     errors: bool = False,
-    by_hand: bool = False,
+    use_ruler: bool = False,
     traces: Shown = False,
-    knots: tuple[str, ...] = (),
+    detail_letters: tuple[str, ...] = (),
 ) -> Picture:
     """Return a plan in one position as a picture, its own pole at the origin, mm.
 
-    ``errors`` draws the ellipses of the drafting error around its points; ``by_hand`` is explained
-    by `plan_places`, and ``traces`` by `planmethod.render.pictures.traces`. ``knots`` are the
-    letters of the enlarged views beside it, in their order. Cached, since a sheet is tried with
-    fewer positions when it does not fit with more.
+    ``errors`` draws the ellipses of the drafting error around its points; ``use_ruler`` is
+    explained by `plan_places`, and ``traces`` by `planmethod.render.pictures.traces`.
+    ``detail_letters`` are the letters of the enlarged views beside it, in their order. Cached,
+    since a sheet is tried with fewer positions when it does not fit with more.
     """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
-    at = plan_places(solution, kind, index, by_hand=by_hand)
+    at = plan_places(solution, kind, index, use_ruler=use_ruler)
     factor = min(1.0, letter_height / 5.0 + 0.2)
     ellipses = error_ellipses(solution, kind, index) if errors else Ellipses()
     left, directions = plan_traces(solution, kind, index, at, traces)
@@ -102,7 +102,7 @@ def plan_picture(
         if abs(at[head] - at[tail]) > 0.05:
             items.append(Stroke((at[tail], at[head]), Pen.THIN, tag="similar"))
     for vector in plan.vectors:
-        thin = is_thin(vector, kind)
+        thin = is_component(vector, kind)
         items += vector_arrow(
             at[vector.tail],
             at[vector.head],
@@ -111,12 +111,12 @@ def plan_picture(
             tag=vector.kind.value,
         )
     items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag=POLE))
-    enlarged = solution.knots_of(kind, index) if knots else ()
+    enlarged = solution.detail_views_at(kind, index) if detail_letters else ()
     whole = bool(enlarged) and index in solution.small_plans[kind]  # its letters are there
     prefix = f"{kind.value} {index}"
     labels = [] if whole else _labels(solution, plan, at, letter_height, prefix)
-    for knot, letter in zip(enlarged, knots, strict=False):
-        circle, label = knot_mark(knot, at, letter, letter_height)
+    for detail_view, letter in zip(enlarged, detail_letters, strict=False):
+        circle, label = detail_mark(detail_view, at, letter, letter_height)
         items.append(circle)
         labels.append(label)
     names = [] if whole else vector_names(plan, at, letter_height, prefix)
@@ -147,7 +147,7 @@ def vector_names(
             gap=1.2 if large else 0.9,
             name=vector_label(prefix, vector),
             priority=-1,
-            manner=NAMING,
+            style=NAMING,
             optional=True,
         )
         for size, tail, head in sorted(sized)
@@ -161,33 +161,35 @@ def vector_label(prefix: str, vector: Vector) -> str:
     return f"{prefix}: {vector.symbol}"
 
 
-def is_thin(vector: Vector, kind: PlanKind) -> bool:
+def is_component(vector: Vector, kind: PlanKind) -> bool:
     """Return whether a vector is a component, which is drawn thin."""
     return vector.kind in COMPONENTS or (
         vector.kind is VectorKind.SLIDING and kind is PlanKind.ACCELERATION
     )
 
 
-def knot_pictures(
-    solution: Solution, kind: PlanKind, index: int, *, letter_height: float, by_hand: bool
+def detail_pictures(
+    solution: Solution, kind: PlanKind, index: int, *, letter_height: float, use_ruler: bool
 ) -> list[Picture]:
     """Return the enlarged views of the knots of a position's plan."""
     plan = solution.construction.plan(kind)
-    at = plan_places(solution, kind, index, by_hand=by_hand)
-    thin = frozenset((v.tail, v.head) for v in plan.vectors if is_thin(v, kind))
-    letters = shown_letters(solution.problem, plan)
+    at = plan_places(solution, kind, index, use_ruler=use_ruler)
+    thin = frozenset((v.tail, v.head) for v in plan.vectors if is_component(v, kind))
+    letters = plan_letters(solution.problem, plan)
     shortest = 0.0 if index not in solution.small_plans[kind] else inf
     pictures = []
-    for knot in solution.knots_of(kind, index):
-        places = placed_in(knot, at)
+    for detail_view in solution.detail_views_at(kind, index):
+        places = placed_in(detail_view, at)
         names = [
             name
-            for name in vector_names(plan, places, letter_height, f"{ENLARGED} {knot.number}")
-            if name.along is not None
-            and abs(name.along[1] - name.along[0]) < max(shortest, NAMED * knot.times)
-            and max(map(abs, name.along)) < radius_of(knot, at)
+            for name in vector_names(
+                plan, places, letter_height, f"{ENLARGED} {detail_view.number}"
+            )
+            if name.segment is not None
+            and abs(name.segment[1] - name.segment[0]) < max(shortest, NAMED * detail_view.times)
+            and max(map(abs, name.segment)) < radius_of(detail_view, at)
         ]
-        pictures.append(enlarged_picture(plan, knot, at, letters, thin, letter_height, names))
+        pictures.append(detail_picture(plan, detail_view, at, letters, thin, letter_height, names))
     return pictures
 
 
@@ -195,7 +197,7 @@ def _labels(
     solution: Solution, plan: Plan, at: dict[PointName, complex], height: float, prefix: str
 ) -> list[Label]:
     """Return the letters; points that coincide on the paper share one inscription."""
-    letters = shown_letters(solution.problem, plan)
+    letters = plan_letters(solution.problem, plan)
     ordered = sorted(letters.items(), key=lambda pair: pair[0] != plan.pole)
-    spots = shared_spots((at[name], own) for name, own in ordered)
-    return spot_labels(spots, height, f"{prefix}:", manner=NEAREST)
+    spots = merge_letters((at[name], own) for name, own in ordered)
+    return label_merged_letters(spots, height, f"{prefix}:", style=NEAREST)

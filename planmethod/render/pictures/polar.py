@@ -10,7 +10,7 @@ import numpy as np
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.labels.spots import shared_spots, spot_labels
+from planmethod.render.labels.merged_labels import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead
@@ -21,13 +21,13 @@ HODOGRAPH = "hodograph"
 
 POLE = "hodograph pole"
 
-MOST_NUMBERS = 24
+MAX_NUMBERS = 24
 """Largest number of numbered positions: with more, every second or third has a number."""
 
-_BEYOND = 7.0  # mm: extension of the axes beyond the curve
+_EXTENSION = 7.0  # mm: extension of the axes beyond the curve
 _HEAD = 3.5
 _DASHED = 10.0  # mm: a shorter line shows no dashes
-_LEAST = 0.6  # mm: a shorter vector has no ray
+_MIN_VECTOR = 0.6  # mm: a shorter vector has no ray
 
 
 def polar_picture(
@@ -50,12 +50,12 @@ def polar_picture(
     for part in (part for part in parts if len(part) > 1):
         items.append(Stroke(tuple(map(complex, part)), Pen.MAIN, tag=f"{HODOGRAPH} {name}"))
     for before, after in pairwise(parts):
-        if abs(after[0] - before[-1]) > _LEAST:
+        if abs(after[0] - before[-1]) > _MIN_VECTOR:
             jump = (complex(before[-1]), complex(after[0]))
             pen = Pen.HIDDEN if abs(jump[1] - jump[0]) > _DASHED else Pen.THIN
             items.append(Stroke(jump, pen, tag=f"{HODOGRAPH} {name}"))
     for end in map(complex, ends):
-        if abs(end) > _LEAST:
+        if abs(end) > _MIN_VECTOR:
             items.append(Stroke((0j, end), Pen.THIN, tag="hodograph vector"))
             items.append(Disc(end, 0.9, Ink.BLACK, tag="hodograph vector"))
     items.append(Disc(0j, 0.8, Ink.BLACK, tag=POLE))
@@ -69,8 +69,8 @@ def polar_picture(
 
 def _axes(places: Complexes) -> list[Item]:
     """Return the axes through the pole."""
-    left, right = float(places.real.min()) - _BEYOND, float(places.real.max()) + _BEYOND
-    low, high = float(places.imag.min()) - _BEYOND, float(places.imag.max()) + _BEYOND
+    left, right = float(places.real.min()) - _EXTENSION, float(places.real.max()) + _EXTENSION
+    low, high = float(places.imag.min()) - _EXTENSION, float(places.imag.max()) + _EXTENSION
     items: list[Item] = []
     for start, end in ((complex(left, 0), complex(right, 0)), (complex(0, low), complex(0, high))):
         along = (end - start) / abs(end - start)
@@ -96,7 +96,7 @@ def _axis_letters(items: list[Item], height: float, name: str) -> list[Label]:
 
 def _numbers(ends: Complexes, height: float, name: str) -> list[Label]:
     """Return the numbers of the positions at the ends; ends that coincide share one inscription."""
-    every = -(-len(ends) // MOST_NUMBERS)
+    every = -(-len(ends) // MAX_NUMBERS)
     numbered = ((complex(end), [str(k)]) for k, end in enumerate(ends) if k % every == 0)
-    spots = shared_spots(numbered, near=0.5)
-    return spot_labels(spots, height, f"hodograph {name}: position", gap=1.2, manner=BUSY)
+    spots = merge_letters(numbered, near=0.5)
+    return label_merged_letters(spots, height, f"hodograph {name}: position", gap=1.2, style=BUSY)

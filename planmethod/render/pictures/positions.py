@@ -20,22 +20,22 @@ from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.statement import point_name
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Stroke
 from planmethod.render.ink.style import stroke_lines
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import CROWDED, Label
+from planmethod.render.labels import SERIES, Label
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.scheme import Scheme
-from planmethod.solved.crowd import TOGETHER
-from planmethod.solved.room import FEW
+from planmethod.solved.label_density import MERGE_DISTANCE
+from planmethod.solved.sheet_estimate import FEW
 from planmethod.solved.solution import Solution
 
 PRIMES = ("′", "″")
 """Marks of the extreme positions, in the order of the driver's motion."""
 
 _MARK = 0.7  # radius of the circle at a joint in another position, mm
-_LEAST_MARK = 0.45  # the same where circles would overlap, mm
+_MIN_MARK = 0.45  # the same where circles would overlap, mm
 
 
 EVERY = 3
@@ -48,7 +48,7 @@ class Thinned(IntEnum):
     The main position and the extreme ones keep their letters.
     """
 
-    NOTHING = 0
+    NONE = 0
     CENTRES = 1
     """Centres of mass are lettered only in the main position."""
     POINTS = 2
@@ -57,7 +57,7 @@ class Thinned(IntEnum):
     """The points of the driver and the output, too."""
     BETWEEN = 4
     """The points between are lettered only in the main position."""
-    ALONE = 5
+    ALL = 5
     """All are."""
 
 
@@ -66,7 +66,7 @@ class SharedPlace(Struct):
 
     place: complex
     numbers: list[str]
-    bold: bool = False
+    is_main: bool = False
 
 
 class Positions:
@@ -75,7 +75,7 @@ class Positions:
     Parameters
     ----------
     solution : Solution
-    bold : int
+    main : int
         The position that the scheme shows in main lines.
     overlay : tuple of int
         The positions that are shown.
@@ -83,16 +83,16 @@ class Positions:
     """
 
     def __init__(
-        self, solution: Solution, bold: int, overlay: tuple[int, ...], letter_height: float
+        self, solution: Solution, main: int, overlay: tuple[int, ...], letter_height: float
     ) -> None:
         s = self.solution = solution
-        self.bold, self.overlay, self.letter_height = bold, overlay, letter_height
+        self.main, self.overlay, self.letter_height = main, overlay, letter_height
         self.paths = Paths(s)
-        self._spots: dict[str, list[SharedPlace]] = {}
+        self._shared_places: dict[str, list[SharedPlace]] = {}
         extremes = self.paths.extremes if shows_extremes(s, self.overlay) else ()
         # The extreme positions after the others, so that links have the same length in all of them.
         at = [*s.positions.tolist(), *extremes]
-        self.shown = s.moved(at).drawn_at(s.scales) if extremes else s
+        self.shown = s.with_positions(at).drawn_at(s.scales) if extremes else s
         self.numbers = {k: str(k) for k in self.overlay}
         first = len(s.positions)
         self.numbers |= {
@@ -121,31 +121,31 @@ class Positions:
         trace = self.shown.paper
         return complex(trace.point(PointName(point))[index])
 
-    def spots(self, point: str) -> list[SharedPlace]:
+    def shared_places(self, point: str) -> list[SharedPlace]:
         """Return the places of a point, those that coincide on the paper joined."""
-        if point not in self._spots:
-            self._spots[point] = self._found(point)
-        return self._spots[point]
+        if point not in self._shared_places:
+            self._shared_places[point] = self._merge_places(point)
+        return self._shared_places[point]
 
-    def _found(self, point: str) -> list[SharedPlace]:
+    def _merge_places(self, point: str) -> list[SharedPlace]:
         found: list[SharedPlace] = []
         for index, number in self.numbers.items():
             if number in PRIMES and point not in self._turning:
                 continue
             place = self.at(point, index)
-            spot = next((s for s in found if abs(s.place - place) < TOGETHER), None)
+            spot = next((s for s in found if abs(s.place - place) < MERGE_DISTANCE), None)
             if spot is None:
                 spot = SharedPlace(place, [])
                 found.append(spot)
             spot.numbers.append(number)
-            if index == self.bold:
-                spot.place, spot.bold = place, True
+            if index == self.main:
+                spot.place, spot.is_main = place, True
         return found
 
     def places(self) -> list[complex]:
         """Return the places of all moving points in the other positions, mm."""
         return [
-            self.at(p, index) for p in self.points for index in self.numbers if index != self.bold
+            self.at(p, index) for p in self.points for index in self.numbers if index != self.main
         ]
 
     @cached_property
@@ -166,7 +166,7 @@ class Positions:
         """Return the links in the other positions and the lines that the points move along."""
         items: list[Item] = []
         for index in self.numbers:
-            if index != self.bold:
+            if index != self.main:
                 items += self._links(index)
         places = (self.at(point, index) for point in self.points for index in self.numbers)
         shown = np.fromiter(places, complex)
@@ -182,7 +182,7 @@ class Positions:
             scheme.draw_link(link)
         return map(_readable, scheme.lines)
 
-    def marks(self, thinned: Thinned = Thinned.NOTHING) -> list[Item]:
+    def marks(self, thinned: Thinned = Thinned.NONE) -> list[Item]:
         """Return the joints in the other positions: small circles, smaller where they are dense.
 
         Centres of mass without letters there have no circles.
@@ -192,9 +192,9 @@ class Positions:
         for point in self.points:
             if point in left_out:
                 continue
-            places = [spot.place for spot in self.spots(point) if not spot.bold]
+            places = [spot.place for spot in self.shared_places(point) if not spot.is_main]
             apart = min((abs(p - q) for k, p in enumerate(places) for q in places[:k]), default=9.0)
-            radius = min(_MARK, max(_LEAST_MARK, 0.45 * apart))
+            radius = min(_MARK, max(_MIN_MARK, 0.45 * apart))
             for place in places:
                 items += [Disc(place, radius), Arc(place, radius, pen=Pen.THIN)]
         return items
@@ -202,7 +202,7 @@ class Positions:
     # Letters ---------------------------------------------------------------------------------
 
     def labels(
-        self, height: float, *, every: int = 1, thinned: Thinned = Thinned.NOTHING
+        self, height: float, *, every: int = 1, thinned: Thinned = Thinned.NONE
     ) -> list[Label]:
         """Return the letters of all points in all positions, or in each ``every``-th.
 
@@ -211,13 +211,13 @@ class Positions:
         """
         labels: list[Label] = []
         for point in self.points:
-            spots = self.spots(point)
+            spots = self.shared_places(point)
             step = every * self._step(point, thinned)
             ways = self.paths.outward(point, [spot.place for spot in spots])
             for spot, way in zip(spots, ways, strict=True):
                 numbers = [n for n in spot.numbers if n in PRIMES or (step and not int(n) % step)]
-                if spot.bold and str(self.bold) not in numbers:
-                    numbers.append(str(self.bold))
+                if spot.is_main and str(self.main) not in numbers:
+                    numbers.append(str(self.main))
                 if numbers:
                     shown = [] if len(spots) == 1 else numbers
                     labels.append(self._label(point, spot, shown, way, height))
@@ -228,23 +228,31 @@ class Positions:
         if point in self.solution.problem.centres and thinned >= Thinned.CENTRES:
             return 0
         if point in self._turning:
-            last, first = Thinned.ALONE, Thinned.ENDS
+            last, first = Thinned.ALL, Thinned.ENDS
         else:
             last, first = Thinned.BETWEEN, Thinned.POINTS
         return 0 if thinned >= last else EVERY if thinned >= first else 1
 
     def _label(
-        self, point: str, spot: SharedPlace, numbers: Sequence[str], way: complex, height: float
+        self,
+        point: str,
+        spot: SharedPlace,
+        numbers: Sequence[str],
+        direction: complex,
+        height: float,
     ) -> Label:
-        size = max(height, self.letter_height) if spot.bold else height
+        size = max(height, self.letter_height) if spot.is_main else height
         return Label(
-            typeset(written(point, numbers, bold=spot.bold, alone=self._by_number(point)), size),
+            typeset(
+                written(point, numbers, is_main=spot.is_main, numbers_only=self._by_number(point)),
+                size,
+            ),
             spot.place,
-            prefer=way,
-            gap=1.5 if spot.bold else 1.0,
-            priority=1 if spot.bold else 0,
+            prefer=direction,
+            gap=1.5 if spot.is_main else 1.0,
+            priority=1 if spot.is_main else 0,
             name=f"point {point} {','.join(numbers)}",
-            manner=CROWDED,
+            style=SERIES,
             series=point,
         )
 
@@ -261,15 +269,17 @@ def shows_extremes(solution: Solution, indices: Sequence[int]) -> bool:
     return len(indices) > FEW or solution.problem.cycle is not None
 
 
-def written(point: str, numbers: Sequence[str], *, bold: bool = False, alone: bool = False) -> str:
+def written(
+    point: str, numbers: Sequence[str], *, is_main: bool = False, numbers_only: bool = False
+) -> str:
     """Return the letters of a point in some positions: ``B_{3}, B_{9}``, ``B′``, or ``3, 9``.
 
     ``B`` alone without numbers; ``S_{5}′`` always with the letter.
     """
     if not numbers:
         return point_name(point)
-    if len(point) > 1 or (alone and not bold):
-        if bold:
+    if len(point) > 1 or (numbers_only and not is_main):
+        if is_main:
             return point_name(point) + (f" ({', '.join(numbers)})" if len(numbers) > 1 else "")
         # A number alone is read with the others of its series, a prime alone looks like dirt.
         return ", ".join(point_name(point) + n if n in PRIMES else n for n in numbers)

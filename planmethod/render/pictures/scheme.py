@@ -12,16 +12,16 @@ from msgspec import Struct, field
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME, Revolute
-from planmethod.note.narrate.given import told_beside
+from planmethod.note.narrate.statement import offset_slide
 from planmethod.plans.draft import cis
-from planmethod.plans.motion.leads import has_slot_name, slot_name
+from planmethod.plans.motion.legs import has_slot_name, slot_name
 from planmethod.problem.model import Slide
 from planmethod.render import symbols
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, segment_label
-from planmethod.render.pictures.lettered import refuse_long
-from planmethod.render.pictures.supports import Support, free_sides, stand
+from planmethod.render.pictures.lettered import reject_oversized
+from planmethod.render.pictures.supports import Support, free_sides, place_supports
 from planmethod.render.pictures.welds import BlockOutline, welded
 from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import axis_line
@@ -55,8 +55,8 @@ def off_segment(place: complex, start: complex, end: complex) -> float:
 class Scheme(Struct):
     """One mechanism being drawn in one position (схема).
 
-    ``bodies``, ``lines``, ``corners`` and ``joints`` are drawn in this order: sliders are under the
-    links that reach their pins, joints cover the lines that they join.
+    ``slider_items``, ``lines``, ``corners`` and ``joints`` are drawn in this order: sliders are
+    under the links that reach their pins, joints cover the lines that they join.
     """
 
     solution: Solution
@@ -64,7 +64,7 @@ class Scheme(Struct):
     letter_height: float
     pen: Pen = Pen.MAIN
     guides: list[Item] = field(default_factory=list)
-    bodies: list[Item] = field(default_factory=list)
+    slider_items: list[Item] = field(default_factory=list)
     lines: list[Item] = field(default_factory=list)
     corners: list[Item] = field(default_factory=list)
     joints: list[Item] = field(default_factory=list)
@@ -143,42 +143,44 @@ class Scheme(Struct):
                 self.lines.append(Stroke((nearest, centre), Pen.THIN, tag=f"centre of {link}"))
 
     def _corner(
-        self, link: str, z: complex, place: complex, along: list[tuple[complex, complex]]
+        self, link: str, z: complex, place: complex, axis_points: list[tuple[complex, complex]]
     ) -> None:
         """Join a point off the axis to the link by a rigid triangle or a rigid arm."""
-        inside = along[0][0].real < z.real < along[-1][0].real
-        if len(along) > 1 and inside and abs(z.imag) > 0.15 * (along[-1][0] - along[0][0]).real:
-            corners = (along[0][1], along[-1][1], place)
+        inside = axis_points[0][0].real < z.real < axis_points[-1][0].real
+        if (
+            len(axis_points) > 1
+            and inside
+            and abs(z.imag) > 0.15 * (axis_points[-1][0] - axis_points[0][0]).real
+        ):
+            corners = (axis_points[0][1], axis_points[-1][1], place)
             tag = f"link {link}"
-            self.lines += symbols.stiff_triangle(
-                *corners, factor=self.factor, pen=self.pen, tag=tag
-            )
-            self.segments.setdefault(link, []).append((along[0][1], place))
+            self.lines += symbols.rigid_polygon(*corners, factor=self.factor, pen=self.pen, tag=tag)
+            self.segments.setdefault(link, []).append((axis_points[0][1], place))
             return
-        nearest = min(along, key=lambda pair: abs(pair[0] - z))
+        nearest = min(axis_points, key=lambda pair: abs(pair[0] - z))
         self.bar(link, nearest[1], place)
-        for other in along:
+        for other in axis_points:
             if other != nearest and self._is_marked(link, nearest[1]):
                 self.corners += symbols.rigid_corner(
                     nearest[1], place, other[1], factor=self.factor
                 )
                 break
 
-    def _slot(self, link: str, slide: Slide, along: list[tuple[complex, complex]]) -> None:
+    def _slot(self, link: str, slide: Slide, axis_points: list[tuple[complex, complex]]) -> None:
         """Draw the line that a link carries, to a little beyond the stone on it."""
         u = self.line_direction(slide)
         start = self.base(slide)
-        reach = ((self.foot(slide) - start) * u.conjugate()).real
+        reach = ((self.slide_point(slide) - start) * u.conjugate()).real
         beyond = (7.0 + OVERHANG) * self.factor
         # A link has one length: to the furthest stone of all positions of the sheet. In positions
         # behind the main one it is drawn to its stone, or long ends would hide the rest.
         ways = self._reaches(slide) if self.pen is Pen.MAIN else (reach,)
         marks = [0.0, *(way + math.copysign(beyond, way if way else 1.0) for way in ways)]
-        if slide.angle in (0.0, 180.0) and len(along) > 1:
-            on_axis = [((p - start) * u.conjugate()).real for _, p in along]
+        if slide.angle in (0.0, 180.0) and len(axis_points) > 1:
+            on_axis = [((p - start) * u.conjugate()).real for _, p in axis_points]
             marks += [min(on_axis), max(on_axis)]
         low, high = min(marks), max(marks)
-        if slide.angle in (0.0, 180.0) and len(along) > 1:
+        if slide.angle in (0.0, 180.0) and len(axis_points) > 1:
             old = (min(on_axis), max(on_axis))
             if low < old[0] - 0.1:
                 self.bar(link, start + u * low, start + u * old[0])
@@ -187,7 +189,7 @@ class Scheme(Struct):
             return
         self.bar(link, start + u * low, start + u * high)
         self._name_slot(slide, start + u * low, start + u * high)
-        for _, place in along:
+        for _, place in axis_points:
             if abs(place - start) > 1.0 and self._is_marked(link, start):
                 self.corners += symbols.rigid_corner(
                     start, place, start + u * reach, factor=self.factor
@@ -214,7 +216,7 @@ class Scheme(Struct):
         along = ((pins - bases) * turns.conjugate()).real
         return float(along.min()), float(along.max())
 
-    def foot(self, slide: Slide) -> complex:
+    def slide_point(self, slide: Slide) -> complex:
         """Return the foot of the pin on the slide line: the pin itself without an offset."""
         u, start = self.line_direction(slide), self.base(slide)
         return start + u * ((self.at(slide.pin) - start) * u.conjugate()).real
@@ -236,22 +238,28 @@ class Scheme(Struct):
             if ((far - reach) * symbols.unit(block - pin).conjugate()).real < 0:
                 self.bar(slide.slider, far, reach)
                 self._name_slot(slide, far, reach)
-            self._put(BlockOutline(block, u, *self._sized(SIZES.slider_length, SIZES.slider_width)))
+            self._add_block(
+                BlockOutline(block, u, *self._sized(SIZES.slider_length, SIZES.slider_width))
+            )
             if abs(block - base) > 0.2:
                 self.bar(slide.host, block, base)
                 self._weld(slide.host)
             return
         if slide.host == FRAME:
             self._frame_guide(slide, u)
-            self._put(BlockOutline(pin, u, *self._sized(SIZES.slider_length, SIZES.slider_width)))
+            self._add_block(
+                BlockOutline(pin, u, *self._sized(SIZES.slider_length, SIZES.slider_width))
+            )
             self._weld(slide.slider)
             return
-        foot = self.foot(slide)
+        foot = self.slide_point(slide)
         # A stone on another block is smaller, so that both are seen.
-        whole = BlockOutline(foot, u, *self._sized(*symbols.stone_size()))
+        whole = BlockOutline(foot, u, *self._sized(*symbols.sliding_block_size()))
         inside = any(one.covers(whole) for one in self.blocks)
-        self._put(BlockOutline(foot, u, *self._sized(*symbols.stone_size(inside=inside))))
-        self.bodies.append(Stroke(self.blocks[-1].axis, self.pen))
+        self._add_block(
+            BlockOutline(foot, u, *self._sized(*symbols.sliding_block_size(inside=inside)))
+        )
+        self.slider_items.append(Stroke(self.blocks[-1].axis, self.pen))
         if abs(foot - pin) > 0.2:
             self.bar(slide.slider, foot, pin)
         self._weld(slide.slider)
@@ -259,14 +267,14 @@ class Scheme(Struct):
     def _sized(self, length: float, width: float) -> tuple[float, float]:
         return length * self.factor, width * self.factor
 
-    def _put(self, block: BlockOutline) -> None:
+    def _add_block(self, block: BlockOutline) -> None:
         """Draw a block, white inside: over the guides, but over no other block."""
         fill, outline = symbols.slider(
-            block.middle, angle=symbols.angle_of(block.along),
+            block.middle, angle=symbols.angle_of(block.direction),
             length=block.length, width=block.width, pen=self.pen,
         )  # fmt: skip
-        self.bodies.insert(0, fill)
-        self.bodies.append(outline)
+        self.slider_items.insert(0, fill)
+        self.slider_items.append(outline)
         self.blocks.append(block)
 
     def _weld(self, link: str) -> None:
@@ -278,7 +286,7 @@ class Scheme(Struct):
 
     def _frame_guide(self, slide: Slide, u: complex) -> None:
         """Draw the axis of a fixed guide over the slider's travel, and its hatched plates."""
-        foot, pin, start = self.foot(slide), self.at(slide.pin), self.base(slide)
+        foot, pin, start = self.slide_point(slide), self.at(slide.pin), self.base(slide)
         angle = symbols.angle_of(u)
         # The places of the pin in every position of the sheet, and of the slider's points.
         ends = [complex(p) for p in self.solution.paper.point(PointName(slide.pin))]
@@ -293,11 +301,11 @@ class Scheme(Struct):
             self.guides += axis_line(pin + u * side, start + u * end + offset, tag="guide")
         length = SIZES.slider_length + 8.0
         sides = free_sides(pin, self.lines, angle=angle, length=length, factor=self.factor)
-        self.bodies += symbols.guide_plates(
+        self.slider_items += symbols.guide_plates(
             pin, angle=angle, length=length, sides=sides, factor=self.factor, pen=self.pen
         )
         problem = self.solution.problem
-        if abs(offset) > 0.2 and told_beside(slide.label, problem) is None:
+        if abs(offset) > 0.2 and offset_slide(slide.label, problem) is None:
             self.guides += axis_line(start + u * low, start + u * high, tag="guide")
             offset = 0j  # the letters belong to the given line
         name = problem.guide_name(slide.label)
@@ -332,7 +340,9 @@ class Scheme(Struct):
         named: set[str] = set()
         joints = problem.mechanism.revolutes
         pivots = [self.at(joint.point) for joint in joints if joint.links[0] == FRAME]
-        self.supports = stand(pivots, [*self.lines, *self.bodies], factor=self.factor)
+        self.supports = place_supports(
+            pivots, [*self.lines, *self.slider_items], factor=self.factor
+        )
         for support in self.supports:
             self.joints += support.items()
         for joint in joints:
@@ -413,7 +423,7 @@ class Scheme(Struct):
     def draw(self) -> None:
         """Draw links, sliders and joints."""
         problem = self.solution.problem
-        refuse_long(*extent(self.solution, [self.index]))
+        reject_oversized(*extent(self.solution, [self.index]))
         for link in problem.mechanism.links:
             self.draw_link(link)
         # A stone pinned to a slider of the frame lies on it.

@@ -9,7 +9,7 @@ import numpy as np
 from msgspec import Struct, field
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.given import solution_peak
+from planmethod.note.narrate.statement import solution_peak
 from planmethod.note.numbers import is_noise
 from planmethod.plans.draft import cis
 from planmethod.plans.legend import QuantityKind
@@ -30,19 +30,19 @@ def small(height: float) -> float:
 SWEEP, ARC = 70.0, 24.0
 """Largest angle of an arrow of ω or ε, degrees, and its length before ``factor``, mm."""
 
-_LEAST, _BETWEEN = 14.0, 11.0
+_MIN_RADIUS, _BETWEEN = 14.0, 11.0
 """Least radius about a pivot, and between two arrows there, before ``factor``, mm."""
 
 _RADIUS = 8.0
 """Radius of both arrows of a link without a pivot, before ``factor``, mm."""
 
-_CLEAR, _APART = 4.0, 7.0
+_CLEAR, _ARROW_SPACING = 4.0, 7.0
 """White to lines, joints and sliders, and to other arrows, before ``factor``, mm."""
 
 _FURTHER = 0.03  # cost of a mm of radius: one place of an arc on a line costs 1
-_TURNED = 0.8  # cost of half a turn from the link
+_TURN_COST = 0.8  # cost of half a turn from the link
 _LETTER = 4.0  # cost of a letter on a line
-_NO_ROOM = 2.5  # cost from which an arrow is left out: the table of results shows the sense
+_MAX_COST = 2.5  # cost from which an arrow is left out: the table of results shows the sense
 _OFF_BAR = (2.0, 3.6, 8.0)  # mm from the zero line of φ, where letters are kept off its other side
 _BAR = 8.0  # mm further than the line itself
 
@@ -53,19 +53,19 @@ class Senses(Struct):
     An arrow is about the pivot of its link, ε well outside ω; on a link without a pivot the two
     have one centre on the link and cross it on both sides. An arrow takes the place most clear of
     lines, joints, sliders and other arrows; a crank's may be anywhere round the pivot. Its letter
-    is behind its tail. An arrow without space is left out. ``others`` are the lines of other
+    is behind its tail. An arrow without space is left out. ``background`` are the lines of other
     positions, among which the letters are small and ε, which the statement gives, is left out.
     """
 
     scheme: Scheme
-    others: Sequence[Item] = ()
+    background: Sequence[Item] = ()
     arrows: list[Item] = field(default_factory=list)
     labels: list[Label] = field(default_factory=list)
     clear: list[Item] = field(default_factory=list)
 
     @property
     def _height(self) -> float:
-        return small(self.scheme.letter_height) if self.others else self.scheme.letter_height
+        return small(self.scheme.letter_height) if self.background else self.scheme.letter_height
 
     def of(self, link: str) -> None:
         """Draw the arrows of a link: none if it has no length, or rotates with its guide."""
@@ -76,7 +76,11 @@ class Senses(Struct):
             return
         values = {
             QuantityKind.OMEGA: float(motion.omega[scheme.index]),
-            **({} if self.others else {QuantityKind.EPSILON: float(motion.epsilon[scheme.index])}),
+            **(
+                {}
+                if self.background
+                else {QuantityKind.EPSILON: float(motion.epsilon[scheme.index])}
+            ),
         }
         senses = {
             kind: 1 if value > 0 else -1
@@ -85,18 +89,18 @@ class Senses(Struct):
         }
         pivot = next((p for p in body if p in problem.bodies[FRAME].points), None)
         if pivot is None:
-            self._across(link, part, senses)
+            self._draw_across_link(link, part, senses)
         else:
-            self._about(link, part, scheme.at(pivot), senses)
+            self._draw_about_pivot(link, part, scheme.at(pivot), senses)
 
-    def _about(
+    def _draw_about_pivot(
         self, link: str, part: tuple[complex, complex], pivot: complex,
         senses: dict[QuantityKind, int],
     ) -> None:  # fmt: skip
         """Draw the arrows of a link about its pivot, on the link or, of the driver, beside it."""
         far = max(part, key=lambda end: abs(end - pivot))
         along, f = angle_of(far - pivot), self.scheme.factor
-        least, most = _LEAST * f, max(abs(far - pivot), (_LEAST + _BETWEEN) * f)
+        least, most = _MIN_RADIUS * f, max(abs(far - pivot), (_MIN_RADIUS + _BETWEEN) * f)
         is_driver = link == self.scheme.solution.problem.drive.link
         for kind, sense in senses.items():
             ways = np.arange(least, max(most, least + 7.0 * f), 2.0 * f)
@@ -105,14 +109,14 @@ class Senses(Struct):
             turns = along + offs[None, :] * (np.ones_like(ways) if is_driver else sweeps)[:, None]
             radii = np.broadcast_to(ways[:, None], turns.shape)
             costs = self._costs(np.full(turns.shape, pivot), radii, turns, sense, link)
-            costs += _FURTHER * (radii - least) + _TURNED * np.abs(turns - along) / 180.0
+            costs += _FURTHER * (radii - least) + _TURN_COST * np.abs(turns - along) / 180.0
             best = np.unravel_index(int(np.argmin(costs)), costs.shape)
-            if costs[best] > _NO_ROOM:
+            if costs[best] > _MAX_COST:
                 continue
             self._draw(link, kind, pivot, float(radii[best]), float(turns[best]), sense)
             least = float(radii[best]) + _BETWEEN * f
 
-    def _across(
+    def _draw_across_link(
         self, link: str, part: tuple[complex, complex], senses: dict[QuantityKind, int]
     ) -> None:
         """Draw the arrows of a link without a pivot on both sides of a place of it."""
@@ -134,11 +138,11 @@ class Senses(Struct):
             shape = turns.shape
             costs = self._costs(
                 np.broadcast_to(centres, shape), np.full(shape, radius), turns, sense, link
-            ) + _TURNED * np.abs(offs) / 180.0  # fmt: skip
+            ) + _TURN_COST * np.abs(offs) / 180.0  # fmt: skip
             found[kind] = turns[np.arange(len(ways)), np.argmin(costs, axis=1)]
             whole = whole + costs.min(axis=1)
         best = int(np.argmin(whole))
-        if whole[best] > _NO_ROOM * len(senses):
+        if whole[best] > _MAX_COST * len(senses):
             return
         for kind, sense in senses.items():
             centre = complex(centres[best, 0])
@@ -179,7 +183,7 @@ class Senses(Struct):
         ``turns`` are the directions of the arc's middle, degrees; all have one shape, as the costs.
         """
         scheme, f, own = self.scheme, self.scheme.factor, f"link {link}"
-        firm = [*scheme.bodies, *scheme.lines, *scheme.joints]
+        firm = [*scheme.slider_items, *scheme.lines, *scheme.joints]
         joints: list[Item] = [Stroke((p, p + 1e-6)) for p in map(scheme.at, scheme.named)]
         strange = ends_of([*(item for item in firm if item.tag != own), *joints])
         half = np.minimum(SWEEP, np.degrees(ARC * f / radii)) / 2
@@ -190,10 +194,10 @@ class Senses(Struct):
         height = self._height
         beyond = half + np.degrees(height / radii)
         letters = centres + radii * _cis(turns - sense * beyond)
-        everything = ends_of([*firm, *joints, *self.arrows, *self.others, *self.clear])
+        everything = ends_of([*firm, *joints, *self.arrows, *self.background, *self.clear])
         costs: Reals = (
             nearness(arcs, strange, _CLEAR * f).sum(axis=-1)
-            + 2.0 * nearness(arcs, ends_of(self.arrows), _APART * f).sum(axis=-1)
+            + 2.0 * nearness(arcs, ends_of(self.arrows), _ARROW_SPACING * f).sum(axis=-1)
             + _LETTER * nearness(letters[..., None], everything, 1.2 * height)[..., 0]
         )
         return costs
@@ -206,7 +210,9 @@ class Senses(Struct):
         drive = scheme.solution.problem.drive
         if drive.pivot is None:
             return
-        phi = _swept(scheme.solution.problem.shown(float(scheme.solution.positions[scheme.index])))
+        phi = _swept(
+            scheme.solution.problem.display_position(float(scheme.solution.positions[scheme.index]))
+        )
         if not 8 < abs(phi) < 352:
             return
         centre, radius = scheme.at(drive.pivot), 6.0 * scheme.factor + 2

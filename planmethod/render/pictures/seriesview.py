@@ -26,26 +26,26 @@ from planmethod.render.pictures.schemeview import (
 from planmethod.render.pictures.senses import small
 from planmethod.render.pictures.special import special_points
 from planmethod.render.pictures.traces import Shown
-from planmethod.solved.crowd import CROWD, densest
-from planmethod.solved.reading import remembered
+from planmethod.solved.label_density import MAX_LABELS, densest
+from planmethod.solved.reading import memoized
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction
 
-LEAST = 2.5
+MIN_HEIGHT = 2.5
 """Height of the letters of many positions where larger ones do not fit, mm."""
 
 UNTIDY = 0.03
 """`untidiness` per label from which smaller letters are used."""
 
-MOST = 14
+MAX_LETTERED = 14
 """Largest number of positions that all have letters; with twice as many, every other one, and so
 on."""
 
-ROOM = 40.0
+MARGIN = 40.0
 """Margin around many positions for their letters, mm."""
 
 
-@remembered
+@memoized
 def series_picture(
     solution: Solution,
     index: int,
@@ -76,7 +76,7 @@ def series_picture(
     special = special_points(scheme)
     scheme.guides += special[0]
     view.labels += special[1]
-    own = [replace(label, manner=BUSY) for label in (*view.labels, *added[1])]
+    own = [replace(label, style=BUSY) for label in (*view.labels, *added[1])]
     construction = extreme_construction(solution) if turn else None
     if construction is not None:
         lines, radii = construction_items(construction, size)
@@ -85,13 +85,13 @@ def series_picture(
         before = [*others, *view.items()]
         lines, letters = stroke_items(positions.paths, positions.ends, before, size)
         others, own = [*others, *lines], [*own, *letters]
-    every = ceil(len(positions.overlay) / MOST)
+    every = ceil(len(positions.overlay) / MAX_LETTERED)
     thinned = _thinned(positions, own, size, every)
     items = [*others, *view.items(marks=positions.marks(thinned)), *ellipses.strokes]
     left, low, right, high = ink_bounds(items)
-    bounds = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)
+    bounds = (left - MARGIN, low - MARGIN, right + MARGIN, high + MARGIN)
     tries: list[list[Placed]] = []
-    heights = (size, max(LEAST, 0.5 * letter_height))
+    heights = (size, max(MIN_HEIGHT, 0.5 * letter_height))
     for height in heights:
         labels = [*own, *positions.labels(height, every=every, thinned=thinned)]
         last = height == heights[-1]
@@ -103,11 +103,13 @@ def series_picture(
     return Picture(tuple(whole), ink_bounds(whole))
 
 
-def _thinned(positions: Positions, own: Sequence[Label], height: float, every: int) -> Thinned:
+def _thinned(
+    positions: Positions, fixed_labels: Sequence[Label], height: float, every: int
+) -> Thinned:
     """Return the level of thinning at which the letters fit their area."""
-    there = [label.anchor for label in own]
+    there = [label.anchor for label in fixed_labels]
     for thinned in Thinned:
         labels = positions.labels(height, every=every, thinned=thinned)
-        if densest([*there, *(label.anchor for label in labels)])[0] <= CROWD:
+        if densest([*there, *(label.anchor for label in labels)])[0] <= MAX_LABELS:
             break
     return thinned

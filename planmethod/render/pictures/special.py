@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from planmethod.construct.steps import LineName
 from planmethod.mechanism.groups import triad_of
-from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.statement import point_name
 from planmethod.plans.motion.position import leg_points
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.pictures.scheme import Scheme
 
-_BEYOND = 4.0
+_EXTENSION = 4.0
 """Extension of a leg's line beyond the special point, mm."""
 
-_NEAR = 1.0
+_MAX_UNUSED_DISTANCE = 1.0
 """Largest distance from the group of a drawn special point that no plan uses, in group sizes."""
 
-_FAR = 3.0
+_MAX_DISTANCE = 3.0
 """Largest distance of the point that the plans use: on paper it is found by its angles."""
 
 _PARALLEL = 1e-3  # sine of the angle of lines that intersect too far away for any paper
@@ -39,9 +39,13 @@ def special_points(scheme: Scheme) -> tuple[list[Item], list[Label]]:
         size = max(abs(place - middle) for place in joints)
         for third in range(3):
             pair = [k for k in range(3) if k != third]
-            place = _meeting(scheme, *(special.lines[k] for k in pair))
+            place = _intersect_lines(scheme, *(special.lines[k] for k in pair))
             used = third == special.third
-            if place is None or abs(place - middle) > (_FAR if used else _NEAR) * size + size:
+            if (
+                place is None
+                or abs(place - middle)
+                > (_MAX_DISTANCE if used else _MAX_UNUSED_DISTANCE) * size + size
+            ):
                 continue
             for k in pair:
                 items += _line(ends[k], place)
@@ -51,10 +55,10 @@ def special_points(scheme: Scheme) -> tuple[list[Item], list[Label]]:
     return items, labels
 
 
-def _meeting(scheme: Scheme, one: LineName, two: LineName) -> complex | None:
+def _intersect_lines(scheme: Scheme, one: LineName, two: LineName) -> complex | None:
     paper, index = scheme.solution.paper, scheme.index
     (p, u), (q, v) = (
-        (complex(paper.origin(line)[index]), complex(paper.course(line)[index]))
+        (complex(paper.origin(line)[index]), complex(paper.line_vector(line)[index]))
         for line in (one, two)
     )
     across = (u.conjugate() * v).imag
@@ -72,4 +76,4 @@ def _line(ends: list[complex], place: complex) -> list[Item]:
     away = place - start
     if abs(away) < 1.0:
         return []
-    return [Stroke((start, place + away / abs(away) * _BEYOND), Pen.THIN, tag="special line")]
+    return [Stroke((start, place + away / abs(away) * _EXTENSION), Pen.THIN, tag="special line")]

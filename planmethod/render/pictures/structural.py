@@ -27,7 +27,7 @@ from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.chains import (
     Chain,
     DrawnSlide,
-    Far,
+    JointEnd,
     Pin,
     Shape,
     driver_chain,
@@ -35,7 +35,7 @@ from planmethod.render.pictures.chains import (
     mechanism_chain,
     textbook_places,
 )
-from planmethod.render.pictures.embedding import embed, turned_outwards
+from planmethod.render.pictures.embedding import embed, sort_around
 from planmethod.render.symbols import SIZES
 from planmethod.solved.aligned.schemes import SelfAligning
 
@@ -109,9 +109,9 @@ def mechanism_picture(
     mobile : Mobile, optional
         Classes of the pairs in a scheme without redundant constraints. Default: hinges and sliders.
     """
-    chain, found = _whole(mechanism, structure)
+    chain, found = _embed_mechanism(mechanism, structure)
     room = (width, height)
-    return _fitted(chain, found, room, letter_height, largest, mechanism.driver, sense, mobile)
+    return _fit_picture(chain, found, room, letter_height, largest, mechanism.driver, sense, mobile)
 
 
 def driver_picture(
@@ -119,7 +119,7 @@ def driver_picture(
 ) -> Picture:
     """Return the driver with the frame (первичный механизм), mm."""
     chain = driver_chain(mechanism)
-    node = chain.net.nodes[0]
+    node = chain.graph.nodes[0]
     reach = min(38.0, width - 2 * MARGIN, height - 2 * MARGIN)
     at = {node: 0j, f"{node}>": reach * cmath.exp(1j * radians(50))}
     return _picture(chain, at, letter_height, mechanism.driver, sense)
@@ -135,28 +135,30 @@ def group_picture(
     largest: float = LARGEST_STEP,
 ) -> Picture:
     """Return a group taken apart (структурная группа), mm; outer joints open."""
-    chain, found = _apart(mechanism, group)
-    return _fitted(chain, found, (width, height), letter_height, largest)
+    chain, found = _embed_group(mechanism, group)
+    return _fit_picture(chain, found, (width, height), letter_height, largest)
 
 
 @lru_cache(maxsize=16)
-def _whole(mechanism: Mechanism, structure: Structure) -> tuple[Chain, Mapping[str, complex]]:
+def _embed_mechanism(
+    mechanism: Mechanism, structure: Structure
+) -> tuple[Chain, Mapping[str, complex]]:
     """Return the chain of a mechanism and its places, cached for several sizes of a sheet."""
     chain = mechanism_chain(mechanism, structure)
-    return chain, embed(chain.net)
+    return chain, embed(chain.graph)
 
 
 @lru_cache(maxsize=64)
-def _apart(mechanism: Mechanism, group: AssurGroup) -> tuple[Chain, Mapping[str, complex]]:
+def _embed_group(mechanism: Mechanism, group: AssurGroup) -> tuple[Chain, Mapping[str, complex]]:
     """Return the chain of a group and its places."""
     chain = group_chain(mechanism, group)
-    return chain, textbook_places(chain) or embed(chain.net)
+    return chain, textbook_places(chain) or embed(chain.graph)
 
 
-def _fitted(
+def _fit_picture(
     chain: Chain,
-    found: Mapping[str, complex],
-    room: tuple[float, float],
+    grid_places: Mapping[str, complex],
+    space: tuple[float, float],
     letter_height: float,
     largest: float,
     driver: str = "",
@@ -164,16 +166,16 @@ def _fitted(
     mobile: Mobile | None = None,
 ) -> Picture:
     """Stretch places in grid units so that the picture with its letters fills an area, mm."""
-    xs, ys = [z.real for z in found.values()], [z.imag for z in found.values()]
+    xs, ys = [z.real for z in grid_places.values()], [z.imag for z in grid_places.values()]
     wide, tall = max(max(xs) - min(xs), 1e-3), max(max(ys) - min(ys), 1e-3)
     about = (2 * MARGIN, 2 * MARGIN)  # estimated extent of symbols and letters
     for _ in range(3):
-        across = min(largest, max(SMALLEST_STEP, (room[0] - about[0]) / wide))
-        up = min(largest, max(SMALLEST_STEP, (room[1] - about[1]) / tall))
+        across = min(largest, max(SMALLEST_STEP, (space[0] - about[0]) / wide))
+        up = min(largest, max(SMALLEST_STEP, (space[1] - about[1]) / tall))
         across, up = min(across, 1.3 * up), min(up, 1.3 * across)
-        at = {name: complex(z.real * across, z.imag * up) for name, z in found.items()}
+        at = {name: complex(z.real * across, z.imag * up) for name, z in grid_places.items()}
         made = _picture(chain, at, letter_height, driver, sense, mobile)
-        if made.width <= room[0] and made.height <= room[1]:
+        if made.width <= space[0] and made.height <= space[1]:
             break
         about = (made.width - across * wide + 0.5, made.height - up * tall + 0.5)
     return made
@@ -223,7 +225,7 @@ class _Draft(Struct):
             start, end = (at[node] for node in shape.outline)
             # The line of an arm ends at the edge of the stone that it carries.
             carried = any(
-                slide.stone == link and not slide.pinned and slide.node in shape.outline
+                slide.block == link and not slide.pinned and slide.node in shape.outline
                 for slide in self.chain.slides
             )
             target = self.arms if carried else self.lines
@@ -232,13 +234,13 @@ class _Draft(Struct):
             stops = [start, *([at[shape.on]] if shape.on else []), end]
             self.segments += [(link, a, b) for a, b in pairwise(stops)]
         elif shape.outline:
-            ring = turned_outwards(shape.outline, at)
+            ring = sort_around(shape.outline, at)
             corners = [at[node] for node in ring]
             # Hatched under the stones; the outline reaches the pins on stones.
-            *hatching, outline = symbols.stiff_triangle(*corners, hatched=True)
+            *hatching, outline = symbols.rigid_polygon(*corners, hatched=True)
             self.arms += hatching
             own = any(
-                slide.stone == link and slide.node in shape.outline for slide in self.chain.slides
+                slide.block == link and slide.node in shape.outline for slide in self.chain.slides
             )
             (self.arms if own else self.lines).append(outline)
             sides = zip(corners, [*corners[1:], corners[0]], strict=True)
@@ -286,44 +288,44 @@ class _Draft(Struct):
         size = 0.85 if slide.bar else 1.0
         text, name = slide.text, ""
         if self.mobile is not None:
-            (name,) = self.mobile.of((slide.stone, slide.bar or FRAME))
+            (name,) = self.mobile.of((slide.block, slide.bar or FRAME))
             text = self.mobile.mark(text, (name,))
         angle = symbols.angle_of(turn)
-        ground = slide.far is Far.FRAME
+        ground = slide.joint_end is JointEnd.FRAME
         self.stones += symbols.mobile_slider(place, name, angle=angle, factor=size, ground=ground)
         half = SIZES.slider_length / 2 * size
-        if slide.far is Far.FRAME:
+        if slide.joint_end is JointEnd.FRAME:
             reach = half + 6.0
             self.grounds += symbols.guide_line(place, before=reach, after=reach)
             edge = place + reach - 1j * SIZES.slider_width / 2
             self._number(slide.to, edge, 1 + 0j, gap=1.2)
-        elif slide.far is Far.OPEN:
+        elif slide.joint_end is JointEnd.OPEN:
             reach = half + 9.0
             for way in (turn, -turn):
                 ends = (place + way * half, place + way * reach)
                 self.grounds.append(Stroke(ends, Pen.HIDDEN, tag="open"))
             self._number(f"({slide.to})", place + turn * reach, turn, gap=1.2)
         if text:
-            if slide.far is Far.FRAME:
+            if slide.joint_end is JointEnd.FRAME:
                 self._letter(text, place - half, -1 + 0j, gap=1.2)
             else:
                 lines = -sum(self.directions(place), 0j)
                 self._letter(text, place, lines if abs(lines) > 0.3 else 1j * turn, gap=5.4)
-        if not self.chain.shape(slide.stone).outline and not self.chain.shape(slide.stone).tips:
-            if slide.far is Far.FRAME:
-                self._number(slide.stone, place + half, 1 + 0j, gap=1.2)
+        if not self.chain.shape(slide.block).outline and not self.chain.shape(slide.block).tips:
+            if slide.joint_end is JointEnd.FRAME:
+                self._number(slide.block, place + half, 1 + 0j, gap=1.2)
             else:
                 # Beside an end of the stone, away from its letter.
                 lean = -sum(self.directions(place), 0j)
                 end = -turn if (lean * turn.conjugate()).real > 0 else turn
                 away = 1j * turn if (1j * turn).imag >= 0 else -1j * turn
-                self._number(slide.stone, place + end * 3.0, end + 1.6 * away, gap=4.0)
+                self._number(slide.block, place + end * 3.0, end + 1.6 * away, gap=4.0)
 
     def _cross_direction(self, place: complex, slide: DrawnSlide) -> complex:
         """Return the direction of a guide: level, or upright if a bar leaves along the level."""
-        if slide.far is Far.FRAME:
+        if slide.joint_end is JointEnd.FRAME:
             return 1 + 0j
-        opened = [other for other in self.chain.slides if other.far is Far.OPEN]
+        opened = [other for other in self.chain.slides if other.joint_end is JointEnd.OPEN]
         if len(opened) == 2 and opened[0] is slide:
             return 1j  # two parallel guides would let the group slip
         level = max((abs(u.real) for u in self.directions(place)), default=0.0)
@@ -341,14 +343,14 @@ class _Draft(Struct):
             if slide.node == pin.node and not slide.bar
             for way in (1 + 0j, -1 + 0j)
         ]
-        if pin.far is Far.FRAME:
+        if pin.joint_end is JointEnd.FRAME:
             down = _freest(busy, (-1j, -1 + 0j, 1 + 0j))
             self.grounds += symbols.fixed_pivot(place, direction=down)
             along = down * 1j
             along = along if along.real > 0 or (along.real == 0 and along.imag > 0) else -along
             foot = place + down * SIZES.support_height + along * SIZES.base / 2
             self._number(pin.to, foot, along, gap=1.2)
-        elif pin.far is Far.OPEN:
+        elif pin.joint_end is JointEnd.OPEN:
             way = _freest(busy, tuple(cmath.exp(1j * radians(15 * k)) for k in range(24)))
             if len(busy) == 1:
                 # Bent a little from the line of the leg, and upright: groups are side by side.
@@ -378,7 +380,7 @@ class _Draft(Struct):
     def draw_motion(self, driver: str, sense: int) -> None:
         """Show the given motion of the driver: an arrow of ω or v."""
         for pin in self.chain.pins:
-            if driver in pin.links and pin.far is Far.FRAME:
+            if driver in pin.links and pin.joint_end is JointEnd.FRAME:
                 place = self.at[pin.node]
                 way = next(iter(self.directions(place, driver)), 1j)
                 # Ahead of the crank, so that the arrow does not cross it; outside a stone.
@@ -399,7 +401,7 @@ class _Draft(Struct):
                 )
                 return
         for slide in self.chain.slides:
-            if slide.stone == driver and slide.far is Far.FRAME:
+            if slide.block == driver and slide.joint_end is JointEnd.FRAME:
                 place = self.at[slide.node]
                 # Over the half of the slider that the link on its pin leaves free.
                 lean = sum(self.directions(place), 0j).real
@@ -441,9 +443,9 @@ class _Draft(Struct):
 def _freest(busy: list[complex], choices: tuple[complex, ...]) -> complex:
     """Return the first of the directions that are furthest from all busy ones."""
 
-    def room(way: complex) -> float:
-        return round(min([abs(cmath.phase(u / way)) for u in busy] or [3.2]), 3)
+    def clearance(direction: complex) -> float:
+        return round(min([abs(cmath.phase(u / direction)) for u in busy] or [3.2]), 3)
 
-    if choices[0] == -1j and room(choices[0]) > radians(50):
+    if choices[0] == -1j and clearance(choices[0]) > radians(50):
         return choices[0]
-    return max(choices, key=room)
+    return max(choices, key=clearance)

@@ -15,21 +15,26 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from planmethod.render.ink.drawing import Item, Stroke
-from planmethod.render.symbols import SIZES, fixed_pivots, foot_of
+from planmethod.render.symbols import SIZES, fixed_pivots, support_half_width
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-WAYS: tuple[tuple[complex, float], ...] = ((-1j, 0.0), (1j, 4.0), (-1 + 0j, 5.0), (1 + 0j, 5.0))
+DIRECTION_COSTS: tuple[tuple[complex, float], ...] = (
+    (-1j, 0.0),
+    (1j, 4.0),
+    (-1 + 0j, 5.0),
+    (1 + 0j, 5.0),
+)
 """Directions from a pivot to its base, and their costs in mm of line under it."""
 
-_ROOM = 2.0  # mm: white wished between a support and a line
-_APART = 0.5  # mm: the same between two supports, from either
+_LINE_GAP = 2.0  # mm: white wished between a support and a line
+_SUPPORT_GAP = 0.5  # mm: the same between two supports, from either
 _JOINED = 1.0  # cost of a common base instead of two
 _OVERLAP = 10.0  # cost of two overlapping supports, plus 1 for each mm²
 _ON_PIVOT = 30.0  # a base over another pivot
-_LEAST_FOOT = 1.5  # mm: half the width of the narrowest support on a common base
-_MOST_STEP = 6.0  # mm: largest difference of height of two pivots on one base
+_MIN_HALF_WIDTH = 1.5  # mm: half the width of the narrowest support on a common base
+_MAX_STEP = 6.0  # mm: largest difference of height of two pivots on one base
 _SMALLER = 0.65  # size of supports that overlap nevertheless
 
 
@@ -55,7 +60,7 @@ class Support(Struct, frozen=True):
         return fixed_pivots(self.places, direction=self.direction, factor=self.factor, joints=False)
 
 
-def stand(
+def place_supports(
     pivots: Sequence[complex], drawn: Iterable[Item], *, factor: float = 1.0
 ) -> list[Support]:
     """Choose the supports of the pivots of a scheme (выбор опор).
@@ -76,16 +81,20 @@ def stand(
     """
     lines = _lines(drawn)
     ways = [
-        {way: dislike + _under(lines, at, way, factor) for way, dislike in WAYS} for at in pivots
+        {way: dislike + _under(lines, at, way, factor) for way, dislike in DIRECTION_COSTS}
+        for at in pivots
     ]
     chosen = [min(own, key=lambda way: own[way]) for own in ways]
     for _ in range(2):
         for k, own in enumerate(ways):
             others = [j for j in range(len(pivots)) if j != k]
 
-            def cost(way: complex, k: int = k, others: list[int] = others) -> float:
-                near = (_against(pivots[k], way, pivots[j], chosen[j], factor) for j in others)
-                return ways[k][way] + sum(near)
+            def cost(direction: complex, k: int = k, other_pivots: list[int] = others) -> float:
+                near = (
+                    _against(pivots[k], direction, pivots[j], chosen[j], factor)
+                    for j in other_pivots
+                )
+                return ways[k][direction] + sum(near)
 
             chosen[k] = min(own, key=cost)
     return _grouped(pivots, chosen, factor)
@@ -134,7 +143,7 @@ def _lines(drawn: Iterable[Item]) -> BaseGeometry | None:
     return MultiLineString(paths) if paths else None
 
 
-def _ground(at: complex, way: complex, factor: float) -> BaseGeometry:
+def _ground(at: complex, direction: complex, factor: float) -> BaseGeometry:
     """Return the area of a support: legs, base and hatching, from the edge of the joint on."""
     from shapely import Polygon
 
@@ -143,43 +152,49 @@ def _ground(at: complex, way: complex, factor: float) -> BaseGeometry:
     deep = foot + SIZES.hatch_stroke * sin(pi / 4) * factor
     base, neck = SIZES.base / 2 * factor, SIZES.joint * 0.4 * factor
     outline = ((top, -neck), (foot, -base), (deep, -base), (deep, base), (foot, base), (top, neck))
-    corners = [at + way * (x + 1j * y) for x, y in outline]
+    corners = [at + direction * (x + 1j * y) for x, y in outline]
     return Polygon([(p.real, p.imag) for p in corners])
 
 
-def _under(lines: BaseGeometry | None, at: complex, way: complex, factor: float) -> float:
+def _under(lines: BaseGeometry | None, at: complex, direction: complex, factor: float) -> float:
     """Return the length of lines under or near a support, mm."""
     if lines is None:
         return 0.0
-    ground = _ground(at, way, factor).buffer(_ROOM * factor, quad_segs=2)
+    ground = _ground(at, direction, factor).buffer(_LINE_GAP * factor, quad_segs=2)
     return round(float(lines.intersection(ground).length), 3)
 
 
-def _meet(one: complex, way: complex, two: complex, other: complex, factor: float) -> float:
+def _meet(
+    one: complex, direction: complex, two: complex, other_direction: complex, factor: float
+) -> float:
     """Return the overlap of two supports, mm²."""
     if abs(one - two) > 3 * SIZES.base * factor:
         return 0.0
-    first = _ground(one, way, factor).buffer(_APART, quad_segs=2)
-    second = _ground(two, other, factor).buffer(_APART, quad_segs=2)
+    first = _ground(one, direction, factor).buffer(_SUPPORT_GAP, quad_segs=2)
+    second = _ground(two, other_direction, factor).buffer(_SUPPORT_GAP, quad_segs=2)
     return float(first.intersection(second).area)
 
 
-def _joinable(one: complex, two: complex, way: complex, factor: float) -> bool:
+def _joinable(one: complex, two: complex, direction: complex, factor: float) -> bool:
     """Return whether two pivots can share a base."""
-    step = abs(((one - two) * way.conjugate()).real)
-    foot = foot_of((one, two), direction=way, factor=factor)
-    return step <= _MOST_STEP * factor and foot >= _LEAST_FOOT * factor
+    step = abs(((one - two) * direction.conjugate()).real)
+    foot = support_half_width((one, two), direction=direction, factor=factor)
+    return step <= _MAX_STEP * factor and foot >= _MIN_HALF_WIDTH * factor
 
 
-def _against(one: complex, way: complex, two: complex, other: complex, factor: float) -> float:
+def _against(
+    one: complex, direction: complex, two: complex, other_direction: complex, factor: float
+) -> float:
     """Return the cost of two supports beside each other, mm of line."""
     from shapely import Point
 
-    area = _meet(one, way, two, other, factor)
-    if way == other and _joinable(one, two, way, factor):
+    area = _meet(one, direction, two, other_direction, factor)
+    if direction == other_direction and _joinable(one, two, direction, factor):
         return _JOINED if area > 0.0 else 0.0
     joint = Point(two.real, two.imag).buffer(SIZES.joint * factor, quad_segs=4)
-    if abs(one - two) < 3 * SIZES.base * factor and _ground(one, way, factor).intersects(joint):
+    if abs(one - two) < 3 * SIZES.base * factor and _ground(one, direction, factor).intersects(
+        joint
+    ):
         return _ON_PIVOT + area
     return _OVERLAP + area if area > 0.0 else 0.0
 

@@ -16,7 +16,7 @@ from msgspec import Struct
 
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, PointName, Step
-from planmethod.note.narrate.letters import direction_text, shown_letters
+from planmethod.note.narrate.letters import direction_text, plan_letters
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import Plan, PlanKind, Relation, Vector
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
@@ -31,23 +31,23 @@ Shown: TypeAlias = bool | tuple[str, ...]
 TRACE = "trace"
 """Tag of a trace."""
 
-NOTCH, BEYOND, CORNER = 8.0, 5.0, 2.5
+NOTCH, EXTENSION, CORNER = 8.0, 5.0, 2.5
 """Half a notch of the scheme, the extension of a line beyond an intersection, and the sides of a
 right angle, mm."""
 
 _NAMES = 2.5  # height of the name of a direction, mm
 _LEGS = 1.6  # least length of the legs of a right angle, in sides of its sign
-_NOTHING = 0.5  # mm: a shorter vector gives its line no direction on the paper
+_ZERO_LENGTH = 0.5  # mm: a shorter vector gives its line no direction on the paper
 _RIGHT = 1e-6  # cosine of the angle between lines that were drawn as a right one
 
 
-def shown_traces(solution: Solution, told: Shown | None, *, room: bool) -> Shown:
+def shown_traces(solution: Solution, requested: Shown | None, *, has_space: bool) -> Shown:
     """Return the shown traces: those of the layout, else of the file.
 
-    By default the traces of a single position are shown if the sheet has ``room`` for them.
+    By default the traces of a single position are shown if the sheet has ``has_space`` for them.
     """
-    said = solution.problem.sheet.traces if told is None else told
-    return room and len(solution.positions) == 1 if said is None else said
+    said = solution.problem.sheet.traces if requested is None else requested
+    return has_space and len(solution.positions) == 1 if said is None else said
 
 
 def scheme_traces(solution: Solution, index: int, factor: float, shown: Shown) -> list[Item]:
@@ -67,7 +67,7 @@ def plan_traces(
 ) -> tuple[list[Item], list[Label]]:
     """Return the traces on a plan whose points lie at ``at``, mm, and the names of directions."""
     plan = solution.construction.plan(kind)
-    letters = shown_letters(solution.problem, plan)
+    letters = plan_letters(solution.problem, plan)
     items: list[Item] = []
     labels: list[Label] = []
     for step in _steps(solution, kind) if shown else ():
@@ -76,11 +76,11 @@ def plan_traces(
             continue
         if isinstance(step, steps.Similar):
             items += _corner_of_triangle(step, at)
-        elif isinstance(step, steps.MeetLines):
+        elif isinstance(step, steps.IntersectLines):
             for line in (step.first, step.second):
                 ray = _Ray.of(solution, plan, index, line, step.out)
                 if ray is not None and {ray.start, ray.head} <= set(at):
-                    items += [*ray.beyond(at), *ray.right_angle(at)]
+                    items += [*ray.extend(at), *ray.right_angle(at)]
                     labels += ray.names(at)
     return items, labels
 
@@ -99,12 +99,14 @@ def _needles(step: Step, solution: Solution) -> tuple[PointName, ...]:
     """Return the centres of the compass for a point of the scheme."""
     construction = solution.construction
     match step:
-        case steps.LayOff(out=out, origin=origin, along=line) if out in construction.draft.marked:
+        case steps.LayOffLength(out=out, origin=origin, line=line) if (
+            out in construction.draft.marked
+        ):
             drawn = construction.step(line)
             return (origin,) if isinstance(drawn, steps.AtAngle) and drawn.to is not None else ()
-        case steps.MeetCircles(centre1=one, centre2=two):
+        case steps.IntersectCircles(centre1=one, centre2=two):
             return one, two
-        case steps.MeetLineCircle(centre=centre):
+        case steps.IntersectLineCircle(centre=centre):
             return (centre,)
         case _:
             return ()
@@ -122,7 +124,7 @@ def _corner_of_triangle(step: steps.Similar, at: Mapping[PointName, complex]) ->
     if b is None or c is None or corner is None:
         return []
     off = abs(((corner - b) * (c - b).conjugate()).imag)
-    if off <= _NOTHING * abs(c - b):
+    if off <= _ZERO_LENGTH * abs(c - b):
         return []  # on the line of the two, laid off by one length
     return [_notch(end, corner, NOTCH / 2) for end in (b, c)]
 
@@ -130,13 +132,13 @@ def _corner_of_triangle(step: steps.Similar, at: Mapping[PointName, complex]) ->
 class _Ray(Struct, frozen=True):
     """Direction of an unknown vector, and the vector that was laid off before it.
 
-    ``along`` is the direction of its line, a unit vector; ``before`` the tail of the previous
+    ``direction`` is the direction of its line, a unit vector; ``before`` the tail of the previous
     vector, if the line is perpendicular to it.
     """
 
     start: PointName
     head: PointName
-    along: complex
+    direction: complex
     vector: Vector | None
     before: PointName | None
 
@@ -148,7 +150,7 @@ class _Ray(Struct, frozen=True):
         step = solution.construction.step(line)
         if not isinstance(step, steps.Parallel | steps.Perpendicular):
             return None
-        along = unit(complex(solution.paper.course(line)[index]))
+        along = unit(complex(solution.paper.line_vector(line)[index]))
         ends = {(vector.tail, vector.head): vector for vector in plan.vectors}
         before = next((tail for tail, end in ends if end == step.through), None)
         if before is not None:
@@ -160,14 +162,16 @@ class _Ray(Struct, frozen=True):
     def _ends(self, at: Mapping[PointName, complex]) -> tuple[complex, complex]:
         """Return the start of its vector and its direction, a unit vector."""
         start, way = at[self.start], at[self.head] - at[self.start]
-        return start, unit(way) if abs(way) > _NOTHING else self.along
+        return start, unit(way) if abs(way) > _ZERO_LENGTH else self.direction
 
-    def beyond(self, at: Mapping[PointName, complex]) -> list[Item]:
+    def extend(self, at: Mapping[PointName, complex]) -> list[Item]:
         """Return the line beyond the intersection; to both sides of it without a vector."""
         start, way = self._ends(at)
         head = at[self.head]
-        short = abs(head - start) <= _NOTHING
-        return [Stroke((head - way * BEYOND * short, head + way * BEYOND), Pen.THIN, tag=TRACE)]
+        short = abs(head - start) <= _ZERO_LENGTH
+        return [
+            Stroke((head - way * EXTENSION * short, head + way * EXTENSION), Pen.THIN, tag=TRACE)
+        ]
 
     def right_angle(self, at: Mapping[PointName, complex]) -> list[Item]:
         """Return the sign of the right angle with the previous vector."""
@@ -184,8 +188,8 @@ class _Ray(Struct, frozen=True):
     def names(self, at: Mapping[PointName, complex]) -> list[Label]:
         """Return the label of the line's direction at its end: ``⊥ CB``."""
         told = None if self.vector is None else self.vector.direction
-        if told is None or told.relation not in (Relation.ACROSS, Relation.ALONG):
+        if told is None or told.relation not in (Relation.PERPENDICULAR, Relation.PARALLEL):
             return []
-        end = at[self.head] + self._ends(at)[1] * BEYOND
+        end = at[self.head] + self._ends(at)[1] * EXTENSION
         way = self._ends(at)[1]
         return [Label(typeset(direction_text(told), _NAMES), end, prefer=way, gap=0.6)]

@@ -12,33 +12,33 @@ from planmethod.render import symbols
 from planmethod.render.ink.drawing import Item, Stroke
 from planmethod.render.symbols import SIZES, unit
 
-_LEAST = 0.5  # mm: shorter pieces of a rod beyond the edge of its block are not drawn
+_MIN_PIECE = 0.5  # mm: shorter pieces of a rod beyond the edge of its block are not drawn
 
 
 class BlockOutline(Struct, frozen=True):
     """Outline of a slider or stone on the paper: its middle, direction and sizes, mm."""
 
     middle: complex
-    along: complex
+    direction: complex
     length: float
     width: float
 
     @property
     def corners(self) -> tuple[complex, ...]:
         """Corners in order."""
-        half, tall = self.along * self.length / 2, 1j * self.along * self.width / 2
+        half, tall = self.direction * self.length / 2, 1j * self.direction * self.width / 2
         ways = (-half - tall, half - tall, half + tall, tall - half)
         return tuple(self.middle + way for way in ways)
 
     @property
     def axis(self) -> tuple[complex, complex]:
         """Ends of its middle line."""
-        half = self.along * self.length / 2
+        half = self.direction * self.length / 2
         return self.middle - half, self.middle + half
 
-    def covers(self, other: BlockOutline) -> bool:
+    def covers(self, block: BlockOutline) -> bool:
         """Return whether the middle of another block lies within this one."""
-        way = (other.middle - self.middle) * self.along.conjugate()
+        way = (block.middle - self.middle) * self.direction.conjugate()
         return abs(way.real) < self.length / 2 and abs(way.imag) < self.width / 2
 
 
@@ -70,7 +70,7 @@ def welded(
             continue
         for part in getattr(rest, "geoms", [rest]):
             points = tuple(complex(x, y) for x, y in part.coords)
-            if part.length < _LEAST:
+            if part.length < _MIN_PIECE:
                 continue
             left.append(replace(item, points=points))
             for at, away in ((points[0], points[1]), (points[-1], points[-2])):
@@ -81,9 +81,9 @@ def welded(
 
 def _wedges(block: BlockOutline, at: complex, away: complex, factor: float) -> list[Item]:
     """Return the two filled wedges between a rod and the edge that it leaves."""
-    way = (at - block.middle) * block.along.conjugate()
+    way = (at - block.middle) * block.direction.conjugate()
     beyond = abs(way.real) / block.length - abs(way.imag) / block.width
-    edge = block.along * 1j if beyond > 0 else block.along
+    edge = block.direction * 1j if beyond > 0 else block.direction
     half = block.width / 2 if beyond > 0 else block.length / 2
     aside = ((at - block.middle) * edge.conjugate()).real
     found: list[Item] = []

@@ -10,10 +10,10 @@ from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import PointName
 from planmethod.errors import LayoutError
 from planmethod.note.document import Caption, Paragraph
-from planmethod.note.narrate.balancing import COUNT, BalancingTeller
+from planmethod.note.narrate.balancing import COUNT, BalancingNarrator
 from planmethod.note.narrate.forces.statement import mass_lines
-from planmethod.note.narrate.given import given
 from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.statement import given_facts
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
@@ -25,49 +25,49 @@ from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.polar import polar_picture
 from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.render.sheets.composer import Viewed
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.composer import ViewBlock
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import named
 from planmethod.render.symbols import arrowhead
 from planmethod.solved.solution import Solution
 
 _WEIGHT = 2.4  # mm: radius of a counterweight
-_ASIDE = 4.0  # mm: between collinear vectors of a polygon
+_SPACING = 4.0  # mm: between collinear vectors of a polygon
 
 
-def _teller(solution: Solution, manner: Manner) -> BalancingTeller:
+def _make_narrator(solution: Solution, style: BlockStyle) -> BalancingNarrator:
     if solution.problem.balancing is None:
         raise LayoutError(
             "{}: a layout with balancing needs [balancing] in the problem file. For "
             'example: [balancing] method = "full".',
             solution.problem.name,
         )
-    return BalancingTeller(solution, manner.words)
+    return BalancingNarrator(solution, style.language)
 
 
-def balancing_text(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def balancing_text(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the given data, the masses, the counterweights and the forces with numbers."""
-    tell = _teller(solution, manner)
-    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    narrator = _make_narrator(solution, style)
+    height, width = style.text(style.sizes.text), style.width(style.sizes.column)
     assert solution.problem.dynamics is not None
-    facts = given(solution.problem, manner.words)
-    facts += mass_lines(solution.problem, manner.words)
+    facts = given_facts(solution.problem, style.language)
+    facts += mass_lines(solution.problem, style.language)
     nodes: list[TextNode] = [
-        Caption(manner.entry.title or tell.said.balancing),
-        *map(Paragraph, tell.lines()),
+        Caption(style.entry.title or narrator.texts.balancing),
+        *map(Paragraph, narrator.lines()),
     ]
-    before = stated(facts, tell.said.balancing_wanted, manner)
+    before = stated(facts, narrator.texts.balancing_wanted, style)
     return Column([before, *blocks_of(nodes, height, width=width)], gap=3.0)
 
 
-def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def scheme_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
     """Return the scheme with its counterweights, all to scale."""
-    tell = _teller(solution, manner)
+    narrator = _make_narrator(solution, style)
     index = indices[0]
     items: list[Item] = []
     labels = []
-    for one in tell.balancing.counterweights:
+    for one in narrator.balancing.counterweights:
         if not one.mass:
             continue
         pivot, pin = (
@@ -78,7 +78,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
         items.append(Disc(place, _WEIGHT, Ink.BLACK, f"counterweight {one.link}"))
         labels.append(
             Label(
-                typeset(f"m'_{{{one.link}}}", manner.letter),
+                typeset(f"m'_{{{one.link}}}", style.letter),
                 place,
                 prefer=place - pivot,
                 gap=_WEIGHT + 1.2,
@@ -86,90 +86,97 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
             )
         )
     scale = solution.scales[PlanKind.POSITION]
-    told = [scale_inscription(scale, solution.problem.scales.convention, tell.say)]
-    title = manner.entry.title or tell.said.with_weights
+    told = [scale_inscription(scale, solution.problem.scales.convention, narrator.notation)]
+    title = style.entry.title or narrator.texts.with_weights
     picture = scheme_picture(
-        solution, index, letter_height=manner.letter, given=True,
+        solution, index, letter_height=style.letter, driver_only=True,
         added=(tuple(items), tuple(labels)),
     )  # fmt: skip
-    return Viewed(named(picture, title, told, manner), "scheme", scale)
+    return ViewBlock(named(picture, title, told, style), "scheme", scale)
 
 
-def polygon_views(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def polygon_views(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the polygons of m·r; collinear vectors are drawn below one another."""
-    tell = _teller(solution, manner)
+    narrator = _make_narrator(solution, style)
     views: list[Block] = []
-    for number, one in enumerate(tell.balancing.counterweights):
+    for number, one in enumerate(narrator.balancing.counterweights):
         if not one.mass:
             continue
-        made, per_mm, exact, _ = tell.balancing.polygon(number, tell.profile)
+        made, per_mm, exact, _ = narrator.balancing.polygon(number, narrator.profile)
         corners = [complex(exact.point(name)[0]) for name in made.corners]
-        straight = max(abs(z.imag) for z in corners) < _ASIDE
+        straight = max(abs(z.imag) for z in corners) < _SPACING
         letters = [name for name, _ in one.terms] + [f"m'_{{{one.link}}} r"]
         items: list[Item] = []
         labels: list[Label] = []
         for k, (tail, head) in enumerate(zip(corners, [*corners[1:], corners[0]], strict=True)):
-            shift = -2j * _ASIDE * k if straight else 0j
+            shift = -2j * _SPACING * k if straight else 0j
             start, end = tail + shift, head + shift
             if straight and k:
-                up = 2j * _ASIDE
+                up = 2j * _SPACING
                 items.append(Stroke((start + up, start), Pen.THIN, tag="polygon corner"))
             way = (end - start) / abs(end - start)
             items.append(Stroke((start, end - 1.5 * way), Pen.MAIN, tag="polygon vector"))
             items += arrowhead(end, way, length=3.0, tag="polygon vector")
             labels.append(
                 Label(
-                    typeset(letters[k], manner.letter),
+                    typeset(letters[k], style.letter),
                     (start + end) / 2.0,
-                    along=(start, end),
+                    segment=(start, end),
                     prefer=1j * way if way.real >= 0 else -1j * way,
                     gap=1.0,
                     name=f"polygon {one.link}: {k}",
                 )
             )
         scale = Scale("mu_mr", per_mm, "kg·m")
-        told = [scale_inscription(scale, Convention.UNIT_PER_MM, tell.say)]
-        title = tell.said.polygon_of.format(link=one.link)
-        views.append(Viewed(named(lettered(items, labels), title, told, manner), "diagram", scale))
+        told = [scale_inscription(scale, Convention.UNIT_PER_MM, narrator.notation)]
+        title = narrator.texts.polygon_of.format(link=one.link)
+        views.append(
+            ViewBlock(named(lettered(items, labels), title, told, style), "diagram", scale)
+        )
     return Row(views, gap=16.0, align="bottom")
 
 
-def hodograph_views(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def hodograph_views(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the main vector of inertia before and after, in one scale."""
-    tell = _teller(solution, manner)
-    curves = [np.append(curve, curve[0]) for curve in tell.balancing.forces(360)]
-    alone = tell.balancing.largest[1] < 1e-6 * tell.balancing.largest[0]
-    side = (1.1 if alone else 0.68) * manner.width(manner.sizes.column)
+    narrator = _make_narrator(solution, style)
+    curves = [np.append(curve, curve[0]) for curve in narrator.balancing.forces(360)]
+    alone = narrator.balancing.largest[1] < 1e-6 * narrator.balancing.largest[0]
+    side = (1.1 if alone else 0.68) * style.width(style.sizes.column)
     size = max(float(np.ptp(np.append(part, 0.0))) for c in curves for part in (c.real, c.imag))
     per_mm = choose_scale((size, 0.0), (side, 1.0))
     scale = Scale("mu_F", per_mm, "N")
-    told = [scale_inscription(scale, Convention.UNIT_PER_MM, tell.say)]
+    told = [scale_inscription(scale, Convention.UNIT_PER_MM, narrator.notation)]
     views: list[Block] = []
-    ends = tell.balancing.forces(COUNT)
-    titles = (tell.said.before, tell.said.after)
+    ends = narrator.balancing.forces(COUNT)
+    titles = (narrator.texts.before, narrator.texts.after)
     for title, curve, points in zip(titles, curves, ends, strict=True):
         if float(np.max(np.abs(curve))) < 1e-6 * size:
             continue  # fully balanced, as the text states
         name = f"force {len(views)}"
         drawn = np.asarray(curve / per_mm, dtype=complex)
-        picture = polar_picture([drawn], np.asarray(points / per_mm), manner.letter, name, "O")
-        views.append(Viewed(named(picture, title, told, manner), "hodograph", scale))
+        picture = polar_picture([drawn], np.asarray(points / per_mm), style.letter, name, "O")
+        views.append(ViewBlock(named(picture, title, told, style), "hodograph", scale))
     return Row(views, gap=16.0, align="bottom")
 
 
-def tables(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def tables(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the counterweights, and the main vector by positions."""
-    tell = _teller(solution, manner)
-    height = manner.text(min(manner.sizes.text, 3.5))
+    narrator = _make_narrator(solution, style)
+    height = style.text(min(style.sizes.text, 3.5))
     made = []
     wholes = (
-        (tell.said.weights_table, 1, [("№", *column[1:]) if not k else column
-                                      for k, column in enumerate(tell.weights())]),
-        (tell.said.forces_table, 2, tell.columns()),
+        (narrator.texts.weights_table, 1, [("№", *column[1:]) if not k else column
+                                      for k, column in enumerate(narrator.weights())]),
+        (narrator.texts.forces_table, 2, narrator.columns()),
     )  # fmt: skip
     for title, lead, columns in wholes:
         cells = [
-            TableColumn(head, tuple(told), unit=tell.say.in_head(unit) if unit else "", least=9.0)
+            TableColumn(
+                head,
+                tuple(told),
+                unit=narrator.notation.in_head(unit) if unit else "",
+                min_width=9.0,
+            )
             for head, unit, told in columns
         ]
         made.append(table_block(cells, height, leading=lead, title=title, row_height=2.0 * height))

@@ -16,10 +16,10 @@ from msgspec import Struct
 from planmethod.plans.model import PlanKind
 from planmethod.render.layout.block import Block, Column
 from planmethod.render.sheets import results, texts, views
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.solved.solution import Solution
 
-Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
+Maker: TypeAlias = Callable[[Solution, Sequence[int], BlockStyle], Block]
 """From a solution and the positions of a sheet to a block."""
 
 Makers: TypeAlias = Callable[[], Mapping[str, Maker]]
@@ -90,23 +90,23 @@ def _transfers() -> Mapping[str, Maker]:
     }
 
 
-def _scheme(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def _scheme(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     if len(solution.positions) == 1:
-        return views.scheme_view(solution, indices, manner)
+        return views.scheme_view(solution, indices, style)
     from planmethod.render.sheets import several
 
-    return several.scheme_view(solution, indices, manner)
+    return several.scheme_view(solution, indices, style)
 
 
-def _plan(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    still = manner.entry.of is PlanKind.VELOCITY and not np.any(solution.driven[1])
-    if manner.entry.droppable and still:  # an empty plan
+def _plan(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+    still = style.entry.of is PlanKind.VELOCITY and not np.any(solution.driven[1])
+    if style.entry.droppable and still:  # an empty plan
         return Column([])
     if len(solution.positions) == 1:
-        return views.plan_view(solution, indices, manner)
+        return views.plan_view(solution, indices, style)
     from planmethod.render.sheets import several
 
-    return several.plan_view(solution, indices, manner)
+    return several.plan_view(solution, indices, style)
 
 
 def _forces() -> Mapping[str, Maker]:

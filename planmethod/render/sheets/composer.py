@@ -16,13 +16,13 @@ from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, next_scale
 from planmethod.errors import LayoutError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.paper import BASIC, Format, paper_format
 from planmethod.plans.model import PlanKind
-from planmethod.problem.head import KindProblem
+from planmethod.problem.common import KindProblem
 from planmethod.problem.model import Scales
 from planmethod.render.frame.frame import sheet_frame
-from planmethod.render.frame.furniture import Furniture, Room
+from planmethod.render.frame.furniture import DrawingArea, Furniture
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Bounds, Drawing, Item, Span, View
 from planmethod.render.ink.lettering import lettering, using
@@ -48,13 +48,15 @@ class Sizes(Struct, frozen=True):
     row: float = 7.0
     boxes: tuple[tuple[PlanKind, Box], ...] = ()
 
-    def parts(self, share: float) -> Sizes:
+    def scaled(self, fraction: float) -> Sizes:
         """Return the sizes with columns and boxes a part as wide and high."""
-        boxes = tuple((kind, (share * wide, share * high)) for kind, (wide, high) in self.boxes)
-        return replace(self, column=share * self.column, boxes=boxes)
+        boxes = tuple(
+            (kind, (fraction * wide, fraction * high)) for kind, (wide, high) in self.boxes
+        )
+        return replace(self, column=fraction * self.column, boxes=boxes)
 
 
-class Viewed(Struct, frozen=True):
+class ViewBlock(Struct, frozen=True):
     """A view among the blocks of a sheet (вид), of a kind and in a scale: a scheme, a diagram."""
 
     block: Block
@@ -93,35 +95,35 @@ def view_of(name: str, scale: Scale | None, box: Bounds, spans: Iterable[Span]) 
     return View(name, box, f"μ_{{{letter}}}", scale.per_mm, tuple(spans))
 
 
-class Blank(Struct, frozen=True):
-    """Paper that sheets are tried on; with ``is_asked`` no other is permitted."""
+class TrialPaper(Struct, frozen=True):
+    """Paper that sheets are tried on; with ``is_required`` no other is permitted."""
 
     format: Format
     furniture: Furniture
-    is_asked: bool = False
+    is_required: bool = False
 
     @property
     def name(self) -> str:
         """Name of the format."""
         return self.format.name
 
-    def room(self, number: int = 1) -> Room:
+    def drawing_area(self, number: int = 1) -> DrawingArea:
         """Return the drawing area of a sheet by its number, counted from 1."""
-        return self.furniture.room(self.format, number)
+        return self.furniture.drawing_area(self.format, number)
 
-    def continued(self, name: str) -> Room:
+    def continued(self, name: str) -> DrawingArea:
         """Return the area of a continuation sheet of another format, with the small title block."""
-        return replace(self.furniture, form=SMALL).room(paper_format(name), 2)
+        return replace(self.furniture, form=SMALL).drawing_area(paper_format(name), 2)
 
 
 SMALL = "2a"
 """Form of the title block of continuation sheets."""
 
-Tried: TypeAlias = tuple[bool, int, int]
+Concessions: TypeAlias = tuple[bool, int, int]
 """Concessions: whether blocks are left out, letter heights skipped, level of ungrouping."""
 
 
-class LaidPage(Struct, frozen=True):
+class PageLayout(Struct, frozen=True):
     """Blocks of one sheet with their upper left corners.
 
     ``title`` is its name, if it has one of its own. ``paper`` is the format of a continuation
@@ -130,31 +132,31 @@ class LaidPage(Struct, frozen=True):
 
     placed: Sequence[Placed]
     title: str = ""
-    tried: Tried = (False, 0, 0)
+    concessions: Concessions = (False, 0, 0)
     paper: str = ""
 
 
-class Laid(Struct, frozen=True):
+class SheetLayout(Struct, frozen=True):
     """Sheets that fit, and the scales of their views, units per mm by name."""
 
-    pages: Sequence[LaidPage]
+    pages: Sequence[PageLayout]
     scales: Mapping[str, float] = MappingProxyType({})
 
-    def is_as_good_as(self, other: Laid) -> bool:
+    def is_no_worse_than(self, old: SheetLayout) -> bool:
         """Return whether it has as many pages as another, and no more concessions."""
-        pairs = zip(self.pages, other.pages, strict=False)
-        same = len(self.pages) == len(other.pages)
-        return same and all(one.tried <= two.tried for one, two in pairs)
+        pairs = zip(self.pages, old.pages, strict=False)
+        same = len(self.pages) == len(old.pages)
+        return same and all(one.concessions <= two.concessions for one, two in pairs)
 
 
 class Proposal(Protocol):
     """Blocks at certain scales for a paper."""
 
     @property
-    def paper(self) -> Blank:
+    def paper(self) -> TrialPaper:
         """Paper of the blocks."""
 
-    def laid(self) -> Laid | None:
+    def arrange(self) -> SheetLayout | None:
         """Return the sheets, or None where the blocks have no room on the paper."""
 
 
@@ -165,66 +167,68 @@ class Strategy(Protocol):
     def formats(self) -> Sequence[str]:
         """Formats to try in turn if none is requested."""
 
-    def proposals(self, papers: Sequence[Blank]) -> Iterator[Proposal]:
+    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[Proposal]:
         """Yield the proposals to try, the best first."""
 
 
-class Misfit(Struct, frozen=True):
+class NoFitAdvice(Struct, frozen=True):
     """Error and advice if no proposal fits on any paper.
 
     ``error`` makes the error from a paper and an advice; ``less`` advises what to reduce if a
-    larger paper is not available; ``scales`` are those of the file, which may be too fine. ``fits``
-    tries a paper; if it is None, the next paper is suggested untried.
+    larger paper is not available; ``scales`` are those of the file, which may be too fine.
+    ``fits_paper`` tries a paper; if it is None, the next paper is suggested untried.
     """
 
     error: Callable[[str, str], LayoutError]
     less: str
     scales: Scales | None = None
-    fits: Callable[[str], bool] | None = None
+    fits_paper: Callable[[str], bool] | None = None
 
-    def advice(self, formats: Sequence[str], tried: Blank) -> str:
+    def advice(self, formats: Sequence[str], tried: TrialPaper) -> str:
         """Return the advice: coarser scales, a larger paper than the tried one, or less content."""
-        given, fits = self.scales, self.fits
+        given, fits = self.scales, self.fits_paper
         has_scales = given and any(mu is not None for mu in (given.mu_l, given.mu_v, given.mu_a))
-        if has_scales and not (fits and tried.is_asked):
-            return say("Take coarser scales in [scales], or leave them out.")
+        if has_scales and not (fits and tried.is_required):
+            return translate("Take coarser scales in [scales], or leave them out.")
         sides = sorted((tried.format.width, tried.format.height))
         for name in (*formats, *BASIC):
             larger = paper_format(name)
             short, long = sorted((larger.width, larger.height))
             if short >= sides[0] and long >= sides[1] and short * long > sides[0] * sides[1]:
-                if fits and tried.is_asked and not fits(name):
+                if fits and tried.is_required and not fits(name):
                     continue
                 if has_scales:
-                    return say("Take --paper {}, or coarser scales in [scales].", name)
-                if tried.is_asked and name in formats:
-                    return say("Take --paper {}, or leave it out.", name)
-                return say("Take --paper {}.", name)
+                    return translate("Take --paper {}, or coarser scales in [scales].", name)
+                if tried.is_required and name in formats:
+                    return translate("Take --paper {}, or leave it out.", name)
+                return translate("Take --paper {}.", name)
         return (
-            say("Take coarser scales in [scales], or leave them out.") if has_scales else self.less
+            translate("Take coarser scales in [scales], or leave them out.")
+            if has_scales
+            else self.less
         )
 
 
 class Packing(Struct, frozen=True):
     """Blocks in reading order for a paper, a group for each sheet (`Proposal`)."""
 
-    paper: Blank
+    paper: TrialPaper
     groups: Sequence[Group]
-    tried: Tried = (False, 0, 0)
+    concessions: Concessions = (False, 0, 0)
     scales: Mapping[str, float] = MappingProxyType({})
 
-    def laid(self) -> Laid | None:
+    def arrange(self) -> SheetLayout | None:
         """Return the sheets, or None if a group does not fit its sheet."""
         pages = []
         for number, group in enumerate(self.groups, 1):
-            placed = packed(group, self.paper.room(number))
+            placed = pack_group(group, self.paper.drawing_area(number))
             if placed is None:
                 return None
-            pages.append(LaidPage(placed, tried=self.tried))
-        return Laid(pages, self.scales)
+            pages.append(PageLayout(placed, concessions=self.concessions))
+        return SheetLayout(pages, self.scales)
 
 
-def packed(group: Group, room: Room) -> list[Placed] | None:
+def pack_group(group: Group, area: DrawingArea) -> list[Placed] | None:
     """Return blocks in reading order with their upper left corners, or None if they do not fit.
 
     Raises
@@ -232,42 +236,42 @@ def packed(group: Group, room: Room) -> list[Placed] | None:
     LayoutError
         The group is empty.
     """
-    left, low, right, high = room.inner
-    parts = [[(way.width, way.height) for way in part.ways] for part in group.parts()]
+    left, low, right, high = area.inner
+    parts = [[(way.width, way.height) for way in part.alternatives] for part in group.parts()]
     if not parts:
         raise LayoutError(
             "All blocks of the layout are empty for this problem. Graphs need --ask, asked "
             "in their block, or [cycle] graphs; choose other blocks, or another layout."
         )
-    if sum(min(wide * tall for wide, tall in ways) for ways in parts) > free_area(room):
+    if sum(min(wide * tall for wide, tall in ways) for ways in parts) > free_area(area):
         return None
     if not all(any(w < right - left and h < high - low for w, h in ways) for ways in parts):
         return None
-    return pack(group, room.inner, room.stamp, room.taken)
+    return pack(group, area.inner, area.stamp, area.reserved)
 
 
-def free_area(room: Room) -> float:
+def free_area(area: DrawingArea) -> float:
     """Return the area of a sheet that is free for blocks, mm²."""
-    left, low, right, high = room.inner
-    stamp = (room.stamp[2] - room.stamp[0]) * (room.stamp[3] - room.stamp[1])
+    left, low, right, high = area.inner
+    stamp = (area.stamp[2] - area.stamp[0]) * (area.stamp[3] - area.stamp[1])
     return (right - left) * (high - low) - stamp
 
 
-def enlarged(
-    laid: Laid,
+def grow_scales(
+    layout: SheetLayout,
     turns: Iterable[str],
-    asked: Scales,
-    draw: Callable[[Mapping[str, float]], Laid | None],
-) -> Laid:
+    requested: Scales,
+    draw: Callable[[Mapping[str, float]], SheetLayout | None],
+) -> SheetLayout:
     """Return sheets with scales as large as fit (увеличение масштаба по свободному полю).
 
     Parameters
     ----------
-    laid : Laid
+    layout : SheetLayout
         The present sheets, with the free scales.
     turns : iterable of str
         Names of the scales to increase by a member of the series, in turn.
-    asked : Scales
+    requested : Scales
         Scales of the file, which determine the series of round numbers.
     draw : callable
         Draws the sheets at other scales, or returns None if they do not fit.
@@ -279,20 +283,20 @@ def enlarged(
     for key in turns:
         if key in refused:
             continue
-        finer = next_scale(laid.scales[key], finer=True, mm_per_unit=asked.in_mm_per_unit)
-        wish = {**laid.scales, key: finer}
+        finer = next_scale(layout.scales[key], finer=True, mm_per_unit=requested.in_mm_per_unit)
+        wish = {**layout.scales, key: finer}
         tried = draw(wish)
-        if tried is not None and tried.is_as_good_as(laid):
-            laid = replace(tried, scales=wish)
+        if tried is not None and tried.is_no_worse_than(layout):
+            layout = replace(tried, scales=wish)
         else:
             refused.add(key)
-    return laid
+    return layout
 
 
 def compose(
     problem: KindProblem,
     strategy: Strategy,
-    misfit: Misfit,
+    no_fit_advice: NoFitAdvice,
     *,
     fields: Mapping[str, str] | None = None,
     furniture: Furniture | None = None,
@@ -305,7 +309,7 @@ def compose(
     problem : KindProblem
         Problem with its settings of the sheet and its title block.
     strategy : Strategy
-    misfit : Misfit
+    no_fit_advice : NoFitAdvice
         Error and advice if no proposal fits.
     fields : mapping, optional
         Texts of the title block that outrank the file's.
@@ -319,7 +323,9 @@ def compose(
     LayoutError
         When the blocks fit no format, or not the requested one.
     """
-    paper, laid = composed(problem, strategy, misfit, furniture or Furniture.of(problem.sheet))
+    paper, laid = find_layout(
+        problem, strategy, no_fit_advice, furniture or Furniture.of(problem.sheet)
+    )
     with using(lettering(problem.sheet.lettering or "B")):
         return [
             _drawn(problem, paper, page, number, len(laid.pages), fields or {}, title)
@@ -327,9 +333,9 @@ def compose(
         ]
 
 
-def composed(
-    problem: KindProblem, strategy: Strategy, misfit: Misfit, furniture: Furniture
-) -> tuple[Blank, Laid]:
+def find_layout(
+    problem: KindProblem, strategy: Strategy, no_fit_advice: NoFitAdvice, furniture: Furniture
+) -> tuple[TrialPaper, SheetLayout]:
     """Return the first proposal that fits, and its paper.
 
     Raises
@@ -339,22 +345,22 @@ def composed(
     """
     asked = problem.sheet.paper
     papers = [
-        Blank(paper_format(name), furniture, asked is not None)
+        TrialPaper(paper_format(name), furniture, asked is not None)
         for name in ([asked] if asked else strategy.formats)
     ]
     with using(lettering(problem.sheet.lettering or "B")):
         for proposal in strategy.proposals(papers):
-            laid = proposal.laid()
+            laid = proposal.arrange()
             if laid is not None:
                 return proposal.paper, laid
-    advice = misfit.advice(strategy.formats, papers[-1])
-    raise misfit.error(papers[-1].name, advice)
+    advice = no_fit_advice.advice(strategy.formats, papers[-1])
+    raise no_fit_advice.error(papers[-1].name, advice)
 
 
 def _drawn(
     problem: KindProblem,
-    paper: Blank,
-    page: LaidPage,
+    paper: TrialPaper,
+    page: PageLayout,
     number: int,
     count: int,
     fields: Mapping[str, str],
@@ -373,8 +379,8 @@ def _drawn(
     for block, corner in page.placed:
         items = block.place(corner)
         drawing.extend(items)
-        if isinstance(block, Viewed):
+        if isinstance(block, ViewBlock):
             drawing.views.extend(block.views(items, corner))
-    drawing.is_cut_down, *_ = page.tried
-    drawing.goes_on = bool(page.paper)
+    drawing.has_omissions, *_ = page.concessions
+    drawing.is_continuation = bool(page.paper)
     return drawing

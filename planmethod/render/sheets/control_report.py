@@ -5,25 +5,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 from planmethod.render.control.remarks import (
     REMARKS,
     Finding,
     Severity,
+    format_distinct,
     limit_text,
     paper_text,
     unit_text,
-    unlike,
 )
-from planmethod.render.sheets.controlled import Controlled
+from planmethod.render.sheets.controlled import CheckedSheet
 
 
-def counted(sheets: Sequence[Controlled], severity: Severity) -> int:
+def counted(sheets: Sequence[CheckedSheet], severity: Severity) -> int:
     """Return the number of findings of a severity."""
     return sum(f.severity is severity for sheet in sheets for f in sheet.findings)
 
 
-def control_text(name: str, sheets: Sequence[Controlled], lang: str = "ru") -> str:
+def control_text(name: str, sheets: Sequence[CheckedSheet], lang: str = "ru") -> str:
     """Return the findings of a problem's sheets as lines for a terminal.
 
     Raises
@@ -31,36 +31,36 @@ def control_text(name: str, sheets: Sequence[Controlled], lang: str = "ru") -> s
     UnknownLanguageError
         When the language is unknown.
     """
-    words, lines = language(lang).control, []
+    texts, lines = get_language(lang).control, []
     for number, sheet in enumerate(sheets, 1):
         paper = paper_text(sheet.paper, lang)
-        head = words.sheet.format(number=number, count=len(sheets), paper=paper)
+        head = texts.sheet.format(number=number, count=len(sheets), paper=paper)
         errors, warnings = (counted([sheet], severity) for severity in Severity)
-        told = words.counts.format(errors=errors, warnings=warnings)
-        lines.append(f"{name}: {head}: {told if sheet.findings else words.clean}")
+        text = texts.counts.format(errors=errors, warnings=warnings)
+        lines.append(f"{name}: {head}: {text if sheet.findings else texts.clean}")
         for finding in sheet.findings:
             lines += _lines(finding, lang)
     return "\n".join(lines)
 
 
 def _lines(finding: Finding, lang: str) -> list[str]:
-    words, unit = language(lang).control, unit_text(REMARKS[finding.code].unit, lang)
-    place = words["views"][finding.view]
+    texts, unit = get_language(lang).control, unit_text(REMARKS[finding.code].unit, lang)
+    place = texts["views"][finding.view]
     if finding.position is not None:
-        place += words.position.format(number=finding.position)
+        place += texts.position.format(number=finding.position)
     if unit:
-        value = unlike(finding.value, finding.limit, lang, 2)
+        value = format_distinct(finding.value, finding.limit, lang, 2)
         limit = limit_text(finding.limit, lang)
-        place += words.numbers.format(value=value, limit=limit, unit=unit)
+        place += texts.numbers.format(value=value, limit=limit, unit=unit)
     return [
-        f"  {finding.code} {words['severities'][finding.severity.value]}: {place}",
-        f"    {finding.what(lang)}.",
-        f"    {words.action.format(action=finding.action(lang))}",
+        f"  {finding.code} {texts['severities'][finding.severity.value]}: {place}",
+        f"    {finding.describe(lang)}.",
+        f"    {texts.action.format(action=finding.action(lang))}",
     ]
 
 
 def control_record(
-    name: str, variant: str | None, kind: str, sheets: Sequence[Controlled], lang: str = "ru"
+    name: str, variant: str | None, kind: str, sheets: Sequence[CheckedSheet], lang: str = "ru"
 ) -> dict[str, Any]:
     """Return the findings of a problem's sheets as one object for JSON."""
     return {
@@ -86,13 +86,13 @@ def _finding_record(finding: Finding, lang: str) -> dict[str, Any]:
     return {
         "code": finding.code,
         "severity": finding.severity.value,
-        "title": language(lang).control["remarks"][finding.code].title,
-        "what": finding.what(lang),
+        "title": get_language(lang).control["remarks"][finding.code].title,
+        "what": finding.describe(lang),
         "where": {
             "view": finding.view or "sheet",
             "position": finding.position,
-            "x": finding.where.real,
-            "y": finding.where.imag,
+            "x": finding.place.real,
+            "y": finding.place.imag,
         },
         "value": finding.value,
         "limit": finding.limit,

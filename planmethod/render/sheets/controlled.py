@@ -32,7 +32,7 @@ KEYS = {"velocity": "mu_v", "acceleration": "mu_a", "forces": "mu_F"}
 """Keys of ``[scales]`` by the kind of view."""
 
 
-class Controlled(Struct, frozen=True):
+class CheckedSheet(Struct, frozen=True):
     """One sheet and its findings of the norm control."""
 
     drawing: Drawing
@@ -48,20 +48,20 @@ def paper_of(drawing: Drawing) -> str:
 
 def controlled_structure(
     problem: Problem, *, paper: str | None = None, fields: Mapping[str, str] | None = None
-) -> list[Controlled]:
+) -> list[CheckedSheet]:
     """Draw the structural sheet and check it."""
     drawing = structure_sheet(problem, structure_of(problem), paper=paper, fields=fields)
-    return looked_over([drawing])
+    return check_drawings([drawing])
 
 
-def looked_over(drawings: Sequence[Drawing], scales: str = "[scales]") -> list[Controlled]:
+def check_drawings(drawings: Sequence[Drawing], scales: str = "[scales]") -> list[CheckedSheet]:
     """Check sheets without trying other scales. ``scales`` is their key in the file."""
     own = {} if scales == "[scales]" else {"scales": scales}
 
-    def told(drawing: Drawing) -> tuple[Finding, ...]:
+    def find_all(drawing: Drawing) -> tuple[Finding, ...]:
         return tuple(replace(one, facts={**one.facts, **own}) for one in inspect(drawing))
 
-    return [Controlled(one, paper_of(one), told(one)) for one in drawings]
+    return [CheckedSheet(one, paper_of(one), find_all(one)) for one in drawings]
 
 
 def controlled_kinematics(
@@ -74,7 +74,7 @@ def controlled_kinematics(
     errors: bool = False,
     sigma: bool | None = None,
     layout: str | Path | Composition | None = None,
-) -> list[Controlled]:
+) -> list[CheckedSheet]:
     """Draw the sheets of the kinematic analysis and check them.
 
     Where segments of a plan are too short, the next scale of the series that makes them long enough
@@ -86,9 +86,9 @@ def controlled_kinematics(
         When the sheets cannot be drawn.
     """
 
-    def draw(asked: Problem, on: str | None, *, advised: bool = True) -> list[Drawing]:
+    def draw(rescaled: Problem, on: str | None, *, advised: bool = True) -> list[Drawing]:
         return kinematics_sheets(
-            asked,
+            rescaled,
             paper=on,
             positions=positions,
             profile=profile,
@@ -102,7 +102,7 @@ def controlled_kinematics(
     drawings = draw(problem, paper)
     trial = _Trial(problem, drawings, partial(draw, advised=False))
     return [
-        Controlled(
+        CheckedSheet(
             drawing,
             paper_of(drawing),
             tuple(trial.advised(finding) for finding in inspect(drawing)),
@@ -145,8 +145,8 @@ class _Trial:
         views = _views(self.drawings, finding.view)
         number = next(k for k, view in enumerate(views) if _has(view, finding))
         own = views[number : number + 1]
-        now = own[0].per_mm / _spans(own, finding)[0].share
-        per_mm, written = self._mending(now, finding.value)
+        now = own[0].per_mm / _spans(own, finding)[0].magnification
+        per_mm, written = self._sufficient_scale(now, finding.value)
         advice = "nothing"
         if now / per_mm <= LARGEST:
             advice = "own"
@@ -156,37 +156,37 @@ class _Trial:
                 found = _spans(group, finding)
                 spans = [span for span in found if span.length * LARGEST >= SHORTEST]
                 least = min(span.length for span in spans)
-                wanted, text = self._mending(now, sure * least)
+                wanted, text = self._sufficient_scale(now, sure * least)
                 names = frozenset(span.name for span in spans)
-                if self._fits(finding, key, wanted, chosen, names):
+                if self._scale_fits(finding, key, wanted, chosen, names):
                     advice, written = "scale", text
                     break
         facts = {"advice": advice, "key": key, "scale": written, "paper": self.paper}
         return replace(finding, facts={**finding.facts, **facts})
 
-    def _mending(self, per_mm: float, least: float) -> tuple[float, str]:
+    def _sufficient_scale(self, per_mm: float, length: float) -> tuple[float, str]:
         """Return the coarsest scale of the series that makes a segment long enough, and its text.
 
         The scale is in unit per mm, the text as the file has it.
         """
-        now = per_mm * least / SHORTEST
+        now = per_mm * length / SHORTEST
         if self.problem.scales.convention is Convention.MM_PER_UNIT:
             times = series_near(1.0 / now, up=True)
             return 1.0 / times, trimmed(times)
         scale = series_near(now, up=False)
         return scale, trimmed(scale)
 
-    def _fits(
+    def _scale_fits(
         self, finding: Finding, key: str, per_mm: float, chosen: slice, names: frozenset[str]
     ) -> bool:
         """Return whether at another scale the named segments of plans are long enough, and fit."""
         views = _views(self.drawings, finding.view)
         inner = FORMATS[self.paper].inner
-        if not all(_has_room(view, view.per_mm / per_mm, inner) for view in views):
+        if not all(_view_fits(view, view.per_mm / per_mm, inner) for view in views):
             return False
         made = self._drawn(key, per_mm)
         # A scale must not displace the blocks beside the plans.
-        if made is None or _cut_down(made) != _cut_down(self.drawings):
+        if made is None or _list_omissions(made) != _list_omissions(self.drawings):
             return False
         found = _spans(_views(made, finding.view)[chosen], finding)
         lengths = [span.length for span in found if span.name in names]
@@ -212,10 +212,10 @@ def _views(drawings: Sequence[Drawing], kind: str) -> list[View]:
 def _has(view: View, finding: Finding) -> bool:
     """Return whether a finding of short segments belongs to a view."""
     spans = _spans([view], finding)
-    return any((span.start + span.end) / 2 == finding.where for span in spans)
+    return any((span.start + span.end) / 2 == finding.place for span in spans)
 
 
-def _has_room(view: View, times: float, inner: Bounds) -> bool:
+def _view_fits(view: View, times: float, inner: Bounds) -> bool:
     """Return whether a view enlarged ``times`` can be on the paper at all.
 
     Its letters do not grow with it: for one plan only the segments are compared, for plans in rows
@@ -230,9 +230,9 @@ def _has_room(view: View, times: float, inner: Bounds) -> bool:
     return width <= inner[2] - inner[0] and height <= inner[3] - inner[1]
 
 
-def _cut_down(drawings: Sequence[Drawing]) -> list[bool]:
+def _list_omissions(drawings: Sequence[Drawing]) -> list[bool]:
     """Return for each sheet whether blocks were left out."""
-    return [drawing.is_cut_down for drawing in drawings]
+    return [drawing.has_omissions for drawing in drawings]
 
 
 def _spans(views: Sequence[View], finding: Finding) -> list[Span]:

@@ -8,9 +8,13 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.scale import Scale, choose_scale
-from planmethod.note.narrate.forces.statement import cycle_statement, cycle_wanted, link_names
-from planmethod.note.narrate.given import of_turn, point_name
+from planmethod.note.narrate.forces.statement import (
+    cycle_force_unknowns,
+    cycle_statement,
+    link_names,
+)
 from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.statement import angle_with_positions, point_name
 from planmethod.note.numbers import MINUS, Notation, half_up, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
@@ -24,7 +28,7 @@ from planmethod.render.forces.hodograph import (
 from planmethod.render.ink.drawing import Pen
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Picture, Row, shaped
+from planmethod.render.layout.block import Block, Column, Line, Picture, Row, make_alternatives
 from planmethod.render.pictures.diagram import (
     Abscissae,
     Curve,
@@ -33,8 +37,8 @@ from planmethod.render.pictures.diagram import (
     diagram_picture,
     mark_items,
 )
-from planmethod.render.sheets.composer import Viewed
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.composer import ViewBlock
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import LARGER, at_scales, named
 from planmethod.solved.cycle import Cycle, Piece, ReactionPeak, cycle
@@ -52,8 +56,8 @@ PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
 """Lines of the curves of one diagram, in turn."""
 
 
-def _line(manner: Manner, text: str) -> Line:
-    return Line(typeset(text, manner.text(manner.sizes.text)))
+def _line(style: BlockStyle, text: str) -> Line:
+    return Line(typeset(text, style.text(style.sizes.text)))
 
 
 # Diagrams ----------------------------------------------------------------------------------------
@@ -111,29 +115,31 @@ class _Frame(Struct, frozen=True):
         inverse = self.solution.problem.scales.convention is Convention.MM_PER_UNIT
         return choose_scale((0.0, reach), (1.0, height), mm_per_unit=inverse)
 
-    def scales(self, up: Scale, say: Notation) -> str:
+    def scales(self, up: Scale, notation: Notation) -> str:
         """Return the inscription of both scales."""
         convention = self.solution.problem.scales.convention
-        return "; ".join(scale_inscription(scale, convention, say) for scale in (up, self.scale))
+        return "; ".join(
+            scale_inscription(scale, convention, notation) for scale in (up, self.scale)
+        )
 
 
-def _as_high(manner: Manner, draw: Callable[[float, float], Viewed]) -> Block:
+def _as_high(style: BlockStyle, draw: Callable[[float, float], ViewBlock]) -> Block:
     """Return a diagram in all its heights, the usual one first."""
-    column = manner.width(manner.sizes.column)
+    column = style.width(style.sizes.column)
     return at_scales(draw(WIDE * column, times * HIGH * column) for times in HIGHER)
 
 
-def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def balance_diagram(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the balancing force or moment over the cycle, with both methods' results."""
-    return _as_high(manner, lambda width, height: _balance(solution, manner, width, height))
+    return _as_high(style, lambda width, height: _balance(solution, style, width, height))
 
 
-def _balance(solution: Solution, manner: Manner, width: float, height: float) -> Viewed:
+def _balance(solution: Solution, style: BlockStyle, width: float, height: float) -> ViewBlock:
     forces = cycle(solution)
     frame = _Frame.of(solution, forces, width)
     statics, balancing = statics_of(solution), solution.problem.drive.balancing
-    words, say = manner.words, manner.words.say
-    symbol = say.symbol(balancing.symbol)
+    language, notation = style.language, style.language.notation
+    symbol = notation.symbol(balancing.symbol)
     per_mm = frame.ordinates([forces.balance], _real, height)
     scale = Scale(f"mu_{balancing.letter}", per_mm, balancing.unit)
     curve = Curve("", frame.parts(forces.balance, per_mm, _real))
@@ -146,30 +152,30 @@ def _balance(solution: Solution, manner: Manner, width: float, height: float) ->
                 for p, v in zip(solution.positions, values, strict=True)
                 if np.isfinite(v)
             ]
-        said = [_legend(manner, width)]
+        said = [_legend(style, width)]
     picture = diagram_picture(
         frame.axis(forces),
-        Ordinates(f"{symbol}, {say.units[balancing.unit]}", per_mm, say),
+        Ordinates(f"{symbol}, {notation.units[balancing.unit]}", per_mm, notation),
         [curve],
         marks,
-        letter_height=manner.letter,
+        letter_height=style.letter,
         name="balance",
     )
-    what = words.sheets["balance"][balancing.quantity]
-    lines: list[str | Block] = [frame.scales(scale, say), *said, *_chords(forces, manner)]
-    block = named(picture, manner.entry.title or what.format(symbol=symbol), lines, manner)
-    return Viewed(block, "balance", scale)
+    what = language.sheets["balance"][balancing.quantity]
+    lines: list[str | Block] = [frame.scales(scale, notation), *said, *_chords(forces, style)]
+    block = named(picture, style.entry.title or what.format(symbol=symbol), lines, style)
+    return ViewBlock(block, "balance", scale)
 
 
 def _real(value: complex) -> float:
     return value.real
 
 
-def _legend(manner: Manner, width: float) -> Block:
+def _legend(style: BlockStyle, width: float) -> Block:
     """Return the legend of the balance's marks, in two lines where one would be too wide."""
-    height, said = manner.text(manner.sizes.text), manner.words.sheets
-    parts: list[Block] = [Line(typeset(said.legend_exact, height))]
-    for mark, text in ((Mark.RING, said.legend_plans), (Mark.CROSS, said.legend_lever)):
+    height, texts = style.text(style.sizes.text), style.language.sheets
+    parts: list[Block] = [Line(typeset(texts.legend_exact, height))]
+    for mark, text in ((Mark.RING, texts.legend_plans), (Mark.CROSS, texts.legend_lever)):
         items = tuple(mark_items(mark, 0j))
         told: list[Block] = [Picture(items, ink_bounds(items)), Line(typeset(text, height))]
         parts.append(Row(told, gap=1.5, align="centre"))
@@ -179,28 +185,28 @@ def _legend(manner: Manner, width: float) -> Block:
     return Column([parts[0], Row(parts[1:], gap=3.0, align="centre")], gap=2.5, align="centre")
 
 
-def _chords(forces: Cycle, manner: Manner) -> list[str]:
-    return [] if forces.smooth else [manner.words.sheets.chords]
+def _chords(forces: Cycle, style: BlockStyle) -> list[str]:
+    return [] if forces.smooth else [style.language.sheets.chords]
 
 
-def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def reaction_diagram(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the sizes of the reactions of one force plan over the cycle."""
-    return _as_high(manner, lambda width, height: _reactions(solution, manner, width, height))
+    return _as_high(style, lambda width, height: _reactions(solution, style, width, height))
 
 
-def _reactions(solution: Solution, manner: Manner, width: float, height: float) -> Viewed:
+def _reactions(solution: Solution, style: BlockStyle, width: float, height: float) -> ViewBlock:
     forces = cycle(solution)
     frame = _Frame.of(solution, forces, width)
-    links = statics_of(solution).board.plans[manner.entry.number].links
+    links = statics_of(solution).board.plans[style.entry.number].links
     own = [k for k, joint in enumerate(forces.joints) if joint.on in links]
-    numbers = [k for k in own if not forces.is_nothing(k)]
+    numbers = [k for k in own if not forces.is_negligible(k)]
     per_mm = frame.ordinates([forces.force(k) for k in numbers], abs, height)
     scale = Scale("mu_F", per_mm, "N")
     curves: list[Curve] = []
     for k in numbers:
         symbol = _symbol(forces, k)
         parts = frame.parts(forces.force(k), per_mm, abs)
-        same = next((c for c, other in enumerate(curves) if _alike(other.parts, parts)), None)
+        same = next((c for c, other in enumerate(curves) if _coincide(other.parts, parts)), None)
         if same is None:
             curves.append(Curve(symbol, parts, PENS[len(curves) % len(PENS)]))
         else:
@@ -208,22 +214,22 @@ def _reactions(solution: Solution, manner: Manner, width: float, height: float) 
             curves[same] = Curve(both, curves[same].parts, curves[same].pen)
     picture = diagram_picture(
         frame.axis(forces),
-        Ordinates(f"F, {manner.words.say.units['N']}", per_mm, manner.words.say),
+        Ordinates(f"F, {style.language.notation.units['N']}", per_mm, style.language.notation),
         curves,
-        letter_height=manner.letter,
-        name=f"reactions {manner.entry.number}",
+        letter_height=style.letter,
+        name=f"reactions {style.entry.number}",
     )
-    said = manner.words.sheets
-    whose = said.reactions_of_group if len(links) > 1 else said.reactions_of_driver
+    texts = style.language.sheets
+    whose = texts.reactions_of_group if len(links) > 1 else texts.reactions_of_driver
     title = whose.format(links=link_names(links))
-    lines = [frame.scales(scale, manner.words.say)]
+    lines = [frame.scales(scale, style.language.notation)]
     none = [f"{_symbol(forces, k)} = 0" for k in own if k not in numbers]
     lines += ["; ".join(none)] if none else []
-    block = named(picture, title, [*lines, *_chords(forces, manner)], manner)
-    return Viewed(block, "reactions", scale)
+    block = named(picture, title, [*lines, *_chords(forces, style)], style)
+    return ViewBlock(block, "reactions", scale)
 
 
-def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -> bool:
+def _coincide(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -> bool:
     """Return whether two curves would coincide on the drawing."""
     if [len(part) for part in one] != [len(part) for part in two]:
         return False
@@ -234,19 +240,19 @@ def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -
 # Polar diagrams ----------------------------------------------------------------------------------
 
 
-def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def hodographs(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the polar diagrams of the reactions in the revolute joints, in rows.
 
     They may be larger: the packer takes the size that fills the paper.
     """
-    usual = SIDE * manner.width(manner.sizes.column)
-    ways = (way for times in LARGER for way in _in_rows(solution, manner, times * usual))
-    return shaped(ways, grows=True)
+    usual = SIDE * style.width(style.sizes.column)
+    ways = (way for times in LARGER for way in _in_rows(solution, style, times * usual))
+    return make_alternatives(ways, grows=True)
 
 
-def _in_rows(solution: Solution, manner: Manner, side: float) -> Iterator[Viewed]:
+def _in_rows(solution: Solution, style: BlockStyle, side: float) -> Iterator[ViewBlock]:
     """Yield the polar diagrams in squares of a side, mm, by the number of them in a row."""
-    forces, words = cycle(solution), manner.words
+    forces, language = cycle(solution), style.language
     convention = solution.problem.scales.convention
     cells: list[Block] = []
     scale = statics_of(solution).scale
@@ -255,22 +261,22 @@ def _in_rows(solution: Solution, manner: Manner, side: float) -> Iterator[Viewed
         scale = hodograph_scale(forces, k, side)
         symbol = _symbol(forces, k)
         lines = [
-            _line(manner, _whose(forces, group, words)),
-            _line(manner, scale_inscription(scale, convention, words.say)),
-            _line(manner, _largest(solution, symbol, forces.peak(k), words)),
+            _line(style, _reactions_text(forces, group, language)),
+            _line(style, scale_inscription(scale, convention, language.notation)),
+            _line(style, _largest(solution, symbol, forces.peak(k), language)),
         ]
-        picture = hodograph_picture(forces, k, scale.per_mm, manner.letter)
+        picture = hodograph_picture(forces, k, scale.per_mm, style.letter)
         cells.append(Column([picture, Column(lines, gap=2.5, align="centre")], gap=4.0,
                             align="centre"))  # fmt: skip
-    name = manner.entry.title or words.sheets.hodographs
-    title = Line(typeset(name, manner.title))
-    chords = [_line(manner, text) for text in _chords(forces, manner)]
-    asked = manner.entry.per_row
+    name = style.entry.title or language.sheets.hodographs
+    title = Line(typeset(name, style.title))
+    chords = [_line(style, text) for text in _chords(forces, style)]
+    asked = style.entry.per_row
     for step in dict.fromkeys(min(k, len(cells)) for k in ((asked,) if asked else (3, 2, 4, 5))):
         found = range(0, len(cells), step)
         rows = [Row(cells[k : k + step], gap=10.0, align="bottom") for k in found]
         block = Column([title, *rows, *chords], gap=7.0, align="centre")
-        yield Viewed(block, "hodograph", scale)
+        yield ViewBlock(block, "hodograph", scale)
 
 
 def _symbol(forces: Cycle, number: int) -> str:
@@ -278,36 +284,39 @@ def _symbol(forces: Cycle, number: int) -> str:
     return reaction_symbol(joint.on, forces.solution.problem.mechanism.called(joint.by))
 
 
-def _whose(forces: Cycle, group: Sequence[int], words: Language) -> str:
+def _reactions_text(forces: Cycle, group: Sequence[int], language: Language) -> str:
     """Return the reactions that a polar diagram shows, and their joints."""
     first = group[0]
     signs = ["" if k == first or not opposite(forces, first, k) else MINUS for k in group]
     symbols = [sign + _symbol(forces, k) for sign, k in zip(signs, group, strict=True)]
     joints = dict.fromkeys(point_name(forces.joints[k].joint) for k in group)
-    told = words.sheets.of_joint if len(joints) == 1 else words.sheets.of_joints
-    return told.format(symbols=" = ".join(symbols), joints=", ".join(joints))
+    text = language.sheets.of_joint if len(joints) == 1 else language.sheets.of_joints
+    return text.format(symbols=" = ".join(symbols), joints=", ".join(joints))
 
 
-def _largest(solution: Solution, symbol: str, peak: ReactionPeak, words: Language) -> str:
+def _largest(solution: Solution, symbol: str, peak: ReactionPeak, language: Language) -> str:
     """Return the largest size of a reaction, and the position where it is reached or approached."""
-    drive, say = solution.problem.drive, words.say
+    drive, notation = solution.problem.drive, language.notation
     letter, _, index = symbol.partition("_")
-    head = f"{letter}_{{{index.strip('{}')} max}} = {say.found(peak.size)} {say.units['N']}"
+    size = f"{notation.computed(peak.size)} {notation.units['N']}"
+    head = f"{letter}_{{{index.strip('{}')} max}} = {size}"
     sign = "→" if peak.is_limit else "="
-    at = say.found(peak.position)
+    at = notation.computed(peak.position)
     if drive.is_crank:
-        at = say.number(f"{half_up(peak.position % 360.0, 0) % 360.0:.0f}")
-    at = f"{drive.coordinate.symbol} {sign} {with_unit(at, say.units[drive.coordinate.unit])}"
-    at = of_turn(solution.problem, peak.position, at, words)
-    return words.sheets.largest_at.format(largest=head, at=at)
+        at = notation.number(f"{half_up(peak.position % 360.0, 0) % 360.0:.0f}")
+    at = f"{drive.coordinate.symbol} {sign} {with_unit(at, notation.units[drive.coordinate.unit])}"
+    at = angle_with_positions(solution.problem, peak.position, at, language)
+    return language.sheets.largest_at.format(largest=head, at=at)
 
 
 # Texts -------------------------------------------------------------------------------------------
 
 
-def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def statement_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return "Дано" with masses and loads of all positions, and "Определить"."""
     cycle(solution)
-    words = manner.words
-    asked = words.sheets.wanted_cycle.format(wanted=cycle_wanted(solution, words.say))
-    return stated(cycle_statement(solution, words), asked, manner)
+    language = style.language
+    asked = language.sheets.wanted_cycle.format(
+        wanted=cycle_force_unknowns(solution, language.notation)
+    )
+    return stated(cycle_statement(solution, language), asked, style)

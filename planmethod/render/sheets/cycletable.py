@@ -5,120 +5,128 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from planmethod.note.compared import ComparedNumber, sense_of
-from planmethod.note.narrate.given import NBSP
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import Notation, alike, half_up
+from planmethod.note.narrate.statement import NBSP
+from planmethod.note.numbers import Notation, format_column, half_up
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.guides import angle_text
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import position_columns, table_width
 from planmethod.solved.cycle import Cycle, cycle
 from planmethod.solved.errors.forces import drawn_forces
-from planmethod.solved.forces.reading import FAINT_SHARE
+from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
 
-def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def reactions_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the table of reactions and of the balance by positions."""
     forces = cycle(solution)
-    height, width = manner.text(min(manner.sizes.text, 3.5)), table_width(manner)
-    words = manner.words
-    columns = position_columns(solution, indices, words)
+    height, width = style.text(min(style.sizes.text, 3.5)), table_width(style)
+    language = style.language
+    columns = position_columns(solution, indices, language)
     for k in range(len(forces.joints)):
-        columns += _reaction_columns(forces, k, indices, words.say)
-    columns += cycle_balance_columns(solution, indices, words)
-    title = manner.entry.title or words.sheets.cycle_reactions
+        columns += _reaction_columns(forces, k, indices, language.notation)
+    columns += cycle_balance_columns(solution, indices, language)
+    title = style.entry.title or language.sheets.cycle_reactions
     table = table_block(columns, height, max_width=width, leading=2, title=title)
-    return Column([table, paragraph(_drawn_at(solution, words), height, table.width)], gap=3.0)
+    return Column([table, paragraph(_drawn_at(solution, language), height, table.width)], gap=3.0)
 
 
-def _drawn_at(solution: Solution, words: Language) -> str:
+def _drawn_at(solution: Solution, language: Language) -> str:
     """Return the note on the scales of the plans of all positions, and on their reading."""
     convention = solution.problem.scales.convention
     scales = [*solution.scales.values(), statics_of(solution).scale]
-    told = (scale_inscription(scale, convention, words.say) for scale in scales)
-    said = "; ".join(text.replace(" ", NBSP) for text in told)
-    ruler = f"{words.say.given(solution.hand.ruler)}{NBSP}{words.say.units['mm']}"
-    return words.sheets.cycle_note.format(scales=said, ruler=ruler)
+    told = (scale_inscription(scale, convention, language.notation) for scale in scales)
+    phrase = "; ".join(text.replace(" ", NBSP) for text in told)
+    notation = language.notation
+    ruler = f"{notation.as_input(solution.ruler_arithmetic.ruler)}{NBSP}{notation.units['mm']}"
+    return language.sheets.cycle_note.format(scales=phrase, ruler=ruler)
 
 
 def _reaction_columns(
-    forces: Cycle, which: int, indices: Sequence[int], say: Notation
+    forces: Cycle, which: int, indices: Sequence[int], notation: Notation
 ) -> list[TableColumn]:
     """Return size and direction of a reaction, and of a guide its moment about the pin."""
     joint, statics = forces.joints[which], statics_of(forces.solution)
     values = [complex(joint.force[i]) for i in indices]
     nothing = [
-        abs(v) <= FAINT_SHARE * statics.largest(i) for v, i in zip(values, indices, strict=True)
+        abs(v) <= NEGLIGIBLE_FRACTION * statics.largest(i)
+        for v, i in zip(values, indices, strict=True)
     ]
-    sizes = alike([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
-    angles = ["—" if nil else angle_text(v, say) for v, nil in zip(values, nothing, strict=True)]
+    sizes = format_column([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
+    angles = [
+        "—" if nil else angle_text(v, notation) for v, nil in zip(values, nothing, strict=True)
+    ]
     by = forces.solution.problem.mechanism.called(joint.by)
     index = reaction_symbol(joint.on, by, letter="")
     columns = [
         TableColumn(
-            reaction_symbol(joint.on, by), tuple(map(say.number, sizes)), unit=say.units["N"]
+            reaction_symbol(joint.on, by),
+            tuple(map(notation.number, sizes)),
+            unit=notation.units["N"],
         ),
-        TableColumn(f"φ{index}", tuple(angles), unit=say.in_head("deg")),
+        TableColumn(f"φ{index}", tuple(angles), unit=notation.in_head("deg")),
     ]
     moments = [float(joint.moment[i]) for i in indices]
     lengths = [length for _, _, length in forces.solution.problem.lengths]
-    least = [FAINT_SHARE * statics.largest(i) * max(lengths, default=1.0) for i in indices]
+    least = [NEGLIGIBLE_FRACTION * statics.largest(i) * max(lengths, default=1.0) for i in indices]
     none = [abs(m) <= small for m, small in zip(moments, least, strict=True)]
     if not all(none):
-        texts = alike([0.0 if nil else abs(m) for m, nil in zip(moments, none, strict=True)])
+        texts = format_column(
+            [0.0 if nil else abs(m) for m, nil in zip(moments, none, strict=True)]
+        )
         cells = tuple(
-            TableCell(say.number(text), 0 if nil else (1 if m > 0 else -1))
+            TableCell(notation.number(text), 0 if nil else (1 if m > 0 else -1))
             for text, m, nil in zip(texts, moments, none, strict=True)
         )
-        columns.append(TableColumn(f"M{index}", cells, unit=say.units["N·m"]))
+        columns.append(TableColumn(f"M{index}", cells, unit=notation.units["N·m"]))
     return columns
 
 
 def cycle_balance_columns(
-    solution: Solution, indices: Sequence[int], words: Language
+    solution: Solution, indices: Sequence[int], language: Language
 ) -> list[TableColumn]:
     """Return the balance: exact, by both methods, their difference and its expected size.
 
     The difference is between the numbers of the table.
     """
     statics, balancing = statics_of(solution), solution.problem.drive.balancing
-    said, say = words.sheets, words.say
-    symbol, unit = say.symbol(balancing.symbol), say.units[balancing.unit]
+    said, notation = language.sheets, language.notation
+    symbol, unit = notation.symbol(balancing.symbol), notation.units[balancing.unit]
 
     def column(head: str, texts: Sequence[str], *, sense: bool) -> TableColumn:
         cells = []
         for text in texts:
             size = text.removeprefix("-") if sense else text
-            cells.append(TableCell(say.number(size), sense_of(float(text)) if sense else None))
+            cells.append(TableCell(notation.number(size), sense_of(float(text)) if sense else None))
         return TableColumn(head, tuple(cells), unit=unit)
 
     def chosen(values: Reals) -> list[float]:
         return [float(values[i]) for i in indices]
 
-    columns = [column(symbol, alike(chosen(statics.balance)), sense=balancing.turns)]
+    columns = [column(symbol, format_column(chosen(statics.balance)), sense=balancing.turns)]
     balances, sigma = drawn_forces(statics).balances, drawn_forces(statics).discrepancy_sigma
     if balances is None or sigma is None:
         return columns
-    both = alike([*chosen(balances.plans), *chosen(balances.lever)])
+    both = format_column([*chosen(balances.plans), *chosen(balances.lever)])
     plans, lever = both[: len(indices)], both[len(indices) :]
     pairs = list(zip(plans, lever, strict=True))
-    differences = [_apart(one, two, sense=balancing.turns) for one, two in pairs]
+    differences = [_difference_text(one, two, sense=balancing.turns) for one, two in pairs]
     columns.append(column(said.cycle_plans, plans, sense=balancing.turns))
     columns.append(column(said.cycle_lever, lever, sense=balancing.turns))
     columns.append(column("Δ", differences, sense=False))
     shares = [ComparedNumber(float(one), float(two)).percent_text() for one, two in pairs]
-    columns.append(TableColumn("Δ", tuple(map(say.number, shares)), unit="%"))
-    columns.append(column("σ_{Δ}", alike(chosen(sigma), 2), sense=False))
+    columns.append(TableColumn("Δ", tuple(map(notation.number, shares)), unit="%"))
+    columns.append(column("σ_{Δ}", format_column(chosen(sigma), 2), sense=False))
     return columns
 
 
-def _apart(one: str, two: str, *, sense: bool) -> str:
+def _difference_text(one: str, two: str, *, sense: bool) -> str:
     """Return a second number minus the first, with their common decimals.
 
     With a sense in the table, it is the difference of their sizes.

@@ -12,9 +12,9 @@ from planmethod.construct.scale import Scale, choose_scale
 from planmethod.errors import LayoutError
 from planmethod.note.document import Caption, Formula, Paragraph
 from planmethod.note.narrate.forces.statement import like_line
-from planmethod.note.narrate.given import point_name
-from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.narrate.reduction import ReductionTeller
+from planmethod.note.narrate.machine import MachineNarrator
+from planmethod.note.narrate.reduction import ReductionNarrator
+from planmethod.note.narrate.statement import point_name
 from planmethod.problem.load_records import Load, Over, SizeTable
 from planmethod.problem.machine_records import WheelShape
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
@@ -25,8 +25,8 @@ from planmethod.render.layout.nodes import TextNode, blocks_of
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
 from planmethod.render.pictures.flywheel import construction_picture
-from planmethod.render.sheets.composer import Viewed
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.composer import ViewBlock
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import table_width
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import named
@@ -49,30 +49,30 @@ def _drawing(solution: Solution) -> FlywheelDrawing:
     return drawing_of(flywheel_of(solution), solution.profile)
 
 
-def _teller(solution: Solution, manner: Manner) -> MachineTeller:
-    return MachineTeller(_drawing(solution), manner.words)
+def _make_narrator(solution: Solution, style: BlockStyle) -> MachineNarrator:
+    return MachineNarrator(_drawing(solution), style.language)
 
 
 # Texts -------------------------------------------------------------------------------------------
 
 
-def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def statement_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return "Дано" of the machine, and "Определить"."""
-    tell = _teller(solution, manner)
-    asked = manner.words.sheets.wanted.format(wanted=tell.wanted())
-    return stated(tell.given(), asked, manner)
+    narrator = _make_narrator(solution, style)
+    asked = style.language.sheets.wanted.format(wanted=narrator.unknowns())
+    return stated(narrator.given_facts(), asked, style)
 
 
-def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def calculation_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the formulas of the construction, the exact flywheel, and their difference."""
-    tell = _teller(solution, manner)
-    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    narrator = _make_narrator(solution, style)
+    height, width = style.text(style.sizes.text), style.width(style.sizes.column)
     nodes: list[TextNode] = [
-        Caption(manner.entry.title or tell.said.calculation),
-        *map(Formula, tell.formulas()),
-        *map(Paragraph, tell.conclusions()),
-        *map(Formula, tell.power_formulas()),
-        *map(Paragraph, tell.motor_choice()),
+        Caption(style.entry.title or narrator.texts.calculation),
+        *map(Formula, narrator.formulas()),
+        *map(Paragraph, narrator.conclusions()),
+        *map(Formula, narrator.power_formulas()),
+        *map(Paragraph, narrator.motor_choice()),
     ]
     return Column(list(blocks_of(nodes, height, width=width)), gap=2.5)
 
@@ -80,7 +80,7 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
 # Diagrams of the construction --------------------------------------------------------------------
 
 
-class _DiagramsViewed(Viewed, frozen=True):
+class _DiagramsViewBlock(ViewBlock, frozen=True):
     """The diagrams of the construction, with KL or AB and the pole distance as measured segments.
 
     ``corner`` is the place of the point that is marked with the letter ``mark``.
@@ -97,37 +97,37 @@ class _DiagramsViewed(Viewed, frozen=True):
             yield from (Span(name, None, tail + by, head + by) for name, tail, head in self.ends)
 
 
-def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def diagrams_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
     """Return the constructed diagrams of moment, work, energy, inertia and those of the method."""
-    drawing, tell = _drawing(solution), _teller(solution, manner)
-    picture = construction_picture(drawing, tell, manner.letter)
-    scales, made = drawing.scales, drawing.made
-    told = "; ".join(
+    drawing, narrator = _drawing(solution), _make_narrator(solution, style)
+    picture = construction_picture(drawing, narrator, style.letter)
+    scales, made = drawing.scales, drawing.construction
+    text = "; ".join(
         (
-            tell.scale("M", scales.moment, "N·m"),
-            tell.scale("φ", degrees(scales.phi), "deg"),
-            tell.scale("A", scales.work, "J"),
-            tell.scale("T", scales.work, "J"),
-            tell.scale("J", scales.inertia, "kg·m²"),
+            narrator.scale("M", scales.moment, "N·m"),
+            narrator.scale("φ", degrees(scales.phi), "deg"),
+            narrator.scale("A", scales.work, "J"),
+            narrator.scale("T", scales.work, "J"),
+            narrator.scale("J", scales.inertia, "kg·m²"),
         )
     )
-    block = named(picture, manner.entry.title or tell.by_method("diagrams"), [told], manner)
+    block = named(picture, style.entry.title or narrator.by_method("diagrams"), [text], style)
     ends = [drawing.exact.point(name)[0] for name in (made.upper, made.lower, made.pole)]
     upper, lower, pole = (complex(end) for end in ends)
     foot = complex(drawing.exact.point(made.axes["M"].origin)[0])
     level = complex(upper.real, lower.imag)  # of A and B along the axis, as KL is
     spans = ((str(made.segment), level, upper), ("H", pole, foot))
     scale, mark = Scale("mu_M", scales.moment, "N·m"), made.letters[0]
-    return _DiagramsViewed(block, "flywheel", scale, spans, upper, mark)
+    return _DiagramsViewBlock(block, "flywheel", scale, spans, upper, mark)
 
 
 # Further diagrams --------------------------------------------------------------------------------
 
 
-def speed_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def speed_diagram(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
     """Return the deviation of the speed of the steady motion from the mean as a diagram."""
-    tell, flywheel = _teller(solution, manner), flywheel_of(solution)
-    _, height = _diagram_room(manner)
+    narrator, flywheel = _make_narrator(solution, style), flywheel_of(solution)
+    _, height = _diagram_size(style)
     at = np.linspace(0.0, flywheel.cycle, 721)
     omega = flywheel.speeds(np.append(at[:-1], 0.0))[0] - flywheel.middle_speed
     per_mm = choose_scale((0.0, float(np.ptp(omega))), (1.0, height))
@@ -136,32 +136,32 @@ def speed_diagram(solution: Solution, indices: Sequence[int], manner: Manner) ->
     places = tuple(complex(t / across, y / per_mm) for t, y in zip(at, omega, strict=True))
     count = flywheel.machine.count
     marks = tuple(width * k / count for k in range(count + 1))
-    unit = tell.unit("1/s")
+    unit = narrator.unit("1/s")
     picture = diagram_picture(
         Abscissae("φ", marks, tuple(map(str, flywheel.turn.numbers(count)))),
-        Ordinates(f"ω − {tell.letter('mean speed')}, {unit}", per_mm, tell.say),
+        Ordinates(f"ω − {narrator.letter('mean speed')}, {unit}", per_mm, narrator.notation),
         [Curve("", (places,))],
-        letter_height=manner.letter,
+        letter_height=style.letter,
         name="speed",
     )
     scale = Scale("mu_ω", per_mm, "1/s")
-    told = [f"{tell.scale('ω', per_mm, '1/s')}; {tell.scale('φ', degrees(across), 'deg')}"]
-    return Viewed(named(picture, manner.entry.title or tell.said.speed, told, manner),
+    told = [f"{narrator.scale('ω', per_mm, '1/s')}; {narrator.scale('φ', degrees(across), 'deg')}"]
+    return ViewBlock(named(picture, style.entry.title or narrator.texts.speed, told, style),
                   "diagram", scale)  # fmt: skip
 
 
-def _diagram_room(manner: Manner) -> tuple[float, float]:
-    column = manner.width(manner.sizes.column)
+def _diagram_size(style: BlockStyle) -> tuple[float, float]:
+    column = style.width(style.sizes.column)
     return 0.75 * column, 0.22 * column
 
 
-def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def load_diagrams(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return diagrams of variable forces over the strokes of their points, side by side.
 
     A load that repeats another one's diagram later is listed under that diagram.
     """
-    tell, flywheel = _teller(solution, manner), flywheel_of(solution)
-    width, height = _diagram_room(manner)
+    narrator, flywheel = _make_narrator(solution, style), flywheel_of(solution)
+    width, height = _diagram_size(style)
     dynamics = solution.problem.dynamics
     assert dynamics is not None
     blocks: list[Block] = []
@@ -172,7 +172,7 @@ def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) ->
             continue
         (force,) = (one.force for one in external(moved, dynamics, load.link)
                     if one.name == load.name)  # fmt: skip
-        way = flywheel.turn.course(load.at)
+        way = flywheel.turn.main_direction(load.at)
         along = (moved.points[load.at].place * way.conjugate()).real
         stroke = float(np.ptp(along))
         # from the end at or nearer to position 0
@@ -191,23 +191,23 @@ def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) ->
         name = point_name(load.at)
         picture = diagram_picture(
             Abscissae(f"s_{{{name}}}", (0.0, stroke / mu_s), ("0", "H")),
-            Ordinates(f"{load.name}, {tell.unit('N')}", per_mm, tell.say),
+            Ordinates(f"{load.name}, {narrator.unit('N')}", per_mm, narrator.notation),
             [Curve("", (places,))],
-            letter_height=manner.letter,
+            letter_height=style.letter,
             name=f"load {load.name}",
         )
-        metres = f"{tell.say.found(stroke)} {tell.unit('m')}"
-        told = "; ".join(
+        metres = f"{narrator.notation.computed(stroke)} {narrator.unit('m')}"
+        text = "; ".join(
             (
-                tell.said.over_stroke.format(stroke=metres),
-                tell.scale("F", per_mm, "N"),
-                tell.scale("s", mu_s, "m"),
+                narrator.texts.over_stroke.format(stroke=metres),
+                narrator.scale("F", per_mm, "N"),
+                narrator.scale("s", mu_s, "m"),
             )
         )
-        title = manner.entry.title or tell.said.load.format(name=load.name, point=name)
-        later = [like_line(one, manner.words) for one in dynamics.loads
+        title = style.entry.title or narrator.texts.load.format(name=load.name, point=name)
+        later = [like_line(one, style.language) for one in dynamics.loads
                  if isinstance(one.size, SizeTable) and one.size.like == load.name]  # fmt: skip
-        blocks.append(named(picture, title, [told, *later], manner))
+        blocks.append(named(picture, title, [text, *later], style))
     return (
         Row(blocks[:2], gap=12.0, align="bottom") if blocks else Picture((), (0.0, 0.0, 0.0, 0.0))
     )
@@ -226,61 +226,63 @@ def _fine(flywheel: Flywheel) -> Reals:
 # Table -------------------------------------------------------------------------------------------
 
 
-def machine_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def machine_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the quantities reduced to the crank, work, energy and speed by positions."""
-    tell = _teller(solution, manner)
-    height = manner.text(min(manner.sizes.text, 3.5))
+    narrator = _make_narrator(solution, style)
+    height = style.text(min(style.sizes.text, 3.5))
     columns = [
-        TableColumn(head, tuple(cells), unit=unit, least=8.0)
-        for head, unit, cells in tell.columns()
+        TableColumn(head, tuple(cells), unit=unit, min_width=8.0)
+        for head, unit, cells in narrator.columns()
     ]
-    title = manner.entry.title or tell.said.table
-    table = table_block(columns, height, max_width=table_width(manner), leading=2, title=title,
+    title = style.entry.title or narrator.texts.table
+    table = table_block(columns, height, max_width=table_width(style), leading=2, title=title,
                         row_height=max(6.0, 2.0 * height))  # fmt: skip
-    note = tell.said.lever_agrees.format(lever=tell.letter("moment by lever"))
+    note = narrator.texts.lever_agrees.format(lever=narrator.letter("moment by lever"))
     return Column([table, paragraph(note, height, table.width)], gap=3.0)
 
 
-def moment_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def moment_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the reduced moment term by term: forces, velocities, angles."""
-    reduction = ReductionTeller(_teller(solution, manner))
+    reduction = ReductionNarrator(_make_narrator(solution, style))
     formulas = [reduction.moment_formula()]
-    return _reduced(reduction.moments(), formulas, reduction.tell.said.moments, manner)
+    return _reduced(reduction.moments(), formulas, reduction.narrator.texts.moments, style)
 
 
-def energy_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def energy_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the energies of the links and the reduced moment of inertia."""
-    reduction = ReductionTeller(_teller(solution, manner))
-    formulas, title = reduction.energy_formulas(), reduction.tell.said.energies
-    return _reduced(reduction.energy_columns(), formulas, title, manner)
+    reduction = ReductionNarrator(_make_narrator(solution, style))
+    formulas, title = reduction.energy_formulas(), reduction.narrator.texts.energies
+    return _reduced(reduction.energy_columns(), formulas, title, style)
 
 
 def _reduced(
     columns: Sequence[tuple[str, str, list[str]]],
     formulas: Iterable[str],
     title: str,
-    manner: Manner,
+    style: BlockStyle,
 ) -> Block:
     """Return a table with the formulas of its columns above it."""
-    height = manner.text(min(manner.sizes.text, 3.5))
-    made = [TableColumn(head, tuple(cells), unit=unit, least=8.0) for head, unit, cells in columns]
-    width = table_width(manner)
+    height = style.text(min(style.sizes.text, 3.5))
+    made = [
+        TableColumn(head, tuple(cells), unit=unit, min_width=8.0) for head, unit, cells in columns
+    ]
+    width = table_width(style)
     table = table_block(made, height, max_width=width, leading=1, row_height=max(6.0, 2.0 * height))
-    head: list[TextNode] = [Caption(manner.entry.title or title), *map(Formula, formulas)]
+    head: list[TextNode] = [Caption(style.entry.title or title), *map(Formula, formulas)]
     return Column([*blocks_of(head, height, width=max(table.width, 100.0)), table], gap=2.5)
 
 
 # The wheel ---------------------------------------------------------------------------------------
 
 
-def wheel_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def wheel_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the flywheel in section and from the side, with its dimensions."""
-    tell = _teller(solution, manner)
-    sizes = tell.sizes
-    height = manner.text(manner.sizes.text)
+    narrator = _make_narrator(solution, style)
+    sizes = narrator.sizes
+    height = style.text(style.sizes.text)
     if sizes is None:
-        return paragraph(tell.conclusions()[0], height, manner.width(manner.sizes.column))
-    scale = choose_scale((sizes.diameter, 0.0), (0.3 * manner.width(manner.sizes.column), 1.0))
+        return paragraph(narrator.conclusions()[0], height, style.width(style.sizes.column))
+    scale = choose_scale((sizes.diameter, 0.0), (0.3 * style.width(style.sizes.column), 1.0))
     radius, half = sizes.diameter / 2.0 / scale, sizes.width / 2.0 / scale
     bore = sizes.bore / 2.0 / scale or 0.12 * radius
     middle = complex(radius + half + 16.0, 0.0)
@@ -306,16 +308,16 @@ def wheel_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     else:
         items += _measure(complex(-half, -radius), complex(-half, radius), -10.0, "D", size)
     picture = Picture(tuple(items), ink_bounds(items))
-    told = ["; ".join(tell.size_lines(sizes))]
-    lines = paragraph(told[0], height, manner.width(manner.sizes.column))
-    title = manner.entry.title or tell.said["sizes"][sizes.shape.value]
-    return named(picture, title, [tell.scale("l", scale, "m"), lines], manner)
+    told = ["; ".join(narrator.size_lines(sizes))]
+    lines = paragraph(told[0], height, style.width(style.sizes.column))
+    title = style.entry.title or narrator.texts["sizes"][sizes.shape.value]
+    return named(picture, title, [narrator.scale("l", scale, "m"), lines], style)
 
 
-def _measure(one: complex, two: complex, aside: complex, letter: str, size: float) -> list[Item]:
-    """Return a dimension with its extension lines; ``aside`` is its offset."""
-    beyond = aside / abs(aside) * 2.0
-    tail, head = one + aside, two + aside
+def _measure(one: complex, two: complex, offset: complex, letter: str, size: float) -> list[Item]:
+    """Return a dimension with its extension lines; ``offset`` is its offset."""
+    beyond = offset / abs(offset) * 2.0
+    tail, head = one + offset, two + offset
     way = (head - tail) / abs(head - tail)
     outside = abs(head - tail) < 12.0
     items: list[Item] = [

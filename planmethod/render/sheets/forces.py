@@ -11,14 +11,19 @@ from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
-from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
-from planmethod.note.narrate.forces.statement import link_names, plan_title, statement, wanted
-from planmethod.note.narrate.given import unbroken
+from planmethod.note.narrate.forces.resultants import shift_lines, unshifted_lines
+from planmethod.note.narrate.forces.statement import (
+    force_unknowns,
+    link_names,
+    plan_title,
+    statement,
+)
 from planmethod.note.narrate.letters import direction_text
 from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.statement import unbroken
 from planmethod.note.numbers import Notation
 from planmethod.note.plaintext import plain_text
-from planmethod.plans.forces.polygons import Share
+from planmethod.plans.forces.polygons import Component
 from planmethod.plans.model import PlanKind
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.ellipses import vertex_ellipses
@@ -26,8 +31,8 @@ from planmethod.render.forces.leverpicture import lever_picture
 from planmethod.render.forces.polygon import (
     NO_ELLIPSES,
     START,
-    apart,
     drawn_edges,
+    find_overlap_shifts,
     polygon_picture,
     start_place,
 )
@@ -35,9 +40,9 @@ from planmethod.render.ink.drawing import Disc, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, heading
 from planmethod.render.layout.nodes import TextNode, blocks_of
-from planmethod.render.pictures.ellipses import told_ellipses
-from planmethod.render.sheets.composer import Viewed
-from planmethod.render.sheets.model import Manner
+from planmethod.render.pictures.ellipses import describe_ellipses
+from planmethod.render.sheets.composer import ViewBlock
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import named, shown_position
 from planmethod.solved.forces.lever import LeverReading
@@ -45,19 +50,19 @@ from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
 
-def _reading(solution: Solution, indices: Sequence[int], manner: Manner) -> ForceReading:
-    return force_reading(solution, shown_position(solution, indices, manner))
+def _reading(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ForceReading:
+    return force_reading(solution, shown_position(solution, indices, style))
 
 
 # Views -------------------------------------------------------------------------------------------
 
 
-class ForcePlanViewed(Viewed, frozen=True):
+class ForcePlanViewBlock(ViewBlock, frozen=True):
     """A force plan among the blocks of a sheet: the reactions are measured on it."""
 
     reading: ForceReading
     number: int
-    say: Notation
+    notation: Notation
 
     def spans(self, items: Sequence[Item], corner: complex) -> Iterable[Span]:
         """Return the reactions of the plan."""
@@ -70,154 +75,161 @@ class ForcePlanViewed(Viewed, frozen=True):
         many = len(reading.solution.positions) > 1
         return (
             Span(
-                plain_text(self.say.symbol(edge.symbol)),
+                plain_text(self.notation.symbol(edge.symbol)),
                 reading.index if many else None,
                 shift + beside + reading.corner(self.number, edge.tail),
                 shift + beside + reading.corner(self.number, edge.head),
             )
-            for edge, beside in zip(edges, apart(reading, self.number), strict=True)
+            for edge, beside in zip(edges, find_overlap_shifts(reading, self.number), strict=True)
             if edge.symbol not in known
         )
 
 
 def scheme_of(
-    reading: ForceReading, picture: Block, title: str, manner: Manner, *said: str
-) -> Viewed:
+    reading: ForceReading, picture: Block, title: str, style: BlockStyle, *said: str
+) -> ViewBlock:
     """Return a picture at the scale of the position plan, with its title and notes."""
     solution, kind = reading.solution, PlanKind.POSITION
     scale, convention = solution.scales[kind], solution.problem.scales.convention
-    told = [scale_inscription(scale, convention, manner.words.say), *said]
-    return Viewed(named(picture, title, told, manner), kind.value, scale)
+    told = [scale_inscription(scale, convention, style.language.notation), *said]
+    return ViewBlock(named(picture, title, told, style), kind.value, scale)
 
 
-def loads_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def loads_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
     """Return the scheme with all loads."""
-    reading = _reading(solution, indices, manner)
-    said, picture = manner.words.sheets, loads_picture(reading, manner.letter, manner.words.say)
-    return scheme_of(reading, picture, manner.entry.title or said.loads, manner, said.not_to_scale)
+    reading = _reading(solution, indices, style)
+    texts, picture = (
+        style.language.sheets,
+        loads_picture(reading, style.letter, style.language.notation),
+    )
+    return scheme_of(reading, picture, style.entry.title or texts.loads, style, texts.not_to_scale)
 
 
-def cut_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def cut_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
     """Return a structural group, or the driver, cut free with all forces on it."""
-    reading, number = _reading(solution, indices, manner), manner.entry.number
-    words = manner.words
-    title = plan_title(reading, reading.plans[number], words)
-    picture: Block = cut_picture(reading, number, manner.letter, words.say)
-    inner = inner_picture(reading, number, manner.letter, words.say)
+    reading, number = _reading(solution, indices, style), style.entry.number
+    language = style.language
+    title = plan_title(reading, reading.plans[number], language)
+    picture: Block = cut_picture(reading, number, style.letter, language.notation)
+    inner = inner_picture(reading, number, style.letter, language.notation)
     if inner is not None:
         link, apart_from = inner
-        said = words.sheets.cut_link.format(link=link)
-        below = Line(typeset(said, manner.text(manner.sizes.text)))
+        phrase = language.sheets.cut_link.format(link=link)
+        below = Line(typeset(phrase, style.text(style.sizes.text)))
         beside = Column([apart_from, below], gap=3.0, align="centre")
         picture = Row([picture, beside], gap=10.0, align="centre")
-    return scheme_of(reading, picture, title, manner)
+    return scheme_of(reading, picture, title, style)
 
 
-def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def plan_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return a force plan, or only its name if all its forces are zero."""
-    return plan_of(_reading(solution, indices, manner), manner)
+    return plan_of(_reading(solution, indices, style), style)
 
 
-def plan_of(reading: ForceReading, manner: Manner) -> Block:
+def plan_of(reading: ForceReading, style: BlockStyle) -> Block:
     """Return the force plan of a reading that a composition selects."""
-    solution, number = reading.solution, manner.entry.number
-    links, words = reading.plans[number].links, manner.words
-    whose = words.sheets.plan_of_group if len(links) > 1 else words.sheets.plan_of_link
+    solution, number = reading.solution, style.entry.number
+    links, language = reading.plans[number].links, style.language
+    whose = language.sheets.plan_of_group if len(links) > 1 else language.sheets.plan_of_link
     title = whose.format(links=link_names(links))
     if not drawn_edges(reading, number):
-        none = words.sheets.plan_none.format(title=title)
-        return heading(none, manner.text(manner.sizes.text))
-    scale = reading.own_scale(number)
-    said = [scale_inscription(scale, solution.problem.scales.convention, words.say)]
-    if any(apart(reading, number)):
-        said.append(words.sheets.apart)
-    ellipses = vertex_ellipses(reading, number) if manner.extras.errors else NO_ELLIPSES
-    said += told_ellipses([ellipses], solution.profile, words) if manner.extras.errors else []
-    picture = polygon_picture(reading, number, manner.letter, words.say, ellipses)
-    block = named(picture, title, said, manner)
-    return ForcePlanViewed(block, "forces", scale, reading, number, words.say)
+        none = language.sheets.plan_none.format(title=title)
+        return heading(none, style.text(style.sizes.text))
+    scale = reading.plan_scale(number)
+    said = [scale_inscription(scale, solution.problem.scales.convention, language.notation)]
+    if any(find_overlap_shifts(reading, number)):
+        said.append(language.sheets.apart)
+    ellipses = vertex_ellipses(reading, number) if style.options.errors else NO_ELLIPSES
+    said += (
+        describe_ellipses([ellipses], solution.profile, language) if style.options.errors else []
+    )
+    picture = polygon_picture(reading, number, style.letter, language.notation, ellipses)
+    block = named(picture, title, said, style)
+    return ForcePlanViewBlock(block, "forces", scale, reading, number, language.notation)
 
 
-def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def lever_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the Zhukovsky lever, or only its title if the driver is at rest."""
-    reading = _reading(solution, indices, manner)
-    words = manner.words
-    title = manner.entry.title or words.sheets.lever
+    reading = _reading(solution, indices, style)
+    language = style.language
+    title = style.entry.title or language.sheets.lever
     if reading.statics.lever_at(reading.index) is None:
-        return heading(title, manner.title)  # the text beside it gives the reason
+        return heading(title, style.title)  # the text beside it gives the reason
     scale = LeverReading(reading).scale
     said = [
-        words.sheets.lever_turned,
-        scale_inscription(scale, solution.problem.scales.convention, words.say),
+        language.sheets.lever_turned,
+        scale_inscription(scale, solution.problem.scales.convention, language.notation),
     ]
-    block = named(lever_picture(reading, manner.letter, words.say), title, said, manner)
-    return Viewed(block, PlanKind.VELOCITY.value, scale)
+    block = named(lever_picture(reading, style.letter, language.notation), title, said, style)
+    return ViewBlock(block, PlanKind.VELOCITY.value, scale)
 
 
 # Texts -------------------------------------------------------------------------------------------
 
 
-def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def statement_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return "Дано" with masses and loads, "Определить", and the computed loads."""
-    reading = _reading(solution, indices, manner)
-    words, said = manner.words, manner.words.sheets
-    loads = LoadNarrator(lettered(reading, words)).formulas()
+    reading = _reading(solution, indices, style)
+    language, texts = style.language, style.language.sheets
+    loads = LoadNarrator(lettered(reading, language)).formulas()
     return stated(
-        statement(reading, words),
-        said.wanted.format(wanted=wanted(reading, words.say)),
-        manner,
-        *([said.computed_loads.format(loads=unbroken(loads))] if loads else []),
-        *shift_lines(reading.statics, words.note),
-        *kept_lines(reading.statics, words.note),
+        statement(reading, language),
+        texts.wanted.format(wanted=force_unknowns(reading, language.notation)),
+        style,
+        *([texts.computed_loads.format(loads=unbroken(loads))] if loads else []),
+        *shift_lines(reading.statics, language.note),
+        *unshifted_lines(reading.statics, language.note),
     )
 
 
-def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def equations_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the equations of a force plan: moments with arms, forces, results of the plan."""
-    return equations_of(_reading(solution, indices, manner), manner)
+    return equations_of(_reading(solution, indices, style), style)
 
 
-def equations_of(reading: ForceReading, manner: Manner) -> Block:
+def equations_of(reading: ForceReading, style: BlockStyle) -> Block:
     """Return the equations of the force plan of a reading that a composition selects."""
-    number, context = manner.entry.number, lettered(reading, manner.words)
+    number, context = style.entry.number, lettered(reading, style.language)
     plan, voice = reading.plans[number], MomentNarrator(context, reading.plans[number])
-    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    height, width = style.text(style.sizes.text), style.width(style.sizes.column)
 
     def moments(*, of_forces: bool) -> Iterator[Formula]:
         for one in plan.moments:
             if (one.force is not None) is of_forces:
                 yield from map(Formula, voice.lines(one))
 
-    directed = partial(direction_text, say=manner.words.say)
+    directed = partial(direction_text, say=style.language.notation)
     balances = (balance_equation(balance, context, directed) for balance in plan.balances)
     nodes: list[TextNode] = [
         *moments(of_forces=True),
         Equations(tuple(balances)),
-        Paragraph(_closing(context, number)),
+        Paragraph(_result_text(context, number)),
         *moments(of_forces=False),
         *map(Formula, voice.places()),
     ]
     return Column(list(blocks_of(nodes, height, width=width)), gap=3.0)
 
 
-def _closing(context: ForceContext, number: int) -> str:
+def _result_text(context: ForceContext, number: int) -> str:
     """Return the results of a force plan, or a note if all its forces are zero."""
-    reading, said = context.reading, context.language.sheets
+    reading, texts = context.reading, context.language.sheets
     reactions = reading.plans[number].reactions
     if drawn_edges(reading, number):
         voice = ForcePlanNarrator(context, reading.plans[number], number)
-        return said.from_plan.format(found=unbroken([voice.closing(edge) for edge in reactions]))
-    wholes = (edge for edge in reactions if edge.share is Share.WHOLE)
-    return said.all_zero.format(zeros=" = ".join(context.symbol(edge.symbol) for edge in wholes))
+        return texts.from_plan.format(
+            found=unbroken([voice.force_text(edge) for edge in reactions])
+        )
+    wholes = (edge for edge in reactions if edge.component is Component.TOTAL)
+    return texts.all_zero.format(zeros=" = ".join(context.symbol(edge.symbol) for edge in wholes))
 
 
-def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def lever_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the equation of the lever, and its difference from the force plans."""
-    reading = _reading(solution, indices, manner)
-    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    told = [manner.words.sheets.lever_stands]
+    reading = _reading(solution, indices, style)
+    height, width = style.text(style.sizes.text), style.width(style.sizes.column)
+    told = [style.language.sheets.lever_stands]
     if reading.statics.lever_at(reading.index) is not None:
-        told = LeverNarrator(lettered(reading, manner.words)).lines()
+        told = LeverNarrator(lettered(reading, style.language)).lines()
     lines = blocks_of(map(Formula, told), height, width=width)
-    title = [heading(manner.entry.title, height, width=width)] if manner.entry.title else []
+    title = [heading(style.entry.title, height, width=width)] if style.entry.title else []
     return Column([*title, *lines], gap=3.0)

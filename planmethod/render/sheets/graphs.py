@@ -16,15 +16,15 @@ from planmethod.problem.graphs import OUTPUT, GraphQuantity
 from planmethod.problem.model import Convention
 from planmethod.render.ink.drawing import Pen
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Picture, Row, shaped
+from planmethod.render.layout.block import Block, Column, Line, Picture, Row, make_alternatives
 from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
-from planmethod.render.sheets.composer import Viewed
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.composer import ViewBlock
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import CrankCycle
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
 from planmethod.solved.turn.series import quantities_over, values_over
-from planmethod.solved.turn.turn import Turn
 
 HEIGHTS = (55.0, 70.0, 90.0, 120.0, 160.0)
 """Largest heights of the curves of a diagram, mm: the least one, and larger ones to fill space."""
@@ -36,7 +36,7 @@ LETTERS = {"x": "x, y", "phi": "φ", "v_q": "v_{q}", "u": "u", "a_q": "a_{q}", "
            "v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}  # fmt: skip
 """Name of the axis of a diagram with several curves."""
 
-NOTHING = 1e-12
+ZERO_TOLERANCE = 1e-12
 """Largest rounding error of a zero value, SI."""
 
 MARKS = {"x": "l", "u": "u", "omega": "ω", "epsilon": "ε", "phi": "φ_{i}", "v_q": "vq", "a_q": "aq",
@@ -44,7 +44,7 @@ MARKS = {"x": "l", "u": "u", "omega": "ω", "epsilon": "ε", "phi": "φ_{i}", "v
 """Indices of the scales by the quantity of a diagram, where they are not its letter."""
 
 
-def graph_groups(turn: Turn, labels: Sequence[str]) -> list[list[GraphQuantity]]:
+def graph_groups(turn: CrankCycle, labels: Sequence[str]) -> list[list[GraphQuantity]]:
     """Return the requested quantities by diagrams: of one kind, at most one for each line type.
 
     Raises
@@ -62,7 +62,7 @@ def graph_picture(
     diagrams: Diagrams,
     group: Sequence[GraphQuantity],
     letter: float,
-    words: Language,
+    language: Language,
     *,
     tall: float = HEIGHTS[0],
     wide: float = 1.0,
@@ -71,8 +71,8 @@ def graph_picture(
 
     Its curves are at most ``tall`` mm high; its axis is ``wide`` times as long as the usual one.
     """
-    turn, say = diagrams.turn, words.say
-    shares, drawn = diagrams.fine, diagrams.shares
+    turn, notation = diagrams.cycle, language.notation
+    shares, drawn = diagrams.fine, diagrams.fractions
     if turn.range is not None:
         shares, drawn = shares[1:-1], drawn[:-1]
     values = [_clean(values_over(turn, one, turn.at(shares))) for one in group]
@@ -88,7 +88,7 @@ def graph_picture(
         if len(group) > 1 and not np.any(row):
             continue  # it coincides with the axis, and is listed in the heading
         parts = _parts(x, row / per_mm)
-        same = next((k for k, other in enumerate(curves) if _alike(other.parts, parts)), None)
+        same = next((k for k, other in enumerate(curves) if _coincide(other.parts, parts)), None)
         if same is None:
             curves.append(Curve(one.symbol, parts, PENS[len(curves)]))
         else:
@@ -100,7 +100,9 @@ def graph_picture(
     shown = curves[0].symbol if len(curves) == 1 else LETTERS[first.family]
     picture = diagram_picture(
         Abscissae("φ", tuple(at.tolist()), numbers),
-        Ordinates(f"{shown}, {say.in_head(first.unit)}" if first.unit else shown, per_mm, say),
+        Ordinates(
+            f"{shown}, {notation.in_head(first.unit)}" if first.unit else shown, per_mm, notation
+        ),
         curves if len(curves) > 1 else [Curve("", curves[0].parts)],
         letter_height=letter,
         name=f"graph {first.label}",
@@ -108,16 +110,16 @@ def graph_picture(
     return picture, scale
 
 
-def is_none(diagrams: Diagrams, quantity: GraphQuantity) -> bool:
+def is_always_zero(diagrams: Diagrams, quantity: GraphQuantity) -> bool:
     """Return whether a quantity is always zero, such as a component along the other axis."""
-    turn = diagrams.turn
+    turn = diagrams.cycle
     size = np.abs(values_over(turn, quantity, turn.at(diagrams.fine)))
-    return bool(np.nanmax(size, initial=0.0) <= NOTHING)
+    return bool(np.nanmax(size, initial=0.0) <= ZERO_TOLERANCE)
 
 
 def _clean(values: Reals) -> Reals:
     """Return values without the rounding noise about zero."""
-    return np.where(np.abs(values) <= NOTHING, 0.0, values)
+    return np.where(np.abs(values) <= ZERO_TOLERANCE, 0.0, values)
 
 
 def _parts(x: Reals, y: Reals) -> tuple[tuple[complex, ...], ...]:
@@ -131,7 +133,7 @@ def _parts(x: Reals, y: Reals) -> tuple[tuple[complex, ...], ...]:
     )
 
 
-def _alike(one: Iterable[Iterable[complex]], two: Iterable[Iterable[complex]]) -> bool:
+def _coincide(one: Iterable[Iterable[complex]], two: Iterable[Iterable[complex]]) -> bool:
     """Return whether two curves would coincide on the drawing."""
     first, second = ([place for part in curve for place in part] for curve in (one, two))
     return len(first) == len(second) and all(
@@ -139,24 +141,24 @@ def _alike(one: Iterable[Iterable[complex]], two: Iterable[Iterable[complex]]) -
     )
 
 
-def graph_labels(solution: Solution, manner: Manner) -> tuple[str, ...]:
+def graph_labels(solution: Solution, style: BlockStyle) -> tuple[str, ...]:
     """Return the requested quantities: of the command line, the block or the file, possibly none.
 
     A block that selects only the output has it unless there are other requests.
     """
-    task, own = solution.problem.cycle, manner.entry.asked
+    task, own = solution.problem.cycle, style.entry.asked
     if not solution.problem.drive.goes_round:
         return ()
     of_file = task.graphs if task is not None else ()
-    return manner.extras.asked or (() if own == (OUTPUT,) else own) or of_file or own
+    return style.options.quantities or (() if own == (OUTPUT,) else own) or of_file or own
 
 
-def graphs_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def graphs_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the requested graphs, in one column or several; an empty block without a request.
 
     They may be larger: the packer takes what fills the paper.
     """
-    labels = graph_labels(solution, manner)
+    labels = graph_labels(solution, style)
     if not labels:
         return Column([])
     diagrams = diagrams_of(solution)
@@ -167,39 +169,41 @@ def graphs_view(solution: Solution, indices: Sequence[int], manner: Manner) -> B
         finer = next_scale(finer, finer=True, mm_per_unit=inverse)
     while coarser < usual.per_mm * 1.5:
         coarser = next_scale(coarser, finer=False, mm_per_unit=inverse)
-    ways: list[Viewed] = []
+    ways: list[ViewBlock] = []
     for tall, per_mm in product(HEIGHTS, (usual.per_mm, finer, coarser)):
-        ways += _ways(diagrams, labels, manner, replace(usual, per_mm=per_mm), tall)
+        ways += _arrangements(diagrams, labels, style, replace(usual, per_mm=per_mm), tall)
     # First the one that has the shape of the sheet.
-    ways.sort(key=lambda way: (way.width > manner.inside, abs(log(way.width / way.height / 1.4))))
-    return shaped(ways, grows=True)
+    ways.sort(key=lambda way: (way.width > style.inside, abs(log(way.width / way.height / 1.4))))
+    return make_alternatives(ways, grows=True)
 
 
-def _ways(
-    diagrams: Diagrams, labels: Sequence[str], manner: Manner, axis: Scale, tall: float
-) -> Iterator[Viewed]:
+def _arrangements(
+    diagrams: Diagrams, labels: Sequence[str], style: BlockStyle, axis: Scale, tall: float
+) -> Iterator[ViewBlock]:
     """Yield the graphs in one column or several, at a scale of the axis of φ and a height."""
-    words, height = manner.words, manner.text(manner.sizes.text)
-    convention = diagrams.turn.solution.problem.scales.convention
+    language, height = style.language, style.text(style.sizes.text)
+    convention = diagrams.cycle.solution.problem.scales.convention
     wide = diagrams.scales[-1].per_mm / axis.per_mm
     cells: list[Block] = []
     scale = diagrams.scales[0]
-    for group in graph_groups(diagrams.turn, labels):
-        picture, scale = graph_picture(diagrams, group, manner.letter, words, tall=tall, wide=wide)
-        name = str(words.cycle["graphs"][group[0].family])
-        inscription = scale_inscription(scale, convention, words.say)
-        none = [f"{one.symbol} = 0" for one in group if is_none(diagrams, one)]
+    for group in graph_groups(diagrams.cycle, labels):
+        picture, scale = graph_picture(
+            diagrams, group, style.letter, language, tall=tall, wide=wide
+        )
+        name = str(language.cycle["graphs"][group[0].family])
+        inscription = scale_inscription(scale, convention, language.notation)
+        none = [f"{one.symbol} = 0" for one in group if is_always_zero(diagrams, one)]
         inscription = "; ".join([inscription, *(none if len(group) > 1 else ())])
         lines = [Line(typeset(text, height)) for text in (name, inscription)]
         cells.append(Column([Column(lines, gap=2.5, align="centre"), picture], gap=4.0,
                             align="centre"))  # fmt: skip
-    title = Line(typeset(manner.entry.title or words.cycle.graphs_title, manner.title))
-    said = Line(typeset(scale_inscription(axis, convention, words.say), height))
+    title = Line(typeset(style.entry.title or language.cycle.graphs_title, style.title))
+    said = Line(typeset(scale_inscription(axis, convention, language.notation), height))
     # With few graphs no row is left half empty.
     steps = [k for k in (1, 2, 3, 4) if len(cells) > 4 or len(cells) % k == 0]
-    steps = [manner.entry.per_row] if manner.entry.per_row else steps
+    steps = [style.entry.per_row] if style.entry.per_row else steps
     for step in dict.fromkeys(min(k, len(cells)) for k in steps):
         rows = [Row(cells[k : k + step], gap=12.0) for k in range(0, len(cells), step)]
         head = Column([title, said], gap=2.5, align="centre")
         block = Column([head, *rows], gap=8.0, align="left")
-        yield Viewed(block, "graphs", scale)
+        yield ViewBlock(block, "graphs", scale)

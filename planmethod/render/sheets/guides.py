@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.narrate.given import point_name
-from planmethod.note.numbers import Notation, alike
+from planmethod.note.narrate.statement import point_name
+from planmethod.note.numbers import Notation, format_column
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.layout.block import Block
@@ -14,15 +14,15 @@ from planmethod.render.symbols import angle_of
 from planmethod.solved.forces.guides import Guided, guides
 from planmethod.solved.forces.reading import ForceReading
 
-_NONE = "—"
+_DASH = "—"
 
 
-def angle_text(force: complex, say: Notation) -> str:
+def angle_text(force: complex, notation: Notation) -> str:
     """Return the angle of a force from +x, degrees in [0, 360)."""
-    return say.number(f"{round(angle_of(force), 1) % 360.0 + 0.0:.1f}")
+    return notation.number(f"{round(angle_of(force), 1) % 360.0 + 0.0:.1f}")
 
 
-def place_columns(reading: ForceReading, say: Notation) -> list[TableColumn]:
+def place_columns(reading: ForceReading, notation: Notation) -> list[TableColumn]:
     """Return the distance l of each reaction from its joint, m, and moments without a force.
 
     There are cells for all reactions in their order; empty columns are left out.
@@ -32,11 +32,15 @@ def place_columns(reading: ForceReading, say: Notation) -> list[TableColumn]:
     columns = []
     if any(one is not None and one.b is not None for one in found):
         columns.append(
-            TableColumn(f"l_{{ij}}, {say.units['m']}", tuple(_distance(one, say) for one in found))
+            TableColumn(
+                f"l_{{ij}}, {notation.units['m']}", tuple(_distance(one, notation) for one in found)
+            )
         )
     if any(is_couple(one) for one in found):
         columns.append(
-            TableColumn(f"M_{{ij}}, {say.units['N·m']}", tuple(_moment(one, say) for one in found))
+            TableColumn(
+                f"M_{{ij}}, {notation.units['N·m']}", tuple(_moment(one, notation) for one in found)
+            )
         )
     return columns
 
@@ -49,26 +53,26 @@ def guided_at(reading: ForceReading, number: int) -> Guided | None:
     return one if one is not None and one.number == number else None
 
 
-def _distance(one: Guided | None, say: Notation) -> str:
+def _distance(one: Guided | None, notation: Notation) -> str:
     if one is None or one.b is None:
-        return _NONE
-    return say.found(abs(one.b)) if one.b else "0"
+        return _DASH
+    return notation.computed(abs(one.b)) if one.b else "0"
 
 
 def is_couple(one: Guided | None) -> bool:
     """Return whether a guide has a moment and no force."""
-    return one is not None and one.is_none and not one.is_no_couple
+    return one is not None and one.is_negligible and not one.is_no_couple
 
 
-def _moment(one: Guided | None, say: Notation) -> TableCell:
+def _moment(one: Guided | None, notation: Notation) -> TableCell:
     if one is None or not is_couple(one):
-        return TableCell(_NONE)
+        return TableCell(_DASH)
     moment = float(one.contact.joint.moment[one.reading.index])
-    return TableCell(say.found(abs(moment)), 1 if moment > 0 else -1)
+    return TableCell(notation.computed(abs(moment)), 1 if moment > 0 else -1)
 
 
 def edges_table(
-    reading: ForceReading, height: float, width: float, words: Language
+    reading: ForceReading, height: float, width: float, language: Language
 ) -> Block | None:
     """Return the table of the reactions at the edges of sliders; None where there are none."""
     found = [guided_at(reading, number) for number in reading.statics.contacts]
@@ -79,23 +83,23 @@ def edges_table(
     pairs = tuple(
         f"{point_name(one.contact.joint.joint)} ({one.on}–{called(one.by)})" for one in bearing
     )
-    said, say = words.sheets, words.say
-    lengths = tuple(say.short(one.contact.length or 0.0) for one in bearing)
+    texts, notation = language.sheets, language.notation
+    lengths = tuple(notation.short(one.contact.length or 0.0) for one in bearing)
     columns = [
-        TableColumn(said.joint, pairs),
-        TableColumn(f"a_{{ij}}, {say.units['m']}", lengths),
+        TableColumn(texts.joint, pairs),
+        TableColumn(f"a_{{ij}}, {notation.units['m']}", lengths),
     ]
     for number, primes in enumerate(("'", "''")):
-        columns += _edge_columns(primes, [one.edges[number].force for one in bearing], say)
-    return table_block(columns, height, width=width, units="none", title=said.reactions_edges)
+        columns += _edge_columns(primes, [one.edges[number].force for one in bearing], notation)
+    return table_block(columns, height, width=width, units="none", title=texts.reactions_edges)
 
 
-def _edge_columns(primes: str, forces: Sequence[complex], say: Notation) -> list[TableColumn]:
-    sizes = tuple(map(say.number, alike([abs(force) for force in forces])))
+def _edge_columns(primes: str, forces: Sequence[complex], notation: Notation) -> list[TableColumn]:
+    sizes = tuple(map(notation.number, format_column([abs(force) for force in forces])))
     return [
-        TableColumn(f"F^{{{primes}}}_{{ij}}, {say.units['N']}", sizes),
+        TableColumn(f"F^{{{primes}}}_{{ij}}, {notation.units['N']}", sizes),
         TableColumn(
-            f"φ^{{{primes}}}_{{ij}}, {say.in_head('deg')}",
-            tuple(angle_text(force, say) for force in forces),
+            f"φ^{{{primes}}}_{{ij}}, {notation.in_head('deg')}",
+            tuple(angle_text(force, notation) for force in forces),
         ),
     ]

@@ -16,8 +16,8 @@ from planmethod.arguments import number_of, numbers, of_type, text, texts
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import next_scale
 from planmethod.errors import ArgumentError, LayoutError
-from planmethod.languages import LANGUAGES, say
-from planmethod.note.wording import Language, language
+from planmethod.languages import LANGUAGES, translate
+from planmethod.note.wording import Language, get_language
 from planmethod.paper import paper_format
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem, Scales
@@ -26,22 +26,22 @@ from planmethod.render.ink.drawing import Drawing
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.sheets.blocks import OF_CYCLE, OF_POSITIONS
 from planmethod.render.sheets.composer import (
-    Blank,
-    Laid,
-    LaidPage,
-    Misfit,
+    NoFitAdvice,
+    PageLayout,
+    SheetLayout,
+    TrialPaper,
     compose,
-    composed,
-    enlarged,
+    find_layout,
+    grow_scales,
 )
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.compositions import SHIPPED
-from planmethod.render.sheets.model import Composition, Extras
+from planmethod.render.sheets.model import BlockOptions, Composition
 from planmethod.render.sheets.pages import pages_of
-from planmethod.solved.crowd import is_crowded
-from planmethod.solved.room import FEW
-from planmethod.solved.scaling import MOST_DRAWN, PLAN, Views, least_plan
+from planmethod.solved.label_density import is_too_dense
+from planmethod.solved.scaling import MAX_DRAWN, PLAN, Views, smallest_plan
 from planmethod.solved.selfcheck import verify
+from planmethod.solved.sheet_estimate import FEW
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.numbering import counting
 
@@ -52,10 +52,10 @@ SMALLER = ((0.8, 1.0), (0.65, 1.0), (0.65, 0.8), (0.5, 0.8))
 """Parts of the boxes for plans and scheme, tried before plans are left out of a sheet of one
 position."""
 
-MOST_SHEETS = 1_000_000
+MAX_SHEETS = 1_000_000
 """Largest limit of sheets."""
 
-LEAST_CHOSEN = 4
+MIN_CHOSEN = 4
 """Least number of positions of a turn from which plans are chosen."""
 
 KEYS = [FACTS[kind].scale for kind in reversed(MOTION)]
@@ -142,29 +142,33 @@ def kinematics_sheets(
     if layout is not None and not isinstance(layout, str | Path):
         of_type("layout", layout, Composition)
     if most is not None:
-        number_of("most", most, MOST_SHEETS)
+        number_of("most", most, MAX_SHEETS)
     asked = texts("asked", asked)
     if paper:
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
     problem = _counted(problem, layout, positions)
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
     moved = positions is not None
-    strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=moved, most=most,
-                         asked=asked)  # fmt: skip
+    strategy = _strategy(
+        solution, layout, errors=errors, sigma=sigma, has_own_positions=moved, max_sheets=most,
+        quantities=asked,
+    )  # fmt: skip
 
-    def fits(name: str) -> bool:
+    def fits_paper(name: str) -> bool:
         other = replace(problem, sheet=replace(problem.sheet, paper=name))
         tried = Solution(other, positions=positions, ruler=ruler, profile=profile)
-        again = _strategy(tried, layout, errors=errors, sigma=sigma, moved=moved, asked=asked)
+        again = _strategy(
+            tried, layout, errors=errors, sigma=sigma, has_own_positions=moved, quantities=asked
+        )
         try:
-            composed(other, again, _misfit(other), furniture or Furniture.of(other.sheet))
+            find_layout(other, again, _no_fit_advice(other), furniture or Furniture.of(other.sheet))
         except LayoutError:
             return False
         return True
 
-    misfit = replace(_misfit(problem), fits=fits if advised else None)
+    misfit = replace(_no_fit_advice(problem), fits_paper=fits_paper if advised else None)
     drawings = compose(problem, strategy, misfit, fields=fields, furniture=furniture)
-    _refuse_many(strategy.solution, len(drawings), most)
+    _reject_too_many(strategy.solution, len(drawings), most)
     return drawings
 
 
@@ -180,9 +184,9 @@ def sheet_scales(
     """
     problem = _counted(problem, layout, positions)
     solution = Solution(problem, positions=positions)
-    strategy = _strategy(solution, layout, moved=positions is not None)
+    strategy = _strategy(solution, layout, has_own_positions=positions is not None)
     furniture = Furniture.of(problem.sheet)
-    _, laid = composed(problem, strategy, _misfit(problem), furniture)
+    _, laid = find_layout(problem, strategy, _no_fit_advice(problem), furniture)
     taken: dict[str, Any] = dict(laid.scales)
     return replace(problem.scales, **taken, decided=True)
 
@@ -218,41 +222,48 @@ def _strategy(
     *,
     errors: bool = False,
     sigma: bool | None = None,
-    moved: bool,
-    most: int | None = None,
-    asked: Sequence[str] = (),
+    has_own_positions: bool,
+    max_sheets: int | None = None,
+    quantities: Sequence[str] = (),
 ) -> Linkage:
-    """Return the search strategy of a layout's sheets; ``moved``: positions were requested."""
-    words = language(solution.problem.sheet.lang or LANGUAGES[0])
-    made = composition(layout, words.lang) if isinstance(layout, str | Path) else layout
-    if not moved and made is not None and made.cycle:
+    """Return the search strategy of a layout's sheets.
+
+    ``has_own_positions`` means that positions were requested.
+    """
+    language = get_language(solution.problem.sheet.lang or LANGUAGES[0])
+    made = composition(layout, language.lang) if isinstance(layout, str | Path) else layout
+    if not has_own_positions and made is not None and made.cycle:
         solution = _over_the_cycle(solution)
-    made = made or _usual(len(solution.positions), words)
+    made = made or _usual(len(solution.positions), language)
     _check_positions(made, solution)
     calculated = solution.problem.calculated
     if calculated is not None and made.per_sheet == (1,):
-        solution = solution.moved([float(solution.positions[calculated])])
+        solution = solution.with_positions([float(solution.positions[calculated])])
     count = len(solution.positions)
-    least = len(made.sheets) * -(-count // made.at_most(count)[0])
-    _refuse_many(solution, least, most)  # before the work, if already known
+    least = len(made.sheets) * -(-count // made.list_per_sheet(count)[0])
+    _reject_too_many(solution, least, max_sheets)  # before the work, if already known
     verify(solution)
-    return Linkage(made, solution, Extras(words, errors, sigma, made.turn, asked=tuple(asked)))
+    return Linkage(
+        made,
+        solution,
+        BlockOptions(language, errors, sigma, made.turn, quantities=tuple(quantities)),
+    )
 
 
-def _misfit(problem: Problem) -> Misfit:
-    return Misfit(
+def _no_fit_advice(problem: Problem) -> NoFitAdvice:
+    return NoFitAdvice(
         lambda paper, advice: LayoutError(
             "{}: the views do not fit {}. {}", problem.name, paper, advice
         ),
-        say("Request fewer positions (--phi), or leave out blocks of the layout."),
+        translate("Request fewer positions (--phi), or leave out blocks of the layout."),
         None if problem.scales.decided else problem.scales,
     )
 
 
-def _refuse_many(solution: Solution, sheets: int, most: int | None) -> None:
+def _reject_too_many(solution: Solution, sheets: int, max_sheets: int | None) -> None:
     """Reject more sheets than were probably intended; those of one position are always made."""
     count = len(solution.positions)
-    if most is not None and sheets > most and count > 1:
+    if max_sheets is not None and sheets > max_sheets and count > 1:
         raise LayoutError(
             "{0}: {1} position{1:||s} take {2} sheet{2:||s}. Name the positions that are to be "
             "drawn (--phi {3:g}), or give --all-positions for all of them.",
@@ -277,24 +288,24 @@ def _over_the_cycle(solution: Solution) -> Solution:
 
     if not solution.problem.drive.goes_round:
         return solution
-    solution = solution.moved(numbered_positions(solution).tolist())
+    solution = solution.with_positions(numbered_positions(solution).tolist())
     verify(solution)  # besides a calculated position the diagrams need all others
     return solution
 
 
-def _usual(count: int, words: Language) -> Composition:
+def _usual(count: int, language: Language) -> Composition:
     """Return the shipped composition for ``count`` positions."""
-    return composition(SHIPPED[(count > 1) + (count > FEW)], words.lang)
+    return composition(SHIPPED[(count > 1) + (count > FEW)], language.lang)
 
 
 def _check_positions(layout: Composition, solution: Solution) -> None:
     count = len(solution.positions)
-    if count > MOST_DRAWN:
+    if count > MAX_DRAWN:
         raise LayoutError(
             "{}: sheets are drawn for at most {} positions, {} are requested. Request fewer "
             "(--phi 0:360:30); for tables use solve --csv.",
             solution.problem.name,
-            MOST_DRAWN,
+            MAX_DRAWN,
             count,
         )
     calculated = solution.problem.calculated
@@ -329,7 +340,7 @@ class Linkage(Struct, frozen=True):
 
     layout: Composition
     solution: Solution
-    extras: Extras
+    options: BlockOptions
 
     @property
     def views(self) -> Views:
@@ -354,7 +365,7 @@ class Linkage(Struct, frozen=True):
         smaller = () if problem.scales.decided else self.layout.smaller
         return (*smaller, *formats[formats.index(self.views.paper) :])
 
-    def proposals(self, papers: Sequence[Blank]) -> Iterator[OnPaper]:
+    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[LinkageProposal]:
         """Yield scales and numbers of positions on a sheet, paper by paper.
 
         The estimated scales stay on a larger paper if the smaller one turns out not to fit. If a
@@ -365,21 +376,21 @@ class Linkage(Struct, frozen=True):
         own: tuple[Views | None, Scales] = (None, problem.scales)
         free = (None, problem.scales.freed)
         views = self.views
-        turns = [[own if views.kept else (views, self.solution.given_scales)]]
+        turns = [[own if views.fixed else (views, self.solution.given_scales)]]
         given = free != own
         if given and self.layout.turn:
             turns[0].append(free)
         if not (self.layout.is_estimated or problem.scales.decided):
-            turns += [[own], [free] if given and not self._is_own else []]
-        spread = self.layout.shares, self.layout.at_most(count)
+            turns += [[own], [free] if given and not self._uses_file_positions else []]
+        spread = self.layout.size_fractions, self.layout.list_per_sheet(count)
         for paper, share, per_sheet, (boxes, scales) in chain(
             *(product(papers, *spread, some) for some in turns)
         ):
             boxes = boxes or self.layout.views_for(paper.name, count, share)
-            yield OnPaper(self, paper, share, per_sheet, boxes, scales)
+            yield LinkageProposal(self, paper, share, per_sheet, boxes, scales)
 
     @property
-    def _is_own(self) -> bool:
+    def _uses_file_positions(self) -> bool:
         """True if the positions are those of the file."""
         return tuple(self.solution.positions.tolist()) == self.solution.problem.drive.positions
 
@@ -388,38 +399,38 @@ class Linkage(Struct, frozen=True):
         one = self.solution
         if (one.views, one.given_scales) == (views, scales):
             return one
-        return one.once(Solution.filling, views, scales)
+        return one.compute_once(Solution.filling, views, scales)
 
 
-class OnPaper(Struct, frozen=True):
+class LinkageProposal(Struct, frozen=True):
     """Sheets of a linkage on a paper, ``per_sheet`` positions on each (`Proposal`)."""
 
     of: Linkage
-    paper: Blank
-    share: float
+    paper: TrialPaper
+    size_fraction: float
     per_sheet: int
     views: Views
     scales: Scales
 
-    def laid(self) -> Laid | None:
+    def arrange(self) -> SheetLayout | None:
         """Return the sheets, enlarged as far as they fit if the composition permits."""
-        of, extras = self.of, self.of.extras
+        of, extras = self.of, self.of.options
         solution = of.solved(self.views, self.scales)
-        laid = self._laid(solution, extras)
-        if laid is None or (self._is_smaller and _cut_down(laid)):
+        laid = self._arrange_at(solution, extras)
+        if laid is None or (self._is_smaller and _has_omissions(laid)):
             return None
-        if extras.traces and len(solution.positions) == 1 and _cut_down(laid):
+        if extras.traces and len(solution.positions) == 1 and _has_omissions(laid):
             # The traces of the construction must not displace the texts that explain it.
             bare = replace(extras, traces=False)
-            without = self._laid(solution, bare)
-            if without is not None and not _cut_down(without):
+            without = self._arrange_at(solution, bare)
+            if without is not None and not _has_omissions(without):
                 laid, extras = without, bare
         views = self.views
-        if len(solution.positions) == 1 and _cut_down(laid):
+        if len(solution.positions) == 1 and _has_omissions(laid):
             for smaller in self._with_smaller_plans():
                 again = of.solved(smaller, self.scales)
-                whole = self._laid(again, extras)
-                if whole is not None and not _cut_down(whole):
+                whole = self._arrange_at(again, extras)
+                if whole is not None and not _has_omissions(whole):
                     laid, solution, views = whole, again, smaller
                     break
         drawn = {scale.symbol: scale.per_mm for scale in solution.scales.values()}
@@ -428,20 +439,22 @@ class OnPaper(Struct, frozen=True):
         free = [key for key in KEYS if key in keys and getattr(self.scales, key) is None]
         if of.layout.grow and free:
             laid = replace(laid, scales={key: drawn[key] for key in free})
-            laid = enlarged(
+            laid = grow_scales(
                 laid, free * STEPS, self.scales, lambda scales: self._at(scales, extras, views)
             )
         laid = replace(laid, scales={**drawn, **laid.scales})
-        if self._is_smaller and self._is_crowded(laid):
+        if self._is_smaller and self._has_dense_letters(laid):
             return None
         return self._with_plans(laid, extras)
 
-    def _at(self, scales: Mapping[str, float], extras: Extras, views: Views) -> Laid | None:
+    def _at(
+        self, scales: Mapping[str, float], options: BlockOptions, views: Views
+    ) -> SheetLayout | None:
         """Return the sheets at given scales, or None when one does not fit."""
         wish: dict[str, Any] = dict(scales)
-        return self._laid(self.of.solved(views, replace(self.scales, **wish)), extras)
+        return self._arrange_at(self.of.solved(views, replace(self.scales, **wish)), options)
 
-    def _with_plans(self, laid: Laid, extras: Extras) -> Laid:
+    def _with_plans(self, layout: SheetLayout, options: BlockOptions) -> SheetLayout:
         """Return the sheets with the plans of as many positions of a turn as fit.
 
         If the file names none: plans of all positions, of every second, or of every third, also at
@@ -454,10 +467,10 @@ class OnPaper(Struct, frozen=True):
         ]
         solution = self.of.solution
         count = len(solution.positions) // solution.repeated
-        if not kinds or count < LEAST_CHOSEN:
-            return laid
-        key, wishes = FACTS[kinds[0]].scale, [dict(laid.scales)]
-        least = least_plan(solution.construction, solution.si, kinds[0])
+        if not kinds or count < MIN_CHOSEN:
+            return layout
+        key, wishes = FACTS[kinds[0]].scale, [dict(layout.scales)]
+        least = smallest_plan(solution.construction, solution.si, kinds[0])
         while getattr(self.scales, key) is None and len(wishes) <= STEPS:
             coarser = next_scale(
                 wishes[-1][key], finer=False, mm_per_unit=self.scales.in_mm_per_unit
@@ -466,10 +479,10 @@ class OnPaper(Struct, frozen=True):
                 break
             wishes.append({**wishes[-1], key: coarser})
         for part, wish in product((1, 2, 3), wishes):
-            tried = self._at(wish, replace(extras, plans=count // part), self.views)
-            if tried is not None and tried.is_as_good_as(laid):
+            tried = self._at(wish, replace(options, plans=count // part), self.views)
+            if tried is not None and tried.is_no_worse_than(layout):
                 return replace(tried, scales=wish)
-        return laid
+        return layout
 
     def _with_smaller_plans(self) -> Iterator[Views]:
         """Yield the views with smaller boxes for the plans that would be left out otherwise."""
@@ -486,39 +499,45 @@ class OnPaper(Struct, frozen=True):
                 kind.value: tuple(part * side for side in getattr(self.views, kind.value))
                 for kind, part in parts.items()
             }
-            yield replace(self.views, kept=self.views.kept | {*parts}, **less)
+            yield replace(self.views, fixed=self.views.fixed | {*parts}, **less)
 
     @property
     def _is_smaller(self) -> bool:
         """True if the paper is taken only when no blocks or letters of positions are left out."""
-        return not self.paper.is_asked and self.paper.name in self.of.layout.smaller
+        return not self.paper.is_required and self.paper.name in self.of.layout.smaller
 
-    def _is_crowded(self, laid: Laid) -> bool:
+    def _has_dense_letters(self, layout: SheetLayout) -> bool:
         """Return whether a scheme of many positions has too many letters for its area."""
         one = self.of.solution
         if len(one.positions) <= FEW or all(e.kind != "scheme" for e in self.of.layout.blocks):
             return False
-        apart, positions = one.problem.drive.coordinate.apart, one.positions.tolist()
+        apart, positions = one.problem.drive.coordinate.distance, one.positions.tolist()
         # An extreme position that is also a drawn one shares its letters.
         more = sum(min(apart(p, end) for p in positions) > 1e-6 for end in Paths(one).extremes)
-        per_mm = laid.scales[FACTS[PlanKind.POSITION].scale]
-        return is_crowded(one.construction, one.si, per_mm, more)
+        per_mm = layout.scales[FACTS[PlanKind.POSITION].scale]
+        return is_too_dense(one.construction, one.si, per_mm, more)
 
-    def _laid(self, solution: Solution, extras: Extras) -> Laid | None:
+    def _arrange_at(self, solution: Solution, options: BlockOptions) -> SheetLayout | None:
         """Return the sheets at the scales of a solution, or None when one does not fit."""
         count, layout = len(solution.positions), self.of.layout
-        pages: list[LaidPage] = []
+        pages: list[PageLayout] = []
         for start in range(0, count, self.per_sheet):
             indices, first = range(start, min(start + self.per_sheet, count)), len(pages) + 1
             found = pages_of(
-                layout, solution, indices, self.paper, extras, share=self.share, first=first
+                layout,
+                solution,
+                indices,
+                self.paper,
+                options,
+                fraction=self.size_fraction,
+                first=first,
             )
             if found is None:
                 return None
             pages += found
-        return Laid(pages)
+        return SheetLayout(pages)
 
 
-def _cut_down(laid: Laid) -> bool:
+def _has_omissions(layout: SheetLayout) -> bool:
     """Return whether blocks were left out."""
-    return any(page.tried[0] for page in laid.pages)
+    return any(page.concessions[0] for page in layout.pages)

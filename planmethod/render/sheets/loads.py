@@ -9,32 +9,32 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, choose_scale
-from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.statement import point_name
 from planmethod.problem.load_records import Couple, Interpolation, Load, Over, SizeTable
 from planmethod.problem.model import Convention
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column
 from planmethod.render.pictures.diagram import Abscissae, Curve, Mark, Ordinates, diagram_picture
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.views import named, shown_position
 from planmethod.solved.forces.loads import abscissae, acting, closed, external, in_time, read
 from planmethod.solved.solution import Solution
 
-_ACROSS, _UP = 0.5, 0.15
+_MAX_WIDTH, _MAX_HEIGHT = 0.5, 0.15
 """Largest width and height of a diagram, parts of the width of a column."""
 
 _NUMBERS = 6
 """Largest number of steps between the numbers of the axis of abscissae."""
 
 
-def load_curves(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def load_curves(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the diagrams of loads over angles, coordinates and strokes, with a position's value.
 
     Where a load does not act, no value is marked.
     """
-    dynamics, index = solution.problem.dynamics, shown_position(solution, indices, manner)
+    dynamics, index = solution.problem.dynamics, shown_position(solution, indices, style)
     assert dynamics is not None
     blocks: list[Block] = []
     for number, load in enumerate(dynamics.loads):
@@ -47,18 +47,18 @@ def load_curves(solution: Solution, indices: Sequence[int], manner: Manner) -> B
             table = _limited(table, acting(solution, load, 0.0, table.turn))
         at = float(abscissae(solution, load, number)[index])
         at = at % table.turn if table.over is Over.PHI else at
-        blocks.append(_diagram(solution, load, table, at if acts else None, manner))
+        blocks.append(_diagram(solution, load, table, at if acts else None, style))
     return Column(blocks, gap=8.0)
 
 
 def _diagram(
-    solution: Solution, load: Load | Couple, table: SizeTable, now: float | None, manner: Manner
+    solution: Solution, load: Load | Couple, table: SizeTable, now: float | None, style: BlockStyle
 ) -> Block:
-    say, (letter, unit) = manner.words.say, _over(solution, load, table)
-    column, start, span = manner.width(manner.sizes.column), table.at[0], table.at[-1] - table.at[0]
-    across = choose_scale((span, 0.0), (_ACROSS * column, 1.0))
+    notation, (letter, unit) = style.language.notation, _over(solution, load, table)
+    column, start, span = style.width(style.sizes.column), table.at[0], table.at[-1] - table.at[0]
+    across = choose_scale((span, 0.0), (_MAX_WIDTH * column, 1.0))
     reach = max(*table.values, 0.0) - min(*table.values, 0.0)
-    up = choose_scale((0.0, reach), (1.0, _UP * column))
+    up = choose_scale((0.0, reach), (1.0, _MAX_HEIGHT * column))
     step = choose_scale((span, 0.0), (_NUMBERS, 1.0))
     first, last = ceil(start / step - 1e-9), floor((start + span) / step + 1e-9)
     ticks = [step * k for k in range(first, last + 1)]
@@ -74,21 +74,21 @@ def _diagram(
         Abscissae(
             letter,
             tuple((tick - start) / across for tick in ticks),
-            tuple(say.given(tick) for tick in ticks),
-            typeset(letter, manner.letter).width + 5.0,
+            tuple(notation.as_input(tick) for tick in ticks),
+            typeset(letter, style.letter).width + 5.0,
         ),
-        Ordinates(f"{load.name}, {say.units[newtons]}", up, say),
+        Ordinates(f"{load.name}, {notation.units[newtons]}", up, notation),
         [Curve("", _parts(table, across, up))],
         marks,
-        letter_height=manner.letter,
+        letter_height=style.letter,
         name=f"load {load.name}",
         construction=found,
     )
     scales = [Scale(f"mu_{symbol}", up, newtons)]
     scales += [Scale(f"mu_{letter[0]}", across, unit)] if unit else []
-    told = "; ".join(scale_inscription(one, Convention.UNIT_PER_MM, say) for one in scales)
-    title = manner.words.sheets.load_curve.format(name=load.name)
-    return named(picture, title, [told], manner)
+    text = "; ".join(scale_inscription(one, Convention.UNIT_PER_MM, notation) for one in scales)
+    title = style.language.sheets.load_curve.format(name=load.name)
+    return named(picture, title, [text], style)
 
 
 def _from_zero(table: SizeTable) -> SizeTable:
@@ -138,7 +138,7 @@ def _over(solution: Solution, load: Load | Couple, table: SizeTable) -> tuple[st
     return f"s_{{{point}}}/H", ""
 
 
-def _parts(table: SizeTable, across: float, up: float) -> tuple[tuple[complex, ...], ...]:
+def _parts(table: SizeTable, x_scale: float, y_scale: float) -> tuple[tuple[complex, ...], ...]:
     """Return the unbroken parts of a curve, mm: it ends where the table jumps."""
     rows = list(zip(table.at, table.values, strict=True))
     if table.interpolation is Interpolation.STEP:
@@ -151,7 +151,7 @@ def _parts(table: SizeTable, across: float, up: float) -> tuple[tuple[complex, .
                 broken.append([])
             broken[-1].append(row)
     return tuple(
-        tuple(complex((at - table.at[0]) / across, value / up) for at, value in part)
+        tuple(complex((at - table.at[0]) / x_scale, value / y_scale) for at, value in part)
         for part in broken
         if len(part) > 1
     )

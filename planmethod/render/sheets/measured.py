@@ -13,22 +13,22 @@ from collections.abc import Sequence
 from msgspec.structs import replace
 
 from planmethod.construct.steps import Measure, MeasureAlong, Name, operands
-from planmethod.note.compared import MOST_OFF
+from planmethod.note.compared import MAX_PERCENT
 from planmethod.note.tables.series import Series, motion_series
 from planmethod.note.wording import Language
 from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.render.frame.frame import STAMP_WIDTH
-from planmethod.render.layout.block import Block, Column, Shapes, paragraph
+from planmethod.render.layout.block import Alternatives, Block, Column, paragraph
 from planmethod.render.layout.tables import TableCell, TableColumn, table_block
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import (
     position_columns,
     results_block,
     table_width,
     value_column,
 )
-from planmethod.solved.reading import remembered
-from planmethod.solved.room import FEW
+from planmethod.solved.reading import memoized
+from planmethod.solved.sheet_estimate import FEW
 from planmethod.solved.solution import Solution
 
 WIDE = 0.72
@@ -41,42 +41,42 @@ RULED = (Measure, MeasureAlong)
 """Steps whose values are read with a ruler."""
 
 
-def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def measured_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return measured and exact values of every quantity, by positions.
 
     If errors are requested, the exact values with their errors.
     """
-    if manner.extras.sigma:
-        return results_block(solution, indices, manner)
-    words = manner.words
-    columns, known = position_columns(solution, indices, words), list[str]()
+    if style.options.sigma:
+        return results_block(solution, indices, style)
+    language = style.language
+    columns, known = position_columns(solution, indices, language), list[str]()
     for series, symbols in _once(motion_series(solution, *MOTION_KINDS)):
-        column = value_column(series, indices, words.say, sigma=False, alone=False)
+        column = value_column(series, indices, language.notation, sigma=False, is_single=False)
         column = replace(column, head=" = ".join(symbols))
         if _is_measured(solution, series.quantity):
-            columns += [column, *_measured(series, column, indices, words)]
+            columns += [column, *_measured(series, column, indices, language)]
         elif len(set(column.cells)) > 1:
             columns.append(column)
         else:
             known.append(f"{column.head} = {_signed(column.cells[0])} {column.unit}")
-    height = manner.text(min(manner.sizes.text, 3.5))
-    title = manner.entry.title or words.sheets.measured
-    said = title.format(ruler=words.say.given(solution.profile.ruler))
-    below = [words.sheets.known.format(values="; ".join(known))] if known else []
+    height = style.text(min(style.sizes.text, 3.5))
+    title = style.entry.title or language.sheets.measured
+    phrase = title.format(ruler=language.notation.as_input(solution.profile.ruler))
+    below = [language.sheets.known.format(values="; ".join(known))] if known else []
 
     def table(width: float) -> Column:
         made = table_block(columns, height, max_width=width, leading=2, row_height=2.0 * height,
-                           title=said)  # fmt: skip
+                           title=phrase)  # fmt: skip
         return Column([made, *(paragraph(note, height, made.width) for note in below)], 3.0)
 
-    usual = table(table_width(manner))
+    usual = table(table_width(style))
     if len(indices) <= FEW:
         return usual
     # Rows of many positions are high: one wide table, or half of it under the other.
-    other = table(WIDE * manner.inside)
+    other = table(WIDE * style.inside)
     if (other.width, other.height) == (usual.width, usual.height):
         other = table(max(STAMP_WIDTH, HALF * usual.width))
-    return usual if other.width == usual.width else Shapes((usual, other))
+    return usual if other.width == usual.width else Alternatives((usual, other))
 
 
 def _is_measured(solution: Solution, quantity: Quantity) -> bool:
@@ -89,7 +89,7 @@ def _is_measured(solution: Solution, quantity: Quantity) -> bool:
     return any(isinstance(step(name), RULED) for name, _ in operands(step(quantity.size)))
 
 
-@remembered
+@memoized
 def read_names(solution: Solution) -> frozenset[Name]:
     """Return the names of a construction that depend on ruler readings."""
     found: set[Name] = set()
@@ -114,23 +114,25 @@ def _once(every: Sequence[Series]) -> list[tuple[Series, list[str]]]:
 
 
 def _measured(
-    series: Series, exact: TableColumn, indices: Sequence[int], words: Language
+    series: Series, exact: TableColumn, indices: Sequence[int], language: Language
 ) -> list[TableColumn]:
     """Return the measured values and their deviations, %; "—" where a deviation is undefined.
 
     Zeros at the end of all measured values are left out: the ruler has no such digits.
     """
-    say, values = words.say, series.shown(series.reads(), indices)
+    notation, values = language.notation, series.displayed(series.reads(), indices)
     texts = _without_zeros(series.texts(values))
     read = tuple(
-        TableCell(say.number(text), series.sense(value))
+        TableCell(notation.number(text), series.sense(value))
         for text, value in zip(texts, values, strict=True)
     )
-    off = tuple(say.number(series.measured(i).percent_text(most=MOST_OFF)) for i in indices)
-    head = words.sheets.read_symbol.format(symbol=series.quantity.symbol)
+    off = tuple(
+        notation.number(series.measured(i).percent_text(limit=MAX_PERCENT)) for i in indices
+    )
+    head = language.sheets.read_symbol.format(symbol=series.quantity.symbol)
     return [
         TableColumn(head, read, unit=exact.unit, joined=True),
-        TableColumn("Δ", off, unit="%", least=9.0, joined=True),
+        TableColumn("Δ", off, unit="%", min_width=9.0, joined=True),
     ]
 
 

@@ -20,7 +20,7 @@ from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.solved.scaling import AS_HIGH, LESS, Views
 
 
-class Entry(Struct, frozen=True):
+class BlockSpec(Struct, frozen=True):
     """One block of a composition, as specified by the file (блок компоновки).
 
     Attributes
@@ -115,7 +115,7 @@ class Composition(Struct, frozen=True):
     sizes: Mapping[str, Sizes]
     arranged: Mapping[tuple[str, ...], Arrange]
     titles: Mapping[int, str]
-    blocks: tuple[Entry, ...]
+    blocks: tuple[BlockSpec, ...]
 
     @property
     def sheets(self) -> tuple[int, ...]:
@@ -135,7 +135,7 @@ class Composition(Struct, frozen=True):
         """Number of letter heights to try."""
         return max((len(entry.heights) for entry in self.blocks), default=1) or 1
 
-    def at_most(self, positions: int) -> tuple[int, ...]:
+    def list_per_sheet(self, positions: int) -> tuple[int, ...]:
         """Return the numbers of positions on one sheet to try for ``positions`` in all."""
         if positions == 1:
             return (1,)
@@ -143,66 +143,66 @@ class Composition(Struct, frozen=True):
         return tuple(n for n in self.per_sheet if n <= room)
 
     @property
-    def shares(self) -> tuple[float, ...]:
+    def size_fractions(self) -> tuple[float, ...]:
         """Fractions of its sizes to try on a format; only boxes of its own may be reduced."""
         return (1.0, LESS) if any(sizes.boxes for sizes in self.sizes.values()) else (1.0,)
 
-    def sizes_for(self, paper: str, share: float = 1.0) -> Sizes:
+    def sizes_for(self, paper: str, fraction: float = 1.0) -> Sizes:
         """Return the sizes of a format, for an elongated one those of the basic one as high."""
         basic = AS_HIGH.get(paper, paper)
-        return self.sizes[basic if basic in self.sizes else paper[:2]].parts(share)
+        return self.sizes[basic if basic in self.sizes else paper[:2]].scaled(fraction)
 
-    def views_for(self, paper: str, positions: int, share: float = 1.0) -> Views:
+    def views_for(self, paper: str, positions: int, fraction: float = 1.0) -> Views:
         """Return the boxes of the views on a format."""
         views = Views.for_paper(paper, positions)
-        for kind, box in self.sizes_for(paper, share).boxes:
+        for kind, box in self.sizes_for(paper, fraction).boxes:
             named: dict[str, Any] = {kind.value: box}
-            views = replace(views, kept=views.kept | {kind}, **named)
+            views = replace(views, fixed=views.fixed | {kind}, **named)
         return views
 
 
-class Extras(Struct, frozen=True):
+class BlockOptions(Struct, frozen=True):
     """Options of all blocks of a sheet: its language, and the display of drafting errors.
 
     ``errors``: ellipses around points; ``sigma``: errors in the tables; None: only in the results
     of a single position. ``turn``: it is the sheet of a turn, and the scheme has the construction
     of the extreme positions. ``traces``: there is space for traces of the construction that are not
-    requested. ``asked`` are the quantities whose graphs are drawn. ``plans``: number of positions
-    of a turn with plans if the file names none; 0: one of either stroke.
+    requested. ``quantities`` are the quantities whose graphs are drawn. ``plans``: number of
+    positions of a turn with plans if the file names none; 0: one of either stroke.
     """
 
-    words: Language
+    language: Language
     errors: bool = False
     sigma: bool | None = None
     turn: bool = False
     traces: bool = True
-    asked: tuple[str, ...] = ()
+    quantities: tuple[str, ...] = ()
     plans: int = 0
 
 
-class Manner(Struct, frozen=True):
+class BlockStyle(Struct, frozen=True):
     """Style of a block on a sheet: the settings of the file, and the format's sizes.
 
     ``level`` counts the letter heights that did not fit; ``inside`` is the width inside the frame,
     mm.
     """
 
-    entry: Entry
+    entry: BlockSpec
     sizes: Sizes
     inside: float
-    extras: Extras
+    options: BlockOptions
     level: int = 0
 
-    def larger(self, *, below: float) -> Manner:
+    def larger(self, *, below: float) -> BlockStyle:
         """Return it with the next larger letters below a height, mm, if any."""
         heights, now = self.entry.heights, self.text(0.0)
         levels = [k for k in range(len(heights)) if now < heights[k] < below]
         return replace(self, level=max(levels)) if levels else self
 
     @property
-    def words(self) -> Language:
+    def language(self) -> Language:
         """Language of the sheet."""
-        return self.extras.words
+        return self.options.language
 
     @property
     def letter(self) -> float:

@@ -11,23 +11,29 @@ from typing import TypeAlias
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.render.frame.furniture import Room
-from planmethod.render.layout.block import Block, Column, Row, Shapes
-from planmethod.render.layout.cuttings import GAP, Arrange, Group, Packed
+from planmethod.render.frame.furniture import DrawingArea
+from planmethod.render.layout.block import Alternatives, Block, Column, Row
+from planmethod.render.layout.cuttings import GAP, Arrange, Group, LayoutItem
 from planmethod.render.layout.pack import EDGE, Placed
 from planmethod.render.sheets.blocks import BLOCKS, maker_of
-from planmethod.render.sheets.composer import Blank, LaidPage, Viewed, free_area, packed
-from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
-from planmethod.solved.room import FEW
+from planmethod.render.sheets.composer import (
+    PageLayout,
+    TrialPaper,
+    ViewBlock,
+    free_area,
+    pack_group,
+)
+from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle, Composition
+from planmethod.solved.sheet_estimate import FEW
 from planmethod.solved.solution import Solution
 
 Parts: TypeAlias = "list[list[Placed]]"
 """Blocks and their corners, by pages."""
 
-MOST_EXTRA = 4
+MAX_EXTRA = 4
 """Largest number of sheets for one sheet of a composition on a requested format."""
 
-GOES_ON = ("calculation",)
+CONTINUABLE = ("calculation",)
 """Kinds of blocks that may move to a continuation sheet.
 
 With many positions they are then only in the protocol: these sheets are full of plans.
@@ -36,41 +42,44 @@ With many positions they are then only in the protocol: these sheets are full of
 CONTINUED = "A4"
 """Format of that sheet if none is requested."""
 
-MOST_TURNS = 60
+MAX_DIVISIONS = 60
 """Largest number of divisions of blocks among pages that are tried."""
 
 
-class Made(Struct, frozen=True):
+class BuiltBlock(Struct, frozen=True):
     """A finished block, and its entry of the file."""
 
-    entry: Entry
+    entry: BlockSpec
     block: Block
 
     @property
     def is_text(self) -> bool:
         """True if it is not a view."""
-        one = self.block.ways[0] if isinstance(self.block, Shapes) else self.block
-        return not isinstance(one, Viewed)
+        one = self.block.blocks[0] if isinstance(self.block, Alternatives) else self.block
+        return not isinstance(one, ViewBlock)
 
 
 def pages_of(
     composition: Composition,
     solution: Solution,
     indices: Sequence[int],
-    paper: Blank,
-    extras: Extras,
+    paper: TrialPaper,
+    options: BlockOptions,
     *,
-    share: float = 1.0,
+    fraction: float = 1.0,
     first: int = 1,
-) -> list[LaidPage] | None:
+) -> list[PageLayout] | None:
     """Return the sheets that show some positions, or None when one of them does not fit.
 
-    ``share`` is the fraction of the composition's sizes, ``first`` the number of the first sheet.
+    ``fraction`` is the fraction of the composition's sizes, ``first`` the number of the first
+    sheet.
     """
-    pages: list[LaidPage] = []
+    pages: list[PageLayout] = []
     for number in composition.sheets:
         at = first + len(pages)
-        found = _sheet(composition, number, solution, indices, paper, extras, share=share, first=at)
+        found = _sheet(
+            composition, number, solution, indices, paper, options, fraction=fraction, first=at
+        )
         if found is None:
             return None
         pages += found
@@ -82,53 +91,55 @@ def _sheet(
     number: int,
     solution: Solution,
     indices: Sequence[int],
-    paper: Blank,
-    extras: Extras,
+    paper: TrialPaper,
+    options: BlockOptions,
     *,
-    share: float,
+    fraction: float,
     first: int,
-) -> list[LaidPage] | None:
+) -> list[PageLayout] | None:
     """Return a sheet of a composition: a page, perhaps several, or None when it does not fit.
 
     For the order of trials see `_tries`.
     """
     entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
-    sizes = composition.sizes_for(paper.name, share)
-    stock, alone = _Stock(solution, indices, {}), len(solution.positions) == 1
+    sizes = composition.sizes_for(paper.name, fraction)
+    stock, alone = _BlockCache(solution, indices, {}), len(solution.positions) == 1
     for count, level, dropped, taken_apart in _tries(
         composition.levels,
         droppable=any(entry.droppable for entry in entries),
-        most=MOST_EXTRA if paper.is_asked and (alone or solution.problem.scales.decided) else 1,
+        max_pages=MAX_EXTRA
+        if paper.is_required and (alone or solution.problem.scales.decided)
+        else 1,
     ):
-        rooms = [paper.room(first + k) for k in range(count)]
+        rooms = [paper.drawing_area(first + k) for k in range(count)]
         inside = rooms[0].inner[2] - rooms[0].inner[0]
         manners = [
-            Manner(entry, sizes, inside, extras, level)
+            BlockStyle(entry, sizes, inside, options, level)
             for entry in entries
             if not (dropped and entry.droppable)
         ]
-        made = stock.made(manners, sum(map(free_area, rooms)))
+        made = stock.build(manners, sum(map(free_area, rooms)))
         if made is None:
             continue
-        parts, apart = _divided(made, rooms, composition.arranged, taken_apart)
+        parts, apart = _divide(made, rooms, composition.arranged, taken_apart)
         if parts and count == 1:
             parts = _with_larger_texts(parts, manners, stock, rooms, composition.arranged, apart)
         if parts:
             title, tried = composition.titles.get(number, ""), (dropped, level, apart)
-            pages = [LaidPage(part, title, tried) for part in parts]
+            pages = [PageLayout(part, title, tried) for part in parts]
             going = dropped and len(solution.positions) <= FEW
-            left_out = [entry for entry in entries if going and entry.kind in GOES_ON]
-            return pages + _going_on(left_out, composition, stock, paper, extras, title)
+            left_out = [entry for entry in entries if going and entry.kind in CONTINUABLE]
+            return pages + _continue_texts(left_out, composition, stock, paper, options, title)
     return None
 
 
 def _with_larger_texts(
     parts: Parts,
-    manners: list[Manner],
-    stock: _Stock,
-    rooms: Sequence[Room],
+    manners: list[BlockStyle],
+    stock: _BlockCache,
+    drawing_areas: Sequence[DrawingArea],
     arranged: Mapping[tuple[str, ...], Arrange],
-    apart: int,
+    ungrouping: int,
 ) -> Parts:
     """Return a page with the texts of each kind in larger letters, if they fit.
 
@@ -144,8 +155,12 @@ def _with_larger_texts(
         larger = list(manners)
         for k in own:
             larger[k] = manners[k].larger(below=2.0 * min(heights.values()))
-        made = stock.made(larger, sum(map(free_area, rooms))) if larger != manners else None
-        found = _divided(made, rooms, arranged, range(max(apart, 1) + 1))[0] if made else []
+        made = (
+            stock.build(larger, sum(map(free_area, drawing_areas))) if larger != manners else None
+        )
+        found = (
+            _divide(made, drawing_areas, arranged, range(max(ungrouping, 1) + 1))[0] if made else []
+        )
         if found:
             parts, manners = found, larger
         else:
@@ -153,46 +168,46 @@ def _with_larger_texts(
     return parts
 
 
-def _family(entry: Entry) -> str:
+def _family(entry: BlockSpec) -> str:
     """Return the family of texts of one height: the forces, otherwise the kind of the block."""
     kind = BLOCKS[entry.kind].makers
     return kind.__name__ if kind is BLOCKS["loads"].makers else entry.kind
 
 
-def _going_on(
-    entries: Sequence[Entry],
+def _continue_texts(
+    entries: Sequence[BlockSpec],
     composition: Composition,
-    stock: _Stock,
-    paper: Blank,
-    extras: Extras,
+    stock: _BlockCache,
+    paper: TrialPaper,
+    options: BlockOptions,
     title: str,
-) -> list[LaidPage]:
+) -> list[PageLayout]:
     """Return continuation sheets for left-out texts: one for all, otherwise one for each."""
-    name = paper.name if paper.is_asked else CONTINUED
+    name = paper.name if paper.is_required else CONTINUED
     around, sizes = paper.continued(name), composition.sizes_for(name)
     left, _, right, high = around.inner
     room = (right - left - 2 * EDGE, high - around.stamp[3] - 2 * EDGE)
     tries: list[tuple[int, list[Block]]] = []
     for level in range(composition.levels) if entries else ():
-        manners = [Manner(entry, sizes, right - left, extras, level) for entry in entries]
-        blocks = [one.block for one in stock.made(manners, inf) or ()]
+        manners = [BlockStyle(entry, sizes, right - left, options, level) for entry in entries]
+        blocks = [one.block for one in stock.build(manners, inf) or ()]
         tries += [(level, [Column(blocks, gap=GAP)]), (level, [Row(blocks, gap=GAP)])]
         tries.append((level + composition.levels, blocks))
     for level, texts in sorted(tries, key=lambda one: one[0]):
         if all(one.width <= room[0] and one.height <= room[1] for one in texts):
             tried = (False, level, 0)
             corner = complex(left + EDGE, high - EDGE)
-            return [LaidPage([(one, corner)], title, tried, name) for one in texts]
+            return [PageLayout([(one, corner)], title, tried, name) for one in texts]
     return []
 
 
-def spread(entries: Sequence[Entry], solution: Solution) -> list[Entry]:
+def spread(entries: Sequence[BlockSpec], solution: Solution) -> list[BlockSpec]:
     """Return entries, with those of force plans repeated for each plan.
 
     Consecutive entries of this kind form a group of their own for every plan: for those of the
     structural groups, the last one first, and for that of the driver.
     """
-    found: list[Entry] = []
+    found: list[BlockSpec] = []
     for each, run in groupby(entries, lambda entry: BLOCKS[entry.kind].each):
         own = list(run)
         if not each:
@@ -203,39 +218,39 @@ def spread(entries: Sequence[Entry], solution: Solution) -> list[Entry]:
     return found
 
 
-class _Stock(Struct, frozen=True):
+class _BlockCache(Struct, frozen=True):
     """Cache of the blocks of a sheet: repeated trials do not make them again."""
 
     solution: Solution
     indices: Sequence[int]
     blocks: dict[tuple[int, int, float], Block]
 
-    def made(self, manners: Sequence[Manner], room: float) -> list[Made] | None:
-        """Return the blocks of a sheet, or None when they are larger than ``room``, mm².
+    def build(self, manners: Sequence[BlockStyle], area: float) -> list[BuiltBlock] | None:
+        """Return the blocks of a sheet, or None when they are larger than ``area``, mm².
 
         The scheme, whose letters take longest to place, is made last.
         """
         found: dict[int, Block] = {}
         for k in sorted(range(len(manners)), key=lambda k: manners[k].entry.kind == "scheme"):
             found[k] = self._block(manners[k])
-            room -= found[k].width * found[k].height
-            if room < 0.0:
+            area -= found[k].width * found[k].height
+            if area < 0.0:
                 return None
-        made = (Made(manner.entry, found[k]) for k, manner in enumerate(manners))
+        made = (BuiltBlock(style.entry, found[k]) for k, style in enumerate(manners))
         return [one for one in made if one.block.height]
 
-    def _block(self, manner: Manner) -> Block:
-        entry = manner.entry
-        level = min(manner.level, max(0, len(entry.heights) - 1))
-        key = (id(entry), level, manner.inside)
+    def _block(self, style: BlockStyle) -> Block:
+        entry = style.entry
+        level = min(style.level, max(0, len(entry.heights) - 1))
+        key = (id(entry), level, style.inside)
         if key not in self.blocks:
             make = maker_of(entry.kind)
-            self.blocks[key] = make(self.solution, self.indices, manner)
+            self.blocks[key] = make(self.solution, self.indices, style)
         return self.blocks[key]
 
 
 def _tries(
-    levels: int, *, droppable: bool, most: int
+    levels: int, *, droppable: bool, max_pages: int
 ) -> Iterator[tuple[int, int, bool, tuple[int, ...]]]:
     """Yield the trials in turn.
 
@@ -244,43 +259,43 @@ def _tries(
     innermost groups in any arrangement, then completely. Letters shrink before groups are dissolved
     completely, and groups are dissolved before blocks are left out.
     """
-    for count in range(1, most + 1):
-        if count < MOST_EXTRA:
+    for count in range(1, max_pages + 1):
+        if count < MAX_EXTRA:
             for apart in ((0, 1, 2), (3,)):
                 yield from ((count, level, False, apart) for level in range(levels))
         if droppable and count != 2:
             yield from ((count, level, True, (0, 1, 2, 3)) for level in range(levels))
 
 
-def _divided(
-    made: Sequence[Made],
-    rooms: Sequence[Room],
+def _divide(
+    blocks: Sequence[BuiltBlock],
+    drawing_areas: Sequence[DrawingArea],
     arranged: Mapping[tuple[str, ...], Arrange],
-    taken_apart: Sequence[int],
+    ungroupings: Sequence[int],
 ) -> tuple[Parts, int]:
     """Return blocks on pages in reading order with their corners, and the level of ungrouping.
 
     The pages are empty if the blocks do not fit. Page breaks are preferably between groups, and
     pages are as evenly full as possible.
     """
-    areas = [one.block.width * one.block.height for one in made]
+    areas = [one.block.width * one.block.height for one in blocks]
 
-    def worth(cuts: tuple[int, ...]) -> tuple[int, float]:
-        edges = (0, *cuts, len(made))
-        broken = sum(made[k - 1].entry.group == made[k].entry.group != () for k in cuts)
+    def division_cost(cuts: tuple[int, ...]) -> tuple[int, float]:
+        edges = (0, *cuts, len(blocks))
+        broken = sum(blocks[k - 1].entry.group == blocks[k].entry.group != () for k in cuts)
         return broken, max(sum(areas[i:j]) for i, j in pairwise(edges))
 
     @cache
-    def page(room: Room, i: int, j: int, apart: int) -> list[Placed] | None:
-        whole = grouped(made[i:j] if apart != 1 else _loosened(made[i:j]), arranged)
+    def page(room: DrawingArea, i: int, j: int, apart: int) -> list[Placed] | None:
+        whole = grouped(blocks[i:j] if apart != 1 else _loosened(blocks[i:j]), arranged)
         group = (whole, whole, whole.inner(), whole.flat())[apart]
-        return packed(group, room)
+        return pack_group(group, room)
 
-    for apart in taken_apart:
-        every = combinations(range(1, len(made)), len(rooms) - 1)
-        for cuts in sorted(every, key=worth)[:MOST_TURNS]:
+    for apart in ungroupings:
+        every = combinations(range(1, len(blocks)), len(drawing_areas) - 1)
+        for cuts in sorted(every, key=division_cost)[:MAX_DIVISIONS]:
             pages: Parts = []
-            for room, (i, j) in zip(rooms, pairwise((0, *cuts, len(made))), strict=True):
+            for room, (i, j) in zip(drawing_areas, pairwise((0, *cuts, len(blocks))), strict=True):
                 placed = page(room, i, j, apart)
                 if placed is None:
                     break
@@ -290,22 +305,25 @@ def _divided(
     return [], 0
 
 
-def _loosened(made: Sequence[Made]) -> list[Made]:
+def _loosened(blocks: Sequence[BuiltBlock]) -> list[BuiltBlock]:
     """Return blocks, with continuable ones taken out of their groups."""
     return [
-        Made(replace(m.entry, group=()), m.block) if m.entry.kind in GOES_ON else m for m in made
+        BuiltBlock(replace(m.entry, group=()), m.block) if m.entry.kind in CONTINUABLE else m
+        for m in blocks
     ]
 
 
 def grouped(
-    made: Sequence[Made], arranged: Mapping[tuple[str, ...], Arrange], path: tuple[str, ...] = ()
+    blocks: Sequence[BuiltBlock],
+    arranged: Mapping[tuple[str, ...], Arrange],
+    path: tuple[str, ...] = (),
 ) -> Group:
     """Return blocks as the tree of their groups."""
     depth = len(path)
-    members: list[Packed | Group] = []
-    for name, run in groupby(made, lambda one: one.entry.group[depth : depth + 1]):
+    members: list[LayoutItem | Group] = []
+    for name, run in groupby(blocks, lambda one: one.entry.group[depth : depth + 1]):
         if name:
             members.append(grouped(list(run), arranged, path + name))
         else:
-            members += [Packed(one.block, one.is_text) for one in run]
+            members += [LayoutItem(one.block, one.is_text) for one in run]
     return Group(tuple(members), arranged.get(path, "free"))

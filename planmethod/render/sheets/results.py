@@ -7,7 +7,7 @@ from math import inf
 
 import numpy as np
 
-from planmethod.note.compared import DRAWN, MOST_OFF
+from planmethod.note.compared import DRAWN, MAX_PERCENT
 from planmethod.note.numbers import Notation, to_decimals
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
 from planmethod.note.tables.series import Series, motion_series
@@ -17,66 +17,66 @@ from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableCell, TableColumn, table_block
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.solved.solution import Solution
 
 
-def position_text(solution: Solution, index: int, say: Notation) -> str:
+def position_text(solution: Solution, index: int, notation: Notation) -> str:
     """Return the text of a driver position: an angle within one turn, two decimals.
 
     If all are within a turn, negative angles stay negative.
     """
     value = float(solution.positions[index])
     if not solution.problem.drive.goes_round:
-        return say.given(value)
+        return notation.as_input(value)
     if value in solution.problem.numbered:
-        return say.given(solution.problem.shown(value))
+        return notation.as_input(solution.problem.display_position(value))
     if value < 0.0 and (np.abs(solution.positions) < 360.0).all():
-        return say.given(round(value, 2))
-    return say.turned(value)
+        return notation.as_input(round(value, 2))
+    return notation.crank_angle(value)
 
 
 def value_column(
-    series: Series, indices: Sequence[int], say: Notation, *, sigma: bool, alone: bool
+    series: Series, indices: Sequence[int], notation: Notation, *, sigma: bool, is_single: bool
 ) -> TableColumn:
     """Return the exact values of a quantity, their senses beside them, by positions.
 
-    With ``sigma`` they have their errors beside them, and a single position (``alone``) has rows
-    for the read value, for its deviation, and for its error.
+    With ``sigma`` they have their errors beside them, and a single position (``is_single``) has
+    rows for the read value, for its deviation, and for its error.
     """
-    values, cells = series.shown(series.exact, indices), list[TableCell]()
+    values, cells = series.displayed(series.exact, indices), list[TableCell]()
     texts = series.texts(values)
     for i, text, value in zip(indices, texts, values, strict=True):
         error, mark = series.error(i) if sigma else (0.0, "")
-        written = say.number(as_long(text, abs(value), error))
-        if error and not alone:
-            written += f" ± {say.number(sigma_text(error))}{mark}"
+        written = notation.number(as_long(text, abs(value), error))
+        if error and not is_single:
+            written += f" ± {notation.number(sigma_text(error))}{mark}"
         cells.append(TableCell(written, series.sense(value)))
-    if sigma and alone:
-        cells += _read_cells(series, indices[0], texts[0], say)
+    if sigma and is_single:
+        cells += _read_cells(series, indices[0], texts[0], notation)
     unit = series.quantity.kind.unit
     return TableColumn(
-        series.quantity.symbol, tuple(cells), unit="" if unit == "1" else say.units[unit]
+        series.quantity.symbol, tuple(cells), unit="" if unit == "1" else notation.units[unit]
     )
 
 
-def _read_cells(series: Series, index: int, like: str, say: Notation) -> list[TableCell]:
+def _read_cells(series: Series, index: int, like: str, notation: Notation) -> list[TableCell]:
     """Return the value read on the plans, its deviation, and the error.
 
     The read value has as many decimals as the exact one, ``like``, unless that is zero; zeros at
     its end are not finer than the error.
     """
     room = 0 if series.turns else None  # for the sign of other values of the column
-    one = series.compared(index, lost=True)
+    one = series.compared(index, skip_insignificant=True)
     size = one.read if series.signed else abs(one.read)
     as_exact = like != "0" and "e" not in like
     text = to_decimals(size, _decimals(like)) if as_exact else rounded_to(size, one.sigma)
     while text.endswith("0") and _decimals(text) > _decimals(sigma_text(one.sigma)):
         text = text[:-1].removesuffix(".")
     return [
-        TableCell(say.number(text), series.sense(one.read)),
-        TableCell(say.number(one.percent_text(most=MOST_OFF)), room),
-        TableCell(say.number(one.sigma_text), room),
+        TableCell(notation.number(text), series.sense(one.read)),
+        TableCell(notation.number(one.percent_text(limit=MAX_PERCENT)), room),
+        TableCell(notation.number(one.sigma_text), room),
     ]
 
 
@@ -87,7 +87,7 @@ def _decimals(text: str) -> int:
 def result_columns(
     solution: Solution,
     indices: Sequence[int],
-    words: Language,
+    language: Language,
     *,
     sigma: bool = False,
     kinds: Collection[str] = (),
@@ -98,67 +98,69 @@ def result_columns(
     the read value and its error, and the values of many positions have their errors beside them.
     """
     shown = [kind for kind in MOTION_KINDS if not kinds or kind.sign in kinds]
-    return columns_of(motion_series(solution, *shown), solution, indices, words, sigma=sigma)
+    return columns_of(motion_series(solution, *shown), solution, indices, language, sigma=sigma)
 
 
 def columns_of(
     every: Sequence[Series],
     solution: Solution,
     indices: Sequence[int],
-    words: Language,
+    language: Language,
     *,
     sigma: bool,
 ) -> list[TableColumn]:
     """Return the columns of quantities, those of the positions before them."""
-    alone, said = len(solution.positions) == 1, words.sheets
-    columns = [value_column(one, indices, words.say, sigma=sigma, alone=alone) for one in every]
+    alone, texts = len(solution.positions) == 1, language.sheets
+    columns = [
+        value_column(one, indices, language.notation, sigma=sigma, is_single=alone) for one in every
+    ]
     if not alone:
-        return [*position_columns(solution, indices, words), *columns]
-    rows = (said.exact, said.read, "Δ, %", "±σ")
+        return [*position_columns(solution, indices, language), *columns]
+    rows = (texts.exact, texts.read, "Δ, %", "±σ")
     return [TableColumn("", rows), *columns] if sigma else columns
 
 
 def position_columns(
-    solution: Solution, indices: Sequence[int], words: Language
+    solution: Solution, indices: Sequence[int], language: Language
 ) -> list[TableColumn]:
     """Return the columns of the numbers of positions, and of the driver's positions."""
     coordinate = solution.problem.drive.coordinate
-    asked = tuple(position_text(solution, i, words.say) for i in indices)
+    asked = tuple(position_text(solution, i, language.notation) for i in indices)
     return [
-        TableColumn(words.note.number, tuple(str(i) for i in indices), least=8.0),
-        TableColumn(coordinate.symbol, asked, unit=words.say.in_head(coordinate.unit)),
+        TableColumn(language.note.number, tuple(str(i) for i in indices), min_width=8.0),
+        TableColumn(coordinate.symbol, asked, unit=language.notation.in_head(coordinate.unit)),
     ]
 
 
-def table_width(manner: Manner, usual: float = inf) -> float:
+def table_width(style: BlockStyle, usual: float = inf) -> float:
     """Return the width of a table, mm: requested or usual, at least the title block's."""
-    room = manner.inside - 2 * EDGE
-    return min(max(STAMP_WIDTH, manner.width(min(usual, room))), room)
+    room = style.inside - 2 * EDGE
+    return min(max(STAMP_WIDTH, style.width(min(usual, room))), room)
 
 
-def results_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def results_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the table of results and, with sigmas, a note on its errors."""
-    alone, sigma = len(solution.positions) == 1, manner.extras.sigma
+    alone, sigma = len(solution.positions) == 1, style.options.sigma
     sigma = alone if sigma is None else sigma
-    size = manner.sizes.text
-    height = manner.text(size if len(indices) == 1 else min(size, 3.5))
-    width = table_width(manner)
-    words, said = manner.words, manner.words.sheets
-    title = said.results_exact
+    size = style.sizes.text
+    height = style.text(size if len(indices) == 1 else min(size, 3.5))
+    width = table_width(style)
+    language, texts = style.language, style.language.sheets
+    title = texts.results_exact
     if sigma:
-        title = said.results if alone else said.results_sigma
-    columns = result_columns(solution, indices, words, sigma=sigma, kinds=manner.entry.columns)
+        title = texts.results if alone else texts.results_sigma
+    columns = result_columns(solution, indices, language, sigma=sigma, kinds=style.entry.columns)
     table = table_block(
         columns,
         height,
         max_width=width,
         leading=(1 if sigma else 0) if alone else 2,
-        title=manner.entry.title or title,
+        title=style.entry.title or title,
     )
     marks = any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells)
-    if not sigma or (manner.extras.sigma is None and not marks):
+    if not sigma or (style.options.sigma is None and not marks):
         return table
-    return with_note(table, columns, height, solution.profile.name, words)
+    return with_note(table, columns, height, solution.profile.name, language)
 
 
 def with_note(
@@ -166,11 +168,11 @@ def with_note(
     columns: Sequence[TableColumn],
     height: float,
     profile: str,
-    words: Language,
+    language: Language,
 ) -> Column:
     """Return tables with a note on the errors in their columns, also on marked ones."""
-    note = words.note
-    told = words.sheets.sigma_note.format(profile=note["profiles"].get(profile, profile))
+    note = language.note
+    text = language.sheets.sigma_note.format(profile=note["profiles"].get(profile, profile))
     if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):
-        told = f"{told} {note.drawn_note}"
-    return Column([tables, paragraph(told, min(height, 3.5), tables.width)], gap=3.0)
+        text = f"{text} {note.drawn_note}"
+    return Column([tables, paragraph(text, min(height, 3.5), tables.width)], gap=3.0)

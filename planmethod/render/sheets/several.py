@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
-from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.cycle import extremes_named
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.narrate.turn import extremes_named
+from planmethod.note.narrate.statement import point_name
 from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
@@ -18,29 +18,29 @@ from planmethod.render.pictures.positions import PRIMES, shows_extremes
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.pictures.traces import shown_traces
-from planmethod.render.sheets.composer import Viewed
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.composer import ViewBlock
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import position_text
 from planmethod.render.sheets.views import (
-    plan_with_knots,
+    plan_with_details,
     plans_viewed,
     shown_position,
     with_scale,
 )
-from planmethod.solved.room import FEW
-from planmethod.solved.scaling import BETWEEN, even_columns, per_row
+from planmethod.solved.scaling import BETWEEN, column_widths, per_row
+from planmethod.solved.sheet_estimate import FEW
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import turn_of
+from planmethod.solved.turn.cycle import crank_cycle_of
 
 CAPTION = 3.5
 """Height of the letters of one of many plans, and of its caption, mm."""
 
 
-def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def scheme_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
     """Return the scheme of many positions: one in full, the others thin."""
-    bold, kind = shown_position(solution, indices, manner), PlanKind.POSITION
-    letter, errors = manner.letter, manner.extras.errors
-    traces = shown_traces(solution, manner.entry.traces, room=manner.extras.traces)
+    bold, kind = shown_position(solution, indices, style), PlanKind.POSITION
+    letter, errors = style.letter, style.options.errors
+    traces = shown_traces(solution, style.entry.traces, has_space=style.options.traces)
     if len(indices) > 1:
         picture = series_picture(
             solution,
@@ -48,17 +48,17 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
             tuple(indices),
             letter_height=letter,
             errors=errors,
-            turn=manner.extras.turn,
+            turn=style.options.turn,
             traces=traces,
         )
     else:
         picture = scheme_picture(solution, bold, letter_height=letter, errors=errors, traces=traces)
-    said = _extremes(solution, indices, manner)
-    block = with_scale(solution, kind, picture, manner, indices, said)
-    return Viewed(block, kind.value, solution.scales[kind])
+    said = _extremes(solution, indices, style)
+    block = with_scale(solution, kind, picture, style, indices, said)
+    return ViewBlock(block, kind.value, solution.scales[kind])
 
 
-def _extremes(solution: Solution, indices: Sequence[int], manner: Manner) -> list[str]:
+def _extremes(solution: Solution, indices: Sequence[int], style: BlockStyle) -> list[str]:
     """Return the notes on the extreme positions of a scheme that shows both."""
     if not shows_extremes(solution, indices):
         return []
@@ -67,24 +67,24 @@ def _extremes(solution: Solution, indices: Sequence[int], manner: Manner) -> lis
         return []
     letter = point_name(paths.output[1])
     names = ", ".join(f"{letter}{prime}" for prime in PRIMES)
-    whole = paths.course.closed and solution.problem.drive.revolves and not manner.extras.turn
-    return extremes_named(turn_of(solution) if whole else None, names, manner.words)
+    whole = paths.driver_path.closed and solution.problem.drive.revolves and not style.options.turn
+    return extremes_named(crank_cycle_of(solution) if whole else None, names, style.language)
 
 
-def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def plan_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the plans of several positions in rows, drawn like those of one."""
-    kind = manner.entry.of
+    kind = style.entry.of
     assert kind is not None
-    if manner.entry.position is not None:
-        indices = (manner.entry.position,)
-    step, words = manner.entry.per_row, manner.words
-    alike = _alike(solution, indices)
-    shown, errors = tuple(alike), manner.extras.errors
-    pictures = plan_grid(solution, kind, shown, words, in_row=step, errors=errors, alike=alike)
-    return plans_viewed(solution, pictures, shown, manner)
+    if style.entry.position is not None:
+        indices = (style.entry.position,)
+    step, language = style.entry.per_row, style.language
+    alike = _group_repeated(solution, indices)
+    shown, errors = tuple(alike), style.options.errors
+    pictures = plan_grid(solution, kind, shown, language, in_row=step, errors=errors, repeats=alike)
+    return plans_viewed(solution, pictures, shown, style)
 
 
-def _alike(solution: Solution, indices: Sequence[int]) -> dict[int, list[int]]:
+def _group_repeated(solution: Solution, indices: Sequence[int]) -> dict[int, list[int]]:
     """Return positions with those of the cycle's second turn at the same crank angle."""
     found: dict[float, list[int]] = {}
     two = solution.repeated > 1 and solution.problem.drive.goes_round
@@ -98,32 +98,34 @@ def plan_grid(
     solution: Solution,
     kind: PlanKind,
     indices: Sequence[int],
-    words: Language,
+    language: Language,
     *,
     in_row: int | None = None,
     errors: bool = False,
-    alike: Mapping[int, Sequence[int]] = MappingProxyType({}),
+    repeats: Mapping[int, Sequence[int]] = MappingProxyType({}),
 ) -> list[Block]:
     """Return the plans of many positions in rows and columns, each with its number.
 
     There is a layout for each number of plans in a row, the usual one first; ``in_row`` selects
-    one. ``alike`` are the numbers of all positions that share the plan of one.
+    one. ``repeats`` are the numbers of all positions that share the plan of one.
     """
-    coordinate, say = solution.problem.drive.coordinate, words.say
+    coordinate, notation = solution.problem.drive.coordinate, language.notation
     cells: list[Block] = []
     common = solution.has_common(kind)
     convention = solution.problem.scales.convention
     for i in indices:
-        own_numbers, unit = alike.get(i, (i,)), say.units[coordinate.unit]
-        places = dict.fromkeys(position_text(solution, k, say) for k in own_numbers)
+        own_numbers, unit = repeats.get(i, (i,)), notation.units[coordinate.unit]
+        places = dict.fromkeys(position_text(solution, k, notation) for k in own_numbers)
         values = ", ".join(with_unit(place, unit) for place in places)
-        said = f"{', '.join(map(str, own_numbers))}: {coordinate.symbol} = {values}"
-        own = solution.own_scale(kind, i)
-        caption: Block = Line(typeset(said, CAPTION))
+        phrase = f"{', '.join(map(str, own_numbers))}: {coordinate.symbol} = {values}"
+        own = solution.plan_scale(kind, i)
+        caption: Block = Line(typeset(phrase, CAPTION))
         if own != solution.scales[kind] or not common:
-            scale = Line(typeset(scale_inscription(own, convention, say), CAPTION))
+            scale = Line(typeset(scale_inscription(own, convention, notation), CAPTION))
             caption = Column([caption, scale], gap=2.0, align="centre")
-        picture = plan_with_knots(solution, kind, i, words, letter_height=CAPTION, errors=errors)[0]
+        picture = plan_with_details(
+            solution, kind, i, language, letter_height=CAPTION, errors=errors
+        )[0]
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
     count, usual = len(cells), in_row or per_row(len(cells))
     steps = (usual,) if in_row else (usual, 4, 3, 2, 1) if count <= FEW else (usual, 4, 3)
@@ -132,7 +134,7 @@ def plan_grid(
 
 def _rows(cells: Sequence[Block], step: int) -> Block:
     """Return blocks in rows of ``step``, in columns if these are not much wider."""
-    columns = even_columns([cell.width for cell in cells], step)
+    columns = column_widths([cell.width for cell in cells], step)
     if columns:
         wide = [Spacer(width, 0.0) for width in columns]
         cells = [Column([c, wide[k % step]], 0.0, "centre") for k, c in enumerate(cells)]

@@ -14,7 +14,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES, say
+from planmethod.languages import LANGUAGES, translate
 from planmethod.mechanism.structure import Structure
 from planmethod.note.document import Formula, Table
 from planmethod.note.narrate.structure import (
@@ -26,8 +26,8 @@ from planmethod.note.narrate.structure import (
     order_formulas,
     pair_table,
 )
-from planmethod.note.wording import Language, language
-from planmethod.paper import STAMP_WIDTH, TRIED, paper_format
+from planmethod.note.wording import Language, get_language
+from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH, paper_format
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Drawing, Item
 from planmethod.render.ink.typeset import typeset
@@ -41,7 +41,15 @@ from planmethod.render.pictures.structural import (
     group_picture,
     mechanism_picture,
 )
-from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Misfit, Sizes, Viewed, compose
+from planmethod.render.sheets.composer import (
+    NoFitAdvice,
+    PageLayout,
+    SheetLayout,
+    Sizes,
+    TrialPaper,
+    ViewBlock,
+    compose,
+)
 from planmethod.solved.aligned.schemes import SelfAligning, self_aligning
 
 EDGE = 6.0
@@ -53,10 +61,10 @@ GAP = 7.0
 CAPTION_GAP = 4.0
 """White between a picture and its caption, mm."""
 
-MOST_GAP = 16.0
+MAX_GAP = 16.0
 """Largest white between two blocks of the right column, mm: rows and letters grow first."""
 
-GOOD_SHARE, LEAST_SHARE = 0.36, 0.25
+GOOD_FRACTION, MIN_FRACTION = 0.36, 0.25
 """Preferred and least part of the left column's height for the scheme."""
 
 
@@ -125,8 +133,8 @@ def structure_sheet(
     """
     if paper:
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
-    words = language(problem.sheet.lang or LANGUAGES[0])
-    misfit = Misfit(
+    language = get_language(problem.sheet.lang or LANGUAGES[0])
+    misfit = NoFitAdvice(
         lambda paper, advice: LayoutError(
             "{}: the structural analysis of {} links and {} groups does not fit {}. {}",
             problem.name,
@@ -135,10 +143,10 @@ def structure_sheet(
             paper,
             advice,
         ),
-        say("Draw parts of the mechanism on their own."),
+        translate("Draw parts of the mechanism on their own."),
     )
     aligned = aligned or self_aligning(problem, structure)
-    strategy = _Structural(problem, structure, aligned, words)
+    strategy = _Structural(problem, structure, aligned, language)
     (sheet,) = compose(problem, strategy, misfit, fields=fields)
     return sheet
 
@@ -149,42 +157,44 @@ class _Structural(Struct, frozen=True):
     problem: Problem
     structure: Structure
     aligned: SelfAligning
-    words: Language
+    language: Language
 
-    formats = TRIED
+    formats = DEFAULT_SERIES
 
-    def proposals(self, papers: Sequence[Blank]) -> Iterator[_Columns]:
+    def proposals(self, papers: Sequence[TrialPaper]) -> Iterator[_Columns]:
         """Yield two columns for each paper."""
         for paper in papers:
             pictures = PICTURES.get(paper.format.like, PICTURES["A1"])
-            yield _Columns(paper, self.problem, self.structure, self.aligned, pictures, self.words)
+            yield _Columns(
+                paper, self.problem, self.structure, self.aligned, pictures, self.language
+            )
 
 
 class _Columns(Struct, frozen=True):
     """Pictures on the left, tables and formulas on the right (`Proposal`)."""
 
-    paper: Blank
+    paper: TrialPaper
     problem: Problem
     structure: Structure
     aligned: SelfAligning
     pictures: Pictures
-    words: Language
+    language: Language
 
-    def laid(self) -> Laid | None:
+    def arrange(self) -> SheetLayout | None:
         """Return the sheet, or None when the columns do not fit.
 
         A column that would cover a graph in an upper corner begins below it.
         """
         problem, structure = self.problem, self.structure
-        pictures, words = self.pictures, self.words
-        room, column = self.paper.room(), pictures.sizes.column
+        pictures, language = self.pictures, self.language
+        room, column = self.paper.drawing_area(), pictures.sizes.column
         inner, low = room.inner, room.stamp[3] + EDGE
         left, right = inner[0] + EDGE, inner[2] - EDGE - column
-        tops = (inner[3] - EDGE, *(box[1] - EDGE for box in room.taken))
+        tops = (inner[3] - EDGE, *(box[1] - EDGE for box in room.reserved))
 
-        def begun(make: Callable[[float], Block | None], x: float) -> Placed | None:
+        def place_clear(build: Callable[[float], Block | None], x: float) -> Placed | None:
             for top in tops:
-                block, corner = make(top), complex(x, top)
+                block, corner = build(top), complex(x, top)
                 if block is None:
                     return None
                 if room.is_clear(block.place(corner)):
@@ -192,8 +202,9 @@ class _Columns(Struct, frozen=True):
             return None
 
         aligned = self.aligned
-        told = begun(
-            lambda top: _told(problem, structure, aligned, pictures, top - low, words), right
+        told = place_clear(
+            lambda top: _build_texts(problem, structure, aligned, pictures, top - low, language),
+            right,
         )
         if told is None:
             return None
@@ -201,46 +212,46 @@ class _Columns(Struct, frozen=True):
 
         def scheme(top: float) -> Block | None:
             height = top - inner[1] - EDGE
-            block = _shown(problem, structure, aligned, pictures, width, height, words)
-            return block and Viewed(block, "structure", None)
+            block = _build_pictures(problem, structure, aligned, pictures, width, height, language)
+            return block and ViewBlock(block, "structure", None)
 
-        shown = begun(scheme, left)
-        return shown and Laid([LaidPage([shown, told], words.structure.title)])
+        shown = place_clear(scheme, left)
+        return shown and SheetLayout([PageLayout([shown, told], language.structure.title)])
 
 
 # The right column: tables and formulas ---------------------------------------------------------
 
 
-def _told(
+def _build_texts(
     problem: Problem,
     structure: Structure,
     aligned: SelfAligning,
     pictures: Pictures,
     height: float,
-    words: Language,
+    language: Language,
 ) -> Block | None:
     """Return tables and formulas, in rows as high as the space permits."""
-    mechanism, said = problem.mechanism, words.structure
+    mechanism, texts = problem.mechanism, language.structure
     sizes = pictures.sizes
     for row in pictures.rows:
         lines = [
-            *mobility_formulas(mechanism, structure, words, problem.sheet.notation),
-            *order_formulas(mechanism, structure, words),
-            *aligned_sums(structure, aligned, words, problem.sheet.notation),
+            *mobility_formulas(mechanism, structure, language, problem.sheet.notation),
+            *order_formulas(mechanism, structure, language),
+            *aligned_sums(structure, aligned, language, problem.sheet.notation),
         ]
         blocks = [
-            _table(pair_table(mechanism, words, aligned), said.pairs, sizes, row),
-            _table(link_table(mechanism, words), said.links, sizes, row),
-            _formulas(lines, sizes, 0.55 * row, said.formulas),
+            _table(pair_table(mechanism, language, aligned), texts.pairs, sizes, row),
+            _table(link_table(mechanism, language), texts.links, sizes, row),
+            _formulas(lines, sizes, 0.55 * row, texts.formulas),
         ]
         spare = height - sum(block.height for block in blocks)
         if spare >= GAP * (len(blocks) - 1):
-            return Column(blocks, gap=min(MOST_GAP, spare / len(blocks)))
+            return Column(blocks, gap=min(MAX_GAP, spare / len(blocks)))
     return None
 
 
-def _table(made: Table, title: str, sizes: Sizes, row: float) -> Block:
-    columns = [TableColumn(*column) for column in made.columns()]
+def _table(source: Table, title: str, sizes: Sizes, row: float) -> Block:
+    columns = [TableColumn(*column) for column in source.columns()]
     table = table_block(columns, sizes.text, width=sizes.column, units="none", row_height=row)
     return Column([_title(title, sizes), table], gap=3.0)
 
@@ -257,27 +268,27 @@ def _formulas(lines: Iterable[str], sizes: Sizes, gap: float, title: str) -> Blo
 # The left column: scheme and groups ------------------------------------------------------------
 
 
-def _shown(
+def _build_pictures(
     problem: Problem,
     structure: Structure,
     aligned: SelfAligning,
     pictures: Pictures,
     width: float,
     height: float,
-    words: Language,
+    language: Language,
 ) -> Block | None:
     """Return the schemes and the grid of groups, which fill the column together."""
     mechanism, sizes = problem.mechanism, pictures.sizes
     sense = -1 if problem.drive.rate < 0 else 1
-    mobile = Mobile(aligned, words.structure["pair_classes"])
+    mobile = Mobile(aligned, language.structure["pair_classes"])
     both = bool(aligned.schemes and structure.groups) and not mechanism.higher
     schemes = [None, mobile] if both else [None]
     wide = (width - GAP * (len(schemes) - 1)) / len(schemes)
-    first = words.structure.replacing_scheme if mechanism.higher else words.structure.scheme
-    names = [first, words.structure.aligned_scheme][: len(schemes)]
+    first = language.structure.replacing_scheme if mechanism.higher else language.structure.scheme
+    names = [first, language.structure.aligned_scheme][: len(schemes)]
     heads = [paragraph(name, sizes.title, wide, align="centre") for name in names]
     head = Row([_Centred(one, wide, one.height) for one in heads], gap=GAP)
-    below = _title(words.structure.parts, sizes)
+    below = _title(language.structure.parts, sizes)
     count = 1 + len(structure.groups)
     most = max(1, int((width + GAP) / (pictures.cell + GAP)))
     rows = ceil(count / min(most, count))
@@ -300,11 +311,13 @@ def _shown(
             )
             for group in structure.groups
         ]
-        told: list[Block] = [_caption(driver_caption(mechanism, words), sizes, cell)]
-        told += [_caption(group_caption(group, words), sizes, cell) for group in structure.groups]
+        told: list[Block] = [_caption(driver_caption(mechanism, language), sizes, cell)]
+        told += [
+            _caption(group_caption(group, language), sizes, cell) for group in structure.groups
+        ]
         grid = _grid(shown, told, across, cell)
         room = height - head.height - below.height - grid.height - 3 * GAP
-        share = LEAST_SHARE if tall == pictures.views[-1] else GOOD_SHARE
+        share = MIN_FRACTION if tall == pictures.views[-1] else GOOD_FRACTION
         drawn = [
             mechanism_picture(
                 mechanism,
@@ -349,11 +362,11 @@ class _Centred(Struct, frozen=True):
         return self.block.place(corner + across / 2 - 1j * down / 2)
 
 
-def _grid(pictures: Sequence[Block], told: Sequence[Block], across: int, cell: float) -> Block:
+def _grid(pictures: Sequence[Block], captions: Sequence[Block], per_row: int, cell: float) -> Block:
     """Return cells in rows: pictures end on one line, captions begin on one line."""
     rows: list[Block] = []
-    for first in range(0, len(pictures), across):
-        views, texts = pictures[first : first + across], told[first : first + across]
+    for first in range(0, len(pictures), per_row):
+        views, texts = pictures[first : first + per_row], captions[first : first + per_row]
         high = max(view.height for view in views)
         pairs = zip(views, texts, strict=True)
         rows.append(Row([_Cell(view, text, cell, high) for view, text in pairs], gap=GAP))
@@ -366,17 +379,17 @@ class _Cell(Struct, frozen=True):
     view: Block
     text: Block
     width: float
-    room: float
+    view_height: float
 
     @property
     def height(self) -> float:
-        return self.room + CAPTION_GAP + self.text.height
+        return self.view_height + CAPTION_GAP + self.text.height
 
     def place(self, corner: complex) -> list[Item]:
         """Return picture and caption; the picture is centred in its area."""
-        drop = (self.room - self.view.height) / 2
+        drop = (self.view_height - self.view.height) / 2
         at = corner + (self.width - self.view.width) / 2 - 1j * drop
-        under = corner + (self.width - self.text.width) / 2 - 1j * (self.room + CAPTION_GAP)
+        under = corner + (self.width - self.text.width) / 2 - 1j * (self.view_height + CAPTION_GAP)
         return [*self.view.place(at), *self.text.place(under)]
 
 

@@ -9,38 +9,38 @@ from msgspec import Struct
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.given import given, point_name
-from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.narrate.turn import (
+from planmethod.note.narrate.cycle import (
+    cycle_facts,
     diagram_scales,
     drawn_notes,
     output_name,
-    turn_facts,
 )
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.statement import given_facts, point_name
 from planmethod.note.numbers import half_up
-from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns, deviations_title
+from planmethod.note.tables.cycle import Columns, cycle_columns, deviation_columns, deviations_title
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.render.layout.block import Block, Picture, shaped
+from planmethod.render.layout.block import Block, Picture, make_alternatives
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.pictures.polar import polar_picture
-from planmethod.render.sheets.composer import Viewed
-from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.composer import ViewBlock
+from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import table_width
 from planmethod.render.sheets.several import plan_grid
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import LARGER, PlanViewed, at_scales, named
-from planmethod.solved.reading import Complexes, Reals, remembered
+from planmethod.render.sheets.views import LARGER, PlanViewBlock, at_scales, named
+from planmethod.solved.driver_path import without_corners
+from planmethod.solved.reading import Complexes, Reals, memoized
 from planmethod.solved.solution import Solution
-from planmethod.solved.travel import without_corners
+from planmethod.solved.turn.cycle import TURN, CrankCycle, crank_cycle_of
 from planmethod.solved.turn.diagrams import diagrams_of
-from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
 SIDE = 0.5
 """Side of a hodograph as a part of the width of a text."""
 
-MOST = 150.0
+MAX_SIDE = 150.0
 """Largest side of a hodograph of a project at the scale of its plans, mm."""
 
 SMALL = 0.6
@@ -49,60 +49,61 @@ SMALL = 0.6
 _NARROW = 0.05  # width over length below which a hodograph counts as a straight line
 
 
-def turn_statement(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def turn_statement(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return "Дано", "Определить" and the facts found for the turn."""
-    words = manner.words
-    facts = given(solution.problem, words, [float(turn_of(solution).zero)])
-    found = "; ".join(turn_facts(turn_of(solution), words)) + "."
-    return stated(facts[1:], words.cycle.wanted, manner, found)
+    language = style.language
+    facts = given_facts(solution.problem, language, [float(crank_cycle_of(solution).zero)])
+    found = "; ".join(cycle_facts(crank_cycle_of(solution), language)) + "."
+    return stated(facts[1:], language.cycle.wanted, style, found)
 
 
-def _whose(turn: Turn, manner: Manner) -> str:
+def _output_text(turn: CrankCycle, style: BlockStyle) -> str:
     output = turn.output
-    said: str = manner.words.cycle["of"][output.unit]
-    return said.format(name=output_name(output))
+    phrase: str = style.language.cycle["of"][output.unit]
+    return phrase.format(name=output_name(output))
 
 
-def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def diagrams_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the diagrams of s, v and a under one another."""
-    diagrams, words = diagrams_of(solution), manner.words
-    picture = kinematic_picture(diagrams, manner.letter, words.say)
-    title = words.cycle.diagrams.format(of=_whose(diagrams.turn, manner))
-    scales = diagram_scales(diagrams, words)
+    diagrams, language = diagrams_of(solution), style.language
+    picture = kinematic_picture(diagrams, style.letter, language.notation)
+    title = language.cycle.diagrams.format(of=_output_text(diagrams.cycle, style))
+    scales = diagram_scales(diagrams, language)
+    notation = language.notation
     k = [
-        f"K_{{{number}}} = {words.say.given(half_up(pole, 2))} {words.say.units['mm']}"
+        f"K_{{{number}}} = {notation.as_input(half_up(pole, 2))} {notation.units['mm']}"
         for number, pole in enumerate(diagrams.poles, 1)
     ]
-    lines = ["; ".join([*scales, *k]), *drawn_notes(diagrams, words)]
-    block = named(picture, manner.entry.title or title, lines, manner)
-    return Viewed(block, "diagram", diagrams.scales[0])
+    lines = ["; ".join([*scales, *k]), *drawn_notes(diagrams, language)]
+    block = named(picture, style.entry.title or title, lines, style)
+    return ViewBlock(block, "diagram", diagrams.scales[0])
 
 
-def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def chosen_plans(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the plans of the positions that the block names.
 
     Default: of as many as fit, evenly from 0 on; or of two, one of either stroke: after a sixth and
     two thirds of a turn.
     """
-    kind, words = manner.entry.of, manner.words
+    kind, language = style.entry.of, style.language
     assert kind is not None
     every = len(solution.positions) // solution.repeated  # the second turn repeats the first
     two = dict.fromkeys((round(every / 6), round(2 * every / 3) % every))
-    count = manner.extras.plans
+    count = style.options.plans
     even = range(0, every, -(-every // count)) if count else two
-    chosen = manner.entry.positions or tuple(even)
-    pictures = plan_grid(solution, kind, chosen, words, in_row=manner.entry.per_row)
+    chosen = style.entry.positions or tuple(even)
+    pictures = plan_grid(solution, kind, chosen, language, in_row=style.entry.per_row)
     if not count:  # the usual layout only: they grow, and must not displace the others
         pictures = pictures[:1]
-    names, scale = words.sheets["views"][kind.value], solution.scales[kind]
-    title = manner.entry.title or names[len(chosen) > 1]
-    said = scale_inscription(scale, solution.problem.scales.convention, words.say)
+    names, scale = language.sheets["views"][kind.value], solution.scales[kind]
+    title = style.entry.title or names[len(chosen) > 1]
+    phrase = scale_inscription(scale, solution.problem.scales.convention, language.notation)
     if len(chosen) < every:
         shown = ", ".join(map(str, chosen))
-        said = f"{said}; {words.cycle.chosen.format(shown=shown, last=every - 1)}"
-    blocks = [named(picture, title, [said], manner) for picture in pictures]
-    return shaped(
-        PlanViewed(block, kind.value, scale, solution, kind, chosen, by_hand=True)
+        phrase = f"{phrase}; {language.cycle.chosen.format(shown=shown, last=every - 1)}"
+    blocks = [named(picture, title, [phrase], style) for picture in pictures]
+    return make_alternatives(
+        PlanViewBlock(block, kind.value, scale, solution, kind, chosen, use_ruler=True)
         for block in blocks
     )
 
@@ -110,7 +111,7 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
 # Hodographs --------------------------------------------------------------------------------------
 
 
-def hodograph_point(turn: Turn) -> str | None:
+def hodograph_point(turn: CrankCycle) -> str | None:
     """Return the point of the hodograph: a centre of mass not moving in a straight line.
 
     Otherwise another such point; None if all of them move along lines.
@@ -149,18 +150,18 @@ class Hodograph(Struct, frozen=True):
         return polar_picture(self.parts, self.ends, letter, name, FACTS[self.kind].pole)
 
 
-@remembered
+@memoized
 def _hodograph_of(solution: Solution, kind: PlanKind) -> tuple[str, Complexes, Complexes]:
     """Return the point, its curve, and the ends of its vectors in the positions; m/s or m/s²."""
-    turn = turn_of(solution)
+    turn = crank_cycle_of(solution)
     point = hodograph_point(turn) or turn.output.point
-    drive, kin = solution.problem.drive, turn.unit.construction.kinematics
+    drive, kinematics = solution.problem.drive, turn.unit.construction.kinematics
 
     def vectors(positions: Reals) -> Complexes:
         reading = turn.read(positions)
         v, a = (
             reading.point(motion.point[motion.named[point]])
-            for motion in (kin.velocity, kin.acceleration)
+            for motion in (kinematics.velocity, kinematics.acceleration)
         )
         if kind is PlanKind.VELOCITY:
             return np.asarray(v * drive.rate, dtype=complex)
@@ -187,30 +188,30 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
     facts = FACTS[kind]
     decided, common = solution.problem.scales.decided, solution.scales[kind]
-    side = MOST if decided else side
+    side = MAX_SIDE if decided else side
     own = Scale(facts.scale, choose_scale(size, (side, side), mm_per_unit=inverse), facts.unit)
-    keeps = decided and SMALL * MOST <= max(size) / common.per_mm <= MOST
+    keeps = decided and SMALL * MAX_SIDE <= max(size) / common.per_mm <= MAX_SIDE
     scale = common if keeps else own
     gaps = np.flatnonzero(~np.isfinite(curve))
     parts = tuple(part[np.isfinite(part)] / scale.per_mm for part in np.split(curve, gaps))
     return Hodograph(kind, point, scale, parts, np.nan_to_num(ends) / scale.per_mm)
 
 
-def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def hodograph_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the hodograph of velocities or accelerations of a point about one pole.
 
     It may be larger: the packer takes the size that fills the paper.
     """
-    kind, words = manner.entry.of, manner.words
+    kind, language = style.entry.of, style.language
     assert kind is not None
-    usual = SIDE * manner.width(manner.sizes.column)
+    usual = SIDE * style.width(style.sizes.column)
 
-    def view(side: float) -> Viewed:
+    def view(side: float) -> ViewBlock:
         one = hodograph(solution, kind, side)
-        title = words.cycle["hodograph"][kind.value].format(of=point_name(one.point))
-        said = [scale_inscription(one.scale, solution.problem.scales.convention, words.say)]
-        block = named(one.picture(manner.letter), manner.entry.title or title, said, manner)
-        return Viewed(block, "hodograph", one.scale)
+        title = language.cycle["hodograph"][kind.value].format(of=point_name(one.point))
+        said = [scale_inscription(one.scale, solution.problem.scales.convention, language.notation)]
+        block = named(one.picture(style.letter), style.entry.title or title, said, style)
+        return ViewBlock(block, "hodograph", one.scale)
 
     return at_scales(view(times * usual) for times in LARGER)
 
@@ -218,24 +219,24 @@ def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -
 # Tables ------------------------------------------------------------------------------------------
 
 
-def _table(columns: Columns, lead: int, title: str, manner: Manner) -> Block:
-    height, say = manner.text(manner.sizes.text), manner.words.say
+def _table(columns: Columns, lead: int, title: str, style: BlockStyle) -> Block:
+    height, notation = style.text(style.sizes.text), style.language.notation
     made = [
-        TableColumn(head, cells, unit=say.in_head(unit) if unit else "")
+        TableColumn(head, cells, unit=notation.in_head(unit) if unit else "")
         for head, unit, cells in columns
     ]
-    title = manner.entry.title or title
-    return table_block(made, height, max_width=table_width(manner), leading=lead, title=title)
+    title = style.entry.title or title
+    return table_block(made, height, max_width=table_width(style), leading=lead, title=title)
 
 
-def turn_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def turn_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the table of the turn by positions."""
     diagrams = diagrams_of(solution)
-    return _table(cycle_columns(diagrams, manner.words), 2, manner.words.cycle.table, manner)
+    return _table(cycle_columns(diagrams, style.language), 2, style.language.cycle.table, style)
 
 
-def deviations_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def deviations_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the deviations of the diagrams by every method."""
     diagrams = diagrams_of(solution)
-    columns = deviation_columns(diagrams, manner.words)
-    return _table(columns, 2, deviations_title(solution, manner.words), manner)
+    columns = deviation_columns(diagrams, style.language)
+    return _table(columns, 2, deviations_title(solution, style.language), style)

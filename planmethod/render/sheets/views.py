@@ -6,31 +6,31 @@ from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from planmethod.construct.scale import Scale
-from planmethod.note.narrate.formulas import knot_letter, view_name
-from planmethod.note.narrate.letters import shown_letters
+from planmethod.note.narrate.formulas import detail_view_letter, view_name
+from planmethod.note.narrate.letters import plan_letters
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import is_nothing
+from planmethod.note.numbers import is_negligible
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Arc, Disc, Item, Span
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Row, shaped
+from planmethod.render.layout.block import Block, Column, Line, Row, make_alternatives
+from planmethod.render.pictures.detail_views import ENLARGED
 from planmethod.render.pictures.ellipses import ellipse_inscription
-from planmethod.render.pictures.enlarged import ENLARGED
 from planmethod.render.pictures.planview import (
     POLE,
-    knot_pictures,
+    detail_pictures,
     plan_picture,
     plan_places,
     vector_label,
 )
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.traces import Shown, shown_traces
-from planmethod.render.sheets.composer import Viewed
-from planmethod.render.sheets.model import Manner
-from planmethod.solved.clearest import clearest_position
-from planmethod.solved.enlarging import least_shown
+from planmethod.render.sheets.composer import ViewBlock
+from planmethod.render.sheets.model import BlockStyle
+from planmethod.solved.detail_views import min_enlarged
+from planmethod.solved.representative_position import clearest_position
 from planmethod.solved.solution import Solution
 
 POINT = 1e-6
@@ -42,13 +42,13 @@ LARGER = (1.0, 1.5, 2.2)
 """Enlargements of a polar diagram where there is space."""
 
 
-class PlanViewed(Viewed, frozen=True):
+class PlanViewBlock(ViewBlock, frozen=True):
     """Plans of some positions, in the order in which they are drawn."""
 
     solution: Solution
     kind: PlanKind
     indices: tuple[int, ...]
-    by_hand: bool = False
+    use_ruler: bool = False
 
     def spans(self, items: Sequence[Item], corner: complex) -> Iterable[Span]:
         """Return the segments of the plans."""
@@ -60,7 +60,7 @@ class PlanViewed(Viewed, frozen=True):
         }
         for pole, index in zip(poles, self.indices, strict=False):
             yield from plan_spans(
-                self.solution, self.kind, index, pole, by_hand=self.by_hand, views=views
+                self.solution, self.kind, index, pole, use_ruler=self.use_ruler, views=views
             )
 
 
@@ -70,7 +70,7 @@ def plan_spans(
     index: int,
     pole: complex,
     *,
-    by_hand: bool = False,
+    use_ruler: bool = False,
     views: Mapping[int, complex] = NO_VIEWS,
 ) -> list[Span]:
     """Return the measured segments of a plan whose pole lies at ``pole`` on the sheet.
@@ -79,19 +79,23 @@ def plan_spans(
     middles of the enlarged views by the numbers of their knots: their segments are measured there.
     """
     plan = solution.construction.plan(kind)
-    at = plan_places(solution, kind, index, by_hand=by_hand)
+    at = plan_places(solution, kind, index, use_ruler=use_ruler)
     sizes = [abs(at[vector.head] - at[vector.tail]) for vector in plan.vectors]
-    letters = shown_letters(solution.problem, plan)
+    letters = plan_letters(solution.problem, plan)
     position = index if len(solution.positions) > 1 else None
     named = {
         frozenset((vector.tail, vector.head)): vector
         for vector, size in zip(plan.vectors, sizes, strict=True)
-        if size > POINT and not is_nothing(size, max(sizes))
+        if size > POINT and not is_negligible(size, max(sizes))
     }
-    knots = [knot for knot in solution.knots_of(kind, index) if knot.number in views]
-    shown = {frozenset(pair): knot for knot in knots for pair in knot.ends}
+    knots = [
+        detail_view
+        for detail_view in solution.detail_views_at(kind, index)
+        if detail_view.number in views
+    ]
+    shown = {frozenset(pair): detail_view for detail_view in knots for pair in detail_view.ends}
     spans: list[Span] = []
-    alone, least = len(solution.positions) == 1, least_shown(solution.profile.ruler)
+    alone, least = len(solution.positions) == 1, min_enlarged(solution.profile.ruler)
     for ends, vector in named.items():
         knot = shown.get(ends)
         if alone and knot is None and abs(at[vector.head] - at[vector.tail]) < least:
@@ -101,81 +105,83 @@ def plan_spans(
             middle + (at[point] - (0j if knot is None else knot.centre)) * times
             for point in (vector.tail, vector.head)
         )
-        share = solution.scales[kind].per_mm / solution.own_scale(kind, index).per_mm
+        share = solution.scales[kind].per_mm / solution.plan_scale(kind, index).per_mm
         name = plain_text(letters[vector.tail][0] + letters[vector.head][0])
         label = "" if knot is not None else vector_label(f"{kind.value} {index}", vector)
         spans.append(Span(name, position, start, end, share * times, label))
     return spans
 
 
-def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def scheme_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
     """Return the scheme in one position; `sheets.several` makes that of several."""
     (index,) = indices
     picture = scheme_picture(
         solution,
         index,
-        letter_height=manner.letter,
-        errors=manner.extras.errors,
-        traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
+        letter_height=style.letter,
+        errors=style.options.errors,
+        traces=shown_traces(solution, style.entry.traces, has_space=style.options.traces),
     )
     kind = PlanKind.POSITION
-    block = with_scale(solution, kind, picture, manner, indices)
-    return Viewed(block, kind.value, solution.scales[kind])
+    block = with_scale(solution, kind, picture, style, indices)
+    return ViewBlock(block, kind.value, solution.scales[kind])
 
 
-def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+def plan_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
     """Return a plan with its enlarged views; `sheets.several` makes those of several positions.
 
     It is drawn with the readings of the ruler, so that a ruler finds the numbers of the
     calculation; with error ellipses, which are around the exact points, it is exact.
     """
-    kind = manner.entry.of
+    kind = style.entry.of
     assert kind is not None
-    ways = plan_with_knots(
-        solution, kind, indices[0], manner.words,
-        letter_height=manner.letter, errors=manner.extras.errors,
-        traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
+    ways = plan_with_details(
+        solution, kind, indices[0], style.language,
+        letter_height=style.letter, errors=style.options.errors,
+        traces=shown_traces(solution, style.entry.traces, has_space=style.options.traces),
     )  # fmt: skip
-    return plans_viewed(solution, ways, indices, manner)
+    return plans_viewed(solution, ways, indices, style)
 
 
 def plans_viewed(
-    solution: Solution, pictures: Sequence[Block], indices: Sequence[int], manner: Manner
+    solution: Solution, pictures: Sequence[Block], indices: Sequence[int], style: BlockStyle
 ) -> Block:
     """Return the plans of some positions, in several layouts, under their name."""
-    kind = manner.entry.of
+    kind = style.entry.of
     assert kind is not None
-    blocks = [with_scale(solution, kind, picture, manner, indices) for picture in pictures]
-    scale, by_hand = solution.scales[kind], not manner.extras.errors
-    return shaped(
-        PlanViewed(block, kind.value, scale, solution, kind, tuple(indices), by_hand)
+    blocks = [with_scale(solution, kind, picture, style, indices) for picture in pictures]
+    scale, by_hand = solution.scales[kind], not style.options.errors
+    return make_alternatives(
+        PlanViewBlock(block, kind.value, scale, solution, kind, tuple(indices), by_hand)
         for block in blocks
     )
 
 
-def plan_with_knots(
+def plan_with_details(
     solution: Solution,
     kind: PlanKind,
     index: int,
-    words: Language,
+    language: Language,
     *,
     letter_height: float,
     errors: bool = False,
     traces: Shown = False,
 ) -> list[Block]:
     """Return a plan with its enlarged views, in all layouts, the smallest first."""
-    knots, by_hand = solution.knots_of(kind, index), not errors
-    letters = tuple(knot_letter(knot, words) for knot in knots)
+    knots, by_hand = solution.detail_views_at(kind, index), not errors
+    letters = tuple(detail_view_letter(detail_view, language) for detail_view in knots)
     picture = plan_picture(
-        solution, kind, index, letter_height=letter_height, errors=errors, by_hand=by_hand,
-        traces=traces, knots=letters,
+        solution, kind, index, letter_height=letter_height, errors=errors, use_ruler=by_hand,
+        traces=traces, detail_letters=letters,
     )  # fmt: skip
     if not knots:
         return [picture]
-    pictures = knot_pictures(solution, kind, index, letter_height=letter_height, by_hand=by_hand)
+    pictures = detail_pictures(
+        solution, kind, index, letter_height=letter_height, use_ruler=by_hand
+    )
     views = [
-        Column([Line(typeset(view_name(knot, words), letter_height)), one], 2.5, "centre")
-        for knot, one in zip(knots, pictures, strict=True)
+        Column([Line(typeset(view_name(detail_view, language), letter_height)), one], 2.5, "centre")
+        for detail_view, one in zip(knots, pictures, strict=True)
     ]
     ways: list[Block] = []
     for step in range(1, len(views) + 1):
@@ -186,9 +192,9 @@ def plan_with_knots(
     return sorted(ways, key=lambda way: way.width * way.height)
 
 
-def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
+def shown_position(solution: Solution, indices: Sequence[int], style: BlockStyle) -> int:
     """Return the representative position: the requested or calculated one, else the clearest."""
-    for asked in (manner.entry.position, solution.problem.calculated):
+    for asked in (style.entry.position, solution.problem.calculated):
         if asked is not None and asked in indices:
             return asked
     return indices[0] if len(indices) == 1 else clearest_position(solution, tuple(indices))
@@ -198,7 +204,7 @@ def with_scale(
     solution: Solution,
     kind: PlanKind,
     picture: Block,
-    manner: Manner,
+    style: BlockStyle,
     drawn: Sequence[int],
     more: Sequence[str] = (),
 ) -> Column:
@@ -206,33 +212,35 @@ def with_scale(
 
     ``more`` are lines under the scale.
     """
-    words = manner.words
-    one, many = words.sheets["views"][kind.value]
-    title = manner.entry.title or (one if len(drawn) == 1 else many)
+    language = style.language
+    one, many = language.sheets["views"][kind.value]
+    title = style.entry.title or (one if len(drawn) == 1 else many)
     said = []
     if solution.has_common(kind):
         said.append(
-            scale_inscription(solution.scales[kind], solution.problem.scales.convention, words.say)
+            scale_inscription(
+                solution.scales[kind], solution.problem.scales.convention, language.notation
+            )
         )
     said += more
-    if manner.extras.errors:
+    if style.options.errors:
         of_scheme = kind is PlanKind.POSITION  # which has ellipses in one position only
-        shown = (shown_position(solution, drawn, manner),) if of_scheme else drawn
-        said += ellipse_inscription(solution, kind, shown, words)
-    return named(picture, title, said, manner)
+        shown = (shown_position(solution, drawn, style),) if of_scheme else drawn
+        said += ellipse_inscription(solution, kind, shown, language)
+    return named(picture, title, said, style)
 
 
-def at_scales(ways: Iterable[Viewed]) -> Block:
+def at_scales(views: Iterable[ViewBlock]) -> Block:
     """Return a view with layouts at several scales, the usual one first."""
-    found: dict[Scale | None, Viewed] = {}
-    for way in ways:
+    found: dict[Scale | None, ViewBlock] = {}
+    for way in views:
         found.setdefault(way.scale, way)
-    return shaped(found.values(), grows=True)
+    return make_alternatives(found.values(), grows=True)
 
 
-def named(picture: Block, title: str, said: Iterable[str | Block], manner: Manner) -> Column:
+def named(picture: Block, title: str, notes: Iterable[str | Block], style: BlockStyle) -> Column:
     """Return a picture under its name and notes, mostly lines of text (GOST 2.316)."""
-    height = manner.text(manner.sizes.text)
-    lines: list[Block] = [Line(typeset(title, manner.title))]
-    lines += [Line(typeset(one, height)) if isinstance(one, str) else one for one in said]
+    height = style.text(style.sizes.text)
+    lines: list[Block] = [Line(typeset(title, style.title))]
+    lines += [Line(typeset(one, height)) if isinstance(one, str) else one for one in notes]
     return Column([Column(lines, gap=2.5, align="centre"), picture], gap=5.0, align="centre")

@@ -17,7 +17,7 @@ from planmethod.render.symbols.sizes import unit
 SMALL_CIRCLE = 12.0
 """Diameter below which centre lines are solid (GOST 2.303), mm."""
 
-_BEYOND = (3.0, 2.5, 3.5, 2.0, 4.0, 4.5, 5.0)
+_EXTENSIONS = (3.0, 2.5, 3.5, 2.0, 4.0, 4.5, 5.0)
 """Extensions of centre lines beyond their circle, mm, the best first: 2 to 5 [mem]."""
 
 _SURE = 1.0  # mm: least distance of a crossing from the ends of its stroke
@@ -68,12 +68,12 @@ def centre_lines(
     are solid, and so are those of a circle too small for two dash-dot halves.
     """
     items: list[Item] = []
-    over = next((x for x in _BEYOND if _in_a_stroke(2 * (radius + x), radius + x)), None)
+    over = next((x for x in _EXTENSIONS if _in_a_stroke(2 * (radius + x), radius + x)), None)
     if over is None:
-        over = next((x for x in _BEYOND if _shows(radius + x)), None)
+        over = next((x for x in _EXTENSIONS if _shows(radius + x)), None)
     is_small = 2 * radius < SMALL_CIRCLE or over is None
     for direction in directions:
-        reach = unit(direction) * (radius + (_BEYOND[0] if over is None else over))
+        reach = unit(direction) * (radius + (_EXTENSIONS[0] if over is None else over))
         if is_small:
             items.append(Stroke((centre - reach, centre + reach), Pen.THIN, tag=tag))
         else:

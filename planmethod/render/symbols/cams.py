@@ -41,13 +41,15 @@ def roller(at: complex) -> list[Item]:
     return [Disc(at, ROLLER), Arc(at, ROLLER), *revolute(at, factor=0.7, pen=Pen.THIN)]
 
 
-def rest_on_cam(centre: complex, way: complex, *, base: float, lift: float, nose: float) -> complex:
-    """Return the place of a roller's centre that rests on a cam, descending along ``way``, mm.
+def rest_on_cam(
+    centre: complex, direction: complex, *, base: float, lift: float, nose: float
+) -> complex:
+    """Return the centre of a roller that rests on a cam, descending along ``direction``, mm.
 
     The follower's line goes through the cam's centre; the roller touches the outline without
     running into it.
     """
-    up = way / abs(way)
+    up = direction / abs(direction)
     points = [
         cmath.rect(cam_radius(a - nose, base=base, lift=lift), a) / up
         for a in (tau * k / 720 for k in range(720))

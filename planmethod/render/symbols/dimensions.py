@@ -9,7 +9,7 @@ from planmethod.render.symbols.arrows import arrowhead
 from planmethod.render.symbols.sizes import unit
 
 _HEAD = 2.5  # length of an arrowhead, mm
-_BEYOND = 1.5  # of the extension lines beyond the dimension line, mm
+_EXTENSION = 1.5  # of the extension lines beyond the dimension line, mm
 _TAIL = 5.0  # of a dimension line whose arrowheads are outside, mm
 
 
@@ -24,7 +24,7 @@ def dimension(
     along, away = unit(end - start), unit(out)
     is_wide = abs(end - start) >= 3 * _HEAD
     items: list[Item] = [
-        Stroke((place + away * gap, place + out + away * _BEYOND), Pen.THIN, tag=tag)
+        Stroke((place + away * gap, place + out + away * _EXTENSION), Pen.THIN, tag=tag)
         for place in (start, end)
     ]
     tail = 0.0 if is_wide else _TAIL

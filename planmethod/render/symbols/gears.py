@@ -90,7 +90,7 @@ def wheel_profile(
     centre: complex,
     radius: float,
     *,
-    ways: tuple[int, ...] = (1, -1),
+    sides: tuple[int, ...] = (1, -1),
     loose: bool = False,
     bore: float = 0.0,
     tag: str = "",
@@ -103,7 +103,7 @@ def wheel_profile(
         On the axis.
     radius : float, mm
         Pitch radius; the cross-bar stands half a mesh inside it.
-    ways : tuple of int
+    sides : tuple of int
         Which halves are drawn: +1 above the axis, -1 below it.
     loose : bool
         The wheel rotates on its shaft: a hub of two cross-bars with the shaft between them (колесо
@@ -115,7 +115,7 @@ def wheel_profile(
     rim = radius - SIZES.mesh / 2
     root = SIZES.mesh / 2 if loose else bore
     items: list[Item] = []
-    for way in ways:
+    for way in sides:
         top, low = centre + 1j * way * rim, centre + 1j * way * root
         items.append(Stroke((low, top), tag=tag))
         items.append(Stroke((top - tooth, top + tooth), tag=tag))
@@ -124,19 +124,21 @@ def wheel_profile(
     return items
 
 
-def ring_profile(centre: complex, radius: float, *, stem: float = 6.0, way: int = 1) -> list[Item]:
+def ring_profile(
+    centre: complex, radius: float, *, support: float = 6.0, side: int = 1
+) -> list[Item]:
     """Return the upper half of a fixed wheel with inner teeth, from the side (неподвижное колесо).
 
-    Its cross-bar stands half a mesh outside the pitch radius; from there a stem of ``stem`` mm goes
-    to the hatched frame. ``way`` -1: the lower half.
+    Its cross-bar stands half a mesh outside the pitch radius; from there a stem of ``support`` mm
+    goes to the hatched frame. ``side`` -1: the lower half.
     """
     tooth, base = SIZES.teeth / 2, SIZES.base / 2
-    top = centre + 1j * way * (radius + SIZES.mesh / 2)
-    foot = top + 1j * way * stem
+    top = centre + 1j * side * (radius + SIZES.mesh / 2)
+    foot = top + 1j * side * support
     return [
         Stroke((top - tooth, top + tooth)),
         Stroke((top, foot)),
-        *ground_line(foot - base, foot + base, side=way),
+        *ground_line(foot - base, foot + base, side=side),
     ]
 
 
@@ -145,7 +147,7 @@ def bell_profile(
     radius: float,
     *,
     web: float,
-    way: int = 1,
+    side: int = 1,
     bore: float = 0.0,
     tag: str = "",
 ) -> list[Item]:
@@ -153,11 +155,11 @@ def bell_profile(
 
     Its rim stands half a mesh outside the pitch radius and goes ``web`` mm beside the mesh
     (negative: to the left) to the web, which comes down to the axis, or to a hollow shaft of half
-    the width ``bore``. ``way`` -1: the lower half.
+    the width ``bore``. ``side`` -1: the lower half.
     """
     tooth = SIZES.teeth / 2 * (-1 if web > 0 else 1)
-    out, beside = 1j * way * (radius + SIZES.mesh / 2), centre + web
-    return [Stroke((centre + out + tooth, beside + out, beside + 1j * way * bore), tag=tag)]
+    out, beside = 1j * side * (radius + SIZES.mesh / 2), centre + web
+    return [Stroke((centre + out + tooth, beside + out, beside + 1j * side * bore), tag=tag)]
 
 
 def carrier_profile(pin: complex, centre: complex, *, reach: float, tag: str = "") -> list[Item]:

@@ -80,7 +80,7 @@ def fixed_pivots(
     """
     down = unit(direction)
     along = down * 1j
-    half = foot_of(places, direction=down, factor=factor)
+    half = support_half_width(places, direction=down, factor=factor)
     level = max((p * down.conjugate()).real for p in places) + SIZES.support_height * factor
     items: list[Item] = []
     feet = [p + down * (level - (p * down.conjugate()).real) for p in places]
@@ -95,7 +95,9 @@ def fixed_pivots(
     return items
 
 
-def foot_of(places: Iterable[complex], *, direction: complex = -1j, factor: float = 1.0) -> float:
+def support_half_width(
+    places: Iterable[complex], *, direction: complex = -1j, factor: float = 1.0
+) -> float:
     """Return half the width of the supports of pivots on one base, mm.
 
     It is that of a single support if there is space, or leaves 1 mm between two feet.

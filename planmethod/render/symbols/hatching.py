@@ -26,19 +26,19 @@ GROUND = "ground"
 WHITE = 0.8
 """White between a hatch stroke and the item that clips it, mm."""
 
-_LEAST = 1.2  # mm: shorter remainders of a hatch stroke are not drawn
+_MIN_STROKE = 1.2  # mm: shorter remainders of a hatch stroke are not drawn
 
 
 def hatch(
     outline: Sequence[complex],
     *,
     step: float = SIZES.hatch_step,
-    keep_off: Iterable[Item] = (),
+    obstacles: Iterable[Item] = (),
 ) -> list[Item]:
     """Return thin hatching at 45° clipped by a polygon (штриховка).
 
     ``step`` is the distance between the lines, mm. They lie on one lattice for the whole sheet, so
-    that areas side by side hatch alike. ``keep_off`` are items that clip the hatching: joints,
+    that areas side by side hatch alike. ``obstacles`` are items that clip the hatching: joints,
     letters' grounds, links.
     """
     from shapely import MultiLineString, Polygon
@@ -53,11 +53,11 @@ def hatch(
     lines = MultiLineString([[(a.real, a.imag), (b.real, b.imag)] for a, b in ends])
     paths = _paths(lines.intersection(area), 1e-6)
     strokes: list[Item] = [Stroke(path, Pen.HATCH) for path in paths]
-    taken = taken_by(keep_off)
+    taken = occupied_area(obstacles)
     return strokes if taken is None else clipped(strokes, taken)
 
 
-def taken_by(items: Iterable[Item]) -> BaseGeometry | None:
+def occupied_area(items: Iterable[Item]) -> BaseGeometry | None:
     """Return the area of items with `WHITE` around, or None if empty.
 
     Lines have the width of their pens; a circle around its own white includes its inside. Letters
@@ -81,24 +81,26 @@ def taken_by(items: Iterable[Item]) -> BaseGeometry | None:
     return union_all(taken) if taken else None
 
 
-def clipped(items: Iterable[Item], taken: BaseGeometry) -> list[Item]:
+def clipped(items: Iterable[Item], occupied: BaseGeometry) -> list[Item]:
     """Return the items, their hatch strokes clipped by an area.
 
     A stroke may become several pieces; pieces below 1.2 mm are not drawn.
     """
     from shapely import LineString, prepare
 
-    prepare(taken)
+    prepare(occupied)
     kept: list[Item] = []
     for item in items:
         if not isinstance(item, Stroke) or item.pen is not Pen.HATCH:
             kept.append(item)
             continue
         line = LineString([(p.real, p.imag) for p in item.points])
-        if not taken.intersects(line):
+        if not occupied.intersects(line):
             kept.append(item)
             continue
-        kept += [replace(item, points=path) for path in _paths(line.difference(taken), _LEAST)]
+        kept += [
+            replace(item, points=path) for path in _paths(line.difference(occupied), _MIN_STROKE)
+        ]
     return kept
 
 
@@ -113,7 +115,7 @@ def before_links(items: Sequence[Item]) -> list[Item]:
         for item in items
         if isinstance(item, Stroke) and item.pen is Pen.MAIN and item.tag.startswith("link ")
     ]
-    taken = taken_by(links) if grounds else None
+    taken = occupied_area(links) if grounds else None
     if taken is None:
         return list(items)
     kept: list[Item] = []
@@ -123,10 +125,12 @@ def before_links(items: Sequence[Item]) -> list[Item]:
     return kept
 
 
-def _paths(shape: BaseGeometry, least: float) -> list[tuple[complex, ...]]:
+def _paths(shape: BaseGeometry, min_length: float) -> list[tuple[complex, ...]]:
     from shapely import LineString
 
     parts = [part for part in getattr(shape, "geoms", [shape]) if isinstance(part, LineString)]
     return [
-        tuple(complex(*point) for point in part.coords) for part in parts if part.length > least
+        tuple(complex(*point) for point in part.coords)
+        for part in parts
+        if part.length > min_length
     ]

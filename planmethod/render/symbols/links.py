@@ -41,7 +41,7 @@ def mass_centre(at: complex, *, factor: float = 1.0) -> list[Item]:
     return [Disc(at, radius), *quarters, Arc(at, radius, pen=Pen.THIN)]
 
 
-def stiff_triangle(
+def rigid_polygon(
     *corners: complex,
     hatched: bool = False,
     marked: bool = False,

@@ -31,7 +31,7 @@ def revolute(
 
 def revolute_on(
     at: complex,
-    along: complex,
+    direction: complex,
     *,
     side: int = -1,
     factor: float = 1.0,
@@ -47,14 +47,14 @@ def revolute_on(
     ----------
     at : complex, mm
         The centre, on the link's line.
-    along : complex
+    direction : complex
         Direction of the link.
     side : int
         Side of the half-circle: +1 left of the direction, -1 right.
     tag : str
         Tag of the piece of the link that is drawn again.
     """
-    turn = unit(along)
+    turn = unit(direction)
     radius = (SIZES.joint * factor + PENS[pen].width) / 2
     start = cmath.phase(turn * (1 if side > 0 else -1))
     around = [at + cmath.rect(radius, start + pi * k / 16) for k in range(17)]
@@ -130,22 +130,22 @@ def slider(
     return [Fill(corners, Ink.WHITE), Stroke(corners, pen, closed=True, tag=SLIDER)]
 
 
-def offset_slider(foot: complex, pin: complex) -> list[Item]:
+def offset_slider(middle: complex, pin: complex) -> list[Item]:
     """Return a slider whose pin is off its horizontal axis (ползун с внеосным шарниром).
 
-    ``foot`` is the middle of the slider on its axis, ``pin`` the joint, mm; the arm between them is
-    rigid with the slider.
+    ``middle`` is the middle of the slider on its axis, ``pin`` the joint, mm; the arm between them
+    is rigid with the slider.
     """
-    return [*slider(foot), Stroke((foot, pin)), *revolute(pin)]
+    return [*slider(middle), Stroke((middle, pin)), *revolute(pin)]
 
 
-def stone_size(*, inside: bool = False) -> tuple[float, float]:
+def sliding_block_size(*, inside: bool = False) -> tuple[float, float]:
     """Return length and width of a stone before ``factor``, mm; ``inside`` of another slider."""
     share = (0.5, 0.6) if inside else (0.85, 0.75)
     return share[0] * SIZES.slider_length, share[1] * SIZES.slider_width
 
 
-def stone(
+def sliding_block(
     at: complex,
     *,
     angle: float = 0.0,
@@ -160,7 +160,7 @@ def stone(
     the direction of the guide, degrees. Links that end at the pin are drawn after the stone, so
     give ``pin=False`` and a `revolute` last.
     """
-    length, width = stone_size(inside=inside)
+    length, width = sliding_block_size(inside=inside)
     turn = cmath.exp(1j * radians(angle)) * length / 2 * factor
     items = slider(at, angle=angle, length=length, width=width, factor=factor, pen=pen)
     items.append(Stroke((at - turn, at + turn), pen))

@@ -84,9 +84,9 @@ class _Sizes(Struct):
     def swept(self) -> list[PlanePose]:
         drive, rng = self.problem.drive, Random(1)
         # The output determines a position that has not been found yet, so it is not a number.
-        asked = (0.0,) if drive.posed is not None else drive.judged or drive.positions
-        if drive.followed is not None:  # positions are of the cam: it is moved from its lowest
-            asked = (drive.followed.lowest,)
+        asked = (0.0,) if drive.posed is not None else drive.assembly_positions or drive.positions
+        if drive.cam_drive is not None:  # positions are of the cam: it is moved from its lowest
+            asked = (drive.cam_drive.lowest,)
         first = [radians(p) if drive.is_crank else p for p in asked]
         reach = max(first) - min(first) if len(first) > 1 else self.size
         step = STEP if drive.is_crank else reach / STEPS
@@ -152,7 +152,7 @@ class _Sizes(Struct):
             if one in links and isinstance(joint, Revolute):
                 origin, turn = links[one]
                 places[name] = origin + turn * bodies[one].points[name]
-            near = links[group.leads[0].to][0]
+            near = links[group.legs[0].to][0]
             away = complex(rng.uniform(-size, size), rng.uniform(-size, size))
             places.setdefault(name, near + away)
         found = {}
@@ -168,19 +168,19 @@ class _Sizes(Struct):
 
     def _close(self, group: AssurGroup, known: Links, start: list[float]) -> bool:
         """Close a group by Newton's method and add its links to the known; False if it fails."""
-        outer = {lead.to: known[lead.to] for lead in group.leads}
+        outer = {lead.to: known[lead.to] for lead in group.legs}
 
-        def stood(q: Sequence[float]) -> Links:
+        def posed_links(q: Sequence[float]) -> Links:
             own = {
                 link: (complex(q[3 * i], q[3 * i + 1]), cmath.exp(1j * q[3 * i + 2]))
                 for i, link in enumerate(group.links)
             }
             return {**outer, **own}
 
-        q = _newton(lambda q: self._gaps(group, stood(q)), start, self.size)
+        q = _newton(lambda q: self._gaps(group, posed_links(q)), start, self.size)
         if q is None:
             return False
-        known.update(stood(q))
+        known.update(posed_links(q))
         return True
 
     def _gaps(self, group: AssurGroup, links: Links) -> list[float]:
@@ -228,7 +228,7 @@ class _Sizes(Struct):
 
 def group_pairs(group: AssurGroup) -> list[tuple[Joint, str, str]]:
     """Return the pairs of a group with their links: a joint of k links of it has several."""
-    found = [(lead.joint, lead.to, lead.link) for lead in group.leads]
+    found = [(lead.joint, lead.to, lead.link) for lead in group.legs]
     for joint in group.inner:
         first, *others = [link for link in links_of(joint) if link in group.links]
         found += [(joint, first, other) for other in others]

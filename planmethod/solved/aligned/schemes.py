@@ -31,7 +31,7 @@ SLIDING = ("1p", "2c", "3pl")
 TOUCHING = ("4l", "5t")
 """Classes of a higher pair: profiles that touch along a line, and in a point."""
 
-MOST = 60
+MAX_SCHEMES = 60
 """Most schemes of a group, and of a mechanism, that are given."""
 
 TRIED = TRIED_FREER = 20_000
@@ -181,11 +181,11 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
         ends = joint.links if isinstance(joint, Revolute) else (joint.slider, joint.host)
         if {FRAME, mechanism.driver} <= set(ends):
             break
-    whole = [_Whole()] if all(group.schemes for group in groups) else []
+    whole = [_CombinedScheme()] if all(group.schemes for group in groups) else []
     for group in groups:
         # The sums that are compared grow with every group: the best wholes have the best parts.
         grown = [one.with_(group, scheme) for one in whole for scheme in group.schemes]
-        whole = sorted(grown, key=lambda one: one.rank)[:MOST]
+        whole = sorted(grown, key=lambda one: one.rank)[:MAX_SCHEMES]
     rollers = [one for one in mechanism.higher if one.roller]
     first = {pair.key: pair.classes[0]}
     first |= {f"{one.at} {one.links[1]}-{one.roller}": TURNING[0] for one in rollers}
@@ -201,16 +201,16 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
     return replace(found, rank=rank)
 
 
-class _Whole(Struct, frozen=True):
+class _CombinedScheme(Struct, frozen=True):
     """Scheme of some groups: its rank for comparison, and its classes."""
 
     rank: tuple[int, ...] = (0, 0, 0, 0)
     classes: tuple[tuple[str, str], ...] = ()
 
-    def with_(self, group: AlignedGroup, scheme: AlignedScheme) -> _Whole:
+    def with_(self, group: AlignedGroup, scheme: AlignedScheme) -> _CombinedScheme:
         rank = tuple(a + b for a, b in zip(self.rank, _rank(scheme), strict=True))
         named = zip((pair.key for pair in group.pairs), scheme.classes, strict=True)
-        return _Whole(rank, (*self.classes, *named))
+        return _CombinedScheme(rank, (*self.classes, *named))
 
 
 def _rank(scheme: AlignedScheme) -> tuple[int, ...]:
@@ -219,9 +219,9 @@ def _rank(scheme: AlignedScheme) -> tuple[int, ...]:
     return scheme.changes, scheme.local, int(not scheme.steady), unusual
 
 
-def _pair(mechanism: Mechanism, joint: Joint | HigherPair, one: str, other: str) -> MovablePair:
+def _pair(mechanism: Mechanism, joint: Joint | HigherPair, one: str, two: str) -> MovablePair:
     order = (FRAME, *mechanism.links)
-    first, second = sorted((one, other), key=order.index)
+    first, second = sorted((one, two), key=order.index)
     match joint:
         case Revolute():
             name = joint.point
@@ -270,30 +270,30 @@ def constraint_rank(
     return rank
 
 
-def _constraints(name: str, at: complex, along: complex) -> list[list[float]]:
+def _constraints(name: str, at: complex, direction: complex) -> list[list[float]]:
     """Return a pair's constraints on the relative twist: turns about, slides along x, y, z at 0."""
     x, y = at.real, at.imag
     z: complex = 0j
 
-    def turn(way: complex, up: float = 0.0) -> list[float]:
-        return [way.real, way.imag, up, 0.0, 0.0, 0.0]
+    def turn(axis: complex, up: float = 0.0) -> list[float]:
+        return [axis.real, axis.imag, up, 0.0, 0.0, 0.0]
 
-    def slide(way: complex, up: float = 0.0) -> list[float]:
+    def slide(axis: complex, up: float = 0.0) -> list[float]:
         """Velocity of the pair's place along a direction."""
-        moment = x * way.imag - y * way.real
-        return [up * y, -up * x, moment, way.real, way.imag, up]
+        moment = x * axis.imag - y * axis.real
+        return [up * y, -up * x, moment, axis.real, axis.imag, up]
 
-    flat = [slide(1), slide(1j)] if not along else [turn(z, 1.0), slide(1j * along)]
+    flat = [slide(1), slide(1j)] if not direction else [turn(z, 1.0), slide(1j * direction)]
     if name in TOUCHING:
-        flat = [slide(along)]
+        flat = [slide(direction)]
     lifts = {
         "1v": [turn(1), turn(1j), slide(z, 1.0)],
         "3s": [slide(z, 1.0)],
         "1p": [turn(1), turn(1j), slide(z, 1.0)],
-        "3pl": [turn(along)],
-        "4l": [turn(1j * along)],
+        "3pl": [turn(direction)],
+        "4l": [turn(1j * direction)],
         "5t": [],
-        "2c": [turn(1j * along), slide(z, 1.0)] if along else [turn(1), turn(1j)],
+        "2c": [turn(1j * direction), slide(z, 1.0)] if direction else [turn(1), turn(1j)],
     }
     return [*flat, *lifts[name]]
 
@@ -309,7 +309,7 @@ def _aligned(mechanism: Mechanism, group: AssurGroup, places: Sequence[PlanePose
     pairs += [_pair(mechanism, pair, *pair.links) for pair in higher]
     pairs.sort(key=lambda pair: joints.index(pair.joint))  # as the table of pairs has them
     links = tuple(link for link in group.links if link not in replacing)
-    return _Search(group, links, tuple(pairs), places).found()
+    return _Search(group, links, tuple(pairs), places).run()
 
 
 class _Search(Struct):
@@ -321,16 +321,19 @@ class _Search(Struct):
     places: Sequence[PlanePose]
     columns: list[dict[tuple[int, str], list[list[float]]]] = field(default_factory=list)
 
-    def found(self) -> AlignedGroup:
+    def run(self) -> AlignedGroup:
         self.columns = [self._columns(pose) for pose in self.places]
         every = range(len(self.pairs) + 1)
-        good = self._good(every)
+        good = self._find_true(every)
         good.sort(key=lambda one: (*_rank(one), one.classes))
         counted: tuple[AlignedScheme, ...] = ()
         if len(self.pairs) == 3:
-            made = [AlignedScheme(one, self.need - self._rank(one)) for one in self._made(every)]
+            made = [
+                AlignedScheme(one, self.need - self._rank(one))
+                for one in self._schemes_by_count(every)
+            ]
             counted = tuple(one for one in made if one.loose)
-        return AlignedGroup(self.group, self.links, self.pairs, tuple(good[:MOST]), counted)
+        return AlignedGroup(self.group, self.links, self.pairs, tuple(good[:MAX_SCHEMES]), counted)
 
     @property
     def need(self) -> int:
@@ -342,14 +345,14 @@ class _Search(Struct):
         """Numbers of the higher pairs: each has two freedoms as it is, and a third in a point."""
         return {i for i, pair in enumerate(self.pairs) if isinstance(pair.joint, HigherPair)}
 
-    def _good(self, every: Sequence[int]) -> list[AlignedScheme]:
+    def _find_true(self, every: Sequence[int]) -> list[AlignedScheme]:
         """Return the correct schemes, those with fewest changes first, until there are enough."""
         good: list[AlignedScheme] = []
         tried = 0
         for changes in every:
-            if len(good) >= MOST:
+            if len(good) >= MAX_SCHEMES:
                 break
-            for classes in self._made((changes,)):
+            for classes in self._schemes_by_count((changes,)):
                 tried += 1
                 if tried > TRIED:
                     break
@@ -365,7 +368,7 @@ class _Search(Struct):
         fewest = 1 + 2 * len(self.pairs)
         tried = islice(
             ((changes, more, classes) for changes in every for more in range(1, 1 + changes * 2)
-             for classes in self._made((changes,), more)),
+             for classes in self._schemes_by_count((changes,), more)),
             TRIED_FREER,
         )  # fmt: skip
         for changes, more, classes in tried:
@@ -377,7 +380,7 @@ class _Search(Struct):
                 fewest = more
         return good
 
-    def _made(self, changes: Sequence[int], more: int = 0) -> Iterator[tuple[str, ...]]:
+    def _schemes_by_count(self, changes: Sequence[int], more: int = 0) -> Iterator[tuple[str, ...]]:
         """Yield schemes of given numbers of changes that fit by count or have more freedoms."""
         touching, every = self.touching, range(len(self.pairs))
         for count in changes:
@@ -401,7 +404,7 @@ class _Search(Struct):
 
     def _rank(self, classes: tuple[str, ...]) -> int:
         vectors = self._vectors(self.generic, classes)
-        return next(k for k in range(self.need, -1, -1) if _least_pivot(vectors, k))
+        return next(k for k in range(self.need, -1, -1) if _min_pivot(vectors, k))
 
     def _steady(self, classes: tuple[str, ...]) -> bool:
         """Return whether the matrix is regular over the sweep: its determinant keeps its sign."""
@@ -413,7 +416,7 @@ class _Search(Struct):
 
     def _measure(self, k: int, classes: tuple[str, ...]) -> float:
         """Return the least pivot of the matrix at a pose: 0 where a constraint is redundant."""
-        return _least_pivot(self._vectors(k, classes), self.need)
+        return _min_pivot(self._vectors(k, classes), self.need)
 
     def _vectors(self, k: int, classes: tuple[str, ...]) -> list[list[float]]:
         return [v for i, name in enumerate(classes) for v in self.columns[k][i, name]]
@@ -460,30 +463,30 @@ class _Search(Struct):
         return signs
 
 
-def _freedoms(name: str, at: complex, along: complex) -> list[Column]:
+def _freedoms(name: str, at: complex, direction: complex) -> list[Column]:
     """Return the freedoms out of the plane of a pair: turns about x and y, slide along z."""
     x, y = at.real, at.imag
     slide: Column = (0.0, 0.0, 1.0)
 
-    def turn(way: complex) -> Column:
+    def turn(axis: complex) -> Column:
         """About a line through the pair's place: what it lifts at the origin is its moment."""
-        return way.real, way.imag, x * way.imag - y * way.real
+        return axis.real, axis.imag, x * axis.imag - y * axis.real
 
     match name:
         case "3s":
             return [turn(1), turn(1j)]
         case "4l":
-            return [slide, turn(along)]
+            return [slide, turn(direction)]
         case "5t":
             return [slide, turn(1), turn(1j)]
         case "3pl":
-            return [slide, turn(1j * along)]
+            return [slide, turn(1j * direction)]
         case "2c":
-            return [turn(along)] if along else [slide]
+            return [turn(direction)] if direction else [slide]
     return []
 
 
-def _least_pivot(vectors: Sequence[Sequence[float]], need: int) -> float:
+def _min_pivot(vectors: Sequence[Sequence[float]], need: int) -> float:
     """Return the least of ``need`` pivots of the vectors by elimination, the largest ones taken."""
     rows, least = [list(v) for v in vectors], 1.0
     for _ in range(need):

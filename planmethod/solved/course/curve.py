@@ -21,8 +21,8 @@ _SAMPLES = 24  # parts of a piece among whose ends a root is looked for
 _HALVINGS = 46
 
 _UNIT = np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
-_FIT = np.cos(np.outer(np.arange(NODES), np.arccos(_UNIT))) * (2.0 / NODES)
-_FIT[0] /= 2.0
+_FIT_MATRIX = np.cos(np.outer(np.arange(NODES), np.arccos(_UNIT))) * (2.0 / NODES)
+_FIT_MATRIX[0] /= 2.0
 
 
 class Piecewise(Struct, frozen=True):
@@ -145,7 +145,7 @@ def resolved(read: Callable[[Reals], Reals], edges: Reals, scale: Reals | None =
     for level in range(_LEVELS + 1):
         at = np.concatenate([nodes(pair) for pair in todo])
         values = read(at.ravel()).reshape(*at.shape, -1)
-        terms = np.einsum("cj,mjk->cmk", _FIT, values)
+        terms = np.einsum("cj,mjk->cmk", _FIT_MATRIX, values)
         if size is None:
             largest = np.max(np.abs(values), axis=(0, 1))
             size = np.where(largest > 0.0, largest, 1.0)

@@ -11,12 +11,12 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import Construction
 from planmethod.problem.load_records import Load, Over, SizeTable, TurningSense
 from planmethod.problem.model import Problem
-from planmethod.problem.names import told_length
+from planmethod.problem.names import format_length
 from planmethod.solved.course.curve import Piecewise, resolved
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
@@ -35,24 +35,24 @@ ASTRAY = np.radians(45.0)
 """Greatest distance from its dead position of a piston that repeats another, rad."""
 
 _SAME = 1e-9  # share of the largest size by which the ends of a cycle may differ
-_ASIDE = 1.6e-3  # rad off round angles, at which singular places are common
+_OFFSET = 1.6e-3  # rad off round angles, at which singular places are common
 _NEAR = 1e-6  # rad within which a dead position at the very start is found at either end, or not
 
 _COLUMNS = 6  # of a point: x and y of its place, velocity and acceleration
 
 
-class Moved(Struct, frozen=True):
+class MotionState(Struct, frozen=True):
     """Motion in some positions, as loads need it: see `planmethod.solved.forces.loads`.
 
     Attributes
     ----------
     positions : ndarray of shape (n,), degrees
         Angles of the driving crank as in the file.
-    turn : TurnMotion
+    cycle : CycleMotion
         The cycle that they are of.
     """
 
-    turn: TurnMotion
+    cycle: CycleMotion
     problem: Problem
     construction: Construction
     positions: Reals
@@ -89,7 +89,7 @@ class PointStroke(Struct, frozen=True):
         ray = self.start - self.centre
         return float(np.angle((ray + self.towards) / ray))
 
-    def share(self, place: Complexes) -> Reals:
+    def fraction(self, place: Complexes) -> Reals:
         """Return how far a place is along the path, from 0 at the start to 1, shape (n,)."""
         if self.centre is None:
             way = (place - self.start) * self.towards.conjugate()
@@ -98,33 +98,35 @@ class PointStroke(Struct, frozen=True):
             along = np.angle((place - self.centre) / (self.start - self.centre)) / self.swing
         return np.asarray(np.clip(along, 0.0, 1.0), dtype=float)
 
-    def direction(self, share: float) -> complex:
+    def direction(self, fraction: float) -> complex:
         """Return the unit vector across which the path is cut after a share of it."""
         if self.centre is None:
             return self.towards / abs(self.towards)
-        turned = self.swing * share + np.sign(self.swing) * np.pi / 2
+        turned = self.swing * fraction + np.sign(self.swing) * np.pi / 2
         ray = self.start - self.centre
         return complex(ray / abs(ray) * np.exp(1j * turned))
 
-    def place(self, share: float) -> complex:
+    def place(self, fraction: float) -> complex:
         """Return the place after a share of the path, m."""
         if self.centre is None:
-            return self.start + self.towards * share
-        return complex(self.centre + (self.start - self.centre) * np.exp(1j * self.swing * share))
+            return self.start + self.towards * fraction
+        return complex(
+            self.centre + (self.start - self.centre) * np.exp(1j * self.swing * fraction)
+        )
 
-    def progress(self, turned: Reals, place: Complexes, cycle: float) -> Reals:
+    def progress(self, rotation: Reals, place: Complexes, cycle: float) -> Reals:
         """Return how many strokes of the cycle are done since the first began, shape (n,)."""
-        since = np.mod(turned - self.dead[0], cycle)
+        since = np.mod(rotation - self.dead[0], cycle)
         slack = 1e-9  # rounding of a dead position, as of one that the file asks
         count = len(self.dead)
         marks = np.append(self.dead - self.dead[0], cycle)
         number = np.searchsorted(marks, since + slack, side="right") - 1
-        share = self.share(place)
+        share = self.fraction(place)
         done = np.where(number % 2 == int(self.back), share, 1.0 - share)
         return np.asarray(np.mod(number, count) + np.where(number >= count, 0.0, done), dtype=float)
 
 
-class TurnMotion:
+class CycleMotion:
     """Motion of a mechanism over the cycle of its machine (движение за цикл).
 
     Angles turned, rad, count from position 0 in the sense in which the crank turns. The crank turns
@@ -149,7 +151,7 @@ class TurnMotion:
             raise _fault(
                 problem,
                 "driver",
-                say("link {} slides: the driver is not a crank", drive.link),
+                translate("link {} slides: the driver is not a crank", drive.link),
                 "The cycle of a machine is that of a driving crank: give phi and n.",
             )
         if not drive.rate:
@@ -183,18 +185,18 @@ class TurnMotion:
             return [*range(count), 0]
         return [0, *range(count - 1, -1, -1)]
 
-    def phi(self, turned: Reals) -> Reals:
+    def phi(self, rotation: Reals) -> Reals:
         """Return driver positions of the file, degrees, of angles turned."""
-        return self.start_deg + self.sense * np.degrees(turned)
+        return self.start_deg + self.sense * np.degrees(rotation)
 
-    def turned(self, phi: Reals) -> Reals:
+    def rotation_at(self, phi: Reals) -> Reals:
         """Return the angles turned from position 0, rad in [0, cycle), of driver positions."""
         found = np.mod(np.radians(self.sense * (phi - self.start_deg)), self.cycle)
         return np.where(found > self.cycle - 1e-9, 0.0, found)
 
-    def solved(self, turned: Reals) -> Solution:
+    def solved(self, rotation: Reals) -> Solution:
         """Return the mechanism solved at angles turned, rad, ndarray of shape (n,)."""
-        return self._solution.moved(self.phi(turned).tolist())
+        return self._solution.with_positions(self.phi(rotation).tolist())
 
     # Polynomials -----------------------------------------------------------------------------
 
@@ -203,8 +205,8 @@ class TurnMotion:
         named = self.construction.kinematics.velocity.named
         return list(named), list(self.problem.mechanism.links)
 
-    def _columns(self, turned: Reals) -> Reals:
-        solution = self.solved(turned)
+    def _columns(self, rotation: Reals) -> Reals:
+        solution = self.solved(rotation)
         columns: list[Reals] = []
         for name in self._names[0]:
             motion = solution.points[name]
@@ -220,7 +222,7 @@ class TurnMotion:
         turns = round(self.cycle / (2.0 * pi))
         edges = np.linspace(0.0, self.cycle, turns * PANELS + 1)
         points, links = self._names
-        rough = self._columns(np.linspace(0.0, self.cycle, 2 * turns * PANELS + 1) + _ASIDE)
+        rough = self._columns(np.linspace(0.0, self.cycle, 2 * turns * PANELS + 1) + _OFFSET)
         largest = np.max(np.abs(rough), axis=0)
         of_points = largest[: _COLUMNS * len(points)].reshape(-1, 3, 2).max(axis=(0, 2))
         of_links = largest[_COLUMNS * len(points) :].reshape(-1, 2).max(axis=0)
@@ -232,7 +234,9 @@ class TurnMotion:
             raise _fault(
                 self.problem,
                 "machine.cycle_deg",
-                say("after {:g} degrees the links are not where they were", np.degrees(self.cycle)),
+                translate(
+                    "after {:g} degrees the links are not where they were", np.degrees(self.cycle)
+                ),
                 self._remedy,
             )
         return resolved(self._columns, edges, sizes)
@@ -244,28 +248,28 @@ class TurnMotion:
             return "The motion closes after 720 degrees: give [machine] cycle_deg = 720."
         return "Check [assembly]: the assembly must repeat with the cycle."
 
-    def at(self, turned: Reals) -> Moved:
+    def at(self, rotation: Reals) -> MotionState:
         """Return the motion at angles turned, rad, ndarray of shape (n,)."""
-        rows = self.curve(np.mod(turned, self.cycle)).T
+        rows = self.curve(np.mod(rotation, self.cycle)).T
         points: dict[str, PointMotion] = {}
         for number, name in enumerate(self._names[0]):
             x, y, vx, vy, ax, ay = rows[_COLUMNS * number : _COLUMNS * (number + 1)]
             points[name] = PointMotion(x + 1j * y, vx + 1j * vy, ax + 1j * ay)
         first = _COLUMNS * len(points)
-        nothing = np.full(len(turned), np.nan)  # the directions of links are not needed here
+        nothing = np.full(len(rotation), np.nan)  # the directions of links are not needed here
         links = {
             link: LinkMotion(nothing, rows[first + 2 * k], rows[first + 2 * k + 1])
             for k, link in enumerate(self._names[1])
         }
-        return Moved(self, self.problem, self.construction, self.phi(turned), points, links)
+        return MotionState(self, self.problem, self.construction, self.phi(rotation), points, links)
 
     @cached_property
-    def first(self) -> Moved:
+    def first(self) -> MotionState:
         """The motion in position 0."""
         return self.at(np.zeros(1))
 
     @cached_property
-    def sampled(self) -> Moved:
+    def sampled(self) -> MotionState:
         """The motion at angles that come near to everything that happens."""
         return self.at(self.curve.samples)
 
@@ -283,7 +287,7 @@ class TurnMotion:
         weights[_COLUMNS * len(points) + 2 * links.index(link)] = 1.0
         return self.curve.mixed(weights)
 
-    def course(self, point: str) -> complex:
+    def main_direction(self, point: str) -> complex:
         """Return the direction of a point's motion where it is fastest; 1 for a fixed point."""
         velocity = self.sampled.points[point].velocity
         fastest = complex(velocity[int(np.argmax(np.abs(velocity)))])
@@ -341,7 +345,7 @@ class TurnMotion:
             raise _fault(
                 self.problem,
                 f"loads[{index}].force.strokes",
-                say(
+                translate(
                     "{} strokes, point {} makes {} in a cycle of {:g} degrees",
                     given,
                     load.at,
@@ -351,14 +355,14 @@ class TurnMotion:
                 "A four-stroke engine has [machine] cycle_deg = 720.",
             )
         dead = np.mod(own.dead, self.cycle)
-        below = own.share(self.at(dead).points[load.at].place) > 0.5
+        below = own.fraction(self.at(dead).points[load.at].place) > 0.5
         if load.size.like is None:
-            off = self._apart(dead, 0.0)
+            off = self._angular_distance(dead, 0.0)
             back = bool(off[below].min() < off[~below].min() - LEANING)
         else:
             first = self.stroke_of(self._number(load.size.like))
             back, began = first.back, first.dead[0] + np.radians(load.size.shift)
-            off = self._apart(dead, began)
+            off = self._angular_distance(dead, began)
             self._check_shift(index, dead[below == back] - first.dead[0], off[below == back])
         start = dead[int(np.argmin(np.where(below == back, off, np.inf)))]
         since = np.sort(np.mod(dead - start + _NEAR, self.cycle)) - _NEAR
@@ -370,7 +374,7 @@ class TurnMotion:
         assert dynamics is not None
         return next(k for k, load in enumerate(dynamics.loads) if load.name == name)
 
-    def _apart(self, dead: Reals, angle: float) -> Reals:
+    def _angular_distance(self, dead: Reals, angle: float) -> Reals:
         """Return the distance of dead positions from an angle turned, rad, in either direction."""
         ahead = np.mod(dead - angle, self.cycle)
         return np.minimum(ahead, self.cycle - ahead)
@@ -386,7 +390,7 @@ class TurnMotion:
         raise _fault(
             self.problem,
             f"loads[{index}].force.shift",
-            say(
+            translate(
                 "{0:g} degrees after the first stroke of {1} point {2} does not begin such "
                 "a stroke: it begins one {3} degrees after it",
                 load.size.shift,
@@ -425,7 +429,7 @@ class TurnMotion:
         return self._strokes[point]
 
     def _stroke(self, point: str) -> PointStroke:
-        way, rocker = self.course(point), self._rocker(point)
+        way, rocker = self.main_direction(point), self._rocker(point)
         if rocker is None:
             dead = self.column(point, way, velocity=True).roots()
         else:
@@ -440,7 +444,7 @@ class TurnMotion:
             raise _fault(
                 self.problem,
                 "loads",
-                say("point {} does not reciprocate", point),
+                translate("point {} does not reciprocate", point),
                 "Check `at`.",
             )
         last, following = np.abs(first.place[0] - places[[-1, 0]])
@@ -462,12 +466,12 @@ class TurnMotion:
         raise _fault(
             self.problem,
             "loads",
-            say(
+            translate(
                 "point {} moves neither on a straight line nor about a fixed point: it is {} off "
                 "the line, the stroke is {}",
                 point,
-                told_length(off / abs(towards), self.problem.unit, 3),
-                told_length(abs(towards), self.problem.unit, 4),
+                format_length(off / abs(towards), self.problem.unit, 3),
+                format_length(abs(towards), self.problem.unit, 4),
             ),
             'Give the load over the path of a slider or of a rocker, or over "phi".',
         )

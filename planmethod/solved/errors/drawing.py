@@ -38,7 +38,7 @@ class DrawnQuantity(Struct, frozen=True):
         (degrees).
     needs : tuple of Name
         Steps that it is taken from.
-    take : callable
+    read : callable
         The quantity from a trace.
     kind : DrawnKind
     absent : callable or None
@@ -50,7 +50,7 @@ class DrawnQuantity(Struct, frozen=True):
 
     label: str
     needs: tuple[Name, ...]
-    take: Callable[[Trace], Number]
+    read: Callable[[Trace], Number]
     kind: DrawnKind = DrawnKind.NUMBER
     absent: Callable[[], Flags] | None = None
     direction: str = ""

@@ -34,7 +34,7 @@ from planmethod.solved.transfers import transfers_of
 BALANCE, LEVER, DIFFERENCE = "balance", "lever", "difference"
 """Labels: balance of the driver by the force plans and by the lever, lever minus plans."""
 
-NOTHING_MM = 1e-9
+ZERO_LENGTH_MM = 1e-9
 """Length of a force on its plan below which it is rounding and has no direction."""
 
 
@@ -96,15 +96,15 @@ class DrawnForces(Errors):
 
     def _of_sheets(self, index: int) -> dict[str, float]:
         """Return the sigmas from random sheets of one position: those of its own mechanism."""
-        solution, own = self.solution.alone_at(index)
+        solution, own = self.solution.variant_at(index)
         if solution is self.solution:
             return super()._of_sheets(index)
         return drawn_forces(statics_of(solution))._of_sheets(own)
 
     @cached_property
-    def _by_hand(self) -> dict[str, Reals]:
+    def _ruler_values(self) -> dict[str, Reals]:
         shape = self.solution.positions.shape
-        read = self.taken(self.statics.by_hand.trace)
+        read = self.read_quantities(self.statics.ruler_reading.trace)
         return {
             label: np.broadcast_to(np.asarray(value, dtype=float), shape)
             for label, value in read.items()
@@ -112,7 +112,7 @@ class DrawnForces(Errors):
 
     def read(self, label: str) -> Reals:
         """Return a quantity as the ruler gives it, shape (n,)."""
-        return self._by_hand[label]
+        return self._ruler_values[label]
 
     @property
     def balance(self) -> Reals:
@@ -137,7 +137,7 @@ class DrawnForces(Errors):
 
 def drawn_forces(statics: Statics) -> DrawnForces:
     """Return the drawn force plans, computed at the first call."""
-    return statics.once(DrawnForces)
+    return statics.compute_once(DrawnForces)
 
 
 def all_errors(statics: Statics) -> Errors:
@@ -167,7 +167,7 @@ def _ends(statics: Statics) -> dict[PointName, Reals]:
     A load is drawn on the plan of its link.
     """
     found: dict[PointName, Reals] = {}
-    for plan, share in zip(statics.board.plans, statics.shares, strict=True):
+    for plan, share in zip(statics.board.plans, statics.enlargements, strict=True):
         for edge in (*plan.polygon, *plan.wholes, *plan.inner):
             found.setdefault(edge.tail, share)
             found.setdefault(edge.head, share)
@@ -177,7 +177,7 @@ def _ends(statics: Statics) -> dict[PointName, Reals]:
 def _enlarged(statics: Statics) -> dict[str, Number]:
     """Return the enlargement of each step relative to its scale: whole plans, and detail views."""
     found: dict[str, Number] = {str(end): share for end, share in _ends(statics).items()}
-    for plan, share in zip(statics.board.plans, statics.shares, strict=True):
+    for plan, share in zip(statics.board.plans, statics.enlargements, strict=True):
         for given in statics.board.given:
             if given.force is not None and given.applied.link in plan.links:
                 found.setdefault(given.force.head, share)
@@ -187,7 +187,7 @@ def _enlarged(statics: Statics) -> dict[str, Number]:
     for step in statics.program.steps:
         if isinstance(step, Parallel | Perpendicular | AtAngle) and step.through in found:
             found[step.out] = found[step.through]
-    return {**found, **statics.hand.enlarged}
+    return {**found, **statics.ruler_arithmetic.enlarged}
 
 
 def _items(statics: Statics) -> Iterator[DrawnQuantity]:
@@ -213,11 +213,11 @@ def _number(label: str, name: NumberName) -> DrawnQuantity:
 
 
 def _direction(force: Force) -> Callable[[Trace], Number]:
-    def take(trace: Trace) -> Number:
+    def read_angle(trace: Trace) -> Number:
         value = trace.value
-        return angle(value[force.head] - value[force.tail], NOTHING_MM) * RADIAN
+        return angle(value[force.head] - value[force.tail], ZERO_LENGTH_MM) * RADIAN
 
-    return take
+    return read_angle
 
 
 def _absent(statics: Statics, force: Force) -> Flags:

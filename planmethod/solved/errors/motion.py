@@ -54,7 +54,7 @@ class Drafting(Errors):
             frozenset(str(plan.pole) for plan in solution.construction.plans),
             tuple(self._items()),
             _plan_points(solution),
-            solution.hand.enlarged,
+            solution.ruler_arithmetic.enlarged,
         )
         super().__init__(drawing, draws=draws, seed=seed)
 
@@ -96,7 +96,7 @@ class Drafting(Errors):
 
     def _of_sheets(self, index: int) -> dict[str, float]:
         """Return the sigmas from random sheets of one position: those of its own mechanism."""
-        solution, own = self.solution.alone_at(index)
+        solution, own = self.solution.variant_at(index)
         if solution is self.solution:
             return super()._of_sheets(index)
         return drafting_of(solution)._of_sheets(own)
@@ -115,7 +115,7 @@ class Drafting(Errors):
 
 def drafting_of(solution: Solution) -> Drafting:
     """Return the errors of the hand's drawing, computed at the first call."""
-    return of_type("solution", solution, Solution, "planmethod.solve()").once(Drafting)
+    return of_type("solution", solution, Solution, "planmethod.solve()").compute_once(Drafting)
 
 
 def _plan_points(solution: Solution) -> tuple[PointName, ...]:

@@ -18,9 +18,15 @@ from msgspec import Struct
 
 from planmethod.arguments import known, number_of, text, texts
 from planmethod.construct.arithmetic import Number
-from planmethod.construct.drafting import EVEN, Even, Propagated, Sampled, causes_of
+from planmethod.construct.drafting import (
+    LATTICE_SIZE,
+    LatticeSampled,
+    Propagated,
+    Sampled,
+    causes_of,
+)
 from planmethod.construct.dual import Dual, as_dual
-from planmethod.construct.evaluate import Trace, evaluate, go_on
+from planmethod.construct.evaluate import Trace, evaluate, extend_trace
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
     Compute,
@@ -30,8 +36,8 @@ from planmethod.construct.steps import (
     PointName,
     Step,
     Total,
-    makes,
     operands,
+    result_kind,
 )
 from planmethod.errors import PlanMethodError
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
@@ -49,10 +55,10 @@ Key = TypeVar("Key", bound=str)
 DRAWS = 4000
 """Random sheets where first order does not hold."""
 
-MOST_DRAWS = 10_000_000
+MAX_DRAWS = 10_000_000
 """Maximum number of random sheets that can be requested."""
 
-STRAINED = 0.1
+MAX_MARGIN_SIGMA = 0.1
 """Sigma of a step's margin, relative to it, above which first order is not trusted."""
 
 BENT = 0.03
@@ -108,16 +114,16 @@ class Errors:
 
     # First order -----------------------------------------------------------------------------
 
-    def _take(self, pencil: Any, chosen: npt.NDArray[np.intp]) -> tuple[Trace, dict[str, Number]]:
+    def _draw(self, pencil: Any, chosen: npt.NDArray[np.intp]) -> tuple[Trace, dict[str, Number]]:
         """Draw the construction with a pencil and take every quantity off it."""
         program = self.drawing.program
         trace = evaluate(program, self.drawing.data(chosen), pencil)
-        return trace, self.taken(trace)
+        return trace, self.read_quantities(trace)
 
-    def taken(self, trace: Trace) -> dict[str, Number]:
+    def read_quantities(self, trace: Trace) -> dict[str, Number]:
         """Return every quantity as it is read."""
         with np.errstate(all="ignore"):
-            return {item.label: item.take(trace) for item in self.items.values()}
+            return {item.label: item.read(trace) for item in self.items.values()}
 
     @cached_property
     def _causes(self) -> int:
@@ -133,9 +139,9 @@ class Errors:
         pencil = Propagated(
             self.profile, self.drawing.free, self._causes, self.drawing.times(chosen)
         )
-        trace, taken = self._take(pencil, chosen)
+        trace, taken = self._draw(pencil, chosen)
 
-        def whole(value: Number) -> Dual:
+        def in_every_position(value: Number) -> Dual:
             """Return a number in every position."""
             dual = as_dual(value)
             flat = np.broadcast_to(np.atleast_1d(dual.value), (len(chosen),))
@@ -143,10 +149,10 @@ class Errors:
 
         return _Slopes(
             len(chosen),
-            {label: whole(value) for label, value in taken.items()},
-            {name: whole(margin) for name, margin in trace.margin.items()},
-            {name: whole(trace.value[name]) for name in self.drawing.points},
-            {name: whole(trace.value[name]) for name in self._leaves},
+            {label: in_every_position(value) for label, value in taken.items()},
+            {name: in_every_position(margin) for name, margin in trace.margin.items()},
+            {name: in_every_position(trace.value[name]) for name in self.drawing.points},
+            {name: in_every_position(trace.value[name]) for name in self._leaves},
             pencil.of,
         )
 
@@ -166,10 +172,10 @@ class Errors:
         )
 
     def _reduced(self, part: _Slopes) -> _First:
-        sigmas = {label: sigma_of(dual) for label, dual in part.taken.items()}
+        sigmas = {label: sigma_of(dual) for label, dual in part.quantities.items()}
         short = {
             label: (sigmas[label] > 0)
-            & (_size(item, part.taken[label].value) < SHORT * sigmas[label])
+            & (_size(item, part.quantities[label].value) < SHORT * sigmas[label])
             for label, item in self.items.items()
             if item.kind is not DrawnKind.NUMBER
         }
@@ -208,7 +214,7 @@ class Errors:
                         left += [one for one, _ in operands(made[name])]
                 else:
                     leaves.add(name)
-            if any(makes(made[name]) is LineName for name in leaves):
+            if any(result_kind(made[name]) is LineName for name in leaves):
                 continue  # a line has two values
             last = tuple(made[name] for name in sorted(steps, key=order.__getitem__))
             found[label] = last, tuple(sorted(leaves, key=order.__getitem__))
@@ -218,14 +224,14 @@ class Errors:
     def _leaves(self) -> tuple[Name, ...]:
         return tuple({name: None for _, leaves in self._readings.values() for name in leaves})
 
-    def _read_again(self, label: str, part: _Slopes, where: Flags) -> Reals:
+    def _read_again(self, label: str, part: _Slopes, mask: Flags) -> Reals:
         """Return the sigma where a length is close to zero, NaN elsewhere; shape (n,).
 
         Infinite where it cannot be found in this way.
         """
-        found = np.where(where, np.inf, np.nan)
+        found = np.where(mask, np.inf, np.nan)
         if label in self._readings:
-            short = np.flatnonzero(where)
+            short = np.flatnonzero(mask)
             for start in range(0, len(short), AT_ONCE):
                 chosen = short[start : start + AT_ONCE]
                 found[chosen] = self._read_evenly(label, part, chosen)
@@ -241,7 +247,7 @@ class Errors:
         env: dict[Name, Any] = {name: dual.value[:, None] for name, dual in read.items()}
         off = [name for name, dual in read.items() if dual.part is not None]
         wide = {out: np.atleast_1d(k)[:, None] for out, k in self.drawing.times(chosen).items()}
-        pencil = Even(self.profile, self.drawing.free, wide)
+        pencil = LatticeSampled(self.profile, self.drawing.free, wide)
         coordinates: Iterator[Reals] = iter(())
         if off:  # else it errs by its own reading alone
             spread = np.moveaxis(covariance_of([read[name] for name in off]), -1, 0)
@@ -249,13 +255,13 @@ class Errors:
             coordinates = iter(np.moveaxis(root @ pencil.normals(root.shape[-1]), 1, 0))
         for name in off:
             value = env[name]
-            place = env[name] = np.empty((len(chosen), EVEN), value.dtype)
+            place = env[name] = np.empty((len(chosen), LATTICE_SIZE), value.dtype)
             np.add(value.real, next(coordinates), out=place.real)
             if np.iscomplexobj(value):
                 np.add(value.imag, next(coordinates), out=place.imag)
         with np.errstate(all="ignore"):
-            taken = item.take(go_on(Trace(env, {}), steps, {}, pencil))
-        drawn = np.broadcast_to(np.asarray(taken, dtype=float), (len(chosen), EVEN))
+            taken = item.read(extend_trace(Trace(env, {}), steps, {}, pencil))
+        drawn = np.broadcast_to(np.asarray(taken, dtype=float), (len(chosen), LATTICE_SIZE))
         return np.nan_to_num(half_widths(item, drawn), nan=np.inf)
 
     def _at(self, index: int) -> _Slopes:
@@ -266,7 +272,7 @@ class Errors:
 
     def _slope(self, label: str, index: int) -> Reals:
         """Return the slopes of a quantity by every cause in one position, shape (m,)."""
-        slope = self._at(index).taken[label].slope
+        slope = self._at(index).quantities[label].slope
         return np.zeros(self._causes) if slope is None else slope[:, 0]
 
     # Where first order does not hold ---------------------------------------------------------
@@ -275,13 +281,13 @@ class Errors:
     def _ancestors(self) -> dict[Name, frozenset[Name]]:
         return _ancestors(self.drawing.program)
 
-    def strained(self, *names: Name, limit: float = STRAINED) -> Flags:
+    def flag_unreliable(self, *names: Name, limit: float = MAX_MARGIN_SIGMA) -> Flags:
         """Return where a step that others depend on is almost impossible for this hand.
 
         Its margin there is not much larger than its own error.
         """
         found = np.zeros(self.drawing.count, dtype=bool)
-        doubtful = self._doubtful(limit)
+        doubtful = self._unreliable_steps(limit)
         if not doubtful:  # of nearly every drawing
             return found
         above = frozenset[Name]().union(*(self._ancestors[name] for name in names))
@@ -290,7 +296,7 @@ class Errors:
                 found |= where
         return found
 
-    def _doubtful(self, limit: float) -> dict[Name, Flags]:
+    def _unreliable_steps(self, limit: float) -> dict[Name, Flags]:
         """Return where steps are strained beyond a limit, without those that never are."""
         if limit not in self._beyond:
             beyond = {step: ~(strain <= limit) for step, strain in self._first.strain.items()}
@@ -306,12 +312,12 @@ class Errors:
         """Return the drafting error of a quantity, computed anew."""
         item, first = self.items[label], self._first
         sigma = np.array(first.sigmas[label])
-        strange = ~np.isfinite(sigma) | self.strained(*item.needs)
+        strange = ~np.isfinite(sigma) | self.flag_unreliable(*item.needs)
         if item.direction:
             way = self.items[item.direction]
-            strange |= ~np.isfinite(first.sigmas[way.label]) | self.strained(*way.needs)
+            strange |= ~np.isfinite(first.sigmas[way.label]) | self.flag_unreliable(*way.needs)
         again = first.short[label] if label in first.short else np.full_like(sigma, np.nan)
-        bent = ~np.isnan(again) & self.strained(*item.needs, limit=BENT)
+        bent = ~np.isnan(again) & self.flag_unreliable(*item.needs, limit=BENT)
         strange, short = strange | np.isinf(again) | bent, np.isfinite(again)
         if item.absent is not None:
             absent = item.absent()
@@ -334,13 +340,13 @@ class Errors:
         self, index: int, *, draws: int | None = None, seed: int | None = None
     ) -> dict[str, Reals]:
         """Return every quantity of one position from random sheets: arrays of shape (draws,)."""
-        count = self.draws if draws is None else number_of("draws", draws, MOST_DRAWS + 1)
+        count = self.draws if draws is None else number_of("draws", draws, MAX_DRAWS + 1)
         seed = self.seed if seed is None else number_of("seed", seed, 2**32)
         seed = seed * 1_000_003 + self._at_position(index)
         chosen = np.array([index])
         times = self.drawing.times(chosen)
         pencil = Sampled(self.profile, self.drawing.free, count, seed, times)
-        _, taken = self._take(pencil, chosen)
+        _, taken = self._draw(pencil, chosen)
         return {
             label: np.broadcast_to(np.asarray(value, dtype=float), (count,))
             for label, value in taken.items()
@@ -422,7 +428,7 @@ class _Slopes(Struct, frozen=True):
     """Quantities, margins, points and leaves with their slopes, and the strokes of the causes."""
 
     count: int
-    taken: dict[str, Dual]
+    quantities: dict[str, Dual]
     margins: dict[Name, Dual]
     points: dict[PointName, Dual]
     leaves: dict[Name, Dual]
@@ -436,7 +442,7 @@ class _Slopes(Struct, frozen=True):
 
         return _Slopes(
             len(chosen),
-            some(self.taken),
+            some(self.quantities),
             some(self.margins),
             some(self.points),
             some(self.leaves),

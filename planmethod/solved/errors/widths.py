@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.construct.dual import Dual, alike
+from planmethod.construct.dual import Dual, common_slopes
 from planmethod.solved.errors.drawing import DrawnKind, DrawnQuantity
 from planmethod.solved.reading import Reals
 
@@ -29,7 +29,7 @@ def sigma_of(value: Dual) -> Reals:
 
 def covariance_of(values: Sequence[Dual]) -> Reals:
     """Return how numbers err together, x and y of each place: shape (k, k, n)."""
-    slopes, _ = alike(*values)
+    slopes, _ = common_slopes(*values)
     shape = np.broadcast_shapes((1, len(values[0].value)), *map(np.shape, slopes))
     rows = [
         np.broadcast_to(side, shape)
@@ -60,13 +60,13 @@ def half_widths(item: DrawnQuantity, rows: Reals) -> Reals:
         rows = _unwound(rows)
     # Seven figures are sorted faster than sixteen, and whole rows than `np.quantile` parts them.
     ordered = np.sort(rows.astype(np.float32), axis=1)
-    low, high = (_at_share(ordered, share) for share in CENTRAL)
+    low, high = (_quantile(ordered, share) for share in CENTRAL)
     return (high - low) / 2
 
 
-def _at_share(ordered: npt.NDArray[np.float32], share: float) -> Reals:
+def _quantile(ordered: npt.NDArray[np.float32], fraction: float) -> Reals:
     """Return the quantile of every row."""
-    k, part = divmod(share * (ordered.shape[1] - 1), 1.0)
+    k, part = divmod(fraction * (ordered.shape[1] - 1), 1.0)
     low, high = ordered[:, int(k)], ordered[:, int(k) + 1]
     return np.asarray(low + part * (high - low), dtype=float)
 

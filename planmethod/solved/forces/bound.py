@@ -27,13 +27,13 @@ from planmethod.solved.trust.conditioning import (
     SCALES,
     blocks,
     extent,
-    least_gap,
+    min_gap,
 )
 
 Places = npt.NDArray[np.intp]
 
 
-class JudgedForces(Struct, frozen=True):
+class ForceConditioning(Struct, frozen=True):
     """Force plans of a solution as input to the conditioning (силы, о точности которых судят).
 
     Attributes
@@ -102,9 +102,9 @@ class JudgedForces(Struct, frozen=True):
         Besides short lines, those in which a force follows from a moment over a short arm.
         """
         count = len(self.closes)
-        if self.solution.together <= FEW_ROWS:
+        if self.solution.max_positions <= FEW_ROWS:
             return np.arange(count)
-        least = np.minimum(self.margin, least_gap(self.solution, self.program, self.exact.value))
+        least = np.minimum(self.margin, min_gap(self.solution, self.program, self.exact.value))
         ends = extent(self.solution) or 1.0
         for arm in _divisors(self.program):
             least = np.minimum(least, np.abs(self.exact.number(arm)) / ends)

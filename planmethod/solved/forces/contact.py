@@ -31,12 +31,12 @@ VANISHING = 1e-12
 Masks = npt.NDArray[np.bool_]
 
 
-def across(force: Complexes, along: Complexes) -> Reals:
+def transverse_component(force: Complexes, direction: Complexes) -> Reals:
     """Return the component of forces to the left of unit vectors along the guide, N."""
-    return np.asarray((along.conjugate() * force).imag, dtype=float)
+    return np.asarray((direction.conjugate() * force).imag, dtype=float)
 
 
-def distance(normal: Reals, moment: Reals, nothing: Masks) -> Reals:
+def distance(normal: Reals, moment: Reals, is_zero: Masks) -> Reals:
     """Return the position of a force along the guide, m; NaN where the force is zero.
 
     Parameters
@@ -45,7 +45,7 @@ def distance(normal: Reals, moment: Reals, nothing: Masks) -> Reals:
         Force to the left of the guide's direction.
     moment : ndarray, N·m
         Counter-clockwise positive.
-    nothing : ndarray of bool
+    is_zero : ndarray of bool
         True where the force is zero.
 
     Returns
@@ -53,8 +53,8 @@ def distance(normal: Reals, moment: Reals, nothing: Masks) -> Reals:
     ndarray
         Positive in the guide's direction: there a force to the left turns counter-clockwise.
     """
-    divisor = np.where(nothing, 1.0, normal)
-    return np.asarray(np.where(nothing, np.nan, moment / divisor), dtype=float)
+    divisor = np.where(is_zero, 1.0, normal)
+    return np.asarray(np.where(is_zero, np.nan, moment / divisor), dtype=float)
 
 
 def edge_forces(normal: Reals, moment: Reals, length: float) -> tuple[Reals, Reals]:
@@ -96,7 +96,7 @@ class SlideReaction(Struct, frozen=True, dict=True):
     ----------
     slide : Slide
     joint : JointForce
-    along : Complexes
+    direction : Complexes
         Unit vectors in the guide's direction.
     base : Complexes, m
         A point of the guide's line.
@@ -109,7 +109,7 @@ class SlideReaction(Struct, frozen=True, dict=True):
 
     slide: Slide
     joint: JointForce
-    along: Complexes
+    direction: Complexes
     base: Complexes
     middle: Reals
     largest: Reals
@@ -122,20 +122,20 @@ class SlideReaction(Struct, frozen=True, dict=True):
     @cached_property
     def normal(self) -> Reals:
         """Force to the left of the guide's direction, N."""
-        return across(self.joint.force, self.along)
+        return transverse_component(self.joint.force, self.direction)
 
-    def b(self, share: float = VANISHING) -> Reals:
+    def b(self, fraction: float = VANISHING) -> Reals:
         """Return where the force acts, m from ``joint.at`` in the guide's direction.
 
-        Not a number where the force is less than a ``share`` of the largest.
+        Not a number where the force is less than a ``fraction`` of the largest.
         """
-        nothing = np.abs(self.joint.force) <= share * self.largest
+        nothing = np.abs(self.joint.force) <= fraction * self.largest
         return distance(self.normal, self.joint.moment, nothing)
 
     def place(self, b: Reals) -> Complexes:
         """Return the places of the guide's line at distances from ``joint.at``, m."""
-        foot = ((self.joint.at - self.base) * self.along.conjugate()).real
-        return np.asarray(self.base + self.along * (foot + b), dtype=complex)
+        foot = ((self.joint.at - self.base) * self.direction.conjugate()).real
+        return np.asarray(self.base + self.direction * (foot + b), dtype=complex)
 
     @cached_property
     def at_edges(self) -> Masks:
@@ -159,7 +159,7 @@ class SlideReaction(Struct, frozen=True, dict=True):
             return ()
         ends = self.place(self.middle + self.length / 2), self.place(self.middle - self.length / 2)
         forces = edge_forces(self.normal, self._about_middle, self.length)
-        left = 1j * self.along[index]
+        left = 1j * self.direction[index]
         return tuple(
             EdgeForce(complex(end[index]), complex(left * force[index]))
             for end, force in zip(ends, forces, strict=True)

@@ -19,7 +19,7 @@ from msgspec import Struct
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.forces.board import SCALE
 from planmethod.plans.forces.loads import Applied, LoadKind, numbers_of
@@ -28,20 +28,20 @@ from planmethod.problem.load_records import FrictionTask, PairFriction
 from planmethod.problem.model import Problem, Slide
 from planmethod.problem.names import pair_name, segment
 from planmethod.solved.forces.contact import JointForce, SlideReaction, slide_between
-from planmethod.solved.forces.loads import STILL
+from planmethod.solved.forces.loads import ZERO_SPEED_FRACTION
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.reading import (
     Complexes,
     Flags,
+    Memoizing,
     Reading,
     Reals,
-    Remembering,
-    remembered,
+    memoized,
 )
 from planmethod.solved.solution import UNIT_SCALES, Solution
 
-NOTHING = 1e-9
+ZERO_POWER_FRACTION = 1e-9
 """Fraction of the largest power in the joints below which a power is zero."""
 
 _STEPS, _ROUNDS, _CLOSE = 16, 40, 1e-13
@@ -49,7 +49,7 @@ _STEPS, _ROUNDS, _CLOSE = 16, 40, 1e-13
 Matrices = npt.NDArray[np.float64]
 
 
-class Rubbing(Struct, frozen=True):
+class FrictionPair(Struct, frozen=True):
     """A pair with friction in every position (пара с трением), ndarrays of shape (n,).
 
     Attributes
@@ -70,9 +70,9 @@ class Rubbing(Struct, frozen=True):
         Of ``on`` relative to ``by``: angular velocity, 1/s, or velocity along the guide, m/s.
     sense : Reals
         Its sign; 0 where the links do not move on one another.
-    along : Complexes
+    direction : Complexes
         Unit vectors in the guide's direction; of a turning pair zero.
-    beside : Reals, m
+    offset : Reals, m
         How far the guide's line is to the left of the slider's pin.
     frame : str
         How the frame is printed.
@@ -88,8 +88,8 @@ class Rubbing(Struct, frozen=True):
     radius: float
     rate: Reals
     sense: Reals
-    along: Complexes
-    beside: Reals
+    direction: Complexes
+    offset: Reals
     frame: str
 
     @property
@@ -103,7 +103,7 @@ class Rubbing(Struct, frozen=True):
         return float(np.degrees(np.arctan(self.f))) if self.slide is not None else 0.0
 
     @property
-    def share(self) -> float:
+    def coefficient(self) -> float:
         """Friction for a newton of the reaction: f, or ρ, m."""
         return self.f if self.slide is not None else self.rho
 
@@ -112,9 +112,9 @@ class Rubbing(Struct, frozen=True):
         """The role of its letter: ``friction force of 30``."""
         return self._symbol("moment" if self.slide is None else "force", self.on, self.by)
 
-    def _symbol(self, what: str, on: str, by: str) -> str:
+    def _symbol(self, kind: str, on: str, by: str) -> str:
         on, by = (self.frame if link == FRAME else link for link in (on, by))
-        return reaction_symbol(on, by, letter=f"friction {what} of ").replace("_{", "").rstrip("}")
+        return reaction_symbol(on, by, letter=f"friction {kind} of ").replace("_{", "").rstrip("}")
 
     def loads(self, size: Reals) -> list[Applied]:
         """Return the loads of friction of a size, N or N·m, on both links, ``on`` first."""
@@ -129,9 +129,9 @@ class Rubbing(Struct, frozen=True):
                 found.append(Applied(turns, link, None, nowhere, signed, kind))
                 continue
             name = self._symbol("force", link, other)
-            found.append(Applied(name, link, self.joint, signed * self.along, none, kind))
-            if np.any(self.beside):
-                couple = -signed * self.beside
+            found.append(Applied(name, link, self.joint, signed * self.direction, none, kind))
+            if np.any(self.offset):
+                couple = -signed * self.offset
                 found.append(Applied(turns, link, None, nowhere, couple, kind))
         return found
 
@@ -160,7 +160,7 @@ class RubbedForces(Struct, frozen=True):
     power: Reals
 
 
-class Friction(Remembering):
+class Friction(Memoizing):
     """Force analysis with friction of a solution (силовой расчёт с учётом трения).
 
     Parameters
@@ -170,10 +170,10 @@ class Friction(Remembering):
 
     Attributes
     ----------
-    every : list of Rubbing
+    every : list of FrictionPair
         All pairs in the order of the force analysis: friction in one changes the reactions of the
         others.
-    pairs : list of Rubbing
+    pairs : list of FrictionPair
         Those of them that have friction.
     """
 
@@ -182,12 +182,12 @@ class Friction(Remembering):
         self.solution, self.statics = solution, statics_of(solution)
         dynamics = solution.problem.dynamics
         assert dynamics is not None and dynamics.friction is not None
-        _refuse_unknown(solution.problem, dynamics.friction, self.statics.reactions)
+        _reject_unknown(solution.problem, dynamics.friction, self.statics.reactions)
         self.every = [
             _rubbing(solution, dynamics.friction, number, joint)
             for number, joint in enumerate(self.statics.reactions)
         ]
-        self.pairs = [pair for pair in self.every if pair.share]
+        self.pairs = [pair for pair in self.every if pair.coefficient]
         self._planned = self._with(np.ones((len(self.pairs), len(solution.positions))))
 
     def _with(self, sizes: Reals) -> Statics:
@@ -232,10 +232,10 @@ class Friction(Remembering):
         reads = [self._values(self._read(np.zeros((k, n))))]
         for number in range(k):
             sizes = np.zeros((k, n))
-            sizes[number] = unit * self.pairs[number].share
+            sizes[number] = unit * self.pairs[number].coefficient
             reads.append(self._values(self._read(sizes)))
         whole = [np.concatenate([np.asarray(part, dtype=complex) for part in one]) for one in reads]
-        per = [unit * pair.share for pair in self.pairs]
+        per = [unit * pair.coefficient for pair in self.pairs]
         return [
             whole[0],
             *((one - whole[0]) / size for one, size in zip(whole[1:], per, strict=True)),
@@ -270,35 +270,35 @@ class Friction(Remembering):
         return pressed, slopes
 
     def _about_middle(
-        self, pair: Rubbing, contact: SlideReaction, values: npt.NDArray[np.complex128]
+        self, pair: FrictionPair, contact: SlideReaction, values: npt.NDArray[np.complex128]
     ) -> Reals:
         """Return the moment of a guide about the middle of its slider, N·m."""
         moment = values[len(self.statics.reactions) + pair.number].real
-        normal = (contact.along.conjugate() * values[pair.number]).imag
+        normal = (contact.direction.conjugate() * values[pair.number]).imag
         return np.asarray(moment - contact.middle * normal, dtype=float)
 
     # Once, and converged ---------------------------------------------------------------------
 
     @cached_property
-    def _shares(self) -> Reals:
+    def _coefficients(self) -> Reals:
         """Friction per newton of the pressing force, shape (k, n): zero where nothing moves."""
-        return np.array([pair.share * np.abs(pair.sense) for pair in self.pairs]).reshape(
+        return np.array([pair.coefficient * np.abs(pair.sense) for pair in self.pairs]).reshape(
             len(self.pairs), len(self.solution.positions)
         )
 
     @cached_property
     def _first(self) -> Reals:
         """Friction of the reactions without friction, shape (k, n)."""
-        return self._shares * self._pressing(np.zeros(self._shares.shape))[0]
+        return self._coefficients * self._pressing(np.zeros(self._coefficients.shape))[0]
 
     @cached_property
     def _grown(self) -> tuple[Reals, Flags]:
         """Return friction of its own reactions, and where there is none such."""
-        sizes, (k, n) = np.zeros(self._shares.shape), self._shares.shape
+        sizes, (k, n) = np.zeros(self._coefficients.shape), self._coefficients.shape
         jammed, own = np.zeros(n, dtype=bool), np.eye(k)
         scale = np.maximum(self._first.max(axis=0, initial=0.0), 1e-300)
         for step in range(1, _STEPS + 1):
-            shares = self._shares * (step / _STEPS)
+            shares = self._coefficients * (step / _STEPS)
             for _ in range(_ROUNDS):
                 pressed, slopes = self._pressing(sizes)
                 jacobian = own - shares.T[:, :, np.newaxis] * slopes
@@ -330,7 +330,7 @@ class Friction(Remembering):
     @cached_property
     def without(self) -> RubbedForces:
         """Forces of ideal pairs."""
-        return self._forces(np.zeros(self._shares.shape))
+        return self._forces(np.zeros(self._coefficients.shape))
 
     @cached_property
     def corrected(self) -> RubbedForces:
@@ -347,15 +347,15 @@ class Friction(Remembering):
         """The force plans with one correction, as they are drawn."""
         return self._with(self._first)
 
-    def rub(self, pair: Rubbing, forces: RubbedForces) -> Reals:
+    def rub(self, pair: FrictionPair, forces: RubbedForces) -> Reals:
         """Return the size of the friction of a pair, N or N·m: zero if it has none."""
-        if not pair.share:
+        if not pair.coefficient:
             return np.zeros(len(self.solution.positions))
         return np.asarray(forces.friction[self.pairs.index(pair)])
 
-    def total(self, pair: Rubbing, forces: RubbedForces) -> Complexes:
+    def total(self, pair: FrictionPair, forces: RubbedForces) -> Complexes:
         """Return the whole reaction of a pair, N: that across a guide and the friction along it."""
-        along = pair.sense * pair.along * self.rub(pair, forces)
+        along = pair.sense * pair.direction * self.rub(pair, forces)
         return np.asarray(forces.reactions[pair.number] - along, dtype=complex)
 
     # Remaining effects -----------------------------------------------------------------------
@@ -364,7 +364,7 @@ class Friction(Remembering):
     def change(self) -> Reals:
         """Relative difference of one correction from the converged balance; NaN for no balance."""
         once, end = self.corrected.balance, self.converged.balance
-        there = np.abs(self.converged.power) > NOTHING * self.scale
+        there = np.abs(self.converged.power) > ZERO_POWER_FRACTION * self.scale
         return np.where(there, np.abs(end - once) / np.where(there, np.abs(end), 1.0), np.nan)
 
     @cached_property
@@ -396,7 +396,7 @@ class Friction(Remembering):
         no power.
         """
         ideal, real = self.without.power, np.where(self.jammed, np.inf, self.converged.power)
-        there = np.abs(ideal) > NOTHING * self.scale
+        there = np.abs(ideal) > ZERO_POWER_FRACTION * self.scale
         with np.errstate(divide="ignore", invalid="ignore"):
             found = np.where(self.drives, ideal / real, real / ideal)
         return np.where(there, found, np.nan)
@@ -409,7 +409,7 @@ class Friction(Remembering):
 
 def friction_of(solution: Solution) -> Friction:
     """Return the friction of a solution, computed at the first call."""
-    return solution.once(Friction)
+    return solution.compute_once(Friction)
 
 
 class RubbedReading(ForceReading):
@@ -422,7 +422,7 @@ class RubbedReading(ForceReading):
         self.plans = tuple(self.statics.board.plans)
 
 
-@remembered
+@memoized
 def rubbed_reading(solution: Solution, index: int) -> RubbedReading:
     """Return the forces of a position with friction; cached, since several views show them."""
     return RubbedReading(solution, index)
@@ -458,7 +458,9 @@ def _name(joint: JointForce) -> str:
     return pair_name(joint.joint, joint.on, joint.by)
 
 
-def _rubbing(solution: Solution, task: FrictionTask, number: int, joint: JointForce) -> Rubbing:
+def _rubbing(
+    solution: Solution, task: FrictionTask, number: int, joint: JointForce
+) -> FrictionPair:
     problem = solution.problem
     slide = slide_between(problem, joint)
     name, _, f, radius = pair_data(problem, task, joint)
@@ -469,7 +471,7 @@ def _rubbing(solution: Solution, task: FrictionTask, number: int, joint: JointFo
         along, beside = np.zeros(shape, dtype=complex), np.zeros(shape)
     else:
         contact = statics_of(solution).contacts[number]
-        along = contact.along
+        along = contact.direction
         relative = _velocity(solution, joint.on, joint.at) - _velocity(solution, joint.by, joint.at)
         rate = (along.conjugate() * relative).real
         speeds = [np.abs(point.velocity) for point in solution.points.values()]
@@ -477,8 +479,8 @@ def _rubbing(solution: Solution, task: FrictionTask, number: int, joint: JointFo
         pin = solution.points[slide.pin].place
         beside = (along.conjugate() * (contact.base - pin)).imag
         beside = np.where(np.abs(beside) < 1e-12, 0.0, beside)
-    sense = np.where(np.abs(rate) > STILL * fastest, np.sign(rate), 0.0)
-    return Rubbing(
+    sense = np.where(np.abs(rate) > ZERO_SPEED_FRACTION * fastest, np.sign(rate), 0.0)
+    return FrictionPair(
         number, name, joint.joint, joint.on, joint.by, slide, f, radius, rate, sense, along, beside,
         problem.mechanism.called(FRAME),
     )  # fmt: skip
@@ -496,7 +498,7 @@ def _velocity(solution: Solution, link: str, at: Complexes) -> Complexes:
     return np.asarray(point.velocity + 1j * solution.links[link].omega * (at - point.place))
 
 
-def _refuse_unknown(problem: Problem, task: FrictionTask, joints: Sequence[JointForce]) -> None:
+def _reject_unknown(problem: Problem, task: FrictionTask, joints: Sequence[JointForce]) -> None:
     """Reject friction of a pair that does not exist.
 
     Raises
@@ -507,8 +509,8 @@ def _refuse_unknown(problem: Problem, task: FrictionTask, joints: Sequence[Joint
     faults = [
         Fault(
             f"friction.pairs.{segment(name)}",
-            say("the mechanism has no pair '{}'", name),
-            say("Its pairs: {}.", ", ".join(there)),
+            translate("the mechanism has no pair '{}'", name),
+            translate("Its pairs: {}.", ", ".join(there)),
         )
         for name in task.pairs
         if name not in there

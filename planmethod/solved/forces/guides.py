@@ -10,8 +10,8 @@ from msgspec import Struct
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.polygons import CoupleOn, reaction_symbol
 from planmethod.solved.forces.contact import EdgeForce, SlideReaction
-from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading
-from planmethod.solved.reading import remembered
+from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION, ForceReading
+from planmethod.solved.reading import memoized
 
 
 class Guided(Struct, frozen=True, dict=True):
@@ -47,7 +47,7 @@ class Guided(Struct, frozen=True, dict=True):
         return 1 if self.on == self.reaction.on else -1
 
     @property
-    def own(self) -> Guided:
+    def as_planned(self) -> Guided:
         """The same reaction as the force plans name it: distances and lengths have its letters."""
         return Guided(self.reading, self.number, self.reaction.on, self.reaction.by)
 
@@ -60,21 +60,25 @@ class Guided(Struct, frozen=True, dict=True):
     @cached_property
     def b(self) -> float | None:
         """Position of the force, m from the joint along the guide; None if there is no force."""
-        if self.is_none:
+        if self.is_negligible:
             return None
-        return 0.0 if self.is_no_couple else float(self.contact.b(FAINT_SHARE)[self.reading.index])
+        return (
+            0.0
+            if self.is_no_couple
+            else float(self.contact.b(NEGLIGIBLE_FRACTION)[self.reading.index])
+        )
 
     @property
-    def is_none(self) -> bool:
+    def is_negligible(self) -> bool:
         """True if the force is negligible beside the others."""
         size = abs(complex(self.contact.joint.force[self.reading.index]))
-        return size <= FAINT_SHARE * self.reading.peak
+        return size <= NEGLIGIBLE_FRACTION * self.reading.peak
 
     @property
     def is_no_couple(self) -> bool:
         """True if the moment about the joint is negligible beside the others."""
         moment = abs(float(self.contact.joint.moment[self.reading.index]))
-        return moment <= FAINT_SHARE * self.reading.peak_moment
+        return moment <= NEGLIGIBLE_FRACTION * self.reading.peak_moment
 
     @property
     def edges(self) -> tuple[EdgeForce, ...]:
@@ -98,7 +102,7 @@ class Guided(Struct, frozen=True, dict=True):
     @property
     def is_read(self) -> bool:
         """True if the force is neither negligible nor zero on the paper."""
-        return not self.is_none and self.read_force > 0
+        return not self.is_negligible and self.read_force > 0
 
     @property
     def read_distance(self) -> float:
@@ -112,7 +116,7 @@ class Guided(Struct, frozen=True, dict=True):
         return middle <= 1e-9 * (self.contact.length or 1.0)
 
 
-@remembered
+@memoized
 def guides(reading: ForceReading) -> Mapping[str, Guided]:
     """Return the reactions of the guides by the letter of the force, each way: ``F_{50}``."""
     found = {}

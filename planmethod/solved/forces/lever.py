@@ -113,7 +113,7 @@ class LeverReading:
         assert reading.statics.lever_plan is not None
         self.reading = reading
         self.times = float(reading.statics.lever_times[index])
-        own = solution.own_scale(PlanKind.VELOCITY, index)
+        own = solution.plan_scale(PlanKind.VELOCITY, index)
         self.scale = replace(own, per_mm=own.per_mm / self.times)
         self.per_mm = self.scale.per_mm
         self.forces: list[LeverForce] = []
@@ -121,7 +121,7 @@ class LeverReading:
         self.shifts: list[LeverShift] = []
         pole = reading.statics.lever_plan.pole
         for hung in reading.statics.lever_plan.loads:
-            given, at, one = hung.given, hung.at, hung.given.applied
+            given, at, one = hung.load, hung.at, hung.load.applied
             if at is None or hung.arm is None:
                 assert given.couple is not None
                 if abs(reading.number(given.couple)) > 1e-9 * reading.peak_moment:
@@ -131,7 +131,7 @@ class LeverReading:
             force, place = complex(one.force[index]), self._hung(at, pole)
             if abs(force) > 1e-9 * reading.peak:
                 assert given.force is not None and one.point is not None
-                way = reading.way(given.force)
+                way = reading.drawn_direction(given.force)
                 force = way * (abs(force) / abs(way))
                 size, arm = reading.read_load(given), reading.read_number(hung.arm) * self.times
                 self.forces.append(LeverForce(one.name, place, force, arm, size, one.point))
@@ -155,7 +155,7 @@ class LeverReading:
         if force:
             place = self.place(motion.point[drive.link, pin])
             # Its arm is the driver's own velocity, laid off and not measured, if it is along that.
-            arm, size = _across(place, force), abs(reading.read_number(balance))
+            arm, size = _moment_arm(place, force), abs(reading.read_number(balance))
             measured = reading.statics.lever_plan.arm if reading.statics.lever_plan else None
             if measured is not None:
                 arm = copysign(reading.read_number(measured) * self.times, arm)
@@ -184,28 +184,28 @@ class LeverReading:
     def place(self, point: PointName) -> complex:
         """Return a point of the velocity plan on the lever as drawn by hand, mm from the pole."""
         solution, index = self.reading.solution, self.reading.index
-        drawn, exact = (r.point(point)[index] for r in (solution.by_hand, solution.paper))
+        drawn, exact = (r.point(point)[index] for r in (solution.ruler_reading, solution.paper))
         return 1j * self.times * complex(drawn if isfinite(abs(drawn)) else exact)
 
     def _hung(self, at: PointName, pole: PointName) -> complex:
         """Return the place of a force as drawn by hand, mm from the pole; else the exact place."""
-        drawn = self.reading.by_hand(pole, at)
+        drawn = self.reading.drawn_segment(pole, at)
         return self.times * (drawn if isfinite(abs(drawn)) else self.reading.end(at))
 
     def _couple(self, symbol: str, link: str, moment: float) -> LeverCouple:
         turned = -moment * self._omega(link) / self.per_mm
         return LeverCouple(symbol, link, *self._on(link), moment, turned)
 
-    def _shift(self, given: GivenLoad, place: complex) -> None:
+    def _shift(self, load: GivenLoad, place: complex) -> None:
         """Note the shift of a force that acts beside its centre of mass."""
-        link = given.applied.link
+        link = load.applied.link
         shift = self.reading.statics.board.shifts.get(link)
-        if shift is None or given.force is None or given.force.at != shift.at:
+        if shift is None or load.force is None or load.force.at != shift.at:
             return
-        assert given.applied.point is not None
+        assert load.applied.point is not None
         motion = self.reading.solution.construction.kinematics.velocity
-        centre = self.place(motion.point[motion.named[given.applied.point]])
-        letters = letter(given.applied.point), f"t{shift.letter[1:]}"
+        centre = self.place(motion.point[motion.named[load.applied.point]])
+        letters = letter(load.applied.point), f"t{shift.letter[1:]}"
         mu_l = self.reading.solution.scales[PlanKind.POSITION].per_mm
         length, line = abs(self.reading.read_number(shift.length)) * mu_l, (centre, place)
         self.shifts.append(
@@ -216,15 +216,17 @@ class LeverReading:
         """Return the angular velocity of a link as read by hand, 1/s."""
         solution = self.reading.solution
         name = solution.construction.kinematics.omega[link]
-        return float(solution.by_hand.number(name)[self.reading.index])
+        return float(solution.ruler_reading.number(name)[self.reading.index])
 
     def _on(self, link: str) -> _Own:
         """Return the ratio of a link, its segment on the plan, its ends and their joints."""
         solution = self.reading.solution
-        kin = solution.construction.kinematics
+        kinematics = solution.construction.kinematics
         ends, joints, length = None, None, 0.0
-        for (kind, other), turning in kin.turnings.items():
-            if kind is PlanKind.VELOCITY and kin.omega.get(other) == kin.omega.get(link):
+        for (kind, other), turning in kinematics.turnings.items():
+            if kind is PlanKind.VELOCITY and kinematics.omega.get(other) == kinematics.omega.get(
+                link
+            ):
                 ends = (turning.start, turning.head)
                 joints = (str(turning.joint), str(turning.place))
                 length = self.reading.read_product(turning.arm)
@@ -245,6 +247,6 @@ class LeverReading:
         return (motion.pole, motion.point[drive.link, pin]), (drive.pivot, pin)
 
 
-def _across(place: complex, force: complex) -> float:
+def _moment_arm(place: complex, force: complex) -> float:
     """Return the arm of a force at a place about the origin, positive counter-clockwise."""
     return (place.conjugate() * force).imag / abs(force) if abs(force) else 0.0

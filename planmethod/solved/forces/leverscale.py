@@ -15,7 +15,7 @@ from planmethod.construct.scale import choose_scale
 from planmethod.construct.steps import PointName
 from planmethod.plans.forces.lever import Lever
 from planmethod.solved.reading import Reading, Reals
-from planmethod.solved.room import Box
+from planmethod.solved.sheet_estimate import Box
 
 TIMES = (2.0, 2.5, 4.0, 5.0, 10.0)
 """Enlargements of a lever: those of GOST 2.302 as far as they are needed."""
@@ -29,31 +29,31 @@ FEW = 15
 PLACE: Box = (150.0, 120.0)
 """Width and height that the lever of a project may fill, mm, beside arrows and letters."""
 
-_ROOM = 30.0  # mm around the lever for the letters
+_LETTER_MARGIN = 30.0  # mm around the lever for the letters
 _LARGEST = 400.0  # mm that a lever drawn larger may be across
 
 
-def lever_times(lever: Lever, paper: Reading, found: Reals) -> Reals:
+def lever_times(lever: Lever, paper: Reading, fills: Reals) -> Reals:
     """Return how many times larger than the plan the lever is drawn in each position, shape (n,).
 
-    ``paper`` is the exact reading of the force plans, mm; ``found`` are the times that it is larger
+    ``paper`` is the exact reading of the force plans, mm; ``fills`` are the times that it is larger
     anyway (`filling`), or one.
     """
     if len(lever.loads) <= FEW:
-        return found
+        return fills
     acting = np.zeros(paper.count)
     hung = [lever.pole]
     for load in lever.loads:
-        one = load.given.applied
+        one = load.load.applied
         acting += np.asarray(one.couple if load.at is None else one.force) != 0
         if load.at is not None:
             hung.append(load.at)
     width, height = _size(paper, hung)
     for times in TIMES:
-        room = (found * width + 2 * _ROOM) * (found * height + 2 * _ROOM) / 1e4
-        full = (acting > FEW) & (acting > FULL * room) & (times > found)
-        found = np.where(full & (times * np.maximum(width, height) <= _LARGEST), times, found)
-    return found
+        room = (fills * width + 2 * _LETTER_MARGIN) * (fills * height + 2 * _LETTER_MARGIN) / 1e4
+        full = (acting > FEW) & (acting > FULL * room) & (times > fills)
+        fills = np.where(full & (times * np.maximum(width, height) <= _LARGEST), times, fills)
+    return fills
 
 
 def filling(

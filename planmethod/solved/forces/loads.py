@@ -12,10 +12,9 @@ from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.plans.build import Construction
 from planmethod.plans.forces.loads import Applied, LoadKind
-from planmethod.problem.bodies import rotation
 from planmethod.problem.load_records import (
     Against,
     Couple,
@@ -31,19 +30,20 @@ from planmethod.problem.load_records import (
     TurningSense,
 )
 from planmethod.problem.model import Problem
-from planmethod.solved.course.motion import Moved, TurnMotion
-from planmethod.solved.reading import Complexes, Reals, Remembering
+from planmethod.problem.placement import rotation
+from planmethod.solved.course.motion import CycleMotion, MotionState
+from planmethod.solved.reading import Complexes, Memoizing, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
 
-STILL = 1e-10
+ZERO_SPEED_FRACTION = 1e-10
 """Fraction of a position's largest speed below which a point or a link is at rest."""
 
-SLACK = 1e-9
+ABSCISSA_TOLERANCE = 1e-9
 """Rounding of an abscissa, degrees, or as a share of a table's span."""
 
 TURN = 360.0
 
-AHEAD = {
+MOTION_DIRECTIONS = {
     MovingSense.UP: 1j,
     MovingSense.DOWN: -1j,
     MovingSense.LEFT: -1 + 0j,
@@ -178,7 +178,7 @@ def _of_mass(solution: MotionValues, gravity: float, link: str, mass: Mass) -> I
         yield _couple(solution, f"M_{{Φ{link}}}", link, couple, LoadKind.INERTIA_COUPLE)
 
 
-def _stands(solution: MotionValues) -> bool:
+def _is_at_rest(solution: MotionValues) -> bool:
     """Return whether the driver, and all links with it, are at rest."""
     drive = solution.problem.drive
     return drive.rate == 0 and not drive.accelerates
@@ -187,11 +187,11 @@ def _stands(solution: MotionValues) -> bool:
 def _may_accelerate(solution: MotionValues, link: str, point: str) -> bool:
     drive, plan = solution.problem.drive, solution.construction.kinematics.acceleration
     even = link == drive.link and not drive.is_crank and not drive.accelerates
-    return not even and not _stands(solution) and plan.point[link, point] != plan.pole
+    return not even and not _is_at_rest(solution) and plan.point[link, point] != plan.pole
 
 
 def _may_turn_unevenly(solution: MotionValues, link: str) -> bool:
-    return not _stands(solution) and link in solution.construction.kinematics.epsilon
+    return not _is_at_rest(solution) and link in solution.construction.kinematics.epsilon
 
 
 # External loads ----------------------------------------------------------------------------------
@@ -200,7 +200,7 @@ def _may_turn_unevenly(solution: MotionValues, link: str) -> bool:
 def external(solution: MotionValues, dynamics: Dynamics, link: str) -> Iterator[Applied]:
     """Yield the external loads of a link, in file order; none that is zero by nature."""
     for index, load in enumerate(dynamics.loads):
-        if load.link != link or _is_nothing(solution, load):
+        if load.link != link or _is_zero(solution, load):
             continue
         size = _size(solution, load, index)
         if load.phase is not None:
@@ -214,14 +214,14 @@ def external(solution: MotionValues, dynamics: Dynamics, link: str) -> Iterator[
             yield _couple(solution, load.name, link, size, LoadKind.EXTERNAL)
 
 
-def _is_nothing(solution: MotionValues, load: Load | Couple) -> bool:
+def _is_zero(solution: MotionValues, load: Load | Couple) -> bool:
     """Return whether a load is zero by nature: of size zero, or against an immovable point."""
     if load.size == 0:
         return True
     if not isinstance(load.sense, Against):
         return False
     turns = isinstance(load, Load) or load.link in solution.construction.kinematics.omega
-    return _stands(solution) or not turns
+    return _is_at_rest(solution) or not turns
 
 
 def _direction(solution: MotionValues, load: Load) -> Complexes | complex:
@@ -230,7 +230,7 @@ def _direction(solution: MotionValues, load: Load) -> Complexes | complex:
         return rotation(load.sense.angle)
     velocity = solution.points[load.at].velocity
     speed = np.abs(velocity)
-    moves = speed > STILL * _largest_speed(solution)
+    moves = speed > ZERO_SPEED_FRACTION * _largest_speed(solution)
     return np.where(moves, -velocity / np.where(moves, speed, 1.0), 0.0)
 
 
@@ -241,7 +241,7 @@ def _turning(solution: MotionValues, link: str) -> Reals:
     reach = max(abs(z) for body in bodies for z in body.points.values())
     speeds = [np.abs(motion.omega) for motion in solution.links.values()]
     largest = np.max([*speeds, _largest_speed(solution) / (reach or 1.0)], axis=0)
-    return np.where(np.abs(omega) > STILL * largest, np.sign(omega), 0.0)
+    return np.where(np.abs(omega) > ZERO_SPEED_FRACTION * largest, np.sign(omega), 0.0)
 
 
 def _largest_speed(solution: MotionValues) -> Reals:
@@ -263,7 +263,7 @@ def acting(solution: Solution, load: Load | Couple, start: float, turn: float) -
         return [(start, start + turn)]
 
     def acts(positions: Reals) -> Mask:
-        return _acts(solution.moved(positions.tolist()), load, phase)
+        return _acts(solution.with_positions(positions.tolist()), load, phase)
 
     grid = start + turn * np.arange(_LOOKS + 1) / _LOOKS
     there = acts(grid)
@@ -282,27 +282,29 @@ def _acts(solution: MotionValues, load: Load | Couple, phase: Phase) -> Mask:
     """Return whether a load acts, position by position."""
     acts = np.ones(solution.positions.shape, dtype=bool)
     if phase.phi:
-        spans = [_within(solution.positions, *span) for span in phase.phi]
+        spans = [_in_span(solution.positions, *span) for span in phase.phi]
         acts &= np.any(spans, axis=0)
     if phase.moving is not None and isinstance(load, Load):
-        ahead = (solution.points[load.at].velocity * AHEAD[phase.moving].conjugate()).real
-        acts &= ahead > STILL * _largest_speed(solution)
+        ahead = (
+            solution.points[load.at].velocity * MOTION_DIRECTIONS[phase.moving].conjugate()
+        ).real
+        acts &= ahead > ZERO_SPEED_FRACTION * _largest_speed(solution)
     if phase.turning is not None:
         sign = 1.0 if phase.turning is TurningSense.CCW else -1.0
         acts &= _turning(solution, load.link) == sign
     return acts
 
 
-def _within(phi: Reals, start: float, end: float) -> Mask:
+def _in_span(phi: Reals, start: float, end: float) -> Mask:
     """Return whether angles lie in a span, its ends included, degrees."""
     width = (end - start) % TURN or TURN
-    return _from(phi, start) <= width + SLACK
+    return _from(phi, start) <= width + ABSCISSA_TOLERANCE
 
 
 def _from(phi: Reals, start: float, turn: float = TURN) -> Reals:
     """Return angles counted from a start, degrees in [0, turn); rounding leaves the start 0."""
     turned = np.mod(phi - start, turn)
-    return np.where(turned > turn - SLACK, 0.0, turned)
+    return np.where(turned > turn - ABSCISSA_TOLERANCE, 0.0, turned)
 
 
 # Tables ------------------------------------------------------------------------------------------
@@ -330,7 +332,7 @@ def in_time(solution: MotionValues, table: SizeTable, index: int) -> SizeTable:
     index : int
         The number of the load in the file.
     """
-    if table.over is not Over.STROKES or not _turn(solution).stroke_of(index).back:
+    if table.over is not Over.STROKES or not _cycle_motion(solution).stroke_of(index).back:
         return table
     rows: list[tuple[float, float]] = []
     for number in range(round(table.at[-1])):
@@ -363,25 +365,25 @@ def abscissae(solution: MotionValues, load: Load | Couple, index: int) -> Reals:
             return place.real if size.over is Over.X else place.imag
         case Over.PATH | Over.STROKES:
             assert isinstance(load, Load), "a couple has no point"
-            turn, place = _turn(solution), solution.points[load.at].place
+            turn, place = _cycle_motion(solution), solution.points[load.at].place
             stroke = turn.stroke_of(index)
             if size.over is Over.PATH:
-                return stroke.share(place)
-            turned = turn.turned(solution.positions)
+                return stroke.fraction(place)
+            turned = turn.rotation_at(solution.positions)
             return stroke.progress(turned, place, turn.cycle)
 
 
-def _turn(solution: MotionValues) -> TurnMotion:
+def _cycle_motion(solution: MotionValues) -> CycleMotion:
     """Return the motion of the whole cycle, which is needed to define a path or a stroke."""
-    if isinstance(solution, Moved):
-        return solution.turn
-    if isinstance(solution, Remembering):
-        return solution.once(_turn_of)
-    return _turn_of(solution)
+    if isinstance(solution, MotionState):
+        return solution.cycle
+    if isinstance(solution, Memoizing):
+        return solution.compute_once(_cycle_motion_of)
+    return _cycle_motion_of(solution)
 
 
-def _turn_of(solution: MotionValues) -> TurnMotion:
-    return TurnMotion(solution.problem)
+def _cycle_motion_of(solution: MotionValues) -> CycleMotion:
+    return CycleMotion(solution.problem)
 
 
 def closed(table: SizeTable) -> SizeTable:
@@ -397,7 +399,7 @@ def read(table: SizeTable, at: Reals) -> Reals:
     nodes, values = np.asarray(table.at), np.asarray(table.values)
     if table.interpolation is Interpolation.LINEAR:
         return np.asarray(np.interp(at, nodes, values), dtype=float)
-    slack = SLACK * (nodes[-1] - nodes[0])
+    slack = ABSCISSA_TOLERANCE * (nodes[-1] - nodes[0])
     row = np.searchsorted(nodes, at + slack, side="right") - 1
     return np.asarray(values[np.maximum(row, 0)], dtype=float)
 
@@ -414,14 +416,16 @@ def _numbers(solution: MotionValues, path: str) -> npt.NDArray[np.intp]:
     if np.array_equal(own, asked):
         return np.arange(len(own))
     order = np.argsort(own, kind="stable")
-    number = order[np.minimum(np.searchsorted(own[order], asked - SLACK), len(own) - 1)]
-    strange = np.flatnonzero(~(np.abs(own[number] - asked) <= SLACK))
+    number = order[
+        np.minimum(np.searchsorted(own[order], asked - ABSCISSA_TOLERANCE), len(own) - 1)
+    ]
+    strange = np.flatnonzero(~(np.abs(own[number] - asked) <= ABSCISSA_TOLERANCE))
     if strange.size:
         problem = solution.problem
-        first = problem.drive.coordinate.told(float(asked[strange[0]]), problem.unit)
+        first = problem.drive.coordinate.format_value(float(asked[strange[0]]), problem.unit)
         fault = Fault(
             f"{path}.values",
-            say("given for the positions of the file, and {} is not one of them", first),
+            translate("given for the positions of the file, and {} is not one of them", first),
             "Give the table over phi, s, x or y, or request the file's own positions.",
         )
         raise ProblemError(problem.name, [fault])

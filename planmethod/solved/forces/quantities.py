@@ -43,7 +43,9 @@ def with_forces(solution: Solution, results: Quantities) -> Quantities:
     found = (*_reactions(board), *_balances(planned))
     changing = tuple(board.changing)
     open_names = {name for _, names in changing for name in names}
-    known = {name: _plain(value) for name, value in board.data.items() if name not in open_names}
+    known = {
+        name: _to_builtin(value) for name, value in board.data.items() if name not in open_names
+    }
     return replace(
         results,
         program=board.draft.b.program(),
@@ -54,7 +56,7 @@ def with_forces(solution: Solution, results: Quantities) -> Quantities:
     )
 
 
-def _plain(value: Number) -> complex | float:
+def _to_builtin(value: Number) -> complex | float:
     return complex(value) if np.iscomplexobj(value) else float(value)
 
 

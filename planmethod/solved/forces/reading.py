@@ -13,22 +13,22 @@ from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import Fault, ProblemError
 from planmethod.plans.forces.board import Force, GivenLoad
 from planmethod.plans.forces.polygons import (
+    Component,
     CoupleOn,
     Edge,
     ForcePlan,
-    Share,
 )
 from planmethod.plans.segments import Ends
 from planmethod.problem.model import BalancingQuantity, Problem
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.reading import Reading, Remembering, remembered
+from planmethod.solved.reading import Memoizing, Reading, memoized
 from planmethod.solved.solution import Solution
 
-FAINT_SHARE = 1e-7
+NEGLIGIBLE_FRACTION = 1e-7
 """Share of the largest force of a position below which a force is none."""
 
 
-class ForceReading(Remembering):
+class ForceReading(Memoizing):
     """The forces of a solution in one position, as drawn and as read by hand.
 
     Parameters
@@ -55,18 +55,18 @@ class ForceReading(Remembering):
         """Scale of the force plans that have none of their own, N per mm."""
         return self.statics.scale
 
-    def share(self, number: int) -> float:
+    def enlargement(self, number: int) -> float:
         """Return the enlargement of one of the plans relative to `scale`."""
-        return float(self.statics.shares[number][self.index])
+        return float(self.statics.enlargements[number][self.index])
 
-    def own_scale(self, number: int) -> Scale:
+    def plan_scale(self, number: int) -> Scale:
         """Return the scale of one of the plans, N per mm."""
-        return self.statics.own_scale(number, self.index)
+        return self.statics.plan_scale(number, self.index)
 
     def corner(self, number: int, point: PointName) -> complex:
         """Return a point of one of the plans as drawn by hand, mm; else the exact one."""
-        drawn = self._column(self.statics.by_hand, point)
-        return (drawn if math.isfinite(abs(drawn)) else self.end(point)) * self.share(number)
+        drawn = self._column(self.statics.ruler_reading, point)
+        return (drawn if math.isfinite(abs(drawn)) else self.end(point)) * self.enlargement(number)
 
     def drawn(self, number: int, edge: Edge) -> complex:
         """Return a force as its segment on one of the plans, mm."""
@@ -93,12 +93,12 @@ class ForceReading(Remembering):
         """Return a force, N."""
         return self.of_force(Force(edge.at, edge.tail, edge.head))
 
-    def way(self, force: Edge | Force) -> complex:
+    def drawn_direction(self, force: Edge | Force) -> complex:
         """Return a force along its line as drawn by hand, mm; else along the exact one.
 
         A shifted force of inertia is drawn across its exact shift.
         """
-        drawn = self.by_hand(*force.ends)
+        drawn = self.drawn_segment(*force.ends)
         shifted = any(shift.at == force.at for shift in self.statics.board.shifts.values())
         if drawn and math.isfinite(abs(drawn)) and not shifted:
             return drawn
@@ -109,15 +109,15 @@ class ForceReading(Remembering):
         si = self.statics.si
         return self._column(si, force.head) - self._column(si, force.tail)
 
-    def by_hand(self, tail: PointName, head: PointName) -> complex:
+    def drawn_segment(self, tail: PointName, head: PointName) -> complex:
         """Return a segment of a force plan, or of the lever, as drawn by hand, mm."""
-        hand = self.statics.by_hand
+        hand = self.statics.ruler_reading
         return self._column(hand, head) - self._column(hand, tail)
 
     def length(self, edge: Edge, number: int) -> float:
         """Return the length of a force on one of the plans, mm: laid off, or read."""
         length = abs(self.read_number(self.statics.board.segments.drawn(edge.ends)))
-        return length * self.share(number)
+        return length * self.enlargement(number)
 
     def read(self, edge: Edge) -> float:
         """Return the size of a force as read by hand, N."""
@@ -133,18 +133,18 @@ class ForceReading(Remembering):
 
     def read_number(self, name: NumberName) -> float:
         """Return a moment as computed by hand, N·m."""
-        return float(self.statics.by_hand.number(name)[self.index])
+        return float(self.statics.ruler_reading.number(name)[self.index])
 
     def read_product(self, powers: Iterable[tuple[NumberName, int]]) -> float:
         """Return a product of powers as computed by hand."""
         return math.prod(self.read_number(name) ** power for name, power in powers)
 
-    def read_load(self, given: GivenLoad) -> float:
+    def read_load(self, load: GivenLoad) -> float:
         """Return a given force as read by hand, N, or a couple as computed by hand, N·m."""
-        if given.force is not None:
-            return self.read_size(given.force.ends)
-        assert given.couple is not None
-        return self.read_number(given.couple)
+        if load.force is not None:
+            return self.read_size(load.force.ends)
+        assert load.couple is not None
+        return self.read_number(load.couple)
 
     def arm(self, edge: Edge, about: PointName) -> float:
         """Return the arm of a force about a point as measured by hand, mm.
@@ -158,7 +158,7 @@ class ForceReading(Remembering):
     def turns(self, edge: Edge, about: PointName) -> bool:
         """Return whether a force turns its link counter-clockwise about a point."""
         lever = self.place(edge.at) - self.place(about)
-        return (lever.conjugate() * self.by_hand(*edge.ends)).imag > 0
+        return (lever.conjugate() * self.drawn_segment(*edge.ends)).imag > 0
 
     @property
     def balancing(self) -> BalancingQuantity:
@@ -185,34 +185,36 @@ class ForceReading(Remembering):
         lengths = [length for _, _, length in self.solution.problem.lengths]
         return max([*moments, self.peak * max(lengths, default=0.0)])
 
-    def is_none(self, edge: Edge) -> bool:
+    def is_negligible(self, edge: Edge) -> bool:
         """Return whether a force is negligible beside the others."""
-        return abs(self.force(edge)) <= FAINT_SHARE * self.peak
+        return abs(self.force(edge)) <= NEGLIGIBLE_FRACTION * self.peak
 
     def is_no_couple(self, couple: CoupleOn) -> bool:
         """Return whether a couple is negligible beside the others."""
-        return abs(self.number(couple.moment)) <= FAINT_SHARE * self.peak_moment
+        return abs(self.number(couple.moment)) <= NEGLIGIBLE_FRACTION * self.peak_moment
 
     def shown(self, plan: ForcePlan) -> list[Edge]:
         """Return the sides of a plan that are not negligible.
 
         If one component of a reaction is negligible, the other is shown as the whole reaction.
         """
-        sides = [edge for edge in plan.polygon if not self.is_none(edge)]
-        parts = [(edge.on, edge.at) for edge in sides if edge.share is not Share.WHOLE]
+        sides = [edge for edge in plan.polygon if not self.is_negligible(edge)]
+        parts = [(edge.on, edge.at) for edge in sides if edge.component is not Component.TOTAL]
         return [
-            replace(edge, share=Share.WHOLE) if parts.count((edge.on, edge.at)) == 1 else edge
+            replace(edge, component=Component.TOTAL)
+            if parts.count((edge.on, edge.at)) == 1
+            else edge
             for edge in sides
         ]
 
     def wholes(self, plan: ForcePlan) -> list[Edge]:
         """Return the reactions that are something and have two components."""
-        parts = [(e.on, e.at) for e in self.shown(plan) if e.share is not Share.WHOLE]
+        parts = [(e.on, e.at) for e in self.shown(plan) if e.component is not Component.TOTAL]
         return [edge for edge in plan.wholes if (edge.on, edge.at) in parts]
 
     def inner(self, plan: ForcePlan) -> list[Edge]:
         """Return the reactions in the inner joints that are something."""
-        return [edge for edge in plan.inner if not self.is_none(edge)]
+        return [edge for edge in plan.inner if not self.is_negligible(edge)]
 
     def couples(self, plan: ForcePlan) -> list[CoupleOn]:
         """Return the couples that are something."""
@@ -232,7 +234,7 @@ def require_dynamics(problem: Problem) -> None:
         raise ProblemError(problem.name, [fault])
 
 
-@remembered
+@memoized
 def force_reading(solution: Solution, index: int) -> ForceReading:
     """Return the forces of a position; cached, since several views of a sheet show them."""
     return ForceReading(solution, index)

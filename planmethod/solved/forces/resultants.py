@@ -20,7 +20,7 @@ from planmethod.solved.solution import Solution
 FAINT = 0.02
 """Fraction of the largest acceleration below which a length is too short to divide by."""
 
-_NOTHING = 1e-9
+_ZERO_SHIFT_FRACTION = 1e-9
 """Share of the longest shift below which a shift is rounding: the link turns evenly."""
 
 
@@ -29,7 +29,7 @@ class Hindrance(Enum):
 
     NO_FORCE = "no force"  # no mass, or the centre of mass is fixed
     FAINT = "faint"  # in some position its acceleration is too small on the plan
-    FAR = "far"
+    TOO_LONG = "far"
 
 
 class UnshiftedInertia(Struct, frozen=True):
@@ -40,7 +40,7 @@ class UnshiftedInertia(Struct, frozen=True):
     """
 
     moment: Applied
-    why: Hindrance
+    hindrance: Hindrance
     reach: float = 0.0
 
     @property
@@ -75,7 +75,7 @@ def shifted_inertia(
         why = _hindrance(solution, forces[one.link], reach)
         if why is not None:
             kept.append(UnshiftedInertia(one, why, reach))
-        elif reach > _NOTHING * farthest(solution.problem):
+        elif reach > _ZERO_SHIFT_FRACTION * farthest(solution.problem):
             shifted[one.link] = one
     return shifted, tuple(kept)
 
@@ -91,10 +91,10 @@ def _hindrance(solution: Solution, force: Applied, reach: float) -> Hindrance | 
     assert force.point is not None
     accelerations = np.abs(solution.points[force.point].acceleration)
     largest = np.max([np.abs(point.acceleration) for point in solution.points.values()], axis=0)
-    unread = solution.hand.ruled(accelerations / solution.per_mm["mu_a"]) == 0
+    unread = solution.ruler_arithmetic.ruled(accelerations / solution.per_mm["mu_a"]) == 0
     if np.any((accelerations <= FAINT * largest) | unread):
         return Hindrance.FAINT
-    return Hindrance.FAR if reach > farthest(solution.problem) else None
+    return Hindrance.TOO_LONG if reach > farthest(solution.problem) else None
 
 
 def farthest(problem: Problem) -> float:

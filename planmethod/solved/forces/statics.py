@@ -18,8 +18,8 @@ from msgspec.structs import replace
 from planmethod.arguments import number_of, of_type
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.program import Program
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import Name, NumberName
 from planmethod.mechanism.model import FRAME
@@ -35,14 +35,14 @@ from planmethod.problem.load_records import BearingTable, Dynamics
 from planmethod.problem.model import Convention
 from planmethod.solved.driving import driven
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
-from planmethod.solved.forces.bound import JudgedForces
+from planmethod.solved.forces.bound import ForceConditioning
 from planmethod.solved.forces.contact import JointForce, SlideReaction, contacts
 from planmethod.solved.forces.leverscale import filling, lever_times
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.resultants import UnshiftedInertia, shifted_inertia
 from planmethod.solved.impossible import explain, failing
-from planmethod.solved.reading import Complexes, Reading, Reals, Remembering, fixed
-from planmethod.solved.room import Box
+from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, fixed
+from planmethod.solved.sheet_estimate import Box
 from planmethod.solved.solution import (
     EVERY,
     FEW_ROWS,
@@ -149,12 +149,12 @@ def loads_on(solution: Solution, rubbing: Sequence[Applied] = ()) -> Loads:
     return Loads(found, *shifted_inertia(solution, found))
 
 
-def _together(solution: Solution) -> Loads:
+def _combined_loads(solution: Solution) -> Loads:
     """Return the loads of variants that are planned in the same way, for all their positions."""
-    each = [one.once(loads_on) for one, _ in solution.parts]
+    each = [one.compute_once(loads_on) for one, _ in solution.parts]
     counts = [len(one.positions) for one, _ in solution.parts]
     alike = zip(*(one.applied for one in each), strict=True)
-    found = tuple(_joined(of_all, counts) for of_all in alike)
+    found = tuple(_concatenate(of_all, counts) for of_all in alike)
     first, single = each[0], {}
     for link, couple in first.single.items():
         single[link] = next(
@@ -163,12 +163,12 @@ def _together(solution: Solution) -> Loads:
     return Loads(found, single, first.unshifted)
 
 
-def _joined(alike: Sequence[Applied], counts: Sequence[int]) -> Applied:
-    told = zip(*map(numbers_of, alike), strict=True)
+def _concatenate(loads: Sequence[Applied], counts: Sequence[int]) -> Applied:
+    told = zip(*map(numbers_of, loads), strict=True)
     return replace(
-        alike[0],
-        force=np.concatenate([one.force for one in alike]),
-        couple=np.concatenate([one.couple for one in alike]),
+        loads[0],
+        force=np.concatenate([one.force for one in loads]),
+        couple=np.concatenate([one.couple for one in loads]),
         steady=None,
         numbers=tuple(
             np.concatenate([np.full(n, value) for n, value in zip(counts, values, strict=True)])
@@ -194,7 +194,7 @@ def _dynamics(solution: Solution) -> Dynamics | None:
     return replace(dynamics, gravity=gravity, masses=masses)
 
 
-class Statics(Remembering):
+class Statics(Memoizing):
     """Force analysis of a solution (силовой расчёт).
 
     Parameters
@@ -214,15 +214,15 @@ class Statics(Remembering):
         super().__init__()
         self.solution = solution
         several = len(solution.parts) > 1
-        loads = _together(solution) if several else loads_on(solution, rubbing)
+        loads = _combined_loads(solution) if several else loads_on(solution, rubbing)
         self.unshifted = loads.unshifted
         draft = solution.construction.draft.copy()
         planned = plan_forces(solution, draft, loads.applied, loads.single, hung=not rubbing)
         self.board, self.driving, self.lever_plan = planned.board, planned.driving, planned.lever
         self.thrust = planned.thrust
-        self.program: Program = self.board.draft.b.program().needed_for(self._asked())
+        self.program: Program = self.board.draft.b.program().needed_for(self._needed_names())
 
-    def _asked(self) -> list[Name]:
+    def _needed_names(self) -> list[Name]:
         asked: list[Name] = []
         for shift in self.board.shifts.values():
             asked += [shift.at, shift.length, shift.couple]
@@ -269,7 +269,9 @@ class Statics(Remembering):
             i, others = int(spoilt[0]), spoilt.size - 1
             here, margin = Place.of(problem, at, i), float(self.margin[i])
             cause, name = Cause.SPOILT_FORCES, problem.name
-            raise PositionError(Failure(cause, here, margin=margin, problem=name, alike=others))
+            raise PositionError(
+                Failure(cause, here, margin=margin, problem=name, same_count=others)
+            )
         return self.exact
 
     @cached_property
@@ -290,18 +292,18 @@ class Statics(Remembering):
 
     @cached_property
     def bound(self) -> Reals:
-        """Bound of the relative error of the worst force, shape (n,): see `JudgedForces.bound`."""
-        return self._judged.bound()
+        """Bound of the relative error of the worst force, (n,): see `ForceConditioning.bound`."""
+        return self._conditioning.bound()
 
     @cached_property
     def margin(self) -> Reals:
         """Least margin of all steps, shape (n,)."""
-        return self._judged.margin
+        return self._conditioning.margin
 
     @property
-    def _judged(self) -> JudgedForces:
+    def _conditioning(self) -> ForceConditioning:
         scales = {**UNIT_SCALES, SCALE: 1.0}
-        return JudgedForces(
+        return ForceConditioning(
             self.solution,
             self.board,
             self.driving,
@@ -404,14 +406,14 @@ class Statics(Remembering):
             return found[0]
         return np.repeat(found, [len(one.positions) for one, _ in self.solution.parts])
 
-    def _scale(self, one: Solution, own: slice) -> Scale:
+    def _scale(self, one: Solution, rows: slice) -> Scale:
         """Return the scale of the force plans of one mechanism, which has some positions."""
         scales = one.problem.scales
         if scales.mu_F is not None:
             return Scale(SCALE, scales.mu_F, UNIT)
         if PlanKind.FORCE in one.scales:
             return one.scales[PlanKind.FORCE]
-        whole = [max(float(size[k][own].max()) for size in self._sizes) for k in (0, 1)]
+        whole = [max(float(size[k][rows].max()) for size in self._sizes) for k in (0, 1)]
         inverse = scales.convention is Convention.MM_PER_UNIT
         box = whole[0], whole[1]
         return Scale(SCALE, choose_scale(box, COMMON_BOX, mm_per_unit=inverse), UNIT)
@@ -432,7 +434,7 @@ class Statics(Remembering):
         return np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0)
 
     @cached_property
-    def own_scales(self) -> list[Reals]:
+    def plan_scales(self) -> list[Reals]:
         """Scale of each plan, by positions, N per mm, shape (n,): one that the file gives is all's.
 
         Negligible plans have the common one.
@@ -448,22 +450,22 @@ class Statics(Remembering):
         return found
 
     @cached_property
-    def shares(self) -> list[Reals]:
+    def enlargements(self) -> list[Reals]:
         """Enlargement of each plan relative to `scale`, by positions, shape (n,)."""
-        return [self.mu / own for own in self.own_scales]
+        return [self.mu / own for own in self.plan_scales]
 
-    def own_scale(self, number: int, index: int) -> Scale:
+    def plan_scale(self, number: int, index: int) -> Scale:
         """Return the scale at which one of the plans is drawn in a position."""
-        number_of("plan", number, len(self.own_scales))
+        number_of("plan", number, len(self.plan_scales))
         number_of("position", index, len(self.solution.positions))
-        return Scale(SCALE, float(self.own_scales[number][index]), UNIT)
+        return Scale(SCALE, float(self.plan_scales[number][index]), UNIT)
 
     @cached_property
-    def hand(self) -> Hand:
+    def ruler_arithmetic(self) -> RulerArithmetic:
         """Arithmetic that reads each force on the first plan that has it, at that plan's scale."""
-        segments, own = self.board.segments, self.solution.hand
+        segments, own = self.board.segments, self.solution.ruler_arithmetic
         enlarged: dict[str, Number] = {}
-        for plan, share in zip(self.board.plans, self.shares, strict=True):
+        for plan, share in zip(self.board.plans, self.enlargements, strict=True):
             for edge in plan.reactions:
                 enlarged.setdefault(segments.drawn(edge.ends), share)
         if self.lever_plan is not None and (self.lever_times > 1.0).any():
@@ -482,7 +484,7 @@ class Statics(Remembering):
             fills = filling(
                 solution.paper,
                 (motion.pole, *motion.point.values()),
-                [solution.own_scale(kind, k).per_mm for k in range(self.paper.count)],
+                [solution.plan_scale(kind, k).per_mm for k in range(self.paper.count)],
                 mm_per_unit=solution.problem.scales.in_mm_per_unit,
             )
         return lever_times(self.lever_plan, self.paper, fills)
@@ -498,22 +500,22 @@ class Statics(Remembering):
         return self.read(Float64(), self.per_mm)
 
     @cached_property
-    def by_hand(self) -> Reading:
+    def ruler_reading(self) -> Reading:
         """Reading with a ruler, along the draughtsman's own chain."""
-        return self.read(self.hand, self.per_mm)
+        return self.read(self.ruler_arithmetic, self.per_mm)
 
 
-def _enlarge(own: Reals, sizes: tuple[Reals, Reals], room: Box, *, inverse: bool) -> None:
+def _enlarge(scales: Reals, sizes: tuple[Reals, Reals], space: Box, *, inverse: bool) -> None:
     """Give a plan its own scales in the positions of a mechanism in which it is not negligible."""
     size = np.maximum(*sizes)
     for index in np.flatnonzero(size > FAINT * np.max(size, initial=0.0)):
         box = float(sizes[0][index]), float(sizes[1][index])
-        own[index] = choose_scale(box, room, mm_per_unit=inverse)
+        scales[index] = choose_scale(box, space, mm_per_unit=inverse)
 
 
 def statics_of(solution: Solution) -> Statics:
     """Return the force analysis of a solution, made at the first call."""
-    return of_type("solution", solution, Solution, "planmethod.solve()").once(Statics)
+    return of_type("solution", solution, Solution, "planmethod.solve()").compute_once(Statics)
 
 
 def bearings_of(statics: Statics, joint: JointForce) -> BearingTable | None:

@@ -21,16 +21,16 @@ from msgspec import Struct
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.hand import Hand
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import choose_scale
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.diagrams.massmoments import MassMoments, build
 from planmethod.problem.machine_records import Weighing
 from planmethod.problem.model import Problem
-from planmethod.solved.course.motion import TurnMotion
-from planmethod.solved.reading import Complexes, Reading, Reals, Remembering, remembered
+from planmethod.solved.course.motion import CycleMotion
+from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, memoized
 from planmethod.solved.solution import Solution
 
 FOUR_BAR, SLIDER_CRANK = "four-bar", "slider-crank"
@@ -84,7 +84,7 @@ class Counterweight(Struct, frozen=True):
         return float(degrees(np.angle(self.place)) % 360.0)
 
 
-class Balancing(Remembering):
+class Balancing(Memoizing):
     """A mechanism and the counterweights that balance it.
 
     Parameters
@@ -105,7 +105,7 @@ class Balancing(Remembering):
         assert problem.balancing is not None, "there is no [balancing]"
         assert problem.dynamics is not None, "links have masses"
         self.problem, self.task, self.dynamics = problem, problem.balancing, problem.dynamics
-        self.turn = TurnMotion(problem)
+        self.turn = CycleMotion(problem)
         self._name()
         rod = self._mass(self.rod)
         self.share = self._centre(self.rod, self.crank_pin, self.rod_pin) if rod else 0j
@@ -114,9 +114,9 @@ class Balancing(Remembering):
         may = (self.crank, self.rod if self.rocker_pivot is None else self.last)
         for link in self.task.radii:
             if link not in may:
-                hint = say("Counterweights are on {}.", say(" and ").join(may))
+                hint = translate("Counterweights are on {}.", translate(" and ").join(may))
                 raise self._fault(
-                    f"radii.{link}", say("link {} cannot have a counterweight", link), hint
+                    f"radii.{link}", translate("link {} cannot have a counterweight", link), hint
                 )
 
     def _fault(self, key: str, message: str, hint: str) -> ProblemError:
@@ -144,7 +144,7 @@ class Balancing(Remembering):
                 return
         raise self._fault(
             "",
-            say(
+            translate(
                 "the mechanism of links {} is neither a four-bar nor a slider-crank",
                 ", ".join(problem.mechanism.links),
             ),
@@ -199,7 +199,7 @@ class Balancing(Remembering):
             elif c is not None:
                 raise self._fault(
                     "share",
-                    say("link {} is a rocker: a share refers to a slider's mass", self.last),
+                    translate("link {} is a rocker: a share refers to a slider's mass", self.last),
                     "Leave the share out: the crank then balances the first harmonic.",
                 )
             else:
@@ -227,12 +227,12 @@ class Balancing(Remembering):
         turned = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
         solved = self.turn.solved(turned)
         pin = solved.points[self.crank_pin].acceleration
-        harmonic = np.mean(self._bare(solved)[0] / -pin)
+        harmonic = np.mean(self._unbalanced(solved)[0] / -pin)
         return complex(harmonic) * crank
 
     # Forces ----------------------------------------------------------------------------------
 
-    def _bare(self, solved: Solution) -> tuple[Complexes, Complexes]:
+    def _unbalanced(self, solved: Solution) -> tuple[Complexes, Complexes]:
         """Return the main vector of the inertia of the links, N, and sum m·r, kg·m, shape (n,)."""
         force = np.zeros(solved.positions.shape, dtype=complex)
         moment = np.zeros(solved.positions.shape, dtype=complex)
@@ -242,10 +242,10 @@ class Balancing(Remembering):
                 moment = moment + one.mass * solved.points[one.centre].place
         return force, moment
 
-    @remembered
+    @memoized
     def _read(self, count: int) -> tuple[Complexes, Complexes, Complexes, Complexes]:
         solved = self.turn.solved(2.0 * np.pi * np.arange(count) / count)
-        before, moment = self._bare(solved)
+        before, moment = self._unbalanced(solved)
         after, shifted = before, moment
         for one in self.counterweights:
             pivot, pin = solved.points[one.pivot], solved.points[one.pin]
@@ -285,7 +285,7 @@ class Balancing(Remembering):
 
     # Polygons --------------------------------------------------------------------------------
 
-    @remembered
+    @memoized
     def polygon(self, number: int, profile: Profile) -> tuple[MassMoments, float, Reading, Reading]:
         """Return the polygon of m·r of a counterweight: its scale, exactly and as drawn."""
         one = self.counterweights[number]
@@ -294,11 +294,11 @@ class Balancing(Remembering):
         per_mm = choose_scale((size, 0.0), (LONGEST, 1.0))
         made = build(vectors, per_mm, one.radius)
         exact = Reading(evaluate(made.program, made.data, Float64()), 1)
-        read = Reading(evaluate(made.program, made.data, Hand(ruler=profile.ruler)), 1)
+        read = Reading(evaluate(made.program, made.data, RulerArithmetic(ruler=profile.ruler)), 1)
         return made, per_mm, exact, read
 
 
-@remembered
+@memoized
 def balancing_of(solution: Solution) -> Balancing:
     """Return the balancing of a solution's problem, made at the first call."""
     return Balancing(solution.problem)

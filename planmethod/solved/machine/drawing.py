@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.hand import Hand
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import angle_scale, choose_scale, next_scale, series_near
 from planmethod.plans.diagrams.calculus import Integration
 from planmethod.plans.diagrams.energymass import EnergyMass, EnergyMassData, Places, build
@@ -20,7 +20,7 @@ from planmethod.problem.machine_records import FlywheelMethod, Quadrature
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.machine.flywheel import Flywheel, Points
-from planmethod.solved.reading import Reading, Reals, remembered
+from planmethod.solved.reading import Reading, Reals, memoized
 
 MOST_M, MOST_J = 85.0, 70.0
 """Longest ordinates of the moment and of the inertia where the program chooses a scale, mm."""
@@ -29,7 +29,7 @@ LOOP, TALLEST_J, TALLEST = 60.0, (165.0, 130.0, 105.0), 535.0
 """Width and height of an energy-mass curve that needs no more, the longest ordinates of the inertia
 that a narrower one is tried with, and the height of all diagrams that it may take then, mm."""
 
-MOST_HIGH = 460.0
+MAX_HEIGHT = 460.0
 """Height of all diagrams above one another up to which the program enlarges their scales, mm."""
 
 POLE = 30.0
@@ -42,7 +42,9 @@ LONG = 50.0
 """Length that all ordinates of T_II may have; longer ones begin at a round energy, mm."""
 
 _GAP = 24.0  # between two diagrams above each other, mm
-_BESIDE = 52.0  # from the last position to the axis of the energies of the energy-mass diagram, mm
+_ENERGY_OFFSET = (
+    52.0  # from the last position to the axis of the energies of the energy-mass diagram, mm
+)
 _BETWEEN = 30.0  # from the last position to the axis of a diagram of the same abscissae, mm
 
 
@@ -81,7 +83,7 @@ class FlywheelDrawing:
         inertia = machine.mu_J or _fitting(self.points.inertia, MOST_J)
         moment = machine.mu_M or _fitting(shown, MOST_M)
         self.scales = self._scales(phi, moment, inertia)
-        while machine.mu_M is None and self.height > MOST_HIGH:
+        while machine.mu_M is None and self.height > MAX_HEIGHT:
             moment = series_near(1.1 * moment, up=True)
             self.scales = self._scales(phi, moment, inertia)
         if machine.mu_J is None and not self.by_mertsalov:
@@ -142,7 +144,7 @@ class FlywheelDrawing:
         return MachineScales(phi, moment, work, inertia)
 
     @cached_property
-    def made(self) -> EnergyMass:
+    def construction(self) -> EnergyMass:
         """The construction."""
         machine, points, step = self.flywheel.machine, self.points, self.flywheel.cycle / self.count
         touched = (round(at / step) for at in (points.tangents.at_max, points.tangents.at_min))
@@ -206,24 +208,24 @@ class FlywheelDrawing:
             first, second, inertia = (origin + self.length + _BETWEEN for origin in origins)
             return Places(moment, work, energy, inertia, second=second, first=first)
         inertia, energy, work, moment = origins
-        right = self.length + _BESIDE
+        right = self.length + _ENERGY_OFFSET
         return Places(moment, work, energy, inertia, complex(right, inertia.imag))
 
     @cached_property
     def exact(self) -> Reading:
         """Read without error, mm."""
-        return Reading(evaluate(self.made.program, self.made.data, Float64()), 1)
+        return Reading(evaluate(self.construction.program, self.construction.data, Float64()), 1)
 
     @cached_property
-    def by_hand(self) -> Reading:
+    def ruler_reading(self) -> Reading:
         """Read with the ruler."""
-        hand = Hand(ruler=self.profile.ruler)
-        return Reading(evaluate(self.made.program, self.made.data, hand), 1)
+        hand = RulerArithmetic(ruler=self.profile.ruler)
+        return Reading(evaluate(self.construction.program, self.construction.data, hand), 1)
 
     @cached_property
     def errors(self) -> Errors:
         """Errors of KL or AB, mm, and J_f, kg·m²: labels ``KL`` or ``AB``, ``J_f``."""
-        made = self.made
+        made = self.construction
         items = tuple(
             DrawnQuantity(name, (name,), number(name), DrawnKind.NUMBER)
             for name in (made.segment, made.J_f)
@@ -235,12 +237,12 @@ class FlywheelDrawing:
     @property
     def inertia(self) -> float:
         """J_f as the construction has it without a pencil, kg·m²."""
-        return float(self.exact.number(self.made.J_f)[0])
+        return float(self.exact.number(self.construction.J_f)[0])
 
     @property
     def read_inertia(self) -> float:
         """J_f as found by hand, kg·m²."""
-        return float(self.by_hand.number(self.made.J_f)[0])
+        return float(self.ruler_reading.number(self.construction.J_f)[0])
 
     @property
     def adopted(self) -> float:
@@ -254,17 +256,17 @@ class FlywheelDrawing:
     @property
     def sigma(self) -> float:
         """Drafting error of J_f, kg·m²."""
-        return float(self.errors.spreads[self.made.J_f].sigma[0])
+        return float(self.errors.spreads[self.construction.J_f].sigma[0])
 
 
-@remembered
+@memoized
 def drawing_of(flywheel: Flywheel, profile: Profile) -> FlywheelDrawing:
     """Return the diagrams of a flywheel as drawn by hand, made at the first call."""
     return FlywheelDrawing(flywheel, profile)
 
 
-def _fitting(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]], most: float) -> float:
-    return choose_scale((float(np.max(np.abs(values))), 0.0), (most, 1.0))
+def _fitting(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]], maximum: float) -> float:
+    return choose_scale((float(np.max(np.abs(values))), 0.0), (maximum, 1.0))
 
 
 class Split(Struct, frozen=True):

@@ -20,7 +20,7 @@ from msgspec.structs import replace
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import AssemblyError, Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.load_records import Dynamics, Fixed, Load
 from planmethod.problem.machine_records import (
@@ -32,10 +32,10 @@ from planmethod.problem.machine_records import (
 )
 from planmethod.problem.model import Problem
 from planmethod.solved.course.curve import Piecewise, joined
-from planmethod.solved.course.motion import TurnMotion
+from planmethod.solved.course.motion import CycleMotion
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.machine.reduced import Reduced, reduce, reduced_curves
-from planmethod.solved.reading import Reading, Reals, Remembering, remembered
+from planmethod.solved.reading import Memoizing, Reading, Reals, memoized
 from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 
 BALANCE = 1e-9
@@ -67,11 +67,11 @@ class Tangents(Struct, frozen=True):
 class MachineRows(Struct, frozen=True):
     """A machine in even positions, ndarrays of shape (n,), as its tables have it (таблица).
 
-    ``turned`` is in rad, ``moment`` in N·m, ``work`` and ``gain`` (dT) in J, ``inertia`` and its
+    ``rotation`` is in rad, ``moment`` in N·m, ``work`` and ``gain`` (dT) in J, ``inertia`` and its
     ``slope`` in kg·m², ``omega`` in 1/s and ``epsilon`` in 1/s² along the turning of the crank.
     """
 
-    turned: Reals
+    rotation: Reals
     phi_deg: Reals
     moment: Reals
     work: Reals
@@ -107,10 +107,10 @@ class SpeedExtreme(Struct, frozen=True):
     """A largest or least speed: 1/s, and the angle turned where it is, rad."""
 
     value: float
-    turned: float
+    rotation: float
 
 
-class Flywheel(Remembering):
+class Flywheel(Memoizing):
     """A machine and the flywheel that evens out its motion (машина с маховиком).
 
     Parameters
@@ -130,13 +130,13 @@ class Flywheel(Remembering):
         super().__init__()
         assert problem.machine is not None, "there is no [machine]"
         self.problem, self.machine = problem, problem.machine
-        self.turn = TurnMotion(problem)
+        self.turn = CycleMotion(problem)
         self.cycle = self.turn.cycle
         try:
             found = reduced_curves(self.turn, self.machine)
         except AssemblyError as error:
-            told = "a flywheel needs a crank that turns fully: {}"
-            raise AssemblyError(told, error) from error
+            text = "a flywheel needs a crank that turns fully: {}"
+            raise AssemblyError(text, error) from error
         self.moment, self.inertia, self.slope = (
             Piecewise(found.edges, found.terms[:, :, k : k + 1]) for k in range(3)
         )
@@ -154,7 +154,7 @@ class Flywheel(Remembering):
         if self.work_per_cycle > least:
             return
         driving = self.machine.constant is ConstantMoment.DRIVING
-        told = (
+        text = (
             "a constant driving moment cannot balance the work of the loads over the cycle: they "
             "do {:.6g} J and must resist"
             if driving
@@ -163,9 +163,9 @@ class Flywheel(Remembering):
         )
         done = -self.sign * self.work_per_cycle  # by the loads; positive where they drive
         nothing = abs(done) <= least
-        message = say(told, 0.0 if nothing else done)
+        message = translate(text, 0.0 if nothing else done)
         hint = 'Check their directions and phases, or set constant = "{}".'
-        hint = say(hint, "resisting" if driving else "driving")
+        hint = translate(hint, "resisting" if driving else "driving")
         if nothing:
             hint = "Check their directions and phases."
         raise ProblemError(self.problem.name, [Fault("machine.constant", message, hint)])
@@ -238,9 +238,9 @@ class Flywheel(Remembering):
         found = self.tangents(upper, lower, middle)
         if found.inertia >= 0.0:
             return upper * middle**2 / 2.0 * found.inertia - found.upper, found.inertia
-        return self._bare_energy(middle), 0.0
+        return self._energy_without_flywheel(middle), 0.0
 
-    def _bare_energy(self, middle: float) -> float:
+    def _energy_without_flywheel(self, middle: float) -> float:
         """Return the energy of position 0 of a machine without flywheel, J."""
         at = self.gain.samples
         gain, inertia = self.gain.value(at), self.inertia.value(at)
@@ -261,16 +261,16 @@ class Flywheel(Remembering):
         return self.tangents(*self.exact_slopes, self.middle_speed)
 
     @property
-    def fitted(self) -> float:
+    def steady_inertia(self) -> float:
         """J_f of the steady motion, kg·m²: zero if no flywheel is needed."""
         return max(self.exact.inertia, 0.0)
 
-    def speeds(self, turned: Reals) -> tuple[Reals, Reals]:
+    def speeds(self, rotation: Reals) -> tuple[Reals, Reals]:
         """Return omega, 1/s, and epsilon, 1/s², of the steady motion, ndarrays of shape (n,)."""
         energy, flywheel = self._energy(self.middle_speed)
-        mass = flywheel + self.inertia.value(turned)
-        omega = np.sqrt(2.0 * (energy + self.gain.value(turned)) / mass)
-        pushed = self.surplus.value(turned) - omega**2 * self.slope.value(turned) / 2.0
+        mass = flywheel + self.inertia.value(rotation)
+        omega = np.sqrt(2.0 * (energy + self.gain.value(rotation)) / mass)
+        pushed = self.surplus.value(rotation) - omega**2 * self.slope.value(rotation) / 2.0
         return omega, pushed / mass
 
     @cached_property
@@ -281,7 +281,7 @@ class Flywheel(Remembering):
         its slope as they are, without any work or energy; the steps begin at the speed of
         position 0: J·omega·domega/dphi = M - omega²·J'/2.
         """
-        edges, fly = self.moment.edges, self.fitted
+        edges, fly = self.moment.edges, self.steady_inertia
         most = 2.0 * pi / _STEPS
         parts = np.maximum(np.ceil(np.diff(edges) / most).astype(int), 2)
         omega = float(self.speeds(np.zeros(1))[0][0])
@@ -321,21 +321,21 @@ class Flywheel(Remembering):
 
     # By positions ----------------------------------------------------------------------------
 
-    def turned(self, count: int) -> Reals:
+    def even_rotations(self, count: int) -> Reals:
         """Return the angles turned of ``count`` equally spaced positions, rad."""
         return np.asarray(self.cycle * np.arange(count) / count, dtype=float)
 
-    @remembered
+    @memoized
     def solved(self, count: int) -> Solution:
         """Return the motion in ``count`` equally spaced positions, by their own plans."""
-        return self.turn.solved(self.turned(count))
+        return self.turn.solved(self.even_rotations(count))
 
-    @remembered
+    @memoized
     def reduced(self, count: int) -> Reduced:
         """Return the reduced quantities in ``count`` equally spaced positions, by their plans."""
         return reduce(self.solved(count), self.machine)
 
-    @remembered
+    @memoized
     def lever(self, count: int) -> Reals:
         """Return the reduced moment in ``count`` positions by the Zhukovsky lever, N·m, shape (n,).
 
@@ -350,7 +350,7 @@ class Flywheel(Remembering):
             if mass.centre is not None and mass.mass and dynamics.gravity
         ]
         hung = Dynamics(0.0, {}, (*dynamics.loads, *weights))
-        positions = self.turn.phi(self.turned(count)).tolist()
+        positions = self.turn.phi(self.even_rotations(count)).tolist()
         statics = statics_of(Solution(replace(problem, dynamics=hung), positions=positions))
         assert statics.lever_plan is not None, "the crank turns"
         balance = statics.lever_plan.balance
@@ -362,10 +362,10 @@ class Flywheel(Remembering):
     @cached_property
     def rows(self) -> MachineRows:
         """The positions of the file's count."""
-        turned = self.turned(self.machine.count)
+        turned = self.even_rotations(self.machine.count)
         parts = self.reduced(self.machine.count)
         omega, _ = self.speeds(turned)
-        moment, mass = parts.moment, self.fitted + parts.inertia
+        moment, mass = parts.moment, self.steady_inertia + parts.inertia
         pushed = self.sign * self.constant - moment - omega**2 * parts.slope / 2.0
         return MachineRows(
             turned,
@@ -407,7 +407,7 @@ class Flywheel(Remembering):
 
 
 def touching(
-    turned: Reals,
+    rotation: Reals,
     gain: Reals,
     inertia: Reals,
     slopes: tuple[float, float],
@@ -418,7 +418,7 @@ def touching(
 
     Parameters
     ----------
-    turned, gain, inertia : ndarray of shape (n + 1,), rad, J and kg·m²
+    rotation, gain, inertia : ndarray of shape (n + 1,), rad, J and kg·m²
         The last position is the first again.
     slopes : (float, float)
         Of the tangents, over omega²/2.
@@ -430,10 +430,10 @@ def touching(
     top, bottom = int(np.argmax(highs[:-1])), int(np.argmin(lows[:-1]))
     high, low = float(highs[top]), float(lows[bottom])
     found = (high - low) / (speed**2 * delta)
-    return Tangents(found, high, low, float(turned[top]), float(turned[bottom]))
+    return Tangents(found, high, low, float(rotation[top]), float(rotation[bottom]))
 
 
-@remembered
+@memoized
 def flywheel_of(solution: Solution) -> Flywheel:
     """Return the machine of a solution, computed at the first call."""
     return Flywheel(solution.problem)
@@ -442,11 +442,13 @@ def flywheel_of(solution: Solution) -> Flywheel:
 _Value = TypeVar("_Value", float, Reals)
 
 
-def hermite(one: _Value, two: _Value, slope_1: _Value, slope_2: _Value, share: _Value) -> _Value:
+def hermite(one: _Value, two: _Value, slope_1: _Value, slope_2: _Value, fraction: _Value) -> _Value:
     """Return a cubic with given ends and slopes, the step being 1."""
-    rest = 1.0 - share
-    ends = one * rest * rest * (1.0 + 2.0 * share) + two * share * share * (3.0 - 2.0 * share)
-    return ends + slope_1 * share * rest * rest - slope_2 * share * share * rest
+    rest = 1.0 - fraction
+    ends = one * rest * rest * (1.0 + 2.0 * fraction) + two * fraction * fraction * (
+        3.0 - 2.0 * fraction
+    )
+    return ends + slope_1 * fraction * rest * rest - slope_2 * fraction * fraction * rest
 
 
 def turning_points(one: float, two: float, slope_1: float, slope_2: float) -> list[float]:

@@ -39,7 +39,7 @@ class MachinePower(Struct, frozen=True):
 def machine_power(flywheel: Flywheel) -> MachinePower:
     """Return the mean power of the cycle, P = A·n, and at the motor P/η, with the motor for it."""
     at_crank = flywheel.work_per_cycle * flywheel.middle_speed / flywheel.cycle
-    geared = flywheel.problem.drive.geared
+    geared = flywheel.problem.drive.gear_drive
     efficiency = None if geared is None else geared.efficiency
     if efficiency is None or flywheel.machine.constant is not ConstantMoment.DRIVING:
         return MachinePower(at_crank, efficiency, None, None)

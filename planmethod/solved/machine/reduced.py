@@ -12,12 +12,12 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.plans.forces.loads import Applied
 from planmethod.problem.load_records import Against, Couple, Interpolation, Load, Over, SizeTable
 from planmethod.problem.machine_records import Machine, WeightSigns
 from planmethod.solved.course.curve import Piecewise, resolved
-from planmethod.solved.course.motion import Moved, TurnMotion
+from planmethod.solved.course.motion import CycleMotion, MotionState
 from planmethod.solved.forces.loads import MotionValues, external
 from planmethod.solved.reading import Reals
 
@@ -97,7 +97,7 @@ def reduce(motion: MotionValues, machine: Machine) -> Reduced:
     return Reduced(loads, weights, links, inertia, 2.0 * growth / speed**3)
 
 
-def reduced_curves(turn: TurnMotion, machine: Machine) -> Piecewise:
+def reduced_curves(cycle_motion: CycleMotion, machine: Machine) -> Piecewise:
     """Return moment, inertia and its slope over the cycle as polynomials of the angle of rotation.
 
     Raises
@@ -105,35 +105,40 @@ def reduced_curves(turn: TurnMotion, machine: Machine) -> Piecewise:
     ProblemError
         A load is known in the positions of the file only, or never works.
     """
-    problem = turn.problem
+    problem = cycle_motion.problem
     dynamics = problem.dynamics
     assert dynamics is not None
     for index, load in enumerate(dynamics.loads):
         if isinstance(load.size, SizeTable) and load.size.over is Over.POSITION:
-            raise _load_fault(turn, index, "{} is given only for the positions of the file", _OVER)
-    cuts = [turn.curve.edges, *(_breaks(turn, load, k) for k, load in enumerate(dynamics.loads))]
+            raise _load_fault(
+                cycle_motion, index, "{} is given only for the positions of the file", _OVER
+            )
+    cuts = [
+        cycle_motion.curve.edges,
+        *(_breaks(cycle_motion, load, k) for k, load in enumerate(dynamics.loads)),
+    ]
     edges = np.unique(np.concatenate(cuts))
     edges = edges[np.append(True, np.diff(edges) > 1e-12)]
-    edges[0], edges[-1] = 0.0, turn.cycle
+    edges[0], edges[-1] = 0.0, cycle_motion.cycle
     names = [load.name for load in dynamics.loads]
 
-    def stacked(motion: Moved) -> Reals:
+    def stacked(motion: MotionState) -> Reals:
         found = reduce(motion, machine)
         nothing = np.zeros(motion.positions.shape)
         moments = [found.loads.get(name, nothing) for name in names]
         return np.stack([*moments, found.weights, found.inertia, found.slope], axis=1)
 
-    def read(turned: Reals) -> Reals:
-        return stacked(turn.at(turned))
+    def read(rotation: Reals) -> Reals:
+        return stacked(cycle_motion.at(rotation))
 
-    largest = np.max(np.abs(stacked(turn.sampled)), axis=0)
+    largest = np.max(np.abs(stacked(cycle_motion.sampled)), axis=0)
     largest[:-2] = float(np.max(largest[:-2]))
     made = resolved(read, edges, np.where(largest > 0.0, largest, 1.0))
     peaks = np.max(np.abs(made(made.samples)), axis=0)
     for index, peak in enumerate(peaks[:-3]):
         if peak <= NEVER * peaks[:-2].max():
             raise _load_fault(
-                turn, index, "{} does no work: its power is 0 over the whole cycle", _WORK
+                cycle_motion, index, "{} does no work: its power is 0 over the whole cycle", _WORK
             )
     sums = np.zeros((len(peaks), 3))
     sums[:-2, 0] = sums[-2, 1] = sums[-1, 2] = 1.0
@@ -144,58 +149,58 @@ _OVER = "A cycle needs it at every angle: give the table over phi, x, y or path.
 _WORK = "Check its point, its direction and its phases."
 
 
-def _load_fault(turn: TurnMotion, index: int, message: str, hint: str) -> ProblemError:
-    dynamics = turn.problem.dynamics
+def _load_fault(motion: CycleMotion, index: int, message: str, hint: str) -> ProblemError:
+    dynamics = motion.problem.dynamics
     assert dynamics is not None
-    fault = Fault(f"loads[{index}]", say(message, dynamics.loads[index].name), hint)
-    return ProblemError(turn.problem.name, [fault])
+    fault = Fault(f"loads[{index}]", translate(message, dynamics.loads[index].name), hint)
+    return ProblemError(motion.problem.name, [fault])
 
 
-def _breaks(turn: TurnMotion, load: Load | Couple, index: int) -> Reals:
+def _breaks(motion: CycleMotion, load: Load | Couple, index: int) -> Reals:
     """Return the places where a load may jump or have a kink, angles turned, rad, in no order."""
-    return np.concatenate([np.zeros(0), *_found_breaks(turn, load, index)])
+    return np.concatenate([np.zeros(0), *_iter_breaks(motion, load, index)])
 
 
-def _found_breaks(turn: TurnMotion, load: Load | Couple, index: int) -> Iterator[Reals]:
+def _iter_breaks(motion: CycleMotion, load: Load | Couple, index: int) -> Iterator[Reals]:
     phase, size = load.phase, load.size
     if phase is not None and phase.phi:
-        yield _all_turns(turn, np.array(phase.phi).ravel(), 360.0)
+        yield _all_turns(motion, np.array(phase.phi).ravel(), 360.0)
     if isinstance(load, Couple):
         if isinstance(load.sense, Against) or (phase is not None and phase.turning is not None):
-            yield turn.omega(load.link).roots()
+            yield motion.omega(load.link).roots()
     elif isinstance(load.sense, Against) or phase is not None:
-        ways = [turn.course(load.at)]
+        ways = [motion.main_direction(load.at)]
         if phase is not None and phase.moving is not None:
             ways += [1.0 + 0j, 1j]
         for way in ways:
-            yield turn.column(load.at, way, velocity=True).roots()
+            yield motion.column(load.at, way, velocity=True).roots()
         if phase is not None and phase.turning is not None:
-            yield turn.omega(load.link).roots()
+            yield motion.omega(load.link).roots()
     if not isinstance(size, SizeTable):
         return
     nodes = np.unique(size.at)
     if size.over is Over.PHI:
-        yield _all_turns(turn, nodes, size.turn)
+        yield _all_turns(motion, nodes, size.turn)
     elif size.over in (Over.X, Over.Y):
         assert isinstance(load, Load)
         way = 1.0 + 0j if size.over is Over.X else 1j
-        place = turn.column(load.at, way)
+        place = motion.column(load.at, way)
         slack = 1e-9 * float(np.ptp(nodes)) if size.interpolation is Interpolation.STEP else 0.0
         yield from (place.roots(node - slack) for node in nodes)
     else:
         assert isinstance(load, Load)
-        stroke = turn.stroke_of(index)
-        yield np.mod(stroke.dead, turn.cycle)
+        stroke = motion.stroke_of(index)
+        yield np.mod(stroke.dead, motion.cycle)
         shares = np.unique(np.append(np.mod(nodes, 1.0), np.mod(-nodes, 1.0)))
         for share in shares:
             if 1e-9 < share < 1.0 - 1e-9:
                 along, there = stroke.direction(share), stroke.place(share)
-                yield turn.column(load.at, along).roots((there * along.conjugate()).real)
+                yield motion.column(load.at, along).roots((there * along.conjugate()).real)
 
 
-def _all_turns(turn: TurnMotion, phi: Reals, period: float) -> Reals:
+def _all_turns(motion: CycleMotion, phi: Reals, period: float) -> Reals:
     """Return where the driver is at some angles, degrees, in every turn of the cycle."""
-    first = turn.turned(phi)
-    turns = max(round(turn.cycle / np.radians(period)), 1)
+    first = motion.rotation_at(phi)
+    turns = max(round(motion.cycle / np.radians(period)), 1)
     every = np.concatenate([first + np.radians(period) * k for k in range(turns)])
-    return np.asarray(np.mod(every, turn.cycle), dtype=float)
+    return np.asarray(np.mod(every, motion.cycle), dtype=float)

@@ -19,12 +19,12 @@ from msgspec import Struct
 
 from planmethod.solved.course.curve import joined
 from planmethod.solved.machine.flywheel import Flywheel, hermite, turning_points
-from planmethod.solved.reading import Reals, Remembering, remembered
+from planmethod.solved.reading import Memoizing, Reals, memoized
 
 NEAR = 0.01
 """A run-up is over where the speed differs so much, as a share, from the steady motion's there."""
 
-MOST_CYCLES = 600
+MAX_CYCLES = 600
 """Cycles after which a run-up that is not steady, or a crank that does not stop, is given up."""
 
 _CELL = 2.0 * pi / 240.0  # rad
@@ -50,15 +50,15 @@ _Values: TypeAlias = list[list[float]]
 class StalledError(Exception):
     """The crank is at rest; with the angle turned until then and the time, rad and s."""
 
-    def __init__(self, turned: float, time: float) -> None:
+    def __init__(self, rotation: float, time: float) -> None:
         super().__init__()
-        self.turned, self.time = turned, time
+        self.rotation, self.time = rotation, time
 
 
-class TimeCourse(Struct, frozen=True):
+class TimeMotion(Struct, frozen=True):
     """Motion by steps: ndarrays of shape (n,), rad, z in 1/s², s, and dz/dphi on both sides."""
 
-    turned: Reals
+    rotation: Reals
     half: Reals
     time: Reals
     after: Reals
@@ -69,11 +69,13 @@ class TimeCourse(Struct, frozen=True):
         """The speeds, 1/s, ndarray of shape (n,)."""
         return np.sqrt(2.0 * self.half)
 
-    def at(self, turned: Reals) -> tuple[Reals, Reals]:
+    def at(self, rotation: Reals) -> tuple[Reals, Reals]:
         """Return the speed and the time at angles turned, ndarrays of shape (n,)."""
-        k = np.clip(np.searchsorted(self.turned, turned, side="right") - 1, 0, len(self.half) - 2)
-        step = self.turned[k + 1] - self.turned[k]
-        share = (turned - self.turned[k]) / step
+        k = np.clip(
+            np.searchsorted(self.rotation, rotation, side="right") - 1, 0, len(self.half) - 2
+        )
+        step = self.rotation[k + 1] - self.rotation[k]
+        share = (rotation - self.rotation[k]) / step
         slopes = step * self.after[k], step * self.before[k + 1]
         half = hermite(self.half[k], self.half[k + 1], *slopes, share)
         spent = self.time[k + 1] - self.time[k]  # the limit keeps it rising at rest
@@ -82,9 +84,9 @@ class TimeCourse(Struct, frozen=True):
         time = hermite(self.time[k], self.time[k + 1], one, two, share)
         return np.sqrt(2.0 * np.maximum(half, 0.0)), np.asarray(time, dtype=float)
 
-    def turned_at(self, time: Reals) -> Reals:
+    def rotation_at(self, time: Reals) -> Reals:
         """Return the angles turned at times, ndarray of shape (n,)."""
-        low, high = np.full(len(time), self.turned[0]), np.full(len(time), self.turned[-1])
+        low, high = np.full(len(time), self.rotation[0]), np.full(len(time), self.rotation[-1])
         for _ in range(60):
             middle = (low + high) / 2.0
             early = self.at(middle)[1] < time
@@ -94,9 +96,9 @@ class TimeCourse(Struct, frozen=True):
     def rows(self, count: int) -> tuple[Reals, Reals, Reals]:
         """Return time, angle turned and speed at equally spaced times, with the ends."""
         time = np.linspace(0.0, self.time[-1], count)
-        turned = np.append(self.turned_at(time[:-1]), self.turned[-1])
+        turned = np.append(self.rotation_at(time[:-1]), self.rotation[-1])
         omega = self.at(turned)[0]
-        if self.turned[0] == _SLOW:  # from rest
+        if self.rotation[0] == _SLOW:  # from rest
             turned[0] = omega[0] = 0.0
         omega[omega < 1e-9 * float(np.max(omega))] = 0.0
         return time, turned, omega
@@ -105,14 +107,14 @@ class TimeCourse(Struct, frozen=True):
     def extremes(self) -> tuple[float, float]:
         """The greatest and the least speed."""
         found = [float(self.half[0])]
-        for k, step in enumerate(np.diff(self.turned).tolist()):
+        for k, step in enumerate(np.diff(self.rotation).tolist()):
             ends = float(self.half[k]), float(self.half[k + 1])
             slopes = step * float(self.after[k]), step * float(self.before[k + 1])
             found += [hermite(*ends, *slopes, x) for x in turning_points(*ends, *slopes)]
         return sqrt(2.0 * max(found)), sqrt(2.0 * min(found))
 
 
-class RunUp(Remembering):
+class RunUp(Memoizing):
     """Run-up, steady motion and stop of a machine with its flywheel.
 
     Parameters
@@ -179,7 +181,7 @@ class RunUp(Remembering):
                     yield cycle * turns + two, z, time, before, after
             turns += 1
 
-    def _course(
+    def _integrate(
         self,
         z: float,
         pull: Pull,
@@ -187,7 +189,7 @@ class RunUp(Remembering):
         over: Callable[[float, float], bool],
         *,
         stops: bool = False,
-    ) -> TimeCourse:
+    ) -> TimeMotion:
         """Return the motion from a half square of speed, until a cycle of some z is the last."""
         start = time = 0.0
         if not z:
@@ -202,17 +204,17 @@ class RunUp(Remembering):
             for row in self._steps(z, pull, inertia, start, time):
                 rows.append(row)
                 if row[0] > cycle * done - 1e-9:
-                    if over(begun, row[1]) or done >= MOST_CYCLES:
+                    if over(begun, row[1]) or done >= MAX_CYCLES:
                         break
                     begun, done = row[1], done + 1
         except StalledError as end:
             if not stops:
                 raise
             push = rows[-1][4]
-            rows = [row for row in rows if row[0] < end.turned - 1e-13]
-            rows.append((end.turned, 0.0, end.time, push, push))
+            rows = [row for row in rows if row[0] < end.rotation - 1e-13]
+            rows.append((end.rotation, 0.0, end.time, push, push))
         turned, halves, times, before, after = np.array(rows).T
-        return TimeCourse(turned, halves, times, np.append(before[1:], 0.0), after)
+        return TimeMotion(turned, halves, times, np.append(before[1:], 0.0), after)
 
     # With the motor --------------------------------------------------------------------------
 
@@ -221,30 +223,30 @@ class RunUp(Remembering):
         return self.machine.motor.at(omega)
 
     @cached_property
-    def starting(self) -> TimeCourse:
+    def starting(self) -> TimeMotion:
         """The run-up from rest in position 0, some cycles long, until the cycles are equal.
 
         Raises
         ------
         StalledError
         """
-        return self._course(0.0, self._motor, self.flywheel.fitted, _alike)
+        return self._integrate(0.0, self._motor, self.flywheel.steady_inertia, _is_steady)
 
     @cached_property
     def failure(self) -> StalledError | None:
         """Stall of the motor under the load with the flywheel; None if it does not stall.
 
-        A motion that is not steady after `MOST_CYCLES` has an endless time.
+        A motion that is not steady after `MAX_CYCLES` has an endless time.
         """
         try:
-            last = float(self.starting.turned[-1]) / self.flywheel.cycle
-            self.steady(self.flywheel.fitted)
+            last = float(self.starting.rotation[-1]) / self.flywheel.cycle
+            self.steady(self.flywheel.steady_inertia)
         except StalledError as stalled:
             return stalled
-        return StalledError(inf, inf) if last > MOST_CYCLES - 0.5 else None
+        return StalledError(inf, inf) if last > MAX_CYCLES - 0.5 else None
 
-    @remembered
-    def steady(self, inertia: float) -> TimeCourse:
+    @memoized
+    def steady(self, inertia: float) -> TimeMotion:
         """Return a cycle of the steady motion with a flywheel, kg·m².
 
         Raises
@@ -254,11 +256,11 @@ class RunUp(Remembering):
         """
         speed = 0.99 * self.machine.motor.idle if self.machine.motor is not None else 0.0
         now = min(self.size, speed**2 / 2.0)
-        if inertia == self.flywheel.fitted:
+        if inertia == self.flywheel.steady_inertia:
             now = float(self.starting.half[-1])
         previous: tuple[float, float] | None = None
         for _ in range(60):
-            course = self._course(now, self._motor, inertia, lambda *_: True)
+            course = self._integrate(now, self._motor, inertia, lambda *_: True)
             gap = float(course.half[-1]) - now
             if abs(gap) <= 1e-12 * now:
                 break
@@ -275,16 +277,16 @@ class RunUp(Remembering):
         return 2.0 * (high - low) / (high + low)
 
     @cached_property
-    def wanted(self) -> float | None:
+    def required_inertia(self) -> float | None:
         """The flywheel with which the motor keeps delta exactly, kg·m²; None if none is needed."""
         delta, own = self.machine.delta, float(np.mean(self.curves(self.curves.samples)[:, 1]))
 
-        def even(inertia: float) -> float:
+        def excess_uniformity(inertia: float) -> float:
             """Return how much evener the motion is than it must be, nearly linear in J_f."""
             return delta / self.irregularity(inertia) - 1.0
 
-        now = even(self.flywheel.fitted)
-        at, last = self.flywheel.fitted, -own
+        now = excess_uniformity(self.flywheel.steady_inertia)
+        at, last = self.flywheel.steady_inertia, -own
         gap = -1.0  # without any mass
         for _ in range(40):
             if abs(now) < 1e-11:
@@ -292,39 +294,39 @@ class RunUp(Remembering):
             at, last = at - now * (at - last) / (now - gap), at
             gap = now
             if at <= 0.0:
-                if even(0.0) >= 0.0:
+                if excess_uniformity(0.0) >= 0.0:
                     return None
                 at = last / 2.0
             try:
-                now = even(at)
+                now = excess_uniformity(at)
             except StalledError:  # so little mass that the load stops it: as if far too uneven
                 now = -0.5
         return at
 
     @cached_property
-    def run_up(self) -> TimeCourse:
+    def run_up(self) -> TimeMotion:
         """The run-up until the speed is within `NEAR` of the steady motion's.
 
         Raises
         ------
         StalledError
         """
-        whole, steady = self.starting, self.steady(self.flywheel.fitted)
-        rounds = np.mod(whole.turned, self.flywheel.cycle)
+        whole, steady = self.starting, self.steady(self.flywheel.steady_inertia)
+        rounds = np.mod(whole.rotation, self.flywheel.cycle)
         off = whole.omega / steady.at(rounds)[0] - 1.0
         late = np.flatnonzero(np.abs(off) > NEAR)
         last = min(int(late[-1]) + 1 if late.size else 0, len(off) - 1)
         kept = slice(0, max(last, 1) + 1)
-        return TimeCourse(
-            whole.turned[kept], whole.half[kept], whole.time[kept],
+        return TimeMotion(
+            whole.rotation[kept], whole.half[kept], whole.time[kept],
             whole.after[kept], whole.before[kept],
         )  # fmt: skip
 
     @cached_property
-    def stop(self) -> TimeCourse | None:
+    def stop(self) -> TimeMotion | None:
         """The stop from the steady motion in position 0, by the brake and the loads.
 
-        None where the crank still turns after `MOST_CYCLES`, or the motor does not hold the load.
+        None where the crank still turns after `MAX_CYCLES`, or the motor does not hold the load.
         """
         wheel = self.flywheel
         if self.machine.motor is not None and self.failure is not None:
@@ -332,21 +334,23 @@ class RunUp(Remembering):
         if self.machine.motor is None:
             omega = float(wheel.speeds(np.zeros(1))[0][0])
         else:
-            omega = float(self.steady(wheel.fitted).omega[0])
+            omega = float(self.steady(wheel.steady_inertia).omega[0])
         brake = self.machine.brake or 0.0
         never: Callable[[float, float], bool] = lambda *_: False  # noqa: E731
-        found = self._course(omega**2 / 2.0, lambda _: -brake, wheel.fitted, never, stops=True)
+        found = self._integrate(
+            omega**2 / 2.0, lambda _: -brake, wheel.steady_inertia, never, stops=True
+        )
         return found if found.omega[-1] < 1e-6 * omega else None
 
 
-@remembered
+@memoized
 def run_up_of(flywheel: Flywheel) -> RunUp:
     """Return the run-up and the stop of a machine, made at the first call."""
     return RunUp(flywheel)
 
 
-def _alike(begun: float, ended: float) -> bool:
-    return abs(ended - begun) <= 1e-4 * ended
+def _is_steady(start: float, ended: float) -> bool:
+    return abs(ended - start) <= 1e-4 * ended
 
 
 def _step(

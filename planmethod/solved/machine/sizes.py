@@ -14,7 +14,7 @@ from math import ceil, inf, pi
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem.machine_records import FlywheelTask, WheelShape
 
 STEEL_FACTOR, STEEL = 0.38, 7800.0
@@ -44,7 +44,7 @@ class FlywheelSizes(Struct, frozen=True):
     mass : float, kg
     speed : float, m/s
         Of the rim, at the mean speed of the machine.
-    held : bool
+    is_speed_limited : bool
         The greatest speed of the rim has set the diameter.
     """
 
@@ -55,7 +55,7 @@ class FlywheelSizes(Struct, frozen=True):
     width: float
     mass: float
     speed: float
-    held: bool
+    is_speed_limited: bool
 
 
 def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> FlywheelSizes | None:
@@ -129,7 +129,7 @@ def too_wide(wheel: FlywheelTask, inertia: float, omega: float) -> str | None:
     assert free is not None, "it has the same inertia"
     # of a shaft that turns r times as quickly J is r² times less, D = r^(-2/5), v = r^(3/5)
     slower = wheel.ratio * (wheel.greatest_speed / free.speed) ** (5.0 / 3.0)
-    return say(
+    return translate(
         "the flywheel is {0:.3g} m wide and {1:.3g} m in diameter, b/D = {2:.2g} instead of "
         "the usual {3:.3g}: its rim may run at {4:.3g} m/s. In [machine.flywheel] allow "
         "speed = {5} (D = {6:.3g} m, b = {7:.3g} m; cast iron withstands 30 m/s, steel 50), "

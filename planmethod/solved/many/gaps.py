@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from planmethod.problem.model import Problem
-from planmethod.solved.failures import Doubt, Failure, MoreDoubts
-from planmethod.solved.many.positions import Codes, Gaps, blocks, evenly, examine, why
+from planmethod.solved.failures import Doubt, Failure, OmittedWarnings
+from planmethod.solved.many.positions import Codes, Gaps, blocks, evenly, examine, failure_at
 from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.reading import Reals
 
@@ -29,14 +29,14 @@ class GappedSweep:
     ----------
     problem : Problem
     positions : ndarray of shape (n,)
-    asked : iterable of str, optional
+    quantities : iterable of str, optional
         Labels of results. Default: everything.
 
     Attributes
     ----------
     sweep : Sweep
     gaps : Gaps
-    doubts : tuple of str, Doubt or MoreDoubts
+    warnings : tuple of str, Doubt or OmittedWarnings
 
     Raises
     ------
@@ -44,20 +44,20 @@ class GappedSweep:
     """
 
     def __init__(
-        self, problem: Problem, positions: Reals, asked: Iterable[str] | None = None
+        self, problem: Problem, positions: Reals, quantities: Iterable[str] | None = None
     ) -> None:
-        labels = None if asked is None else tuple(asked)
+        labels = None if quantities is None else tuple(quantities)
         self.problem, self.positions = problem, positions
         # By NumPy: the printed values must not depend on a compiler's cache.
         self.sweep = Sweep(problem, labels, forces=problem.dynamics is not None, native=False)
-        gaps = Gaps.of(self._failed(), self._why)
+        gaps = Gaps.of(self._failed(), self._failure_at)
         some = evenly(np.flatnonzero(gaps.reason < 0))
         looked = examine(problem, positions[some], numbers=some, forces=self.sweep.forces)
-        self._found = len(gaps.told)
-        self.doubts: tuple[str | Doubt | MoreDoubts, ...] = looked.doubts
+        self._found = len(gaps.failures)
+        self.warnings: tuple[str | Doubt | OmittedWarnings, ...] = looked.warnings
         self.gaps = gaps.joined(some, looked.gaps if labels is None else looked.gaps.of_forces)
         if labels is not None:
-            self.doubts = (*looked.spoilt, *looked.doubts)
+            self.warnings = (*looked.spoilt, *looked.warnings)
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -76,9 +76,9 @@ class GappedSweep:
             self.sweep.run(here, out=work[:, : len(here)], failed=failed[part])
         return failed
 
-    def _why(self, index: int) -> Failure:
+    def _failure_at(self, index: int) -> Failure:
         position = float(self.positions[index])
-        found = self.sweep.failure(position) or why(self.problem, position)
+        found = self.sweep.failure(position) or failure_at(self.problem, position)
         return found.numbered(index, len(self.positions))
 
     def fill(self, out: Reals, part: slice) -> Reals:
@@ -87,7 +87,7 @@ class GappedSweep:
         NaN where a result does not exist, and no negative zeros.
         """
         self.sweep.run(self.positions[part], out=out)
-        if len(self.gaps.told) > self._found:
+        if len(self.gaps.failures) > self._found:
             reason, still = self.gaps.reason[part], ~self.gaps.moving[part]
             out[:, still & (reason >= self._found)] = np.nan
             pushed = np.array([row.is_force for row in self.sweep.rows])

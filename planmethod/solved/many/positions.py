@@ -12,30 +12,30 @@ from msgspec.structs import replace
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.scale import Scale
 from planmethod.errors import AssemblyError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.failures import (
     Cause,
     Doubt,
     Failure,
-    MoreDoubts,
+    OmittedWarnings,
     Place,
     PositionError,
-    others_fail,
+    other_failures,
     same_at,
 )
 from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Reals
 from planmethod.solved.selfcheck import (
-    MOST_NAMED,
+    MAX_NAMED,
     SelfCheckError,
-    doubts,
     force_doubts,
+    motion_doubts,
     verify,
 )
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import DOUBTFUL, SPOILT, error_bound
+from planmethod.solved.trust.conditioning import SPOILT, WARN_RELATIVE_ERROR, error_bound
 
 Codes = npt.NDArray[np.int16]
 Places = npt.NDArray[np.intp]
@@ -50,7 +50,7 @@ _SPOILT = np.iinfo(np.int16).max
 """Code of a position whose steps exist and whose results rounding spoils."""
 
 
-_UNTOLD = np.int16(_SPOILT - 1)
+_AMBIGUOUS = np.int16(_SPOILT - 1)
 """Code of a position whose places exist, but whose motion has no known side."""
 
 
@@ -61,23 +61,23 @@ class Gaps(Struct, frozen=True):
     ----------
     reason : ndarray of int16 of shape (n,)
         -1 where there are results, else an index of a failure.
-    told : tuple of Failure
+    failures : tuple of Failure
         Failure of the first position of each kind; in the order of these positions.
     unforced : int
         Number of kinds at the end whose motion exists: only their forces do not.
     """
 
     reason: Codes
-    told: tuple[Failure, ...]
+    failures: tuple[Failure, ...]
     unforced: int = 0
 
     @classmethod
-    def of(cls, codes: Codes, tell: Callable[[int], Failure]) -> Gaps:
+    def of(cls, codes: Codes, explain: Callable[[int], Failure]) -> Gaps:
         """Return the gaps of positions with codes (-1 where there is none).
 
         Parameters
         ----------
-        tell : callable
+        explain : callable
             Returns the failure of the position with an index; called once for each code.
         """
         bad = np.flatnonzero(codes >= 0)
@@ -87,7 +87,7 @@ class Gaps(Struct, frozen=True):
         rank[order] = np.arange(len(order))
         reason = np.full(codes.shape, -1, np.int16)
         reason[bad] = rank[which]
-        return cls(reason, tuple(tell(int(bad[first[k]])) for k in order))
+        return cls(reason, tuple(explain(int(bad[first[k]])) for k in order))
 
     @property
     def count(self) -> int:
@@ -97,47 +97,47 @@ class Gaps(Struct, frozen=True):
     @property
     def moving(self) -> npt.NDArray[np.bool_]:
         """Positions where the motion exists, ndarray of shape (n,)."""
-        return (self.reason < 0) | (self.reason >= len(self.told) - self.unforced)
+        return (self.reason < 0) | (self.reason >= len(self.failures) - self.unforced)
 
     @property
     def of_forces(self) -> Gaps:
         """The gaps among them where the motion exists."""
-        first = len(self.told) - self.unforced
+        first = len(self.failures) - self.unforced
         reason = np.where(self.reason >= first, self.reason - first, -1).astype(np.int16)
-        return Gaps(reason, self.told[first:], self.unforced)
+        return Gaps(reason, self.failures[first:], self.unforced)
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """Reasons, each with the number of positions that it holds for."""
-        counts = np.bincount(self.reason[self.reason >= 0], minlength=len(self.told))
+        counts = np.bincount(self.reason[self.reason >= 0], minlength=len(self.failures))
         return tuple(
             f"{told}{same_at(int(count) - 1, len(self.reason))}"
-            for told, count in zip(self.told, counts, strict=True)
+            for told, count in zip(self.failures, counts, strict=True)
         )
 
     @property
     def kinds(self) -> tuple[str, ...]:
         """Reasons without the numbers of one position: they hold for every position of a kind."""
-        return tuple(told.general for told in self.told)
+        return tuple(told.general for told in self.failures)
 
     def refusal(self) -> str:
         """Return the message of a request that is refused for its first impossible position."""
         others = int(np.count_nonzero(self.reason > 0))
-        return self.sentences[0] + others_fail(others)
+        return self.sentences[0] + other_failures(others)
 
     def warning(self) -> str:
         """Return the sentences about a request whose impossible positions stay empty."""
         left = (
             "{0} of {1} positions {0:|is impossible and left empty|are impossible, left empty}. {2}"
         )
-        return say(left, self.count, len(self.reason), self.told[0])
+        return translate(left, self.count, len(self.reason), self.failures[0])
 
-    def joined(self, at: Places, other: Gaps) -> Gaps:
+    def joined(self, at: Places, more: Gaps) -> Gaps:
         """Return these gaps and those found among the positions ``at``."""
         reason = self.reason.copy()
-        inside = other.reason >= 0
-        reason[at[inside]] = other.reason[inside] + len(self.told)
-        return Gaps(reason, (*self.told, *other.told), other.unforced)
+        inside = more.reason >= 0
+        reason[at[inside]] = more.reason[inside] + len(self.failures)
+        return Gaps(reason, (*self.failures, *more.failures), more.unforced)
 
 
 class CheckedPositions(Struct, frozen=True):
@@ -147,7 +147,7 @@ class CheckedPositions(Struct, frozen=True):
     ----------
     gaps : Gaps
         Positions without results.
-    doubts : tuple of Doubt or MoreDoubts
+    warnings : tuple of Doubt or OmittedWarnings
         Warnings about the others.
     spoilt : tuple of str
         Which gap is there only because rounding spoils the worst results of the motion; at most
@@ -155,7 +155,7 @@ class CheckedPositions(Struct, frozen=True):
     """
 
     gaps: Gaps
-    doubts: tuple[Doubt | MoreDoubts, ...]
+    warnings: tuple[Doubt | OmittedWarnings, ...]
     spoilt: tuple[str, ...]
 
 
@@ -166,11 +166,11 @@ def blocks(count: int, size: int | None = None) -> Iterator[slice]:
         yield slice(start, min(start + size, count))
 
 
-def evenly(places: Places, most: int = SAMPLE) -> Places:
+def evenly(places: Places, maximum: int = SAMPLE) -> Places:
     """Return at most a given number of places, evenly spread, with the first and the last."""
-    if len(places) <= most:
+    if len(places) <= maximum:
         return places
-    return places[np.linspace(0, len(places) - 1, most).round().astype(np.intp)]
+    return places[np.linspace(0, len(places) - 1, maximum).round().astype(np.intp)]
 
 
 def examine(
@@ -216,7 +216,7 @@ def examine(
         try:
             verify(solution)
         except SelfCheckError as error:
-            found = error.found
+            found = error.contradiction
             number = int(numbers[left][found.place.number])
             raise SelfCheckError(found.numbered(number, count)) from error
         if forces:
@@ -226,19 +226,19 @@ def examine(
             pushed[left] = statics_of(solution).bound
             unforced[left[(unforced[left] < 0) & ~(pushed[left] <= SPOILT)]] = _SPOILT
 
-    def tell(index: int) -> Failure:
-        found = why(problem, float(positions[index]), forces=forces)
+    def explain(index: int) -> Failure:
+        found = failure_at(problem, float(positions[index]), forces=forces)
         return found.numbered(int(numbers[index]), count)
 
     estimate[codes >= 0] = 0.0
-    gaps = Gaps.of(codes, tell)
+    gaps = Gaps.of(codes, explain)
     kinds = sorted(set(gaps.reason[codes == _SPOILT].tolist()))
-    doubtful = [*_doubts(problem, positions, numbers, estimate, doubts)]
+    doubtful = [*_block_warnings(problem, positions, numbers, estimate, motion_doubts)]
     if forces:
-        other = Gaps.of(unforced, tell)
+        other = Gaps.of(unforced, explain)
         pushed[unforced >= 0] = 0.0
-        doubtful += _doubts(problem, positions, numbers, pushed, force_doubts)
-        gaps = gaps.joined(np.arange(count), replace(other, unforced=len(other.told)))
+        doubtful += _block_warnings(problem, positions, numbers, pushed, force_doubts)
+        gaps = gaps.joined(np.arange(count), replace(other, unforced=len(other.failures)))
     return CheckedPositions(gaps, tuple(doubtful), tuple(gaps.sentences[k] for k in kinds))
 
 
@@ -252,15 +252,15 @@ def impossible_steps(solution: Solution) -> Codes:
     try:
         _ = solution.si
     except AssemblyError as error:
-        if isinstance(error, PositionError) and error.failure.cause is Cause.TOGETHER:
-            return np.full(solution.positions.shape, _UNTOLD)
+        if isinstance(error, PositionError) and error.failure.cause is Cause.COINCIDENT:
+            return np.full(solution.positions.shape, _AMBIGUOUS)
         trace = solution.read(Float64()).trace
         program = solution.construction.program
         return failing(program, trace, len(solution.positions)).astype(np.int16)
     return np.full(solution.positions.shape, -1, np.int16)
 
 
-def why(problem: Problem, position: float, *, forces: bool = False) -> Failure:
+def failure_at(problem: Problem, position: float, *, forces: bool = False) -> Failure:
     """Return the reason why one position has no results.
 
     Parameters
@@ -277,23 +277,23 @@ def why(problem: Problem, position: float, *, forces: bool = False) -> Failure:
     return Failure(Cause.AT_LIMIT, Place.of(problem, alone.positions, 0))
 
 
-def _doubts(
+def _block_warnings(
     problem: Problem,
     positions: Reals,
     numbers: Places,
     estimate: Reals,
-    tell: Callable[[Solution], list[Doubt]],
-) -> Iterator[Doubt | MoreDoubts]:
+    find_warnings: Callable[[Solution], list[Doubt]],
+) -> Iterator[Doubt | OmittedWarnings]:
     """Yield the warnings of `selfcheck.warnings` for all blocks together."""
-    doubtful = np.flatnonzero(estimate > DOUBTFUL)
+    doubtful = np.flatnonzero(estimate > WARN_RELATIVE_ERROR)
     if not doubtful.size:
         return
-    named = np.sort(doubtful[np.argsort(estimate[doubtful])[-MOST_NAMED:]])
-    for doubt in tell(Solution(problem, positions=_listed(positions[named]))):
+    named = np.sort(doubtful[np.argsort(estimate[doubtful])[-MAX_NAMED:]])
+    for doubt in find_warnings(Solution(problem, positions=_listed(positions[named]))):
         number = int(numbers[named][doubt.place.number])
         yield replace(doubt, place=doubt.place.numbered(number, len(positions)))
     if len(named) < len(doubtful):
-        yield MoreDoubts(len(doubtful) - len(named), len(positions))
+        yield OmittedWarnings(len(doubtful) - len(named), len(positions))
 
 
 def common_scales(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKind, Scale]:

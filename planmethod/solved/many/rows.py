@@ -37,7 +37,7 @@ def rows_of(
     chosen: Sequence[Quantity],
     written: TapeProgram,
     origin: complex,
-    moved: Sequence[Quantity] = (),
+    load_motion: Sequence[Quantity] = (),
     drawn: Sequence[Name] = (),
 ) -> tuple[tuple[SweepRow, ...], list[Ref], list[frozenset[int]]]:
     """Return the rows of some results: their names, their numbers on the tape, their guards.
@@ -46,12 +46,12 @@ def rows_of(
     ----------
     origin : complex, m
         From which the places on the tape count.
-    moved : sequence of Result
+    load_motion : sequence of Result
         Quantities on which the loads, and so all forces, depend.
     drawn : sequence of Name
         Points and numbers of the plans that are rows as well.
     """
-    loaded = frozenset[int]().union(*(written.depends[result.name] for result in moved))
+    loaded = frozenset[int]().union(*(written.depends[result.name] for result in load_motion))
     rows: list[SweepRow] = []
     refs: list[Ref] = []
     depends: list[frozenset[int]] = []
@@ -80,7 +80,7 @@ def _parts(result: Quantity, written: TapeProgram) -> Iterator[Ref]:
         along: Symbol = value[1]
         if result.kind is QuantityKind.DIRECTION:
             x, y = along.re, 0.0 if along.im is None else along.im
-            yield tape.make("degrees", tape.make("atan2", y, x))
+            yield tape.add_node("degrees", tape.add_node("atan2", y, x))
             return
         value = along / abs(along)
     yield value.re

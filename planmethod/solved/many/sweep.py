@@ -18,7 +18,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import Name, PointName
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
-from planmethod.solved.closings import refuse_untold
+from planmethod.solved.assembly_modes import reject_ambiguous
 from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.many.rows import SweepRow
@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 class SweepTable(Named[Array]):
     """Results of a sweep by the names of their rows; rows of a label can be read together."""
 
-    def __init__(self, found: dict[str, Array], rows: Sequence[SweepRow]) -> None:
-        super().__init__(found, "result")
+    def __init__(self, columns: dict[str, Array], rows: Sequence[SweepRow]) -> None:
+        super().__init__(columns, "result")
         self.rows = tuple(rows)
 
     def __missing__(self, name: object) -> Array:
@@ -141,7 +141,7 @@ class Sweep:
         self._untold = any(closing.only_at for closing in self._draft.choice.values())
         plans = {result.kind.plan for result in self._case.chosen}
         if self._untold and plans != {PlanKind.POSITION}:
-            refuse_untold(problem, self._draft)
+            reject_ambiguous(problem, self._draft)
         self.steps = len(self.program.steps)
         self.driver = problem.drive.coordinate.name
         self.varied = varied
@@ -154,7 +154,7 @@ class Sweep:
 
     def __reduce__(self) -> tuple[object, ...]:
         """Return how another process rebuilds the sweep: it is compiled there again."""
-        return _made_again, self._made_of
+        return _rebuild, self._made_of
 
     def _written(self, case: Case, free: Sequence[str]) -> CaseTape:
         dtype, native = self._settings
@@ -214,10 +214,10 @@ class Sweep:
         angle = reals("positions", positions, self.runner.dtype)
         parameters = {} if parameters is None else of_type("parameters", parameters, Mapping)
         if self._untold:
-            refuse_untold(self.problem, self._draft, angle)
+            reject_ambiguous(self.problem, self._draft, angle)
         # A single variant has one shape: nothing needs to be checked.
         if not (self.varied or parameters) and angle.ndim == 1 and out is None and failed is None:
-            found = self.runner.few(lambda: [angle, *self._told(angle)], len(angle))
+            found = self.runner.few(lambda: [angle, *self._position_columns(angle)], len(angle))
             if found is not None:
                 return found
         if set(parameters) != set(self.varied):
@@ -240,9 +240,9 @@ class Sweep:
         failed: npt.NDArray[np.int16] | None,
     ) -> Array:
         """Run cases in some positions; ``which`` and ``rates`` go together with ``shape``."""
-        tapes = self._held(cases)
+        tapes = self._case_tapes(cases)
         alike = len(set(map(id, tapes))) == 1
-        if out is None and alike and tapes[0] is self._tape and not self._case.given:
+        if out is None and alike and tapes[0] is self._tape and not self._case.inputs:
             columns = self._tape.columns(cases, which, rates)
             few = None
             if failed is None and len(shape) == 1:
@@ -253,9 +253,9 @@ class Sweep:
             out = np.empty((len(self.rows), *shape), self.runner.dtype)
         self.runner.expect(math.prod(shape))
         one = len(cases) == 1 and len(shape) == 1
-        if alike and (one or not self._case.given):
+        if alike and (one or not self._case.inputs):
             columns = tapes[0].columns(cases, which, rates)
-            told = self._typed(cases[0].at(angle)) if self._case.given else []
+            told = self._typed(cases[0].at(angle)) if self._case.inputs else []
             tapes[0].runner.run([angle, *columns, *told], out, failed)
             self._number_guards(tapes[0], failed)
             return out
@@ -265,7 +265,7 @@ class Sweep:
         gaps = None if failed is None else np.empty(whole.shape, failed.dtype)
         values = np.empty((len(self.rows), len(whole)), self.runner.dtype)
         # Values that vary with the position are known for the positions of one case.
-        apart = list(range(len(cases))) if self._case.given else [id(tape) for tape in tapes]
+        apart = list(range(len(cases))) if self._case.inputs else [id(tape) for tape in tapes]
         for part in dict.fromkeys(apart):
             mine = np.array([own == part for own in apart])
             first, at = int(np.flatnonzero(mine)[0]), np.flatnonzero(mine[of])
@@ -284,7 +284,7 @@ class Sweep:
             failed[...] = gaps.reshape(failed.shape)
         return out
 
-    def _beside(
+    def _run_variants(
         self, problems: Sequence[Problem], positions: npt.ArrayLike
     ) -> tuple[tuple[SweepRow, ...], Array]:
         """Return the rows and the results of variants, shape (k, v, n)."""
@@ -310,7 +310,7 @@ class Sweep:
         cases = self._varied.cases(list(self._varied.sizes.values()), unlike)
         return cases, which.reshape(shape)
 
-    def _held(self, cases: Sequence[Case]) -> list[CaseTape]:
+    def _case_tapes(self, cases: Sequence[Case]) -> list[CaseTape]:
         """Return the tape of every case; a number in which cases differ becomes an input of it."""
         alike: dict[tuple[object, ...], list[Case]] = {}
         kinds = [self._case.kind if one is self._case else one.kind for one in cases]
@@ -326,7 +326,7 @@ class Sweep:
             if tape.rows != self.rows:
                 raise SweepError(
                     "{} has results of its own ({}): sweep it alone",
-                    members[0].told or _named(members[0].problem),
+                    members[0].variation or _named(members[0].problem),
                     ", ".join({row.label: "" for row in tape.rows if row not in self.rows}),
                 )
             self._tapes[kind] = tape
@@ -371,10 +371,10 @@ class Sweep:
         filled = self.run(angle, given, out=out, failed=failed)
         out = np.array(filled, order="C") if out is None else out
         self.runner.compile()
-        apart = bool(self._varied.sizes) or (out.ndim == 3 and bool(self._case.given))
-        if apart or not self.runner.takes(out, failed):
+        apart = bool(self._varied.sizes) or (out.ndim == 3 and bool(self._case.inputs))
+        if apart or not self.runner.accepts(out, failed):
             return lambda: self._again(angle, given, out, failed)
-        told = self._told(angle)
+        told = self._position_columns(angle)
         rates = {own: given[name] for name, own in self._varied.rates.items()}
         numbers = self._tape.columns([self._case], np.zeros((), np.intp), rates)
         call = self.runner.bound([angle, *numbers, *told], out, failed)
@@ -387,7 +387,7 @@ class Sweep:
             return bound
 
         def bound_loads() -> Array:
-            for column, value in zip(told, self._told(angle), strict=True):
+            for column, value in zip(told, self._position_columns(angle), strict=True):
                 column[...] = value
             call()
             return out
@@ -403,7 +403,7 @@ class Sweep:
             return out
         return self.run(angle, parameters, out=out, failed=failed)
 
-    def _told(self, positions: Array) -> list[Array]:
+    def _position_columns(self, positions: Array) -> list[Array]:
         """Return the columns that differ from position to position: cam, branches and loads."""
         return self._typed(self._case.at(positions))
 
@@ -417,9 +417,9 @@ class Sweep:
         try:
             shape = np.broadcast_shapes(angle.shape, *(value.shape for value in extra))
         except ValueError:
-            told = ", ".join(f"{n} {v.shape}" for n, v in zip(self.varied, extra, strict=True))
+            text = ", ".join(f"{n} {v.shape}" for n, v in zip(self.varied, extra, strict=True))
             raise SweepError(
-                f"positions of shape {angle.shape} do not go with parameters of shape {told}"
+                f"positions of shape {angle.shape} do not go with parameters of shape {text}"
             ) from None
         if len(shape) not in (1, 2):
             raise SweepError(
@@ -495,7 +495,7 @@ class Sweep:
         at = numbers("position", [position])
         if not np.isfinite(position):
             return Failure(Cause.NO_NUMBER, Place.of(self.problem, at, 0))
-        told = zip(self._case.given, self._case.at(at), strict=True)
+        told = zip(self._case.inputs, self._case.at(at), strict=True)
         data: dict[str, Any] = {**self.constants, self.driver: at, **dict(told)}
         reading = Reading(evaluate(self.program, data, Float64()), 1)
         if failing(self.program, reading.trace, 1)[0] < 0:
@@ -503,9 +503,9 @@ class Sweep:
         return explain(self._draft, self.program, reading, at)
 
 
-def _made_again(
+def _rebuild(
     problem: Problem,
-    asked: Iterable[str] | None,
+    quantities: Iterable[str] | None,
     varied: Sequence[str],
     dtype: npt.DTypeLike,
     forces: bool,
@@ -513,7 +513,7 @@ def _made_again(
     native: bool | None,
 ) -> Sweep:
     return Sweep(
-        problem, asked, varied=varied, dtype=dtype, forces=forces, drawn=drawn, native=native
+        problem, quantities, varied=varied, dtype=dtype, forces=forces, drawn=drawn, native=native
     )
 
 
@@ -542,7 +542,7 @@ def sweep_variants(
     SweepError
         When the variants are not built by the same steps.
     """
-    return Sweep(problems[0], asked)._beside(problems, positions)
+    return Sweep(problems[0], asked)._run_variants(problems, positions)
 
 
 def _named(problem: Problem) -> str:

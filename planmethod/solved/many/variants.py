@@ -19,20 +19,20 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.hand import Hand
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.errors import PlanMethodError
 from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, build
 from planmethod.plans.model import RATES
 from planmethod.problem.model import Problem
-from planmethod.solved.closings import Choosing, WantedReading, choosing, drive_data
-from planmethod.solved.enlarging import SHORT, SMALL
+from planmethod.solved.assembly_modes import ModeSearch, ReadingRequest, drive_data, search_modes
+from planmethod.solved.detail_views import SHORT, SMALL
 from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Flags, Reading, Reals
-from planmethod.solved.selfcheck import changed_branches, refused
-from planmethod.solved.solution import FEW_ROWS, Solution, at_positions, even
-from planmethod.solved.trust.conditioning import DOUBTFUL
+from planmethod.solved.selfcheck import changed_branches, flag_rejected
+from planmethod.solved.solution import FEW_ROWS, Solution, at_positions, unit_rate_problem
+from planmethod.solved.trust.conditioning import WARN_RELATIVE_ERROR
 
 
 class Batch(Solution):
@@ -64,15 +64,15 @@ class Batch(Solution):
         """Return a batch of some of the variants, which keep their own readings."""
         chosen = [self.problems[k] for k in numbers], [self.constructions[k] for k in numbers]
         found = Batch(*chosen, self.profile)
-        found.alone = [self.alone[k] for k in numbers]
+        found.solutions = [self.solutions[k] for k in numbers]
         return found
 
-    def _given_at(self, chosen: npt.NDArray[np.intp] | slice) -> Mapping[str, Any]:
+    def _inputs_at(self, chosen: npt.NDArray[np.intp] | slice) -> Mapping[str, Any]:
         """Return the given data of some rows, at unit scales."""
-        return at_positions(self._given, chosen)
+        return at_positions(self._inputs, chosen)
 
     @cached_property
-    def _given(self) -> dict[str, Number]:
+    def _inputs(self) -> dict[str, Number]:
         each = zip(self.problems, self.constructions, self.rows, strict=True)
         own = [drive_data(p, made.draft, self.positions[rows]) for p, made, rows in each]
         return _columns(own, self._counts)
@@ -86,14 +86,17 @@ class Batch(Solution):
         bodies = [problem.bodies[link].points for problem in self.problems]
         return np.repeat([abs(points[q] - points[p]) for points in bodies], self._counts)
 
-    def alone_at(self, index: int) -> tuple[Solution, int]:
+    def variant_at(self, index: int) -> tuple[Solution, int]:
         """Return the solution of the variant that a row is of, and its position there."""
         k = int(self._of[index])
-        return self.alone[k], index - self.rows[k].start
+        return self.solutions[k], index - self.rows[k].start
 
     def at_unit_rate(self) -> Solution:
         """Return the same mechanisms, their drivers at one radian (or metre) a second."""
-        problems, constructions = [even(problem) for problem in self.problems], self.constructions
+        problems, constructions = (
+            [unit_rate_problem(problem) for problem in self.problems],
+            self.constructions,
+        )
         if self.problem.drive.acceleration:
             each = zip(problems, constructions, strict=True)
             constructions = [build(p, made.structure, made.draft.choice) for p, made in each]
@@ -102,7 +105,7 @@ class Batch(Solution):
     # Readings --------------------------------------------------------------------------------
 
     @property
-    def together(self) -> int:
+    def max_positions(self) -> int:
         """Largest number of positions of a variant."""
         return max(self._counts)
 
@@ -112,13 +115,13 @@ class Batch(Solution):
         return self.read(Float64())
 
     @cached_property
-    def good(self) -> Flags:
+    def clean_variants(self) -> Flags:
         """Flags of the variants that are solved without any warning; shape (variants,)."""
         rows = failing(self.construction.program, self.si.trace, self.si.count) < 0
-        rows &= ~refused(self)
+        rows &= ~flag_rejected(self)
         told = np.array([bool(rows[own].all()) for own in self.rows])
         for k in np.flatnonzero(told & (np.array(self._counts) > 1)):
-            told[k] = not changed_branches(self.alone[k])
+            told[k] = not changed_branches(self.solutions[k])
         return told
 
     @property
@@ -127,19 +130,19 @@ class Batch(Solution):
 
         None for a variant that is not solved, or that has a warning.
         """
-        good = self.good
+        good = self.clean_variants
         if self.problem.dynamics is None or not good.all():
             return [() if told else None for told in good.tolist()]
         kinds = [_loads_kind(one) for one, _ in self.parts]
         if len(set(kinds)) == 1 and kinds[0] is not None:
             from planmethod.solved.forces.statics import statics_of
 
-            certain = statics_of(self).closes & (statics_of(self).bound <= DOUBTFUL)
+            certain = statics_of(self).closes & (statics_of(self).bound <= WARN_RELATIVE_ERROR)
             return [kinds[0] if certain[own].all() else None for own in self.rows]
         return kinds
 
     @cached_property
-    def alone(self) -> list[Solution]:
+    def solutions(self) -> list[Solution]:
         """Every variant's own solution: its exact reading is its rows of this one."""
         found = []
         for problem, made, own in zip(self.problems, self.constructions, self.rows, strict=True):
@@ -152,25 +155,25 @@ class Batch(Solution):
     @cached_property
     def parts(self) -> Sequence[tuple[Solution, slice]]:
         """Every variant's own solution, with its readings, and its rows."""
-        for one, own in zip(self.alone, self.rows, strict=True):
+        for one, own in zip(self.solutions, self.rows, strict=True):
             one.paper = self.paper.part(own)
-        return tuple(zip(self.alone, self.rows, strict=True))
+        return tuple(zip(self.solutions, self.rows, strict=True))
 
     @cached_property
     def per_mm(self) -> dict[str, Number]:
         """Unit per millimetre of each plan in every row, by its name in the program."""
-        return _columns([one.per_mm for one in self.alone], self._counts)
+        return _columns([one.per_mm for one in self.solutions], self._counts)
 
     @cached_property
-    def hand(self) -> Hand:
+    def ruler_arithmetic(self) -> RulerArithmetic:
         """Draughtsman with a ruler: in every row short segments are read as in its variant."""
         enlarged: dict[str, Number] = {}
         for k in np.flatnonzero(self._short):
-            one, own = self.alone[k], self.rows[k]
+            one, own = self.solutions[k], self.rows[k]
             one.paper = self.paper.part(own)
-            for name, times in one.hand.enlarged.items():
+            for name, times in one.ruler_arithmetic.enlarged.items():
                 enlarged.setdefault(name, np.ones(len(self.positions)))[own] = times
-        return Hand(self.profile.ruler, enlarged)
+        return RulerArithmetic(self.profile.ruler, enlarged)
 
     @property
     def _short(self) -> Flags:
@@ -189,7 +192,7 @@ def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batc
     Variants with warnings and variants unlike all others are in none of them: each must be solved
     alone.
     """
-    plain = [k for k, problem in enumerate(problems) if _is_plain(problem)]
+    plain = [k for k, problem in enumerate(problems) if _is_basic(problem)]
     made = dict(zip(plain, constructed([problems[k] for k in plain]), strict=True))
     alike: dict[tuple[Any, ...], list[int]] = {}
     for k, construction in made.items():
@@ -217,7 +220,7 @@ def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batc
     return found
 
 
-def _is_plain(problem: Problem) -> bool:
+def _is_basic(problem: Problem) -> bool:
     """Return whether a problem consists only of plans of a few positions."""
     more = (problem.cycle, problem.machine, problem.balancing, problem.project)
     rubs = problem.dynamics is not None and problem.dynamics.friction is not None
@@ -245,7 +248,7 @@ def _loads_kind(solution: Solution) -> tuple[object, ...] | None:
     from planmethod.solved.forces.statics import loads_on
 
     try:
-        return solution.once(loads_on).kind
+        return solution.compute_once(loads_on).kind
     except PlanMethodError:
         return None  # it says why when it is solved alone
 
@@ -257,15 +260,15 @@ def constructed(problems: Sequence[Problem]) -> list[Construction | None]:
     """
     found: list[Construction | None] = [None] * len(problems)
     structures: dict[Mechanism, Structure] = {}
-    choosing_of: dict[int, Choosing] = {}
-    wanted: dict[int, WantedReading] = {}
+    choosing_of: dict[int, ModeSearch] = {}
+    wanted: dict[int, ReadingRequest] = {}
 
-    def take(k: int, ask: Callable[[], WantedReading]) -> None:
+    def advance(k: int, step: Callable[[], ReadingRequest]) -> None:
         """Advance one problem to its next reading request, or to its end."""
         wanted.pop(k, None)
         problem = problems[k]
         try:
-            wanted[k] = ask()
+            wanted[k] = step()
         except StopIteration as end:
             found[k] = build(problem, structures[problem.mechanism], end.value)
         except PlanMethodError:
@@ -278,22 +281,22 @@ def constructed(problems: Sequence[Problem]) -> list[Construction | None]:
                 structures[mechanism] = analyse(mechanism)
         except PlanMethodError:
             continue
-        choosing_of[k] = choosing(problem, structures[mechanism])
-        take(k, partial(next, choosing_of[k]))
+        choosing_of[k] = search_modes(problem, structures[mechanism])
+        advance(k, partial(next, choosing_of[k]))
     while wanted:
-        for k, reading in _read_together(wanted):
-            take(k, partial(choosing_of[k].send, reading))
+        for k, reading in _read_requests(wanted):
+            advance(k, partial(choosing_of[k].send, reading))
     return found
 
 
-def _read_together(wanted: Mapping[int, WantedReading]) -> list[tuple[int, Reading]]:
+def _read_requests(requests: Mapping[int, ReadingRequest]) -> list[tuple[int, Reading]]:
     """Return the requested readings, by the index of their problem."""
     alike: dict[tuple[Any, ...], list[int]] = {}
-    for k, one in wanted.items():
+    for k, one in requests.items():
         alike.setdefault((tuple(one.draft.b.steps), tuple(one.draft.numbers)), []).append(k)
     found = []
     for members in alike.values():
-        asked = [wanted[k] for k in members]
+        asked = [requests[k] for k in members]
         counts = [len(one.positions) for one in asked]
         own = [drive_data(one.draft.problem, one.draft, one.positions) for one in asked]
         trace = evaluate(asked[0].program, _columns(own, counts), Float64())
@@ -307,11 +310,11 @@ def _rows(counts: Sequence[int]) -> list[slice]:
     return [slice(start, end) for start, end in pairwise(np.cumsum([0, *counts]).tolist())]
 
 
-def _columns(own: Sequence[Mapping[str, Number]], counts: Sequence[int]) -> dict[str, Number]:
+def _columns(mappings: Sequence[Mapping[str, Number]], counts: Sequence[int]) -> dict[str, Number]:
     """Return numbers of variants as columns with a row for each of their positions."""
     found: dict[str, Number] = {}
-    for name in own[0]:
-        values = [one[name] for one in own]
+    for name in mappings[0]:
+        values = [one[name] for one in mappings]
         if any(np.ndim(value) for value in values):
             pairs = zip(values, counts, strict=True)
             found[name] = np.concatenate([np.broadcast_to(v, (n,)) for v, n in pairs])

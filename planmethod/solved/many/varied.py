@@ -18,12 +18,12 @@ from planmethod.compiled import Array, Runner, write
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name
 from planmethod.errors import AssemblyError, PlanMethodError, ProblemError
+from planmethod.plans.assembly_mode import Choice
 from planmethod.plans.build import Construction, build
-from planmethod.plans.closing import Choice
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.problem.parameters import Parameter, Parameters
-from planmethod.solved.closings import construct, drive_data
+from planmethod.solved.assembly_modes import construct, drive_data
 from planmethod.solved.driving import driven
 from planmethod.solved.labelled import quantities_for
 from planmethod.solved.many.rows import SweepRow, rows_of
@@ -48,7 +48,7 @@ class Case(Struct, frozen=True, eq=False):
     problem : Problem
     construction : Construction
     results : Quantities
-    chosen, moved : tuple of Quantity
+    chosen, load_motion : tuple of Quantity
         Requested results, and additional ones on which loads depend.
     program : Program
         Steps that are needed.
@@ -56,7 +56,7 @@ class Case(Struct, frozen=True, eq=False):
         Data that are the same in every position.
     loads : LoadColumns or None
         Loads that must be given for every position.
-    told : str
+    variation : str
         Changed numbers of the file, if any: ``l_AB = 0.3``.
     """
 
@@ -64,27 +64,27 @@ class Case(Struct, frozen=True, eq=False):
     construction: Construction
     results: Quantities
     chosen: tuple[Quantity, ...]
-    moved: tuple[Quantity, ...]
+    load_motion: tuple[Quantity, ...]
     program: Program
     constants: Mapping[str, complex | float]
     loads: LoadColumns | None
-    told: str = ""
+    variation: str = ""
 
     @property
-    def followed(self) -> tuple[str, ...]:
+    def follower_names(self) -> tuple[str, ...]:
         """Names of the values that a cam's follower gives in every position."""
         drive = self.problem.drive
-        return drive.given if drive.followed is not None else ()
+        return drive.program_inputs if drive.cam_drive is not None else ()
 
     @property
-    def given(self) -> tuple[str, ...]:
+    def inputs(self) -> tuple[str, ...]:
         """Names of the inputs that vary with the position, besides the driver's coordinate."""
         loads = () if self.loads is None else self.loads.names
-        return (*self.followed, *self.results.draft.branches, *loads)
+        return (*self.follower_names, *self.results.draft.branches, *loads)
 
     def at(self, positions: Array) -> list[Array]:
         """Return the columns of `given` in some positions: cam, branches and loads."""
-        motion = driven(self.problem.drive, positions) if self.followed else ()
+        motion = driven(self.problem.drive, positions) if self.follower_names else ()
         columns = [np.asarray(one) for one in motion]
         columns += [one.branch(positions) for one in self.results.draft.branches.values()]
         return columns if self.loads is None else columns + self.loads.at(positions)
@@ -92,7 +92,7 @@ class Case(Struct, frozen=True, eq=False):
     @property
     def kind(self) -> tuple[object, ...]:
         """Key that cases on one tape have in common."""
-        return self.program.steps, self.results.draft.origin, self.given, tuple(self.constants)
+        return self.program.steps, self.results.draft.origin, self.inputs, tuple(self.constants)
 
 
 class SweepTask(Struct, frozen=True):
@@ -100,14 +100,14 @@ class SweepTask(Struct, frozen=True):
 
     Attributes
     ----------
-    asked : tuple of str or None
+    labels : tuple of str or None
     forces : bool
     drawn : tuple of Name
     motion : callable
         Returns the sweep of a problem's motion.
     """
 
-    asked: tuple[str, ...] | None
+    labels: tuple[str, ...] | None
     forces: bool
     drawn: tuple[Name, ...]
     motion: Callable[[Problem], Motion]
@@ -115,8 +115,8 @@ class SweepTask(Struct, frozen=True):
     def of(self, problem: Problem, construction: Construction | None = None) -> Case:
         """Return the case of a problem."""
         solution = Solution(problem, positions=[], construction=construction)
-        results = quantities_for(solution, self.asked, forces=self.forces)
-        chosen = results.choose(self.asked)
+        results = quantities_for(solution, self.labels, forces=self.forces)
+        chosen = results.choose(self.labels)
         loads = self._loads(solution, results, chosen)
         # Loads against a motion are known only where all steps of that motion exist.
         moved = _motion(results) if loads is not None and loads.need_motion else ()
@@ -140,7 +140,7 @@ class SweepTask(Struct, frozen=True):
         own = Quantities(known.program, draft.numbers, known.all, draft)
         constants = _constants(problem, own)
         return Case(
-            problem, construction, own, case.chosen, case.moved, case.program, constants, None
+            problem, construction, own, case.chosen, case.load_motion, case.program, constants, None
         )
 
     def _loads(
@@ -159,7 +159,7 @@ def _constants(problem: Problem, results: Quantities) -> dict[str, complex | flo
     draft, drive = results.draft, problem.drive
     data = drive_data(problem, draft, np.zeros(1))
     data.update(results.numbers)
-    followed = drive.given if drive.followed is not None else ()
+    followed = drive.program_inputs if drive.cam_drive is not None else ()
     return {
         name: complex(value) if np.iscomplexobj(value) else float(np.asarray(value).real)
         for name, value in data.items()
@@ -201,10 +201,10 @@ class CaseTape:
         for name in self.free:
             place = isinstance(case.constants[name], complex)
             inputs += [f"{name}.x", f"{name}.y"] if place else [name]
-        written = write(case.program, fixed, (*inputs, *case.given), case.construction.parts)
+        written = write(case.program, fixed, (*inputs, *case.inputs), case.construction.parts)
         origin = case.results.draft.origin
         self.rows: tuple[SweepRow, ...]
-        self.rows, refs, depends = rows_of(case.chosen, written, origin, case.moved, drawn)
+        self.rows, refs, depends = rows_of(case.chosen, written, origin, case.load_motion, drawn)
         self.runner = Runner(written, refs, depends, dtype=dtype, native=native)
 
     def lacks(self, cases: Sequence[Case]) -> list[str]:
@@ -327,22 +327,22 @@ class Varied:
         found = []
         for problem, made, named in zip(problems, constructed(problems), told, strict=True):
             try:
-                built = self._told_alike(made or self._unclosed(problem))
+                built = self._with_special_points(made or self._unclosed(problem))
                 case = self.task.like(self.case, problem, built)
             except ProblemError as error:
                 raise SweepError("with {} the file is rejected. {}", named, str(error)) from error
-            found.append(replace(case, told=named))
+            found.append(replace(case, variation=named))
         return found
 
-    def _told_alike(self, made: Construction) -> Construction:
+    def _with_special_points(self, construction: Construction) -> Construction:
         """Return a construction with the special points of the first one, not with better ones."""
-        mine, choice = self.case.construction.draft.choice, made.draft.choice
+        mine, choice = self.case.construction.draft.choice, construction.draft.choice
         kept = {
             links: replace(closing, third=mine[links].third) for links, closing in choice.items()
         }
         if kept == choice:
-            return made
-        return build(made.draft.problem, made.structure, kept)
+            return construction
+        return build(construction.draft.problem, construction.structure, kept)
 
     def _unclosed(self, problem: Problem) -> Construction:
         """Return the construction of a problem that the positions of the file do not close."""

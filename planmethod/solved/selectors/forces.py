@@ -16,7 +16,7 @@ from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.forces.board import SCALE, Force, GivenLoad
 from planmethod.plans.forces.loads import LoadKind
-from planmethod.plans.forces.polygons import Edge, Share, reaction_symbol
+from planmethod.plans.forces.polygons import Component, Edge, reaction_symbol
 from planmethod.plans.legend import ZERO
 from planmethod.plans.model import PlanKind
 from planmethod.plans.segments import Ends
@@ -71,13 +71,15 @@ class ForceValues:
     @cached_property
     def _drawn(self) -> Reading:
         """Plans read by hand, with the forces at the source's scale."""
-        drawn = self.statics.by_hand
+        drawn = self.statics.ruler_reading
         if self.mu_f != self.statics.scale.per_mm:
             scales = {**self.statics.per_mm, SCALE: self.mu_f}
-            drawn = self.statics.read(self.solution.hand, scales)  # all plans at that one
-        return _both(self.solution.by_hand, drawn)
+            drawn = self.statics.read(
+                self.solution.ruler_arithmetic, scales
+            )  # all plans at that one
+        return _both(self.solution.ruler_reading, drawn)
 
-    def value(self, selector: Selector, *, by_hand: bool) -> float:
+    def value(self, selector: Selector, *, by_ruler: bool) -> float:
         """Return a value: N and N·m; degrees from 0 to 360; millimetres of the position plan.
 
         Sizes, but for the balancing moment or force, which has its sign.
@@ -88,10 +90,12 @@ class ForceValues:
             return self._angle(self._line(rest, names))
         selecting = SelectorSteps(self.solution, self.statics.board.draft.copy())
         asked = self.select(selecting, selector)
-        reading, hand = (self._drawn, self.solution.hand) if by_hand else (self._exact, Float64())
-        found = reading.go_on(selecting.steps, selecting.draft.numbers, hand)
+        reading, hand = (
+            (self._drawn, self.solution.ruler_arithmetic) if by_ruler else (self._exact, Float64())
+        )
+        found = reading.extend(selecting.steps, selecting.draft.numbers, hand)
         value = float(found.number(asked)[self.position])
-        if first in ("arm", "shift") and not by_hand:
+        if first in ("arm", "shift") and not by_ruler:
             value /= self.solution.scales[PlanKind.POSITION].per_mm
         return value if first in ("balance", "lever") and not names else abs(value)
 
@@ -122,7 +126,7 @@ class ForceValues:
                 return self._balance(selecting, kind, names)
             case "shift":
                 return self._shift(selecting, names[0])
-        return self._load(self._given(kind, names[0]))
+        return self._load(self._find_load(kind, names[0]))
 
     def sense(self, selector: Selector) -> float:
         """Return -1 where the plan has the reaction that acts back, else 1."""
@@ -140,7 +144,7 @@ class ForceValues:
         self._directed(line)
         return line.force.ends if line.sense > 0 else line.force.ends[::-1]
 
-    def turn(self, selector: Selector) -> float:
+    def rotation_per_mm(self, selector: Selector) -> float:
         """Return how far a force turns when its end on the plan moves by one mm, degrees."""
         line = self._line(selector.kind.partition(" ")[2], selector.names)
         return math.degrees(self.mu_f / abs(self._directed(line)))
@@ -154,7 +158,7 @@ class ForceValues:
         """Return a force, N."""
         return self._at(force.head) - self._at(force.tail)
 
-    def _is_nothing(self, size: float) -> bool:
+    def _is_negligible(self, size: float) -> bool:
         """Return whether a force is rounding beside the largest of the position."""
         return abs(size) <= VANISHING * self.statics.largest(self.position)
 
@@ -163,23 +167,23 @@ class ForceValues:
         return NumberName(ZERO)
 
     def _size(self, force: Force) -> NumberName:
-        if self._is_nothing(abs(self._vector(force))):
+        if self._is_negligible(abs(self._vector(force))):
             return self._zero
         return self.statics.board.segments.known(force.ends)
 
     def _couple(self, couple: NumberName | None) -> NumberName:
-        if couple is None or self._is_nothing(self._at(couple).real):
+        if couple is None or self._is_negligible(self._at(couple).real):
             return self._zero
         return couple
 
-    def _load(self, given: GivenLoad | None) -> NumberName:
+    def _load(self, load: GivenLoad | None) -> NumberName:
         """Return the size of a load; None is zero by nature."""
-        if given is None:
+        if load is None:
             return self._zero
-        if given.force is not None:
-            return self.statics.board.segments.known(given.force.ends)
-        assert given.couple is not None
-        return given.couple
+        if load.force is not None:
+            return self.statics.board.segments.known(load.force.ends)
+        assert load.couple is not None
+        return load.couple
 
     def _component(self, selecting: SelectorSteps, kind: str, names: tuple[str, ...]) -> NumberName:
         """Return the part of a reaction across a line, or along it."""
@@ -187,8 +191,11 @@ class ForceValues:
         tail, head = (selecting.point(PlanKind.POSITION, name) for name in line)
         along = (self._at(head) - self._at(tail)) * (1j if kind == "Ft" else 1.0)
         along /= abs(along)
-        force, share = self._joint(on, by).force, Share.TANGENTIAL if kind == "Ft" else Share.NORMAL
-        if self._is_nothing((self._vector(force) * along.conjugate()).real):
+        force, share = (
+            self._joint(on, by).force,
+            Component.TANGENTIAL if kind == "Ft" else Component.NORMAL,
+        )
+        if self._is_negligible((self._vector(force) * along.conjugate()).real):
             return self._zero
         one, two = (self.statics.board.called(link) for link in (on, by))
         symbols = {reaction_symbol(one, two, share), reaction_symbol(two, one, share)}
@@ -210,7 +217,7 @@ class ForceValues:
         value = statics.driving.balance
         if kind == "lever":
             if statics.lever_plan is None:
-                raise NoValueError(NoValue.STANDS)
+                raise NoValueError(NoValue.AT_REST)
             value = statics.lever_plan.balance
         if not names:
             return value
@@ -227,10 +234,14 @@ class ForceValues:
         return selecting.compute((plan.moment, 1), *((name, -power) for name, power in arm))
 
     def _shift(self, selecting: SelectorSteps, link: str) -> NumberName:
-        force = self._given("inertia", link)
-        if force is None or force.force is None or self._is_nothing(abs(self._vector(force.force))):
+        force = self._find_load("inertia", link)
+        if (
+            force is None
+            or force.force is None
+            or self._is_negligible(abs(self._vector(force.force)))
+        ):
             raise NoValueError(NoValue.ZERO_DIVISOR)
-        powers = ((self._load(self._given("inertia couple", link)), 1), (self._load(force), -1))
+        powers = ((self._load(self._find_load("inertia couple", link)), 1), (self._load(force), -1))
         return selecting.compute(*powers, (selecting.draft.mu_l, -1))
 
     # Lines of action -------------------------------------------------------------------------
@@ -238,7 +249,7 @@ class ForceValues:
     def _directed(self, line: ForceLine) -> complex:
         """Return a force that has a direction, N."""
         vector = self._vector(line.force)
-        if self._is_nothing(abs(vector)):
+        if self._is_negligible(abs(vector)):
             raise NoValueError(NoValue.NO_DIRECTION)
         return vector * line.sense
 
@@ -271,12 +282,12 @@ class ForceValues:
         """Return the line of a force that must act somewhere."""
         if kind == "F":
             return self._joint(*names)
-        given = self._given(kind, names[0])
+        given = self._find_load(kind, names[0])
         if given is None or given.force is None:
             raise NoValueError(NoValue.NO_DIRECTION)
         return ForceLine(given.force)
 
-    def _given(self, kind: str, name: str) -> GivenLoad | None:
+    def _find_load(self, kind: str, name: str) -> GivenLoad | None:
         """Return a load: of a link, or by its letter; None if it is zero by nature."""
         for given in self.statics.board.given:
             of = given.applied

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from msgspec import Struct
 
-from planmethod.construct.steps import LayOff, NumberName, PointName, Step
+from planmethod.construct.steps import LayOffLength, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import ZERO
@@ -40,7 +40,7 @@ MAGNITUDES: Mapping[str, PlanKind] = {
 class NoValue(Enum):
     """Reason why a quantity has no value."""
 
-    NO_WHAT = "no what"  # the file does not specify the quantity
+    NO_QUANTITY = "no what"  # the file does not specify the quantity
     NO_POSITION = "no position"  # the driver is never there
     NO_SCALE = "no scale"  # millimetres of a plan whose scale the source does not give
     NO_POINT = "no point"  # a name that the plans do not have
@@ -53,15 +53,15 @@ class NoValue(Enum):
     NO_JOINT = "no joint"  # the links do not touch each other
     NO_DIRECTION = "no direction"  # a zero force has no angle and no arm
     NO_MACHINE = "no machine"  # the file has no [machine]
-    STANDS = "stands"  # the lever of a driving link that does not move
+    AT_REST = "stands"  # the lever of a driving link that does not move
 
 
 class NoValueError(Exception):
     """A selector requests a value that the solution does not have."""
 
-    def __init__(self, why: NoValue) -> None:
-        super().__init__(why.value)
-        self.why = why
+    def __init__(self, reason: NoValue) -> None:
+        super().__init__(reason.value)
+        self.reason = reason
 
 
 class Selected(Struct, frozen=True):
@@ -92,12 +92,16 @@ class SelectorSteps:
     """
 
     def __init__(self, solution: Solution, draft: Draft) -> None:
-        self.solution, self.draft, self.kin = solution, draft, solution.construction.kinematics
+        self.solution, self.draft, self.kinematics = (
+            solution,
+            draft,
+            solution.construction.kinematics,
+        )
         self.b = draft.b
         self._done = len(self.b.steps)
         self._segments = {
             motion.kind: motion.segments.on(draft.b)
-            for motion in (self.kin.velocity, self.kin.acceleration)
+            for motion in (self.kinematics.velocity, self.kinematics.acceleration)
         }
 
     @property
@@ -111,7 +115,11 @@ class SelectorSteps:
 
     def motion(self, plan: PlanKind) -> MotionBoard:
         """Return the points of the velocity or the acceleration plan."""
-        return self.kin.acceleration if plan is PlanKind.ACCELERATION else self.kin.velocity
+        return (
+            self.kinematics.acceleration
+            if plan is PlanKind.ACCELERATION
+            else self.kinematics.velocity
+        )
 
     @property
     def free_name(self) -> str:
@@ -141,7 +149,9 @@ class SelectorSteps:
             return self._length(PLANS[kind], *names)
         if kind in ("an", "at"):
             link, arm = self.arm(*names)
-            rates, power = (self.kin.omega, 2) if kind == "an" else (self.kin.epsilon, 1)
+            rates, power = (
+                (self.kinematics.omega, 2) if kind == "an" else (self.kinematics.epsilon, 1)
+            )
             return Selected(
                 self.compute((rates[link], power), *arm) if link in rates else self.zero
             )
@@ -150,11 +160,11 @@ class SelectorSteps:
         if kind in TRANSFERS:
             return self._transfer(kind, names)
         if kind in ANALOGUES:
-            raise NoValueError(NoValue.NO_WHAT)  # no plan has them
+            raise NoValueError(NoValue.NO_QUANTITY)  # no plan has them
         (link,) = names
         if link not in self.solution.links:
             raise NoValueError(NoValue.NO_LINK)
-        rates = self.kin.omega if kind == "omega" else self.kin.epsilon
+        rates = self.kinematics.omega if kind == "omega" else self.kinematics.epsilon
         return Selected(rates.get(link, self.zero), signed=True)
 
     @cached_property
@@ -162,7 +172,7 @@ class SelectorSteps:
         drive = self.solution.problem.drive
         if not drive.revolves or drive.rate == 0.0:
             raise NoValueError(NoValue.NO_CRANK)
-        return TransferSteps(self.kin, self.draft, by_values=True)
+        return TransferSteps(self.kinematics, self.draft, by_values=True)
 
     def _transfer(self, kind: str, names: tuple[str, ...]) -> Selected:
         """Return a transfer function; u of other links than the crank is ω over ω."""
@@ -171,7 +181,7 @@ class SelectorSteps:
             PlanKind.VELOCITY if kind in "v_q u" else PlanKind.ACCELERATION,
         )
         if kind in ("v_q", "a_q"):
-            if names[0] not in self.kin.velocity.named:
+            if names[0] not in self.kinematics.velocity.named:
                 raise NoValueError(NoValue.NO_POINT)
             return Selected(steps.of_point(names[0], plan))
         if not set(names) <= set(self.solution.links):
@@ -181,7 +191,7 @@ class SelectorSteps:
         found = steps.of_link(first, plan)
         if others in ([], [crank]):
             return Selected(found, signed=True)
-        if others[0] not in self.kin.omega:
+        if others[0] not in self.kinematics.omega:
             raise NoValueError(NoValue.ZERO_DIVISOR)
         below = steps.of_link(others[0], plan)
         return Selected(self.compute((found, 1), (below, -1)), signed=True)
@@ -218,7 +228,7 @@ class SelectorSteps:
     def drawn(self, one: PointName, two: PointName) -> NumberName:
         """Return a distance on the position plan as it was laid off, or is read; mm."""
         for step in self.b.steps:
-            if isinstance(step, LayOff) and (step.origin, step.out) == (one, two):
+            if isinstance(step, LayOffLength) and (step.origin, step.out) == (one, two):
                 return step.length
         return self.draft.measured(one, two)
 
@@ -242,22 +252,22 @@ class SelectorSteps:
         motion = self.motion(plan)
         if name == POLE:
             return motion.pole  # the velocity plan's lies at 0 on the paper, as the origin does
-        if name not in self.kin.velocity.named:
+        if name not in self.kinematics.velocity.named:
             raise NoValueError(NoValue.NO_POINT)
-        link, place = self.kin.velocity.named[name]
+        link, place = self.kinematics.velocity.named[name]
         return PointName(place) if plan is PlanKind.POSITION else motion.point[link, place]
 
     def _places(self, name: str) -> dict[str, str]:
         """Return where a name is on each link that has it: link to place of the drawing."""
-        motion = self.kin.velocity
+        motion = self.kinematics.velocity
         return {link: place for link, place in motion.point if motion.label(link, place) == name}
 
-    def relative(self, letter: str, one: str, other: str) -> NumberName:
+    def relative(self, letter: str, one: str, two: str) -> NumberName:
         """Return a number of the sliding of two coincident points: ``v``, ``ak`` or ``ar``."""
-        label = self.kin.velocity.label
-        for relative in self.kin.relatives.values():
+        label = self.kinematics.velocity.label
+        for relative in self.kinematics.relatives.values():
             place = relative.point
-            if {one, other} == {label(relative.of, place), label(relative.to, place)}:
+            if {one, two} == {label(relative.of, place), label(relative.to, place)}:
                 size = self.solution.legend[relative.label(letter)].size
                 assert size is not None
                 return size

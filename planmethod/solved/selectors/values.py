@@ -40,7 +40,7 @@ class SelectorValues:
 
     def __init__(self, solution: Solution, position: int = 0, mu_f: float | None = None) -> None:
         self.solution, self.position, self.mu_f = solution, position, mu_f
-        self.kin = solution.construction.kinematics
+        self.kinematics = solution.construction.kinematics
 
     @cached_property
     def forces(self) -> ForceValues:
@@ -61,7 +61,7 @@ class SelectorValues:
         NoValueError
             When the solution has no such quantity.
         """
-        return self._quotient(selector, by_hand=False)
+        return self._quotient(selector, by_ruler=False)
 
     def read(self, selector: Selector) -> float | None:
         """Return the value that follows from the segments read with the ruler.
@@ -72,20 +72,20 @@ class SelectorValues:
         for part in filter(None, (selector, selector.over)):
             if is_angle(part) or part.kind in ANALOGUES:
                 return None
-        return self._quotient(selector, by_hand=True)
+        return self._quotient(selector, by_ruler=True)
 
-    def _quotient(self, selector: Selector, *, by_hand: bool) -> float:
-        value = self._value(selector, by_hand=by_hand)
+    def _quotient(self, selector: Selector, *, by_ruler: bool) -> float:
+        value = self._value(selector, by_ruler=by_ruler)
         if selector.over is None:
             return value
-        divisor = self._value(selector.over, by_hand=by_hand)
+        divisor = self._value(selector.over, by_ruler=by_ruler)
         if divisor == 0:
             raise NoValueError(NoValue.ZERO_DIVISOR)
         return value / divisor
 
-    def _value(self, selector: Selector, *, by_hand: bool) -> float:
+    def _value(self, selector: Selector, *, by_ruler: bool) -> float:
         if selector.kind in FORCES:
-            return self.forces.value(selector, by_hand=by_hand)
+            return self.forces.value(selector, by_ruler=by_ruler)
         solution = self.solution
         if selector.kind == "phi":
             if selector.names[0] not in solution.links:
@@ -96,24 +96,24 @@ class SelectorValues:
         selecting = SelectorSteps(solution, solution.construction.draft.copy())
         answer = selecting.select(selector)
         reading, hand = solution.si, Float64()
-        if by_hand:
-            reading, hand = solution.by_hand, solution.hand
-        found = reading.go_on(selecting.steps, selecting.draft.numbers, hand)
+        if by_ruler:
+            reading, hand = solution.ruler_reading, solution.ruler_arithmetic
+        found = reading.extend(selecting.steps, selecting.draft.numbers, hand)
         value = float(found.number(answer.name)[self.position])
-        if answer.plan is not None and not by_hand:
-            value /= solution.own_scale(answer.plan, self.position).per_mm
+        if answer.plan is not None and not by_ruler:
+            value /= solution.plan_scale(answer.plan, self.position).per_mm
         return value if answer.signed else abs(value)
 
-    def _analogue(self, what: str, second: bool, name: str) -> float:
+    def _analogue(self, quantity: str, second: bool, name: str) -> float:
         points, links = analogues(self.solution)
-        if what == "phi":
+        if quantity == "phi":
             if name not in links:
                 raise NoValueError(NoValue.NO_LINK)
             return float(links[name][second][self.position])
         if name not in points:
             raise NoValueError(NoValue.NO_POINT)
         rate = points[name].acceleration if second else points[name].velocity
-        return float((rate.real if what == "x" else rate.imag)[self.position])
+        return float((rate.real if quantity == "x" else rate.imag)[self.position])
 
     def lever(self, selector: Selector) -> tuple[PlanKind, float] | None:
         """Return the plan on which an angle or a rate is read, and the value of a metre of it.
@@ -127,8 +127,8 @@ class SelectorValues:
         if kind == "phi":
             reach = self._reach(name)
             return (PlanKind.POSITION, math.degrees(1.0 / reach)) if reach else None
-        rates = {"omega": self.kin.omega, "epsilon": self.kin.epsilon}.get(kind, {})
-        for (of, link), turning in self.kin.turnings.items():
+        rates = {"omega": self.kinematics.omega, "epsilon": self.kinematics.epsilon}.get(kind, {})
+        for (of, link), turning in self.kinematics.turnings.items():
             # Links of a prismatic pair rotate together: the rate was read on one of them.
             if of is PLAN_OF.get(kind) and name in rates and rates[link] == rates[name]:
                 return of, 1.0 / abs(self._place(turning.place) - self._place(turning.joint))
@@ -140,5 +140,5 @@ class SelectorValues:
 
     def _reach(self, link: str) -> float:
         """Return the greatest distance between the places of a link, m."""
-        places = [self._place(place) for place in self.kin.velocity.moving.get(link, ())]
+        places = [self._place(place) for place in self.kinematics.velocity.moving.get(link, ())]
         return max((abs(p - q) for p in places for q in places), default=0.0)

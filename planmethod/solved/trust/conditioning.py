@@ -21,7 +21,7 @@ from planmethod.solved.solution import FEW_ROWS, UNIT_SCALES, Solution
 MULTIPLE = 16
 """Forward error of a result in units of u times its reach that is allowed for."""
 
-DOUBTFUL = 1e-6
+WARN_RELATIVE_ERROR = 1e-6
 """Bound of the relative error of the results from which a warning is given."""
 
 SPOILT = 1e-2
@@ -42,7 +42,7 @@ BLOCK = 256
 PLACING = (DimensionKind.LENGTH, DimensionKind.ALONG, DimensionKind.ACROSS)
 """Kinds of dimensions that determine the size of a mechanism."""
 
-JUDGED = (
+BOUNDED_KINDS = (
     QuantityKind.PLACE,
     QuantityKind.VELOCITY,
     QuantityKind.OMEGA,
@@ -58,7 +58,7 @@ def error_bound(solution: Solution) -> Reals:
     largest value of its kind in the position. Positions far from any cancellation are not
     computed: their bound is given as ``16 u / SAFE**3``, which none of them reaches.
     """
-    return solution.once(_bound)
+    return solution.compute_once(_bound)
 
 
 def _bound(solution: Solution) -> Reals:
@@ -78,14 +78,14 @@ def blocks(suspects: npt.NDArray[np.intp]) -> Iterator[npt.NDArray[np.intp]]:
 
 def _suspects(solution: Solution) -> npt.NDArray[np.intp]:
     """Return the positions that a quick check does not clear."""
-    if solution.together <= FEW_ROWS:
+    if solution.max_positions <= FEW_ROWS:
         return np.arange(len(solution.positions))
     program = solution.construction.program
-    least = np.minimum(solution.margin, least_gap(solution, program, solution.si.value))
+    least = np.minimum(solution.margin, min_gap(solution, program, solution.si.value))
     return np.flatnonzero(~(least > SAFE))
 
 
-def least_gap(solution: Solution, program: Program, value: Mapping[Name, Number]) -> Reals:
+def min_gap(solution: Solution, program: Program, value: Mapping[Name, Number]) -> Reals:
     """Return each position's shortest line, relative to the size of the subtracted coordinates."""
     ends, least = extent(solution) or 1.0, np.full(solution.positions.shape, np.inf)
     for step in program.steps:
@@ -115,8 +115,8 @@ def _relative_reach(
     exact = SCALES | solution.construction.draft.branches.keys()
     found = reach(solution.construction.program, solution.data(chosen=chosen), exact)
     worst = np.ones(len(chosen))
-    largest = dict.fromkeys(JUDGED, np.zeros(len(chosen)))
-    for kind in JUDGED:
+    largest = dict.fromkeys(BOUNDED_KINDS, np.zeros(len(chosen)))
+    for kind in BOUNDED_KINDS:
         names = [r.name for r in results if r.kind is kind]
         for name in names:
             whole = np.broadcast_to(np.abs(solution.si.value[name]), solution.positions.shape)

@@ -20,18 +20,18 @@ from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
-from planmethod.construct.steps import NumberName, PointName, Side, Way
-from planmethod.mechanism.groups import AssurGroup, Lead
+from planmethod.construct.ruler import RulerArithmetic
+from planmethod.construct.steps import LineSense, NumberName, PointName, Side
+from planmethod.mechanism.groups import AssurGroup, OuterLeg
 from planmethod.mechanism.model import FRAME, Prismatic, Revolute
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.drawing import Drafted, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
-from planmethod.solved.reading import Complexes, remembered
+from planmethod.solved.reading import Complexes, memoized
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import TURN, Turn, turn_of
+from planmethod.solved.turn.cycle import TURN, CrankCycle, crank_cycle_of
 
 PRIMES = ("′", "″")
 """Primes of the extreme positions, in the order of the angle from 0 to 360 degrees."""
@@ -52,7 +52,7 @@ class ExtremesConstruction(Struct, frozen=True, dict=True):
 
     Attributes
     ----------
-    turn : Turn
+    cycle : CrankCycle
     solution : Solution
         Whose scheme it is drawn on.
     locus : Locus
@@ -68,11 +68,11 @@ class ExtremesConstruction(Struct, frozen=True, dict=True):
     data : dict
     phi : tuple of (float, float), degrees
         The exact positions of the crank.
-    far : tuple of (bool, bool)
+    sum_arcs : tuple of (bool, bool)
         Which arc is of l + r; of tangents none.
     """
 
-    turn: Turn
+    cycle: CrankCycle
     solution: Solution
     locus: Locus
     link: str
@@ -83,7 +83,7 @@ class ExtremesConstruction(Struct, frozen=True, dict=True):
     program: Program
     data: dict[str, complex | float]
     phi: tuple[float, float]
-    far: tuple[bool, bool]
+    sum_arcs: tuple[bool, bool]
 
     @property
     def is_rod_longer(self) -> bool:
@@ -98,7 +98,7 @@ class ExtremesConstruction(Struct, frozen=True, dict=True):
     @cached_property
     def read(self) -> Trace:
         """Reading with the ruler, mm."""
-        return evaluate(self.program, self.data, Hand(ruler=self.solution.profile.ruler))
+        return evaluate(self.program, self.data, RulerArithmetic(ruler=self.solution.profile.ruler))
 
     def place(self, name: str) -> complex:
         """Return a point of the exact reading, mm."""
@@ -158,19 +158,19 @@ class ExtremesConstruction(Struct, frozen=True, dict=True):
         return (turned + TURN / 2) % TURN - TURN / 2
 
 
-def _dyads(solution: Solution) -> Iterator[tuple[AssurGroup, Lead, Lead]]:
+def _dyads(solution: Solution) -> Iterator[tuple[AssurGroup, OuterLeg, OuterLeg]]:
     """Yield the dyads that join the crank to the frame: their legs on them, in this order."""
     for group in solution.structure.groups:
-        by = {lead.to: lead for lead in group.leads}
+        by = {lead.to: lead for lead in group.legs}
         drive = solution.problem.drive.link
         if group.class_number == 2 and by.keys() == {FRAME, drive}:
             yield group, by[drive], by[FRAME]
 
 
-@remembered
+@memoized
 def extreme_construction(solution: Solution) -> ExtremesConstruction | None:
     """Return the construction of the extreme positions; None where there is none that is known."""
-    turn = turn_of(solution)
+    turn = crank_cycle_of(solution)
     if turn.ends is None:
         return None
     whole = turn.period
@@ -187,13 +187,16 @@ def extreme_construction(solution: Solution) -> ExtremesConstruction | None:
     return None
 
 
-def _ray(turn: Turn, phi: tuple[float, float], tail: str, head: str) -> Complexes:
+def _ray(cycle: CrankCycle, phi: tuple[float, float], tail: str, head: str) -> Complexes:
     """Return a vector of the mechanism in both positions, m."""
-    return turn.read(phi).vector(PointName(tail), PointName(head))
+    return cycle.read(phi).vector(PointName(tail), PointName(head))
 
 
 def _built(
-    turn: Turn, solution: Solution, dyad: tuple[AssurGroup, Lead, Lead], phi: tuple[float, float]
+    cycle: CrankCycle,
+    solution: Solution,
+    dyad: tuple[AssurGroup, OuterLeg, OuterLeg],
+    phi: tuple[float, float],
 ) -> ExtremesConstruction | None:
     group, own, other = dyad
     problem, per_mm = solution.problem, solution.scales[PlanKind.POSITION].per_mm
@@ -204,9 +207,9 @@ def _built(
     paper = solution.paper
     b, data = Builder(), dict[str, complex | float]()
 
-    def given(name: str) -> PointName:
+    def take_point(name: str) -> PointName:
         data[name] = complex(paper.point(PointName(name))[0])
-        return b.given(name)
+        return b.take_point(name)
 
     def known(name: str, value: float) -> NumberName:
         data[name] = value
@@ -216,11 +219,11 @@ def _built(
         points = problem.bodies[link].points
         return abs(points[two] - points[one]) / per_mm
 
-    def left(tail: str, across: Complexes, head: str) -> list[bool]:
-        rays = _ray(turn, phi, tail, head)
-        return [bool(one > 0) for one in (np.conj(across) * rays).imag]
+    def left(tail: str, normal: Complexes, head: str) -> list[bool]:
+        rays = _ray(cycle, phi, tail, head)
+        return [bool(one > 0) for one in (np.conj(normal) * rays).imag]
 
-    o = given(pivot)
+    o = take_point(pivot)
     radius = span(problem.drive.link, pivot, pin)
     r = known("r", radius)
     x = b.at_angle(o, None, known("0", 0.0))
@@ -228,8 +231,8 @@ def _built(
     centre, end, far = "", pin, (False, False)
     if isinstance(inner, Prismatic) and isinstance(outer, Revolute):
         locus, centre = Locus.TANGENTS, outer.point
-        c = given(centre)
-        sides = left(pivot, _ray(turn, phi, pivot, centre), pin)
+        c = take_point(centre)
+        sides = left(pivot, _ray(cycle, phi, pivot, centre), pin)
         for prime, side in zip(PRIMES, sides, strict=True):
             b.touch(f"{pin}{prime}", o, r, c, Side.LEFT if side else Side.RIGHT)
     elif isinstance(inner, Revolute):
@@ -238,7 +241,7 @@ def _built(
         near, long = abs(rod - radius), rod + radius
         if near < 1e-9 * long:  # no arc
             return None
-        there = np.abs(_ray(turn, phi, pivot, end)) / per_mm
+        there = np.abs(_ray(cycle, phi, pivot, end)) / per_mm
         far = (bool(there[0] > rod), bool(there[1] > rod))
         minus = b.compute("-", (r if rod > radius else known("l", rod), 1), factor=-1.0)
         longer = known("l", rod) if rod > radius else r
@@ -248,10 +251,10 @@ def _built(
         }
         if isinstance(outer, Revolute):
             locus, centre = Locus.CIRCLE, outer.point
-            c, arm = given(centre), known("c", span(other.link, centre, end))
-            sides = left(pivot, _ray(turn, phi, pivot, centre), end)
+            c, arm = take_point(centre), known("c", span(other.link, centre, end))
+            sides = left(pivot, _ray(cycle, phi, pivot, centre), end)
             ends = [
-                b.meet_circles(f"{end}{p}", o, arcs[is_far], c, arm,
+                b.intersect_circles(f"{end}{p}", o, arcs[is_far], c, arm,
                                Side.LEFT if side else Side.RIGHT)
                 for p, is_far, side in zip(PRIMES, far, sides, strict=True)
             ]  # fmt: skip
@@ -260,19 +263,19 @@ def _built(
             if slide.pin != end:
                 return None
             along = cis(slide.angle)
-            base = slide.base + 1j * slide.offset * along - turn.unit.construction.draft.origin
+            base = slide.base + 1j * slide.offset * along - cycle.unit.construction.draft.origin
             data["guide"] = base / per_mm
-            line = b.at_angle(b.given("guide"), None, known("angle", slide.angle))
+            line = b.at_angle(b.take_point("guide"), None, known("angle", slide.angle))
             sides = left(pivot, np.array([along / 1j] * 2), end)
             ends = [
-                b.meet_line_circle(f"{end}{p}", line, o, arcs[is_far],
-                                   Way.FORWARD if side else Way.BACKWARD)
+                b.intersect_line_circle(f"{end}{p}", line, o, arcs[is_far],
+                                   LineSense.FORWARD if side else LineSense.BACKWARD)
                 for p, is_far, side in zip(PRIMES, far, sides, strict=True)
             ]  # fmt: skip
             b.measure("H", *ends)
         for p, is_far, at in zip(PRIMES, far, ends, strict=True):
-            way = Way.FORWARD if is_far or radius > rod else Way.BACKWARD
-            b.meet_line_circle(f"{pin}{p}", b.join(o, at), o, r, way)
+            way = LineSense.FORWARD if is_far or radius > rod else LineSense.BACKWARD
+            b.intersect_line_circle(f"{pin}{p}", b.join(o, at), o, r, way)
     else:
         return None
     for p in PRIMES:
@@ -282,5 +285,5 @@ def _built(
                 at, tail = PointName(f"{end}{p}"), PointName(centre)
                 b.measure_along(f"{centre}{end}{p} {name}", tail, at, b.parallel(tail, line))
     return ExtremesConstruction(
-        turn, solution, locus, other.link, pivot, pin, end, centre, b.program(), data, phi, far
+        cycle, solution, locus, other.link, pivot, pin, end, centre, b.program(), data, phi, far
     )

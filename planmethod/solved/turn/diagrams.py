@@ -31,9 +31,9 @@ from planmethod.plans.diagrams.calculus import differentiate, integrate, repeate
 from planmethod.problem.cycle_records import Differentiation
 from planmethod.solved.errors.drawing import Drafted, DrawnQuantity
 from planmethod.solved.errors.spread import Errors
-from planmethod.solved.reading import Reals, Remembering, remembered
+from planmethod.solved.reading import Memoizing, Reals, memoized
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import Turn, turn_of
+from planmethod.solved.turn.cycle import CrankCycle, crank_cycle_of
 
 HEIGHT = 80.0
 """Intended height of the diagram of the path if the file gives no scale of lengths, mm."""
@@ -124,120 +124,122 @@ class Graph(Struct, frozen=True):
 class Deviation(Struct, frozen=True):
     """Error relative to the exact diagram, mm: greatest and mean square (отклонение)."""
 
-    most: float
+    maximum: float
     rms: float
 
     @classmethod
-    def of(cls, found: Reals, exact: Reals) -> Deviation:
+    def of(cls, drawn: Reals, exact: Reals) -> Deviation:
         """Compare ordinates with exact ones; missing ones are left out."""
-        off = (found - exact)[np.isfinite(found - exact)]
+        off = (drawn - exact)[np.isfinite(drawn - exact)]
         if not off.size:
             return cls(np.nan, np.nan)
         return cls(float(np.max(np.abs(off))), float(np.sqrt(np.mean(off**2))))
 
 
-class Diagrams(Remembering):
+class Diagrams(Memoizing):
     """Diagrams of a turn.
 
     Parameters
     ----------
-    turn : Turn
+    cycle : CrankCycle
     count : int, optional
         Number of positions. Default: that of the problem.
     """
 
-    def __init__(self, turn: Turn, count: int | None = None) -> None:
+    def __init__(self, cycle: CrankCycle, count: int | None = None) -> None:
         super().__init__()
-        self.turn, self.task = turn, turn.task
-        self.count = count or turn.count
+        self.cycle, self.task = cycle, cycle.task
+        self.count = count or cycle.count
 
     # Exact ---------------------------------------------------------------------------------------
 
     @cached_property
     def _start(self) -> tuple[float, int]:
         """Value in position zero, and the sign of the way in which it changes from there."""
-        turn = self.turn
+        turn = self.cycle
         zero = np.array([turn.zero])
         first, second = (float(rate[0]) for rate in turn.transfers(zero))
         way = second if abs(first) < 1e-9 * turn.fastest else turn.sense * first
         return float(turn.values(zero)[0]), -1 if way < 0 else 1
 
-    def _at(self, shares: Reals) -> Reals:
+    def _at(self, fractions: Reals) -> Reals:
         """Return the driver positions after shares of the way; none at and beyond a limit."""
-        inside = (self.turn.range is None) | (shares > 1e-9) & (shares < 1 - 1e-9)
-        return np.asarray(np.where(inside, self.turn.at(shares), np.nan))
+        inside = (self.cycle.range is None) | (fractions > 1e-9) & (fractions < 1 - 1e-9)
+        return np.asarray(np.where(inside, self.cycle.at(fractions), np.nan))
 
-    def path(self, shares: Reals) -> Reals:
+    def path(self, fractions: Reals) -> Reals:
         """Return the path after shares of the way, m or radians."""
         start, sign = self._start
-        return sign * (self.turn.values(self._at(shares)) - start) / self.turn.output.per_radian
+        return (
+            sign * (self.cycle.values(self._at(fractions)) - start) / self.cycle.output.per_radian
+        )
 
-    def rates(self, shares: Reals) -> tuple[Reals, Reals]:
+    def rates(self, fractions: Reals) -> tuple[Reals, Reals]:
         """Return both transfer functions of the path, m or 1 per radian of the crank's way."""
-        one, two = self.turn.transfers(self._at(shares))
+        one, two = self.cycle.transfers(self._at(fractions))
         _, sign = self._start
-        return sign * self.turn.sense * one, sign * two
+        return sign * self.cycle.sense * one, sign * two
 
-    def speeds(self, shares: Reals) -> tuple[Reals, Reals, Reals]:
+    def speeds(self, fractions: Reals) -> tuple[Reals, Reals, Reals]:
         """Return velocity, acceleration, and its part of a crank that turns evenly, SI.
 
         a = s''·omega² + s'·epsilon, of which the diagrams have the first.
         """
-        drive = self.turn.solution.problem.drive
-        one, two = self.rates(shares)
+        drive = self.cycle.solution.problem.drive
+        one, two = self.rates(fractions)
         even = two * drive.rate**2
-        return one * abs(drive.rate), even + one * self.turn.sense * drive.acceleration, even
+        return one * abs(drive.rate), even + one * self.cycle.sense * drive.acceleration, even
 
-    def exact(self, shares: Reals) -> tuple[Reals, Reals, Reals]:
+    def exact(self, fractions: Reals) -> tuple[Reals, Reals, Reals]:
         """Return the exact ordinates of s, v and a after shares of the way, mm."""
-        one, two = self.rates(shares)
+        one, two = self.rates(fractions)
         v, a = self.poles
         by = self.mu_phi * v / self.mu_s
-        return self.path(shares) / self.mu_s, one * by, two * by * self.mu_phi * a
+        return self.path(fractions) / self.mu_s, one * by, two * by * self.mu_phi * a
 
     @cached_property
-    def shares(self) -> Reals:
+    def fractions(self) -> Reals:
         """Shares of the way of the positions, the first one again at the end.
 
         Of a range the last one is beyond its limit: there is none.
         """
-        return (np.arange(self.count + 1) + self.turn.first) / self.count
+        return (np.arange(self.count + 1) + self.cycle.first) / self.count
 
     @cached_property
     def middles(self) -> Reals:
         """Shares of the way of the middles of the intervals."""
-        return self.shares[:-1] + 0.5 / self.count
+        return self.fractions[:-1] + 0.5 / self.count
 
     @cached_property
     def fine(self) -> Reals:
         """Shares of the way that the curves are drawn through, from the first to the last."""
-        return np.linspace(self.shares[0], 1 - self.shares[0], 360 * self.turn.turns + 1)
+        return np.linspace(self.fractions[0], 1 - self.fractions[0], 360 * self.cycle.turns + 1)
 
-    def x(self, shares: Reals) -> Reals:
+    def x(self, fractions: Reals) -> Reals:
         """Return abscissae, mm from that of position 0."""
-        return np.asarray(self.length * (shares - self.shares[0]), dtype=float)
+        return np.asarray(self.length * (fractions - self.fractions[0]), dtype=float)
 
     # Scales --------------------------------------------------------------------------------------
 
     @cached_property
     def _inverse(self) -> bool:
-        return self.turn.solution.problem.scales.in_mm_per_unit
+        return self.cycle.solution.problem.scales.in_mm_per_unit
 
     @cached_property
     def length(self) -> float:
         """Length of the axis of φ, mm: the file's, else at a round scale."""
-        way = self.turn.way
+        way = self.cycle.travel
         return self.task.length or way / angle_scale(way, mm_per_unit=self._inverse)
 
     @property
     def mu_phi(self) -> float:
         """Radians of the crank per mm."""
-        return radians(self.turn.way) / self.length
+        return radians(self.cycle.travel) / self.length
 
     @cached_property
     def mu_s(self) -> float:
         """Scale of the path, m or radians per mm: the file's ``mu_l`` if the diagram then fits."""
-        problem, output = self.turn.solution.problem, self.turn.output
+        problem, output = self.cycle.solution.problem, self.cycle.output
         s, given = _height(self.path(self.fine)), problem.scales.mu_l
         asked = given is not None and not problem.scales.decided
         if given is not None and asked and output.slide is not None and LOW <= s / given <= HIGH:
@@ -247,7 +249,7 @@ class Diagrams(Remembering):
     @property
     def rate(self) -> float:
         """Angular velocity of the crank, 1/s, without its sense."""
-        return abs(self.turn.solution.problem.drive.rate)
+        return abs(self.cycle.solution.problem.drive.rate)
 
     @cached_property
     def poles(self) -> tuple[float, float]:
@@ -258,15 +260,15 @@ class Diagrams(Remembering):
         a = pole.a or self._pole(mu_v, self.rate, heights[1] * self.rate**2, HEIGHTS[1])
         return v, a
 
-    def _pole(self, per_mm: float, rate: float, most: float, height: float) -> float:
+    def _pole(self, per_mm: float, rate: float, maximum: float, height: float) -> float:
         """Return the pole distance for the finest round scale of a derivative, mm.
 
         The derivative's height and the pole's distance are limited. ``per_mm`` is the scale of the
-        differentiated diagram, ``most`` the height of the derivative in its unit.
+        differentiated diagram, ``maximum`` the height of the derivative in its unit.
         """
-        if not rate or not most:
+        if not rate or not maximum:
             return POLE
-        needed = max(most / height, per_mm * rate / (self.mu_phi * FARTHEST))
+        needed = max(maximum / height, per_mm * rate / (self.mu_phi * FARTHEST))
         round_one = choose_scale((needed, 0.0), (1.0, 1.0), mm_per_unit=self._inverse)
         return per_mm * rate / (self.mu_phi * round_one)
 
@@ -292,7 +294,7 @@ class Diagrams(Remembering):
     @property
     def scales(self) -> list[Scale]:
         """Scales of s, v, a and phi (degrees), those that there are."""
-        turns = self.turn.output.slide is None
+        turns = self.cycle.output.slide is None
         units = ("rad", "1/s", "1/s²") if turns else ("m", "m/s", "m/s²")
         found = [
             ("mu_s", self.mu_s, units[0]),
@@ -304,15 +306,15 @@ class Diagrams(Remembering):
 
     # Construction --------------------------------------------------------------------------------
 
-    def graph(self, way: Differentiation) -> Graph:
+    def graph(self, method: Differentiation) -> Graph:
         """Return the construction by chords, by tangents, or by chords of the drawn curve."""
-        return self.once(_graph, way)
+        return self.compute_once(_graph, method)
 
-    def drawn(self, way: Differentiation, arithmetic: Arithmetic | None = None) -> list[Reals]:
+    def drawn(self, method: Differentiation, arithmetic: Arithmetic | None = None) -> list[Reals]:
         """Return the ordinates of s, v and a as drawn by hand, mm; exact ones by default."""
-        graph, arithmetic = self.graph(way), arithmetic or Float64()
+        graph, arithmetic = self.graph(method), arithmetic or Float64()
         curve = {}
-        if way is Differentiation.CURVE:  # through the points that this hand has found by chords
+        if method is Differentiation.CURVE:  # through the points that this hand has found by chords
             _, v, _ = self.drawn(Differentiation.CHORDS, arithmetic)
             read = smooth(v, np.arange(self.count, dtype=float) - 0.5)
             curve = {f"v{k}": float(y) for k, y in enumerate(read)}
@@ -329,7 +331,7 @@ class Diagrams(Remembering):
         """Return the path found from exact velocities by middle ordinates, mm; n + 1 ordinates."""
         board = DiagramBoard()
         over, axes = board.axes("v"), board.axes("s", -200j)
-        at = self.x(self.shares).tolist()
+        at = self.x(self.fractions).tolist()
         _, v, _ = self.exact(self.middles)
         points = [
             board.plot(f"v {k}", over, x, board.known(f"v{k}", float(y)))
@@ -348,8 +350,8 @@ class Diagrams(Remembering):
 
         None if there are no plans in some position, or the crank is at rest.
         """
-        turn = self.turn
-        solution = turn.solution.moved(turn.at(self.shares[:-1]).tolist()).filling(None)
+        turn = self.cycle
+        solution = turn.solution.with_positions(turn.at(self.fractions[:-1]).tolist()).filling(None)
         if self.mu_v is None or self.mu_a is None:
             return None
         exact = turn.output.rates(solution, solution.read(Float64()))
@@ -365,7 +367,7 @@ class Diagrams(Remembering):
         )
 
 
-def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
+def _graph(diagrams: Diagrams, method: Differentiation) -> Graph:
     board = DiagramBoard()
     exact = diagrams.exact(diagrams.fine)
     lows, highs = ([float(f(one)) for one in exact] for f in (np.nanmin, np.nanmax))
@@ -373,12 +375,12 @@ def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
     for low, high in zip(lows, highs[1:], strict=False):
         down.append(down[-1] + min(low, 0.0) - max(high, 0.0) - _BETWEEN)
     s, v, a = (board.axes(name, 1j * y) for name, y in zip("sva", down, strict=True))
-    ends, middles = diagrams.x(diagrams.shares), diagrams.x(diagrams.middles)
-    path = _taken_off(board, s, ends, diagrams.exact(diagrams.shares)[0])
+    ends, middles = diagrams.x(diagrams.fractions), diagrams.x(diagrams.middles)
+    path = _plot_path(board, s, ends, diagrams.exact(diagrams.fractions)[0])
     first, second = diagrams.poles
     poles = board.pole(v, first), board.pole(a, second)
     end = board.abscissa(v, float(ends[-1]))
-    if way is Differentiation.TANGENTS:
+    if method is Differentiation.TANGENTS:
         back = repeated(board, "s -1", path[-2], path[-1], path[0])
         pairs = list(zip([back, *path[:-2]], path[1:], strict=True))
         speed = differentiate(board, pairs, v, ends[:-1].tolist(), pole=poles[0])
@@ -389,7 +391,7 @@ def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
     else:
         speed = differentiate(board, list(pairwise(path)), v, middles.tolist(), pole=poles[0])
         at = middles, ends[:-1]
-        if way is Differentiation.CURVE:
+        if method is Differentiation.CURVE:
             at = ends[:-1], middles
             speed = [
                 board.plot(f"v curve {k}", v, float(x), board.known(f"v{k}", float(y)))
@@ -404,11 +406,11 @@ def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
     return Graph(board.b.program(), board.data, (s, v, a), poles, (path, speed, bend), (ends, *at))
 
 
-def _taken_off(board: DiagramBoard, axes: DiagramAxes, at: Reals, path: Reals) -> list[PointName]:
+def _plot_path(board: DiagramBoard, axes: DiagramAxes, at: Reals, path: Reals) -> list[PointName]:
     """Plot a path read on the scheme: the distance of the output from its position zero."""
     up = board.known("90", 90.0)
-    places = [board.given(f"scheme {k}", complex(-100.0, y)) for k, y in enumerate(path)]
-    zero = board.given("scheme zero", -100.0 + 0j) if path[0] else places[0]
+    places = [board.take_point(f"scheme {k}", complex(-100.0, y)) for k, y in enumerate(path)]
+    zero = board.take_point("scheme zero", -100.0 + 0j) if path[0] else places[0]
     along = board.b.at_angle(zero, None, up)
     return [
         board.plot(f"s {k}", axes, float(x), board.b.measure_along(f"|s {k}|", zero, place, along))
@@ -417,26 +419,26 @@ def _taken_off(board: DiagramBoard, axes: DiagramAxes, at: Reals, path: Reals) -
 
 
 def deviations(
-    diagrams: Diagrams, ways: Sequence[Differentiation], arithmetic: Arithmetic | None = None
+    diagrams: Diagrams, methods: Sequence[Differentiation], arithmetic: Arithmetic | None = None
 ) -> dict[tuple[Differentiation, str], Deviation]:
     """Return the errors of v and a by some methods, drawn by hand, or exactly."""
     found = {}
-    for way in ways:
+    for way in methods:
         graph, drawn = diagrams.graph(way), diagrams.drawn(way, arithmetic)
         for number, letter in ((1, "v"), (2, "a")):
-            at = graph.at[number] / diagrams.length + diagrams.shares[0]
+            at = graph.at[number] / diagrams.length + diagrams.fractions[0]
             exact = diagrams.exact(at)[number]
             found[way, letter] = Deviation.of(drawn[number], exact)
     return found
 
 
-def sigmas(diagrams: Diagrams, way: Differentiation) -> tuple[Reals, Reals]:
+def sigmas(diagrams: Diagrams, method: Differentiation) -> tuple[Reals, Reals]:
     """Return one sigma of the drafting error of every ordinate of v and a, mm, ndarrays (n,).
 
     The path is read on the scheme and laid off; rays, step lines and uprights are drawn. The smooth
     curve of `Differentiation.CURVE` is taken as exact.
     """
-    graph = diagrams.graph(way)
+    graph = diagrams.graph(method)
     items = [
         DrawnQuantity(f"{axes.name} {k}", (point, axes.origin), _ordinate(point, axes.origin))
         for axes, points in zip(graph.axes[1:], graph.points[1:], strict=True)
@@ -446,7 +448,7 @@ def sigmas(diagrams: Diagrams, way: Differentiation) -> tuple[Reals, Reals]:
         graph.program,
         lambda chosen: dict(graph.data),
         1,
-        diagrams.turn.solution.profile,
+        diagrams.cycle.solution.profile,
         frozenset(str(axes.origin) for axes in graph.axes),
         tuple(items),
     )
@@ -467,6 +469,6 @@ def diagrams_of(solution: Solution) -> Diagrams:
     return _diagrams(solution.origin)
 
 
-@remembered
+@memoized
 def _diagrams(solution: Solution) -> Diagrams:
-    return Diagrams(turn_of(solution))
+    return Diagrams(crank_cycle_of(solution))

@@ -12,7 +12,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError, PlanMethodError, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem.cycle import report_start
 from planmethod.problem.cycle_records import CycleTask, Zero
 from planmethod.problem.fields import Faults
@@ -21,12 +21,12 @@ from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import CrankCycle, crank_cycle_of
 from planmethod.solved.turn.strokes import Strokes
-from planmethod.solved.turn.turn import Turn, turn_of
 
 TURN = 360.0
 
-LEAST_EVEN = 6
+MIN_POSITIONS = 6
 """Fewest positions of a turn that its diagrams can be drawn through."""
 
 
@@ -44,7 +44,7 @@ def number(problem: Problem) -> Problem:
         return problem
     given = bool(np.isfinite(drive.positions).all())
     try:
-        turn = Turn(Solution(problem))
+        turn = CrankCycle(Solution(problem))
         positions = tuple(turn.positions.tolist())
         _ = turn.strokes if problem.cycle.working is not None else None  # may be a fault
     except ProblemError:
@@ -59,11 +59,11 @@ def number(problem: Problem) -> Problem:
         if machine.start_deg is not None and isinstance(problem.cycle.zero, Zero):
             report_start(faults, positions[0] % 360.0, machine.start_deg)
         if faults:
-            raise ProblemError(problem.name, faults.found)
+            raise ProblemError(problem.name, faults.listed)
         machine = replace(machine, start_deg=positions[0])
     if not given or len(drive.positions) > 1:
-        judged = drive.judged or drive.positions
-        drive = replace(drive, positions=positions, judged=judged)
+        judged = drive.assembly_positions or drive.positions
+        drive = replace(drive, positions=positions, assembly_positions=judged)
     return replace(problem, drive=drive, machine=machine, numbered=positions)
 
 
@@ -89,7 +89,7 @@ def counting(problem: Problem, positions: Sequence[float]) -> Problem:
     turns = Solution(problem).turns
     step = TURN * turns / count if positions[1] > positions[0] else -TURN * turns / count
     even = [positions[0] + step * k for k in range(count)]
-    least = LEAST_EVEN * turns
+    least = MIN_POSITIONS * turns
     if free and count >= least and not count % turns and _is_same(positions, even, turns):
         sense = TurningSense.CCW if step > 0 else TurningSense.CW
         own = CycleTask(zero=float(positions[0]), direction=sense, count=count // turns)
@@ -100,16 +100,16 @@ def counting(problem: Problem, positions: Sequence[float]) -> Problem:
     if _is_same(positions, told, turns):
         return counted
     hint = (
-        say(
+        translate(
             "Name one position, or {0:|an even turn|even turns} of {1} and more: "
             "--phi {2:g}:{3:g}:30.",
             turns,
-            LEAST_EVEN,
+            MIN_POSITIONS,
             positions[0],
             positions[0] + TURN * turns,
         )
         if free
-        else say("Name one position, leave --phi out, or give zero and count of [cycle].")
+        else translate("Name one position, leave --phi out, or give zero and count of [cycle].")
     )
     raise LayoutError(
         "{}: tables and diagrams of the cycle number {} positions from {:.5g}° on, but {} "
@@ -123,11 +123,11 @@ def counting(problem: Problem, positions: Sequence[float]) -> Problem:
     )
 
 
-def _is_same(some: Sequence[float], others: Sequence[float], turns: int) -> bool:
+def _is_same(some: Sequence[float], reference: Sequence[float], turns: int) -> bool:
     """Return whether positions over a number of turns are the same, in the same order."""
-    if len(some) != len(others):
+    if len(some) != len(reference):
         return False
-    whole, apart = TURN * turns, np.subtract(some, others)
+    whole, apart = TURN * turns, np.subtract(some, reference)
     return bool((np.abs((apart + whole / 2) % whole - whole / 2) <= SAME_DEG).all())
 
 
@@ -148,9 +148,9 @@ def numbered_positions(solution: Solution) -> Reals:
         return np.array(problem.numbered)
     if problem.dynamics is not None and only_in_positions(problem.dynamics):
         return np.array(problem.drive.positions)
-    return turn_of(solution).positions
+    return crank_cycle_of(solution).positions
 
 
 def strokes_of(solution: Solution) -> Strokes | None:
     """Return the working and the idle stroke; None where the output has no two strokes."""
-    return turn_of(solution).strokes
+    return crank_cycle_of(solution).strokes

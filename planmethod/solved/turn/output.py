@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, ProblemError
-from planmethod.mechanism.groups import AssurGroup, Lead
+from planmethod.mechanism.groups import AssurGroup, OuterLeg
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
@@ -56,21 +56,23 @@ class Output(Struct, frozen=True):
     def value(self, solution: Solution, reading: Reading) -> Reals:
         """Return the value in every position; an angle within a turn."""
         if self.slide is None:
-            return np.degrees(np.angle(reading.course(solution.construction.draft.axes[self.link])))
+            return np.degrees(
+                np.angle(reading.line_vector(solution.construction.draft.axes[self.link]))
+            )
         along = cis(self.slide.angle)
         place = reading.point(PointName(self.point)) + solution.construction.draft.origin
         return np.asarray(((place - self.slide.base) * np.conj(along)).real)
 
     def rates(self, solution: Solution, reading: Reading) -> tuple[Reals, Reals]:
         """Return the first and second rate: m/s and m/s², or 1/s and 1/s²."""
-        kin = solution.construction.kinematics
+        kinematics = solution.construction.kinematics
         if self.slide is None:
-            names = (kin.omega.get(self.link), kin.epsilon.get(self.link))
+            names = (kinematics.omega.get(self.link), kinematics.epsilon.get(self.link))
             zero = np.zeros(reading.count)
             one, two = (zero if name is None else reading.number(name) for name in names)
             return one, two
         back = np.conj(cis(self.slide.angle))
-        plans = (kin.velocity, kin.acceleration)
+        plans = (kinematics.velocity, kinematics.acceleration)
         ends = [reading.point(motion.point[motion.named[self.point]]) for motion in plans]
         return np.asarray((ends[0] * back).real), np.asarray((ends[1] * back).real)
 
@@ -124,8 +126,8 @@ def pressure_on(solution: Solution, output: Output) -> Pressure | None:
     group = next(group for group in solution.structure.groups if output.link in group.links)
     if group.class_number != 2:
         return None
-    own = next(lead for lead in group.leads if lead.link == output.link)
-    other = next(lead for lead in group.leads if lead.link != output.link)
+    own = next(lead for lead in group.legs if lead.link == output.link)
+    other = next(lead for lead in group.legs if lead.link != output.link)
     force = _force(solution, group, other)
     if own.to != FRAME or force is None:
         return None
@@ -137,7 +139,7 @@ def pressure_on(solution: Solution, output: Output) -> Pressure | None:
             arm = reading.vector(PointName(own.joint.point), acting)
             moving = arm * 1j
         else:
-            moving = reading.course(axes[own.joint.slider])
+            moving = reading.line_vector(axes[own.joint.slider])
         turn = np.conj(line(reading)) * moving
         with np.errstate(invalid="ignore"):
             angle = np.degrees(np.arctan2(np.abs(turn.imag), np.abs(turn.real)))
@@ -147,10 +149,10 @@ def pressure_on(solution: Solution, output: Output) -> Pressure | None:
 
 
 def _force(
-    solution: Solution, group: AssurGroup, other: Lead
+    solution: Solution, group: AssurGroup, outer_leg: OuterLeg
 ) -> tuple[PointName, Callable[[Reading], Complexes]] | None:
     """Return the point on which a weightless link acts, and a function giving its line of force."""
-    axes, inner, outer = solution.construction.draft.axes, group.inner[0], other.joint
+    axes, inner, outer = solution.construction.draft.axes, group.inner[0], outer_leg.joint
     if isinstance(inner, Revolute):
         acting = PointName(inner.point)
         if isinstance(outer, Revolute):
@@ -161,4 +163,4 @@ def _force(
         acting, across = PointName(outer.point), axes[inner.slider]
     else:
         return None
-    return acting, lambda reading: reading.course(across) * 1j
+    return acting, lambda reading: reading.line_vector(across) * 1j

@@ -14,26 +14,26 @@ from msgspec.structs import replace
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, Fault, PlanMethodError, ProblemError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem.cycle_records import Zero
 from planmethod.problem.keys import EXTREMES, GOING
-from planmethod.problem.model import Posed, PosedBy, Problem
-from planmethod.problem.names import UNITS, split_pair, told_length
+from planmethod.problem.model import OutputPositionKind, OutputPositions, Problem
+from planmethod.problem.names import UNITS, format_length, split_pair
 from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import SAMPLES, TURN, CrankCycle, Extreme
 from planmethod.solved.turn.roots import crossings, root, tops
-from planmethod.solved.turn.turn import LOOKS, TURN, Extreme, Turn
 
 _TRIES = 36  # positions of a turn in which it is tried how the groups close
 _SLIDER_TRIES = 120
-_ASIDE = 0.0931  # degrees off round numbers, at which singular places are common
+_SINGULAR_OFFSET = 0.0931  # degrees off round numbers, at which singular places are common
 _SAME = 1e-7  # degrees, or share of the way of a slider, within which two roots are one
 _ROUNDING = 1e-15  # share of the range within which a round position is as good as the root
 _OFF = 1e-6  # share of the range of the output that a root may miss it by
 
 
-Found = list[tuple[float, float]]
+DriverPositions = list[tuple[float, float]]
 """Positions of the driver, each with the sense in which the output goes there: 1, -1 or 0."""
 
 
@@ -51,7 +51,7 @@ def pose(problem: Problem) -> Problem:
     posed = problem.drive.posed
     if posed is None:
         return problem
-    ways, trouble = _ways(problem)
+    ways, trouble = _assemblies(problem)
     if isinstance(trouble, ProblemError | PositionError) and not ways:
         raise trouble
     if not ways:  # a mechanism that has no plans has no positions
@@ -59,7 +59,7 @@ def pose(problem: Problem) -> Problem:
     first: list[tuple[Solution, float, float]] = []
     for solution in ways:
         for position, going in _roots(solution, posed, 0):
-            if not _as_judged(solution, np.array([position])).all():
+            if not _in_first_mode(solution, np.array([position])).all():
                 continue  # the motion continues like this, but the rules do not hold there
             position = position % TURN if problem.drive.is_crank else position
             at = _closed(problem, position)
@@ -72,13 +72,13 @@ def pose(problem: Problem) -> Problem:
         found = _roots(solution, posed, index)
         positions.append(_chosen(problem, posed, index, found, [solution]))
     drive = replace(problem.drive, positions=tuple(positions))
-    if posed.by is PosedBy.LENGTH:
+    if posed.by is OutputPositionKind.LENGTH:
         rate, acceleration = _driven(solution, posed, chosen)
         drive = replace(drive, rate=rate, acceleration=acceleration)
     return replace(problem, drive=drive)
 
 
-def _driven(solution: Solution, posed: Posed, position: float) -> tuple[float, float]:
+def _driven(solution: Solution, posed: OutputPositions, position: float) -> tuple[float, float]:
     """Return the rates of the driver that give an actuator its own, by its analogues.
 
     Of l(phi) with dl/dt = v and d²l/dt² = a: omega = v/l', epsilon = (a - l''·omega²)/l'.
@@ -96,7 +96,7 @@ def _driven(solution: Solution, posed: Posed, position: float) -> tuple[float, f
     curve += (abs(velocity) ** 2 - along**2) / length
     if abs(along) <= _OFF * abs(velocity):
         raise AssemblyError(
-            say(
+            translate(
                 "{}: at {} = {:.5g} m the actuator is in a dead position: "
                 "{} does not change while link {} moves. Give another length.",
                 solution.problem.name,
@@ -119,7 +119,7 @@ def _closed(problem: Problem, position: float) -> Solution | None:
         return None
 
 
-def _ways(problem: Problem) -> tuple[list[Solution], PlanMethodError | None]:
+def _assemblies(problem: Problem) -> tuple[list[Solution], PlanMethodError | None]:
     """Return the assemblies that the rules select, and the error where they select none."""
     ways: dict[object, Solution] = {}
     trouble: PlanMethodError | None = None
@@ -133,7 +133,7 @@ def _ways(problem: Problem) -> tuple[list[Solution], PlanMethodError | None]:
             continue
         ways.setdefault(repr(_sides(solution)), solution)
     if not ways:  # the error in the first position that can be assembled
-        drive = replace(problem.drive, positions=tuple(_grid(problem, LOOKS).tolist()))
+        drive = replace(problem.drive, positions=tuple(_grid(problem, SAMPLES).tolist()))
         try:
             Solution(replace(problem, drive=drive))
         except PlanMethodError as error:
@@ -150,11 +150,11 @@ def _sides(solution: Solution) -> list[tuple[tuple[str, ...], int, bool]]:
 def _grid(problem: Problem, count: int, turns: int = 1) -> Reals:
     """Return positions over turns, ``count`` in each, or over the whole range of a slider."""
     if problem.drive.is_crank:
-        return _ASIDE + TURN * np.arange(count * turns + 1) / count
+        return _SINGULAR_OFFSET + TURN * np.arange(count * turns + 1) / count
     sizes = [abs(length) for _, _, length in problem.lengths]
     sizes += [abs(place) for body in problem.bodies.values() for place in body.points.values()]
     reach = sum(sizes)
-    return np.linspace(-reach, reach, count + 1) * (1.0 + 1e-3 * _ASIDE)
+    return np.linspace(-reach, reach, count + 1) * (1.0 + 1e-3 * _SINGULAR_OFFSET)
 
 
 def _turns(solution: Solution) -> int:
@@ -163,7 +163,7 @@ def _turns(solution: Solution) -> int:
     return round(again) if np.isfinite(again) else 1
 
 
-def _as_judged(solution: Solution, positions: Reals) -> Flags:
+def _in_first_mode(solution: Solution, positions: Reals) -> Flags:
     """Return where a motion has its first assembly modes, for which the rules are evaluated."""
     kept = np.ones(positions.shape, dtype=bool)
     for closing in solution.construction.draft.choice.values():
@@ -171,7 +171,7 @@ def _as_judged(solution: Solution, positions: Reals) -> Flags:
     return kept
 
 
-def _value(solution: Solution, posed: Posed, index: int) -> Callable[[Reals], Reals]:
+def _value(solution: Solution, posed: OutputPositions, index: int) -> Callable[[Reals], Reals]:
     """Return a function that gives the output in positions of the driver: m or degrees.
 
     The angle between links is signed, from the first to the second; a distance from a line, too.
@@ -179,27 +179,28 @@ def _value(solution: Solution, posed: Posed, index: int) -> Callable[[Reals], Re
     draft = solution.construction.draft
 
     def read(positions: Reals) -> Reading:
-        return solution.moved(positions.tolist()).read(Float64())
+        return solution.with_positions(positions.tolist()).read(Float64())
 
     def angle(positions: Reals) -> Reals:
-        return np.asarray(np.degrees(np.angle(read(positions).course(draft.axes[posed.of]))))
+        return np.asarray(np.degrees(np.angle(read(positions).line_vector(draft.axes[posed.of]))))
 
     def between(positions: Reals) -> Reals:
         reading = read(positions)
         one, two = (
-            reading.course(draft.axis(link)) * way for link, way in _rays(solution.problem, posed)
+            reading.line_vector(draft.axis(link)) * way
+            for link, way in _rays(solution.problem, posed)
         )
         return np.asarray(np.degrees(np.angle(two * np.conj(one))))
 
     def place(positions: Reals) -> Reals:
         at = read(positions).point(PointName(posed.of)) + draft.origin
-        return np.asarray(at.real if posed.by is PosedBy.X else at.imag)
+        return np.asarray(at.real if posed.by is OutputPositionKind.X else at.imag)
 
     def length(positions: Reals) -> Reals:
         reading, (one, two) = read(positions), split_pair(posed.of) or ("", "")
         return np.abs(reading.vector(PointName(one), PointName(two)))
 
-    def aside(positions: Reals) -> Reals:
+    def line_distance(positions: Reals) -> Reals:
         point, _, line = posed.extremes[index].partition(" on ")
         reading, (one, two) = read(positions), split_pair(line) or ("", "")
         along = reading.vector(PointName(one), PointName(two))
@@ -207,15 +208,15 @@ def _value(solution: Solution, posed: Posed, index: int) -> Callable[[Reals], Re
         return np.asarray((off * np.conj(along)).imag / np.abs(along))
 
     told = {
-        PosedBy.LENGTH: length,
-        PosedBy.PHI: angle,
-        PosedBy.BETWEEN: between,
-        PosedBy.LINE: aside,
+        OutputPositionKind.LENGTH: length,
+        OutputPositionKind.PHI: angle,
+        OutputPositionKind.BETWEEN: between,
+        OutputPositionKind.LINE: line_distance,
     }
     return told.get(posed.by, place)
 
 
-def _rays(problem: Problem, posed: Posed) -> list[tuple[str, float]]:
+def _rays(problem: Problem, posed: OutputPositions) -> list[tuple[str, float]]:
     """Return two links with the sense of each own axis in which it leads from their common pin.
 
     Links without one have the angle of their axes as the file directs them.
@@ -229,39 +230,39 @@ def _rays(problem: Problem, posed: Posed) -> list[tuple[str, float]]:
     ]
 
 
-def _period(problem: Problem, posed: Posed) -> float:
+def _period(problem: Problem, posed: OutputPositions) -> float:
     """Return after how many degrees a value is the same; of no angle infinity.
 
     A slider's axis is its guide, and has no sense.
     """
-    if posed.by is PosedBy.PHI:
+    if posed.by is OutputPositionKind.PHI:
         return TURN
-    if posed.by is not PosedBy.BETWEEN:
+    if posed.by is not OutputPositionKind.BETWEEN:
         return np.inf
     lettered = [problem.bodies[link].axis is not None for link in posed.of.split("_")]
     return TURN if all(lettered) else TURN / 2
 
 
-def _roots(solution: Solution, posed: Posed, index: int) -> Found:
+def _roots(solution: Solution, posed: OutputPositions, index: int) -> DriverPositions:
     """Return the positions in which the output has a given value."""
-    if posed.by is PosedBy.EXTREME:
-        return _extreme(Turn(solution), posed, index)
+    if posed.by is OutputPositionKind.EXTREME:
+        return _extreme(CrankCycle(solution), posed, index)
     target = posed.values[index]
     crank, period = solution.problem.drive.is_crank, _period(solution.problem, posed)
-    grid = _grid(solution.problem, LOOKS if crank else 3 * LOOKS, _turns(solution))
+    grid = _grid(solution.problem, SAMPLES if crank else 3 * SAMPLES, _turns(solution))
     whole = TURN * _turns(solution)
     sense = -1.0 if solution.problem.drive.rate < 0 else 1.0
     value = _value(solution, posed, index)
-    if posed.by is PosedBy.STROKE:
-        turn = Turn(solution)
+    if posed.by is OutputPositionKind.STROKE:
+        turn = CrankCycle(solution)
         start, end = _ends(turn)
         value, target = turn.values, start.value + target * (end.value - start.value)
         if posed.values[index] in (0.0, 1.0):
             return [((start, end)[int(posed.values[index])].phi % whole, 0.0)]
         sense = -sense if end.value < start.value else sense
-    found: Found = []
+    found: DriverPositions = []
     # An angle of two links has no sign: both ways of it are looked for.
-    for one in {target, -target} if posed.by is PosedBy.BETWEEN else (target,):
+    for one in {target, -target} if posed.by is OutputPositionKind.BETWEEN else (target,):
 
         def off(positions: Reals, one: float = one) -> Reals:
             missed = value(positions) - one
@@ -272,7 +273,7 @@ def _roots(solution: Solution, posed: Posed, index: int) -> Found:
     return found
 
 
-def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> Found:
+def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> DriverPositions:
     """Return the zeros of a function and whether it grows there; 0 where it only touches zero.
 
     A change of sign by a jump, of an angle by a turn, is none.
@@ -318,68 +319,78 @@ def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> Found:
     return found
 
 
-def _ends(turn: Turn) -> tuple[Extreme, Extreme]:
+def _ends(cycle: CrankCycle) -> tuple[Extreme, Extreme]:
     """Return the extreme that ``zero`` names, by default the usual one, and the other one."""
-    if turn.ends is None:
-        why = turn.why_no_stroke
-        raise _unknown(turn.solution, say("the output has no stroke: {}", why.value if why else ""))
-    return turn.ends if turn.task.zero is Zero.USUAL else turn.ends_from_zero
+    if cycle.ends is None:
+        why = cycle.why_no_stroke
+        raise _unknown(
+            cycle.solution, translate("the output has no stroke: {}", why.value if why else "")
+        )
+    return cycle.ends if cycle.task.zero is Zero.USUAL else cycle.ends_from_zero
 
 
-def _extreme(turn: Turn, posed: Posed, index: int) -> Found:
+def _extreme(cycle: CrankCycle, posed: OutputPositions, index: int) -> DriverPositions:
     """Return the position at a given angle of the crank after an extreme."""
-    where, after = posed.extremes[index], turn.sense * posed.values[index]
+    where, after = posed.extremes[index], cycle.sense * posed.values[index]
     if where in EXTREMES:
-        phi = np.array([one.phi for one in turn.extremes])
+        phi = np.array([one.phi for one in cycle.extremes])
         if not phi.size:
-            raise _unknown(turn.solution, "the output has no extreme position")
-        place = turn.read(phi).point(PointName(turn.output.point))
+            raise _unknown(cycle.solution, "the output has no extreme position")
+        place = cycle.read(phi).point(PointName(cycle.output.point))
         along = place.real if where in ("left", "right") else place.imag
         chosen = phi[int(np.argmin(along) if where in ("left", "lower") else np.argmax(along))]
     else:
-        chosen = _ends(turn)[1 if where == "other" else 0].phi
-    return [(float(chosen + after) % turn.period, 0.0)]
+        chosen = _ends(cycle)[1 if where == "other" else 0].phi
+    return [(float(chosen + after) % cycle.period, 0.0)]
 
 
-def _unknown(solution: Solution, why: str) -> ProblemError:
+def _unknown(solution: Solution, message: str) -> ProblemError:
     drive = solution.problem.drive
     assert drive.posed is not None
     hint = "Name the output: [cycle] output = ..., or give the angle of the crank"
-    return ProblemError(solution.problem.name, [Fault(f"driver.{drive.posed.key}", why, hint)])
+    return ProblemError(solution.problem.name, [Fault(f"driver.{drive.posed.key}", message, hint)])
 
 
 def _chosen(
-    problem: Problem, posed: Posed, index: int, found: Found, ways: list[Solution]
+    problem: Problem,
+    posed: OutputPositions,
+    index: int,
+    candidates: DriverPositions,
+    assemblies: list[Solution],
 ) -> float:
     """Return the one position that is meant."""
     drive = problem.drive
-    said = f"{posed.key} = {_told(posed, posed.values[index], problem)}"
-    if posed.by is PosedBy.EXTREME:
-        said = f"at = extreme {posed.extremes[index]} {posed.values[index]:+g}"
-        said = said.replace(" +0", "").strip()
-    elif posed.by is PosedBy.LINE:
-        said = f"at = {posed.extremes[index]}"
-    found = sorted(found)
-    kept = [one for k, one in enumerate(found) if not k or one[0] - found[k - 1][0] > _SAME]
+    phrase = f"{posed.key} = {_value_text(posed, posed.values[index], problem)}"
+    if posed.by is OutputPositionKind.EXTREME:
+        phrase = f"at = extreme {posed.extremes[index]} {posed.values[index]:+g}"
+        phrase = phrase.replace(" +0", "").strip()
+    elif posed.by is OutputPositionKind.LINE:
+        phrase = f"at = {posed.extremes[index]}"
+    candidates = sorted(candidates)
+    kept = [
+        one for k, one in enumerate(candidates) if not k or one[0] - candidates[k - 1][0] > _SAME
+    ]
     if not kept:
         reached = ""
         if posed.of:
-            every = np.concatenate([_reached(way, posed, index) for way in ways])
-            every = np.abs(every) if posed.by is PosedBy.BETWEEN else every
-            ends = [_told(posed, float(end(every)), problem) for end in (np.nanmin, np.nanmax)]
-            reached = say(
+            every = np.concatenate([_reached(way, posed, index) for way in assemblies])
+            every = np.abs(every) if posed.by is OutputPositionKind.BETWEEN else every
+            ends = [
+                _value_text(posed, float(end(every)), problem) for end in (np.nanmin, np.nanmax)
+            ]
+            reached = translate(
                 ": {} ranges from {} to {} in these assemblies", posed.key, ends[0], ends[1]
             )
         raise AssemblyError(
             "{}: {} is not reached{}. Check driver.{}, the lengths, and whether the rules "
             "of [assembly] hold in this position.",
             problem.name,
-            said,
+            phrase,
             reached,
             posed.key,
         )
-    if posed.near is not None:
-        asked, whole = posed.near, TURN * _turns(ways[0]) if index else TURN
+    if posed.nearest_to is not None:
+        asked, whole = posed.nearest_to, TURN * _turns(assemblies[0]) if index else TURN
         if not drive.is_crank:
             return min((p for p, _ in kept), key=lambda p: abs(p - asked))
         half = whole / 2
@@ -387,7 +398,7 @@ def _chosen(
     ways_of = GOING.get(posed.by.value, ("", ""))
     if posed.going:
         kept = [one for one in kept if one[1] == (1.0 if posed.going == ways_of[0] else -1.0)]
-        said = say("{}, going {},", said, posed.going)
+        phrase = translate("{}, going {},", phrase, posed.going)
     if posed.number and posed.number <= len(kept):
         return kept[posed.number - 1][0]
     if len(kept) == 1 and not posed.number:
@@ -395,33 +406,40 @@ def _chosen(
     per = 1.0 if drive.is_crank else UNITS[problem.unit]
     places = [f"{p * per:.5g}" for p, _ in kept]
     name = drive.coordinate.name
-    told = ", ".join(f"{name} = {place}" for place in places) or say("no position")
+    text = ", ".join(f"{name} = {place}" for place in places) or translate("no position")
     senses = [going for _, going in kept]
     near = ", ".join(f'root = "near {place}"' for place in places)
     if posed.number:
-        message = say("{} fits {}: position {} of them does not exist", said, told, posed.number)
-        raise ProblemError(
-            problem.name, [Fault("driver.root", message, say("Give one of {}", near))]
+        message = translate(
+            "{} fits {}: position {} of them does not exist", phrase, text, posed.number
         )
-    hint = say("Give one of {}", near) if places else "Leave root out to see the positions"
+        raise ProblemError(
+            problem.name, [Fault("driver.root", message, translate("Give one of {}", near))]
+        )
+    hint = translate("Give one of {}", near) if places else "Leave root out to see the positions"
     if ways_of[0] and senses in ([1.0, -1.0], [-1.0, 1.0]):
         one, two = ways_of[:: 1 if senses[0] > 0 else -1]
-        hint = say(
+        hint = translate(
             'Give root = "going {}" for the first or root = "going {}" for the second', one, two
         )
-    message = say("{} fits {}, but one position is required", said, told)
+    message = translate("{} fits {}, but one position is required", phrase, text)
     raise ProblemError(problem.name, [Fault("driver.root", message, hint)])
 
 
-def _reached(way: Solution, posed: Posed, index: int) -> Reals:
+def _reached(solution: Solution, posed: OutputPositions, index: int) -> Reals:
     """Return the values of the output in all sampled positions."""
-    grid = _grid(way.problem, LOOKS, _turns(way))
-    grid = grid if index else grid[_as_judged(way, grid)]
-    return _value(way, posed, index)(grid)
+    grid = _grid(solution.problem, SAMPLES, _turns(solution))
+    grid = grid if index else grid[_in_first_mode(solution, grid)]
+    return _value(solution, posed, index)(grid)
 
 
-def _told(posed: Posed, value: float, problem: Problem) -> str:
+def _value_text(posed: OutputPositions, value: float, problem: Problem) -> str:
     """Return a value of the output in the file's units, as text."""
-    if posed.by in (PosedBy.X, PosedBy.Y, PosedBy.LENGTH):
-        return told_length(value, problem.unit, 5)
-    return say("{:.5g} deg" if posed.by in (PosedBy.PHI, PosedBy.BETWEEN) else "{:.5g}", value)
+    if posed.by in (OutputPositionKind.X, OutputPositionKind.Y, OutputPositionKind.LENGTH):
+        return format_length(value, problem.unit, 5)
+    return translate(
+        "{:.5g} deg"
+        if posed.by in (OutputPositionKind.PHI, OutputPositionKind.BETWEEN)
+        else "{:.5g}",
+        value,
+    )

@@ -53,21 +53,24 @@ def root(function: Function, low: float, high: float) -> float:
     return low if one <= two else high
 
 
-def top(function: Function, low: float, high: float, *, looks: int = _PARTS) -> tuple[float, float]:
+def top(
+    function: Function, low: float, high: float, *, samples: int = _PARTS
+) -> tuple[float, float]:
     """Return the place and the size of the greatest value between two places.
 
-    The interval is first divided into ``looks`` parts: enough that one of them holds the greatest.
+    The interval is first divided into ``samples`` parts: enough that one of them holds the
+    greatest.
     """
 
     def one(places: Reals) -> Reals:
         return function(places.ravel()).reshape(places.shape)
 
-    at, size = tops(one, np.array([low]), np.array([high]), looks=looks)
+    at, size = tops(one, np.array([low]), np.array([high]), samples=samples)
     return float(at[0]), float(size[0])
 
 
 def tops(
-    function: Function, low: Reals, high: Reals, *, looks: int = _PARTS
+    function: Function, low: Reals, high: Reals, *, samples: int = _PARTS
 ) -> tuple[Reals, Reals]:
     """Return the same for several pairs of places, which are processed together.
 
@@ -81,8 +84,8 @@ def tops(
     -------
     places, sizes : ndarray of shape (m,)
     """
-    row, vertex = np.arange(len(low)), _VERTEX * 2 * (high - low) / looks
-    for parts in (looks, *[_PARTS] * (_TOP_ROUNDS - 1)):
+    row, vertex = np.arange(len(low)), _VERTEX * 2 * (high - low) / samples
+    for parts in (samples, *[_PARTS] * (_TOP_ROUNDS - 1)):
         places = np.linspace(low, high, parts + 1, axis=-1)
         values = np.nan_to_num(function(places), nan=-np.inf)
         k = np.argmax(values, axis=-1)

@@ -18,10 +18,10 @@ from planmethod.solved.forces.loads import external, only_in_positions
 from planmethod.solved.reading import Flags, Reals
 from planmethod.solved.solution import Solution
 
-LOOKS = 720
+SAMPLES = 720
 """Number of positions of a turn over which the work of a stroke is summed."""
 
-ALIKE = 1e-3
+EQUAL_WORK_FRACTION = 1e-3
 """Fraction of the larger work below which the difference of the strokes is ignored."""
 
 COUNTS = 0.05
@@ -90,7 +90,7 @@ def powers(solution: Solution, start: float, positions: Reals) -> dict[str, Real
     return found
 
 
-def looked_at(problem: Problem, start: float, turns: int) -> Reals:
+def sample_positions(problem: Problem, start: float, turns: int) -> Reals:
     """Return the equally spaced positions of the sum of work; none where it is not known.
 
     Loads that are known in the positions of the file only are summed over the numbered ones.
@@ -101,7 +101,7 @@ def looked_at(problem: Problem, start: float, turns: int) -> Reals:
     if only_in_positions(dynamics):
         own = problem.numbered if problem.numbered == problem.drive.positions else ()
         return np.asarray(own, dtype=float)
-    return start + 360.0 * turns * (np.arange(LOOKS * turns) + 0.5) / (LOOKS * turns)
+    return start + 360.0 * turns * (np.arange(SAMPLES * turns) + 0.5) / (SAMPLES * turns)
 
 
 def over_strokes(problem: Problem) -> bool:
@@ -111,20 +111,20 @@ def over_strokes(problem: Problem) -> bool:
     return any(isinstance(size, SizeTable) and size.over is Over.STROKES for size in sizes)
 
 
-def by_loads(found: dict[str, Reals], first: Flags) -> tuple[bool, str] | None:
+def by_loads(load_powers: dict[str, Reals], first: Flags) -> tuple[bool, str] | None:
     """Return whether the first stroke works, and the deciding loads; None if none decides.
 
     Parameters
     ----------
-    found : dict of str to ndarray of shape (n,)
+    load_powers : dict of str to ndarray of shape (n,)
         Power of every load in even positions.
     first : ndarray of bool, shape (n,)
         Which of them are of the first stroke.
     """
     works = {name: np.array([power[first].sum(), power[~first].sum()])
-             for name, power in found.items()}  # fmt: skip
+             for name, power in load_powers.items()}  # fmt: skip
     both = sum(works.values(), np.zeros(2))
-    if abs(both[0] - both[1]) <= ALIKE * float(np.max(np.abs(both))):
+    if abs(both[0] - both[1]) <= EQUAL_WORK_FRACTION * float(np.max(np.abs(both))):
         return None
     sign = -1.0 if both.sum() < 0.0 else 1.0
     stroke = int(np.argmax(sign * both))

@@ -16,7 +16,7 @@ async function begin({ core, packages, names, site }) {
   if (!archive.ok) throw new Error(`${site}: ${archive.status}`);
   python.unpackArchive(await archive.arrayBuffer(), "zip", { extractDir: "/lib/planmethod" });
   python.runPython("import sys; sys.path.insert(0, '/lib/planmethod')");
-  const found = python.pyimport("planmethod.studio.alone").begun(python.pyimport("planmethod.commands.studied").act);
+  const found = python.pyimport("planmethod.studio.serverless").start_studio(python.pyimport("planmethod.commands.studio_jobs").act);
   return (method, path, body, tell) => found.answer(method, path, python.toPy(body), tell).toJs();
 }
 

@@ -15,7 +15,7 @@ from planmethod.check.exchange.quiz import QuizPart
 from planmethod.check.exchange.variant import question_of
 from planmethod.check.group import Variants
 from planmethod.cli import cli
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 
 _QUESTION = re.compile(
     r"^::((?:\\.|[^\\])*?)::\[plain\]((?:\\.|[^\\])*?) \{#\n(.*?)^\}$", re.S | re.M
@@ -43,7 +43,7 @@ def read_gift(text: str) -> list[tuple[str, str, list[tuple[float, float, float,
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_every_number_is_a_question_with_the_intervals_of_its_part(lang: str) -> None:
-    words = language(lang)
+    words = get_language(lang)
     questions = [
         question_of(Variants(path_of("linkages/ex3-variants")).task(n), None, words) for n in "12"
     ]
@@ -60,14 +60,14 @@ def test_every_number_is_a_question_with_the_intervals_of_its_part(lang: str) ->
         )
         assert len(answers) == len(part.alternatives)
         for (share, value, margin, feedback), one in zip(answers, part.alternatives, strict=True):
-            assert share == pytest.approx(one.share)
+            assert share == pytest.approx(one.fraction)
             assert value == pytest.approx(one.value, abs=1e-3 * one.margin)
             assert margin == pytest.approx(one.margin, rel=1e-3)
             assert bool(feedback) is bool(one.feedback)
 
 
 def test_signs_of_the_format_in_a_title_are_escaped() -> None:
-    words = language("ru")
+    words = get_language("ru")
     whole = question_of(Variants(path_of("linkages/ex3")).task(None), None, words)
     evil = "a::b {#=5} ~ \\ x\n// y"
     found = read_gift(gift([replace(whole, title=evil, parts=whole.parts[:1])], words).decode())

@@ -19,7 +19,7 @@ from worked import path_of
 
 from planmethod.check.exchange.cloze import escaped, moodle_xml
 from planmethod.check.exchange.keyrecord import key_record
-from planmethod.check.exchange.quiz import QuizPart, whole_points
+from planmethod.check.exchange.quiz import QuizPart, integer_points
 from planmethod.check.exchange.variant import question_of
 from planmethod.check.group import Variants, task_of_problem
 from planmethod.check.key import key_of_task
@@ -27,13 +27,13 @@ from planmethod.check.marks import DEFAULT
 from planmethod.check.model import KeyEntry
 from planmethod.cli import cli
 from planmethod.kinds import kind_of
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.note.writers.html import markup
 from planmethod.problem import variant_names
 from planmethod.render.ink.drawing import Text
 from planmethod.render.sketch import assigned
 
-RU = language("ru")
+RU = get_language("ru")
 FINE = 2e-3
 """Share of a tolerance that rounding may cost at either end."""
 
@@ -166,9 +166,9 @@ def test_a_mistake_that_has_a_name_gets_no_points_and_its_sentence(
 
 def test_points_of_senses_and_numbers_keep_the_shares_of_the_department() -> None:
     entry = KeyEntry("v", "v", "v", "m/s", 1.0, 0.0, 0.1)
-    assert whole_points([QuizPart(entry, 1.0), QuizPart(entry, 2.0)]) == [1, 2]
-    assert whole_points([QuizPart(entry, 0.7), QuizPart(entry, 0.3)]) == [7, 3]
-    assert whole_points([QuizPart(entry, 0.75), QuizPart(entry, 0.0)]) == [3, 0]
+    assert integer_points([QuizPart(entry, 1.0), QuizPart(entry, 2.0)]) == [1, 2]
+    assert integer_points([QuizPart(entry, 0.7), QuizPart(entry, 0.3)]) == [7, 3]
+    assert integer_points([QuizPart(entry, 0.75), QuizPart(entry, 0.0)]) == [3, 0]
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
@@ -181,7 +181,7 @@ def test_trains_forces_and_points_are_compared_as_well(name: str, lang: str) -> 
     variant = variants[0] if variants else None
     problem = kind.load(path, variant) if kind else Variants(path).task(variant).problem
     task = task_of_problem(kind, problem, DEFAULT) if kind else Variants(path).task(variant)
-    words = language(lang)
+    words = get_language(lang)
     question = question_of(task, kind, words)
     [[back]] = read_quiz(moodle_xml([question], words)).values()
     numbers = iter(gap for gap in back.gaps if gap.kind == "NUMERICAL")
@@ -261,7 +261,7 @@ def test_the_scheme_and_the_data_do_not_show_the_answers() -> None:
     path = path_of("gears/gears-ex2")
     kind = kind_of(path)
     assert kind is not None
-    facts = [fact.text for fact in kind.given(kind.load(path, None), RU)]
+    facts = [fact.text for fact in kind.given_facts(kind.load(path, None), RU)]
     assert "z_{1} = 30" in facts
     assert [fact for fact in facts if fact.startswith("z_{3}")] == ["z_{3} — из соосности"]
 

@@ -17,10 +17,10 @@ from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
 from planmethod.check.exchange.quiz import gaps_of
 from planmethod.check.exchange.responses import is_export, read_columns, read_responses
 from planmethod.check.group import Variants
-from planmethod.check.model import CheckedWork, Sense, Work
-from planmethod.check.works import WorksError
+from planmethod.check.model import GradedSubmission, Sense, Submission
+from planmethod.check.submissions import SubmissionError
 from planmethod.cli import cli
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 
 EX3 = path_of("linkages/ex3-variants")
 MOODLE = {
@@ -63,11 +63,11 @@ def told(answers: Mapping[int, str], count: int, part: str) -> str:
 def exact(variant: str, lang: str) -> str:
     """The right answers of a variant in one cell, as Moodle puts them together."""
     task = Variants(EX3).task(variant)
-    items = {(item.name, item.position): item for item in task.whole()}
+    items = {(item.name, item.position): item for item in task.list_items()}
     answers = {}
     for number, gap in enumerate(gaps_of(task), 1):
         value = task.sheet(0).exact[items[gap.id, gap.position].question.id]
-        senses = language(lang).check["senses"]
+        senses = get_language(lang).check["senses"]
         turned = " ".join(senses["ccw" if value > 0 else "cw"])
         answers[number] = turned if gap.sense else f"{abs(value):.4g}".replace(".", ",")
     return told(answers, len(answers), PART[lang])
@@ -77,7 +77,7 @@ def exact(variant: str, lang: str) -> str:
 def test_an_export_of_moodle_is_read_with_its_variants_and_judged(
     tmp_path: Path, lang: str
 ) -> None:
-    word = language(lang).check["key"].variant
+    word = get_language(lang).check["key"].variant
     rows = [
         MOODLE[lang],
         [
@@ -119,7 +119,9 @@ def test_a_later_attempt_counts(tmp_path: Path) -> None:
         tmp_path / "r.csv",
         [MOODLE["ru"], [*row, told({1: "1"}, 3, "часть")], [*row, told({1: "2,5"}, 3, "часть")]],
     )
-    [work] = read_responses(path, {}, ("3",), lambda _: gaps_of(Variants(EX3).task("3"))).works
+    [work] = read_responses(
+        path, {}, ("3",), lambda _: gaps_of(Variants(EX3).task("3"))
+    ).submissions
     assert [a.value for a in work.answers if a.value is not None] == [2.5]
 
 
@@ -134,7 +136,7 @@ def test_columns_follow_the_map(tmp_path: Path) -> None:
     toml.write_text("\n".join(f'"{p.split("=")[0]}" = "{p.split("=")[1]}"' for p in pairs), "utf-8")
     for columns in (pairs, [str(toml)]):
         found = read_responses(path, read_columns(columns), ("1", "2"), lambda _: [])
-        [work] = found.works
+        [work] = found.submissions
         assert (work.student, work.variant, found.addresses) == ("Сидорова Анна", "2", {})
         [v, omega] = work.answers
         assert v.value == pytest.approx(2.442) and (omega.value, omega.sense) == (15.37, Sense.CCW)
@@ -148,7 +150,7 @@ def test_a_column_for_each_gap_needs_no_map(tmp_path: Path) -> None:
     gaps = gaps_of(Variants(train).task(None))
     heads = ["Фамилия", *(f"Ответ {n}" for n in range(1, len(gaps) + 1))]
     path = written(tmp_path / "t.csv", [heads, ["Ли", *("1" for _ in gaps)]])
-    [work] = read_responses(path, {}, (), lambda _: gaps).works
+    [work] = read_responses(path, {}, (), lambda _: gaps).submissions
     assert [answer.id for answer in work.answers] == [gap.id for gap in gaps]
 
 
@@ -177,16 +179,16 @@ def test_an_export_that_cannot_be_understood_is_reported_in_one_sentence(
 
 def test_the_gradebook_has_points_of_a_hundred_and_no_formulas() -> None:
     works = [
-        CheckedWork(Work("=cmd()", ()), "1", (), points=9.5, of=19.0, remark="+1"),
-        CheckedWork(Work("Ли", ()), None, (), points=0.0, of=0.0),
+        GradedSubmission(Submission("=cmd()", ()), "1", (), points=9.5, of=19.0, remark="+1"),
+        GradedSubmission(Submission("Ли", ()), None, (), points=0.0, of=0.0),
     ]
-    text = gradebook_csv(works, ["3", ""], {"Ли": "li@x.ru"}, language("ru")).decode()
+    text = gradebook_csv(works, ["3", ""], {"Ли": "li@x.ru"}, get_language("ru")).decode()
     rows = list(csv.DictReader(io.StringIO(text)))
     assert [row["Студент"] for row in rows] == ["'=cmd()", "Ли"]
     assert [row["Оценка из 100"] for row in rows] == ["50.00", ""]
     assert [row["Адрес электронной почты"] for row in rows] == ["", "li@x.ru"]
     assert rows[0]["Отзыв"] == "'+1" and (rows[0]["Баллы"], rows[0]["из"]) == ("9.5", "19")
-    assert "почты" not in gradebook_csv(works, ["3", ""], {}, language("ru")).decode()
+    assert "почты" not in gradebook_csv(works, ["3", ""], {}, get_language("ru")).decode()
 
 
 def test_pages_are_zipped_by_student_and_names_are_hidden_on_request(tmp_path: Path) -> None:
@@ -224,9 +226,9 @@ def test_other_groups_have_a_gradebook_on_request(tmp_path: Path) -> None:
 
 def test_a_gap_without_a_question_is_skipped(tmp_path: Path) -> None:
     path = written(tmp_path / "r.csv", [["Фамилия", "Ответ 1"], ["Ли", "часть 1: 3; часть 99: 5"]])
-    [work] = read_responses(path, {}, (), lambda _: gaps_of(Variants(EX3).task("1"))).works
+    [work] = read_responses(path, {}, (), lambda _: gaps_of(Variants(EX3).task("1"))).submissions
     assert [answer.value for answer in work.answers] == [3.0]
-    with pytest.raises(WorksError):
+    with pytest.raises(SubmissionError):
         read_columns([str(tmp_path / "gone.toml")])
 
 
@@ -242,5 +244,5 @@ def test_a_variant_is_not_taken_for_one_with_the_same_beginning_of_its_name(tmp_
     rows = [["Ли", f"{n}@x.ru", text, "часть 1: 3"] for n, text in enumerate(texts)]
     path = written(tmp_path / "r.csv", [["Фамилия", "Email address", "Вопрос 1", "Ответ 1"], *rows])
     found = read_responses(path, {}, ("1", "12", "1-а"), lambda _: gaps_of(Variants(EX3).task("1")))
-    assert [work.variant for work in found.works] == ["12", "1", "1", None, "12", "1-а"]
-    assert len({work.student for work in found.works}) == 6
+    assert [work.variant for work in found.submissions] == ["12", "1", "1", None, "12", "1-а"]
+    assert len({work.student for work in found.submissions}) == 6

@@ -8,13 +8,13 @@ from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.check.model import (
-    CheckedWork,
     Diagnosis,
-    Judged,
+    GradedAnswer,
+    GradedSubmission,
     KeyEntry,
     Sense,
+    Submission,
     Verdict,
-    Work,
     WrittenAnswer,
 )
 from planmethod.construct.arithmetic import Float64
@@ -60,7 +60,7 @@ def entries() -> tuple[KeyEntry, ...]:
                 exact=exact,
                 sigma=0.012 * abs(exact),
                 tolerance=0.03 * abs(exact),
-                seen=label != "epsilon_4",
+                is_visible=label != "epsilon_4",
                 mm=abs(exact) / SCALES[scale] if scale else None,
                 scale=scale,
                 segment=segment,
@@ -95,7 +95,7 @@ def mistaken() -> tuple[dict[str, float], dict[str, complex]]:
     return values, places
 
 
-def work(student: str = "s02") -> CheckedWork:
+def work(student: str = "s02") -> GradedSubmission:
     """Return the judged work."""
     values, places = mistaken()
     judged = []
@@ -103,7 +103,12 @@ def work(student: str = "s02") -> CheckedWork:
         value = values[key.id] * 1.003
         mm = None if key.mm is None else round(value / SCALES[key.scale], 1)
         written = WrittenAnswer(
-            id=key.id, value=value, mm=mm, sense=key.sense, where=f"{student}.json", raw=f"{value}"
+            id=key.id,
+            value=value,
+            mm=mm,
+            sense=key.sense,
+            location=f"{student}.json",
+            raw=f"{value}",
         )
         is_off = abs(value - key.exact) > key.tolerance
         verdict = Verdict.OK if not is_off else Verdict.INHERITED
@@ -114,7 +119,7 @@ def work(student: str = "s02") -> CheckedWork:
             verdict, follows = Verdict.UNSEEN, ""
         points = 0.0 if verdict is Verdict.WRONG else 1.0
         judged.append(
-            Judged(
+            GradedAnswer(
                 key.id,
                 verdict,
                 key,
@@ -128,8 +133,8 @@ def work(student: str = "s02") -> CheckedWork:
             )
         )
     found = Diagnosis(("A1",), True, ("a_B3",), "B3/2", values, places)
-    return CheckedWork(
-        Work(student, tuple(j.written for j in judged if j.written), scales=SCALES),
+    return GradedSubmission(
+        Submission(student, tuple(j.written for j in judged if j.written), scales=SCALES),
         None,
         tuple(judged),
         (found,),
@@ -138,6 +143,6 @@ def work(student: str = "s02") -> CheckedWork:
     )
 
 
-def changed(judged: Judged, verdict: Verdict, **fields: object) -> Judged:
+def changed(judged: GradedAnswer, verdict: Verdict, **fields: object) -> GradedAnswer:
     """Return a verdict of another kind."""
     return replace(judged, verdict=verdict, **fields)

@@ -14,7 +14,7 @@ from worked import path_of, problem_of
 
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
-from planmethod.check.model import CheckedWork
+from planmethod.check.model import GradedSubmission
 from planmethod.check.pages.files import (
     anonymous,
     file_names,
@@ -23,13 +23,13 @@ from planmethod.check.pages.files import (
     settings_rows,
     write_all,
 )
-from planmethod.check.pages.overrides import OverridesError, overridden, read_overrides
+from planmethod.check.pages.overrides import OverridesError, apply_overrides, read_overrides
 from planmethod.errors import PlanMethodError
 
 HEAD = "student;id;points;remark\n"
 
 
-def written(out: Path, checked: list[CheckedWork], lang: str = "ru") -> dict[str, bytes]:
+def written(out: Path, checked: list[GradedSubmission], lang: str = "ru") -> dict[str, bytes]:
     key = Key(problem_of("linkages/ex3"), None, ex3_work.entries(), ex3_work.SCALES, {})
     files = write_all(out, checked, {None: key}, Settings(), [path_of("linkages/ex3")], lang)
     return {str(path.relative_to(out)): path.read_bytes() for path in files.paths}
@@ -57,10 +57,10 @@ def test_overrides_of_the_instructor_are_left_alone(tmp_path: Path) -> None:
 
 def read(
     tmp_path: Path, text: str, encoding: str = "utf-8-sig"
-) -> tuple[CheckedWork, tuple[str, ...]]:
+) -> tuple[GradedSubmission, tuple[str, ...]]:
     path = tmp_path / "overrides.csv"
     path.write_bytes(text.encode(encoding))
-    works, unused = overridden([ex3_work.work("s01")], read_overrides(path))
+    works, unused = apply_overrides([ex3_work.work("s01")], read_overrides(path))
     return works[0], unused
 
 
@@ -68,18 +68,18 @@ def read(
 def test_points_and_remarks_by_hand_are_taken(tmp_path: Path, encoding: str) -> None:
     checked, unused = read(tmp_path, HEAD + "s01;a_B3;0,5;чертёж верный\nnobody;;3;\n", encoding)
     judged = next(j for j in checked.answers if j.id == "a_B3")
-    assert (judged.points, judged.remark, judged.by_hand) == (0.5, "чертёж верный", True)
+    assert (judged.points, judged.remark, judged.is_manual) == (0.5, "чертёж верный", True)
     assert checked.points == pytest.approx(8.5) and unused == ("overrides.csv:3",)
 
 
 def test_points_of_a_whole_work_count_last(tmp_path: Path) -> None:
     checked, _ = read(tmp_path, "student,id,points,remark\ns01,,3,поздно сдано\ns01,a_B3,1,\n")
-    assert (checked.points, checked.remark, checked.by_hand) == (3.0, "поздно сдано", True)
+    assert (checked.points, checked.remark, checked.is_manual) == (3.0, "поздно сдано", True)
 
 
 def test_a_remark_alone_leaves_the_points(tmp_path: Path) -> None:
     checked, _ = read(tmp_path, HEAD + "s01;;;молодец\n")
-    assert (checked.points, checked.by_hand) == (8.0, False)
+    assert (checked.points, checked.is_manual) == (8.0, False)
 
 
 @pytest.mark.parametrize(
@@ -104,7 +104,7 @@ def test_no_bytes_of_an_overrides_file_break_anything(
     path = tmp_path_factory.getbasetemp() / "overrides.csv"
     path.write_bytes(data)
     with contextlib.suppress(PlanMethodError):
-        overridden([ex3_work.work("s01")], read_overrides(path))
+        apply_overrides([ex3_work.work("s01")], read_overrides(path))
 
 
 def test_a_missing_file_of_overrides_means_no_overrides(tmp_path: Path) -> None:
@@ -120,7 +120,7 @@ def test_hidden_names_are_nowhere(tmp_path: Path) -> None:
     assert f"pages/{stem}.html" in files and hidden_name("Иванов Пётр", "other") != stem
     for data in files.values():
         assert "Иванов".encode() not in data
-    assert works[0].answers[0].where == f"{stem}.json"
+    assert works[0].answers[0].location == f"{stem}.json"
 
 
 def test_files_of_works_are_named_by_number_if_names_are_hidden(tmp_path: Path) -> None:

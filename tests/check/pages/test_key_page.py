@@ -21,10 +21,10 @@ from planmethod.check.key import Key
 from planmethod.check.marks import DEFAULT
 from planmethod.check.pages.keypage import key_pdf, key_xlsx
 from planmethod.kinds import loads
-from planmethod.note.wording import LANGUAGES, Words, language
-from planmethod.note.writers.plain import WIDTH
+from planmethod.note.wording import LANGUAGES, MessageTable, get_language
+from planmethod.note.writers.terminal import WIDTH
 
-RU = language("ru")
+RU = get_language("ru")
 
 
 @cache
@@ -40,8 +40,8 @@ def group(count: int) -> list[Key]:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_key_of_one_variant_has_a_row_for_each_answer(lang: str) -> None:
-    say: Words = language(lang).check["key"]
-    text = key_text([key()], language(lang))
+    say: MessageTable = get_language(lang).check["key"]
+    text = key_text([key()], get_language(lang))
     for entry in ex3_work.entries():
         assert any(entry.symbol[0] in line for line in text.splitlines())
     row = next(line for line in text.splitlines() if line.startswith("v_B3"))
@@ -75,7 +75,7 @@ def test_small_numbers_are_no_zeros() -> None:
     """A crank that creeps has speeds, scales and tolerances below the rounding of others."""
     text = (ROOT / "problems/linkages/ex1.toml").read_text("utf-8")
     creeping = loads(re.sub(r"(?m)^omega = \S+", "omega = 1e-12", text), name="creeping")
-    told = key_text([key_of_problem(None, creeping, DEFAULT)], language("en"))
+    told = key_text([key_of_problem(None, creeping, DEFAULT)], get_language("en"))
     assert not re.search(r"μ_\w = 0 |± 0 +\S*/s", told)
     (row,) = (line for line in told.splitlines() if line.startswith("v_B "))
     assert re.search(r"\d·10⁻\S+ ± \d\S*·10⁻", row), row

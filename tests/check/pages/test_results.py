@@ -12,10 +12,10 @@ import openpyxl
 import pytest
 from msgspec.structs import replace
 
-from planmethod.check.model import Diagnosis, Judged, Verdict, WrittenAnswer
+from planmethod.check.model import Diagnosis, GradedAnswer, Verdict, WrittenAnswer
 from planmethod.check.pages.listing import COLUMNS, csv_bytes, record, safe
 from planmethod.check.pages.results import results_xlsx
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 
 ANSWER = ("id", "verdict", "from", "value", "exact", "tolerance", "mm", "exact_mm", "points")
@@ -38,18 +38,20 @@ def test_a_record_has_the_keys_of_the_contract_and_no_nan() -> None:
 
 def test_a_size_is_recorded_without_its_sign() -> None:
     key = replace(ex3_work.entries()[0], exact=-2.0, signed=False)
-    judged = Judged("v", Verdict.OK, key, WrittenAnswer(id="v"), value=-2.01, local=-2.02)
+    judged = GradedAnswer("v", Verdict.OK, key, WrittenAnswer(id="v"), value=-2.01, local=-2.02)
     told = record(replace(ex3_work.work(), answers=(judged,)))["answers"][0]
     assert (told["exact"], told["value"], told["local"]) == (2.0, 2.01, 2.02)
 
 
 def test_an_unknown_answer_is_recorded_too() -> None:
-    odd = Judged("q_7", Verdict.UNREADABLE, written=WrittenAnswer(what="q 7", where="g.csv:3"))
+    odd = GradedAnswer(
+        "q_7", Verdict.UNREADABLE, written=WrittenAnswer(what="q 7", location="g.csv:3")
+    )
     work = replace(ex3_work.work(), answers=(odd,))
     told = record(work)["answers"][0]
     assert (told["exact"], told["where"]) == (None, "g.csv:3")
     for lang in LANGUAGES:
-        assert results_xlsx([work], language(lang))
+        assert results_xlsx([work], get_language(lang))
     assert csv_bytes([work]).decode("utf-8-sig").count("q_7") == 1
 
 
@@ -67,7 +69,7 @@ def test_a_text_that_looks_like_a_formula_is_a_text(name: str) -> None:
     assert safe(name) == f"'{name}"
     first = csv_bytes([work]).decode("utf-8-sig").splitlines()[1]
     assert first.lstrip('"').startswith(f"'{name}")
-    book = openpyxl.load_workbook(io.BytesIO(results_xlsx([work], language("ru"))))
+    book = openpyxl.load_workbook(io.BytesIO(results_xlsx([work], get_language("ru"))))
     cell = book.worksheets[0]["A2"]
     assert cell.data_type == "s" and cell.value.strip() == name.strip()
 
@@ -76,7 +78,7 @@ def test_the_workbook_agrees_with_the_graded_works() -> None:
     works = [ex3_work.work("s01"), ex3_work.work("s02")]
     unsure = Diagnosis(("A1", "A3"), False, ("a_B3",))
     works[1] = replace(works[1], diagnosis=(unsure,), suspicious=True)
-    words = language("ru")
+    words = get_language("ru")
     data = results_xlsx(works, words, marks=["4", "5"], settings={"k": 2.5})
     book = openpyxl.load_workbook(io.BytesIO(data))
     assert tuple(book.sheetnames) == words.check["results"]["sheets"]
@@ -97,7 +99,7 @@ def test_the_workbook_agrees_with_the_graded_works() -> None:
 
 
 def test_verdicts_are_written_in_words_beside_the_colour() -> None:
-    book = openpyxl.load_workbook(io.BytesIO(results_xlsx([ex3_work.work()], language("ru"))))
+    book = openpyxl.load_workbook(io.BytesIO(results_xlsx([ex3_work.work()], get_language("ru"))))
     said = {
         row[3].value: row[3].fill.fgColor.rgb for row in book.worksheets[1].iter_rows(min_row=2)
     }

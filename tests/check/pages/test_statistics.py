@@ -12,27 +12,29 @@ import openpyxl
 import pytest
 from msgspec.structs import replace
 
-from planmethod.check.model import CheckedWork, Judged, Verdict, Work
+from planmethod.check.model import GradedAnswer, GradedSubmission, Submission, Verdict
 from planmethod.check.pages.grouppage import bars, group_html
 from planmethod.check.pages.results import results_xlsx
 from planmethod.check.pages.statistics import statistics_of
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.render.ink.drawing import Fill
 
 SCALE = ("5", "4", "3", "2")
 
 
-def group(table: list[list[float]]) -> list[CheckedWork]:
+def group(table: list[list[float]]) -> list[GradedSubmission]:
     """Works with these points, each answer out of 1."""
     entries = ex3_work.entries()
     works = []
     for number, row in enumerate(table):
         answers = tuple(
-            Judged(key.id, Verdict.OK if p else Verdict.WRONG, key, points=p, of=1.0)
+            GradedAnswer(key.id, Verdict.OK if p else Verdict.WRONG, key, points=p, of=1.0)
             for key, p in zip(entries, row, strict=False)
         )
         works.append(
-            CheckedWork(Work(f"s{number:02}", ()), None, answers, points=sum(row), of=len(row))
+            GradedSubmission(
+                Submission(f"s{number:02}", ()), None, answers, points=sum(row), of=len(row)
+            )
         )
     return works
 
@@ -50,7 +52,7 @@ def test_difficulty_and_discrimination_are_those_of_numpy() -> None:
     assert found.median == pytest.approx(np.median(whole.mean(1)))
     for number, one in enumerate(found.questions):
         rest = np.delete(whole, number, axis=1).sum(1)
-        assert one.share == pytest.approx(whole[:, number].mean())
+        assert one.mean_fraction == pytest.approx(whole[:, number].mean())
         assert one.discrimination == pytest.approx(np.corrcoef(whole[:, number], rest)[0, 1])
     assert [one.label for one in found.questions] == [e.label for e in ex3_work.entries()[:8]]
 
@@ -73,7 +75,12 @@ def test_unread_answers_and_unanimous_answers_have_no_discrimination() -> None:
     found = statistics_of(works, ["3", "3", "5"], SCALE)
     assert found is not None
     alike, partly, third = found.questions
-    assert (alike.discrimination, alike.share, partly.asked, partly.discrimination) == (
+    assert (
+        alike.discrimination,
+        alike.mean_fraction,
+        partly.submissions,
+        partly.discrimination,
+    ) == (
         None,
         1.0,
         2,
@@ -89,7 +96,7 @@ def test_the_sheet_and_the_page_show_the_same(lang: str) -> None:
         ex3_work.work("<b>s02</b>"),
         *group([[1.0] * 9, [0.0] * 9, [1.0, 0.0] * 4 + [1.0]]),
     ]
-    words = language(lang)
+    words = get_language(lang)
     marks = ["4", "4", "5", "2", "3"]
     found = statistics_of(works, marks, SCALE)
     assert found is not None
@@ -107,7 +114,7 @@ def test_the_sheet_and_the_page_show_the_same(lang: str) -> None:
     ]
     head = rows.index(list(say["columns"]))
     shares = [row[2] for row in rows[head + 1 :]]
-    assert shares == pytest.approx([one.share for one in found.questions])
+    assert shares == pytest.approx([one.mean_fraction for one in found.questions])
     assert len(sheet._charts) == 2
     assert data == results_xlsx(works, words, marks=marks, group=found)
     page = group_html(found, works, "{a} & <i>", words)
@@ -117,7 +124,7 @@ def test_the_sheet_and_the_page_show_the_same(lang: str) -> None:
 
 
 def test_bars_are_as_long_as_their_values() -> None:
-    drawing = bars([("a", 0.5, "50 %"), ("b", 1.0, "100 %"), ("c", 0.0, "0 %")], whole=1.0)
+    drawing = bars([("a", 0.5, "50 %"), ("b", 1.0, "100 %"), ("c", 0.0, "0 %")], maximum=1.0)
     widths = [
         max(p.real for p in item.points) - min(p.real for p in item.points)
         for item in drawing.items

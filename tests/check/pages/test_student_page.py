@@ -18,17 +18,17 @@ from msgspec.structs import replace
 from PIL import Image
 
 from planmethod.check.model import (
-    CheckedWork,
     Diagnosis,
-    Judged,
+    GradedAnswer,
+    GradedSubmission,
     Sense,
     Unread,
     Verdict,
     WrittenAnswer,
 )
+from planmethod.check.pages.answer_format import AnswerFormatter
 from planmethod.check.pages.overlay import overlays
 from planmethod.check.pages.remarks import Remarks
-from planmethod.check.pages.speech import Speech
 from planmethod.check.pages.student import (
     Page,
     student_document,
@@ -37,10 +37,10 @@ from planmethod.check.pages.student import (
     student_pdf,
 )
 from planmethod.note.document import Figure
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.note.writers.html import markup
 
-RU = language("ru")
+RU = get_language("ru")
 CODES = [
     *(f"V{n}" for n in range(1, 7)),
     *(f"A{n}" for n in range(1, 7)),
@@ -51,21 +51,21 @@ CODES = [
 ]
 
 
-def remarks(checked: CheckedWork, lang: str = "ru") -> list[str]:
-    return Remarks(Speech(language(lang)), checked, ex3_work.SCALES).sentences()
+def remarks(checked: GradedSubmission, lang: str = "ru") -> list[str]:
+    return Remarks(AnswerFormatter(get_language(lang)), checked, ex3_work.SCALES).sentences()
 
 
-def page_of(checked: CheckedWork, lang: str = "ru") -> Page:
+def page_of(checked: GradedSubmission, lang: str = "ru") -> Page:
     return student_page(
-        checked, ex3_work.solution(), language(lang), scales=ex3_work.SCALES, mark="4"
+        checked, ex3_work.solution(), get_language(lang), scales=ex3_work.SCALES, mark="4"
     )
 
 
-def one(verdict: Verdict, number: int = 0, **told: object) -> CheckedWork:
+def one(verdict: Verdict, number: int = 0, **told: object) -> GradedSubmission:
     """Return a work with one answer, judged so."""
     key = ex3_work.entries()[number]
     written = told.pop("written", WrittenAnswer(id=key.id, value=key.exact, mm=key.mm))
-    judged = Judged(key.id, verdict, key, written, **{"of": 1.0, **told})  # type: ignore[arg-type]
+    judged = GradedAnswer(key.id, verdict, key, written, **{"of": 1.0, **told})  # type: ignore[arg-type]
     return replace(ex3_work.work(), answers=(judged,), diagnosis=(), points=judged.points, of=1.0)
 
 
@@ -83,7 +83,7 @@ def test_a_mistake_is_named_with_both_numbers_its_place_and_the_next_step() -> N
 def test_every_mistake_has_its_sentence_in_every_language(code: str, lang: str) -> None:
     work = ex3_work.work()
     found = replace(work.diagnosis[0], codes=(code,))
-    words = language(lang).check["mistakes"][code]
+    words = get_language(lang).check["mistakes"][code]
     first = remarks(replace(work, diagnosis=(found,)), lang)[0]
     assert words.so in first and words.advice in first
     assert words.advice.endswith(".") and not words.name.endswith(".")
@@ -127,7 +127,12 @@ def test_each_verdict_has_its_remark() -> None:
     blank = remarks(one(Verdict.BLANK, written=None))
     assert blank == [RU.check["student"].blank.format(answers="v_{B3}")]
     raw = WrittenAnswer(
-        id="v_B3", raw="семь", where="Ответы!D12", unreadable="x", why=Unread.NUMBER, fault="семь"
+        id="v_B3",
+        raw="семь",
+        location="Ответы!D12",
+        unreadable="x",
+        reason=Unread.NUMBER,
+        fault="семь",
     )
     unread = remarks(one(Verdict.UNREADABLE, written=raw))[0]
     assert "«семь»" in unread and "Ответы!D12" in unread
@@ -150,25 +155,25 @@ def test_points_lost_by_inheriting_are_reported() -> None:
 
 def test_an_unreadable_entry_beside_the_answers_is_reported() -> None:
     work = ex3_work.work()
-    scale = WrittenAnswer(where="group.csv:7", unreadable="x", why=Unread.SCALE, fault="два")
+    scale = WrittenAnswer(location="group.csv:7", unreadable="x", reason=Unread.SCALE, fault="два")
     told = remarks(replace(work, work=replace(work.work, remarks=(scale,))))
     assert "«два»" in told[-1] and "(group.csv:7)" in told[-1]
 
 
 def test_redrawing_begins_where_the_trouble_begins() -> None:
-    lines = Remarks(Speech(RU), ex3_work.work(), ex3_work.SCALES).redraw()
+    lines = Remarks(AnswerFormatter(RU), ex3_work.work(), ex3_work.SCALES).redraw()
     assert len(lines) == 1 and "πb_{3}" in lines[0] and "55,6" in lines[0]
 
 
 def test_a_number_that_follows_from_a_segment_needs_no_redrawing() -> None:
     key = replace(ex3_work.entries()[1], mm=44.9, scale="mu_v", segment="p-b3")
-    judged = Judged(
+    judged = GradedAnswer(
         key.id, Verdict.WRONG, key, WrittenAnswer(id=key.id), value=-15.5, sense_right=False
     )
     work = replace(ex3_work.work(), answers=(judged,), diagnosis=())
-    assert Remarks(Speech(RU), work, ex3_work.SCALES).redraw() == []
+    assert Remarks(AnswerFormatter(RU), work, ex3_work.SCALES).redraw() == []
     turned = one(Verdict.WRONG, value=ex3_work.entries()[0].exact, sense_right=False)
-    assert Remarks(Speech(RU), turned, ex3_work.SCALES).redraw() == []
+    assert Remarks(AnswerFormatter(RU), turned, ex3_work.SCALES).redraw() == []
 
 
 # The picture --------------------------------------------------------------------------------------
@@ -176,13 +181,18 @@ def test_a_number_that_follows_from_a_segment_needs_no_redrawing() -> None:
 
 def test_segments_are_on_the_plan_with_the_students_lengths() -> None:
     velocity, acceleration = overlays(ex3_work.solution(), ex3_work.work(), RU)
-    assert all(own.is_right for own in velocity.own) and len(velocity.own) == 3
-    by_number = {own.number: own for own in acceleration.own}
+    assert (
+        all(own.is_right for own in velocity.student_segments)
+        and len(velocity.student_segments) == 3
+    )
+    by_number = {own.number: own for own in acceleration.student_segments}
     assert not by_number[5].is_right
     assert abs(by_number[5].head - by_number[5].tail) == pytest.approx(119.64, abs=0.1)
-    assert acceleration.mistake == "A1" and any(own.number is None for own in acceleration.own)
+    assert acceleration.mistake == "A1" and any(
+        own.number is None for own in acceleration.student_segments
+    )
     left, low, right, high = acceleration.bounds
-    for own in acceleration.own:
+    for own in acceleration.student_segments:
         assert left <= own.head.real <= right and low <= own.head.imag <= high
 
 
@@ -190,10 +200,12 @@ def test_the_plan_of_the_mistake_gives_the_direction() -> None:
     work = ex3_work.work()
     bare = replace(work, diagnosis=(replace(work.diagnosis[0], places={}),))
     drawn, plain = (overlays(ex3_work.solution(), w, RU)[1] for w in (work, bare))
-    here, there = (next(o for o in plan.own if o.number == 5) for plan in (drawn, plain))
+    here, there = (
+        next(o for o in plan.student_segments if o.number == 5) for plan in (drawn, plain)
+    )
     assert abs(here.head - here.tail) == pytest.approx(abs(there.head - there.tail))
     assert abs(here.head - there.head) > 20.0
-    assert not plain.mistake and all(own.number for own in plain.own)
+    assert not plain.mistake and all(own.number for own in plain.student_segments)
 
 
 def test_absurd_numbers_leave_the_plan_to_be_seen() -> None:
@@ -226,7 +238,13 @@ def test_a_wrong_sense_is_drawn_the_other_way() -> None:
         for s in (True, False)
     )
     assert (
-        abs(right.own[0].head - right.own[0].tail + turned.own[0].head - turned.own[0].tail) < 1e-9
+        abs(
+            right.student_segments[0].head
+            - right.student_segments[0].tail
+            + turned.student_segments[0].head
+            - turned.student_segments[0].tail
+        )
+        < 1e-9
     )
 
 
@@ -261,7 +279,7 @@ class _Strict(HTMLParser):
 def test_the_html_is_complete_and_neither_loads_nor_runs_anything(lang: str) -> None:
     name = "<script>alert(1)</script><img src=x onerror=y>\x00"
     work = ex3_work.work(name)
-    text = student_html(page_of(work, lang), ex3_work.solution(), language(lang))
+    text = student_html(page_of(work, lang), ex3_work.solution(), get_language(lang))
     reader = _Strict()
     reader.feed(text)
     assert not reader.open and not reader.bad
@@ -302,8 +320,8 @@ def test_only_indices_become_tags() -> None:
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_pdf_is_the_same_each_time_and_embeds_its_letters(lang: str) -> None:
     page = page_of(ex3_work.work(), lang)
-    data = student_pdf(page, ex3_work.solution(), language(lang))
-    assert data == student_pdf(page, ex3_work.solution(), language(lang)) and data.startswith(
+    data = student_pdf(page, ex3_work.solution(), get_language(lang))
+    assert data == student_pdf(page, ex3_work.solution(), get_language(lang)) and data.startswith(
         b"%PDF"
     )
     assert b"Helvetica" not in data and b"PlanmethodGOST" in data
@@ -343,7 +361,7 @@ def test_languages_have_the_same_places_in_their_sentences() -> None:
         parse = string.Formatter().parse
         return [
             {name for _, name, _, _ in parse(re.sub(r"[_^]\{[^{}]*\}", "", text)) if name}
-            for text in _texts(language(lang).check)
+            for text in _texts(get_language(lang).check)
         ]
 
     first, *others = (places(lang) for lang in LANGUAGES)

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from planmethod.check.model import Sense, Unread, Work
-from planmethod.check.works import WorksError, read_works
+from planmethod.check.model import Sense, Submission, Unread
+from planmethod.check.submissions import SubmissionError, read_works
 
 LONG = """student;variant;what;value;unit;mm;sense
 s01;;mu_v;0,05;;;
@@ -23,13 +23,13 @@ WIDE = """Студент;Вариант;μ_v;v_B3, м/с;v_B3 (мм);ω3, 1/с;�
 """
 
 
-def read(folder: Path, text: str | bytes, name: str = "group.csv") -> list[Work]:
+def read(folder: Path, text: str | bytes, name: str = "group.csv") -> list[Submission]:
     path = folder / name
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     return read_works(path)
 
 
-def said(works: list[Work]) -> list[tuple[object, ...]]:
+def said(works: list[Submission]) -> list[tuple[object, ...]]:
     return [
         (
             work.student,
@@ -46,7 +46,7 @@ def test_the_long_form_is_read(tmp_path: Path) -> None:
     assert first.scales == {"mu_v": 0.05, "mu_l": 0.002}
     v, omega = first.answers
     assert (v.what, v.value, v.step, v.mm, v.mm_step) == ("v B3", 2.275, 0.001, 45.5, 0.1)
-    assert (v.unit, v.sense, v.where) == ("m/s", Sense.LEFT, "group.csv:5, value")
+    assert (v.unit, v.sense, v.location) == ("m/s", Sense.LEFT, "group.csv:5, value")
     assert (omega.value, omega.sense) == (15.2, Sense.CCW)
     assert (second.student, second.variant) == ("s02", "Б")
     blank, nought = second.answers
@@ -59,7 +59,7 @@ def test_the_wide_form_is_read(tmp_path: Path) -> None:
     assert (first.student, first.variant, first.scales) == ("Иванов", "1", {"mu_v": 0.05})
     v, omega = first.answers
     assert (v.id, v.value, v.mm, v.unit) == ("v_B3", 2.275, 45.5, "м/с")
-    assert v.where == "group.csv:2, v_B3, м/с"
+    assert v.location == "group.csv:2, v_B3, м/с"
     assert (omega.id, omega.value, omega.sense) == ("ω3", 15.2, Sense.CCW)
     assert [answer.is_blank for answer in second.answers] == [True, False]
     assert not first.remarks
@@ -82,7 +82,7 @@ def test_encodings_and_separators_make_no_difference(
 def test_excel_names_its_separator_in_a_line_of_its_own(tmp_path: Path) -> None:
     works = read(tmp_path, "sep=;\n" + LONG)
     assert said(works) == said(read(tmp_path, LONG))
-    assert works[0].answers[0].where == "group.csv:6, value"
+    assert works[0].answers[0].location == "group.csv:6, value"
 
 
 def test_columns_may_be_in_any_order_with_russian_heads(tmp_path: Path) -> None:
@@ -98,45 +98,45 @@ def test_columns_may_be_in_any_order_with_russian_heads(tmp_path: Path) -> None:
     assert (omega.what, omega.sense, omega.position) == ("omega 3", Sense.CCW, 1)
     assert (v.what, v.value, v.mm, v.position) == ("v B3", 2.275, 45.5, 2)
     (remark,) = work.remarks
-    assert (remark.why, remark.fault) == (Unread.COLUMN, "Подпись")
+    assert (remark.reason, remark.fault) == (Unread.COLUMN, "Подпись")
 
 
 def test_a_row_without_a_student_is_reported(tmp_path: Path) -> None:
     first, _ = read(tmp_path, LONG + ";;v B3;2,2;m/s;44;\n\n;;;;;;\n")
     (remark,) = first.remarks
-    assert (remark.why, remark.where) == (Unread.STUDENT, "group.csv:9")
+    assert (remark.reason, remark.location) == (Unread.STUDENT, "group.csv:9")
 
 
 def test_an_unquoted_decimal_comma_between_commas_is_reported(tmp_path: Path) -> None:
     text = "student,what,value,unit\ns01,v B3,2,275,m/s\ns01,v D,3.4,m/s\n"
     (work,) = read(tmp_path, text)
     first, second = work.answers
-    assert (first.what, first.value, first.why) == ("v B3", None, Unread.FIELDS)
-    assert first.where == "group.csv:2, value"
+    assert (first.what, first.value, first.reason) == ("v B3", None, Unread.FIELDS)
+    assert first.location == "group.csv:2, value"
     assert second.value == 3.4
     (wide,) = read(tmp_path, "student,v_B3,v_D\ns01,2,275,3.4\n")
-    assert [answer.why for answer in wide.answers] == [Unread.FIELDS] * 2
+    assert [answer.reason for answer in wide.answers] == [Unread.FIELDS] * 2
 
 
 def test_an_unreadable_cell_is_reported_by_row_and_column(tmp_path: Path) -> None:
     (work,) = read(tmp_path, "student;what;value;sense\ns01;v B3;2,2,7;left\ns01;v D;3;-->\n")
     v, other = work.answers
-    assert (v.why, v.fault, v.where) == (Unread.NUMBER, "2,2,7", "group.csv:2, value")
-    assert (other.why, other.value, other.where) == (Unread.SENSE, 3.0, "group.csv:3, sense")
+    assert (v.reason, v.fault, v.location) == (Unread.NUMBER, "2,2,7", "group.csv:2, value")
+    assert (other.reason, other.value, other.location) == (Unread.SENSE, 3.0, "group.csv:3, sense")
 
 
 def test_changing_variants_and_scales_are_reported(tmp_path: Path) -> None:
     text = "student;variant;what;value\ns01;1;mu_v;0,05\ns01;2;mu_v;0,04\n"
     (work,) = read(tmp_path, text)
     assert (work.variant, work.scales) == ("1", {"mu_v": 0.05})
-    assert [remark.why for remark in work.remarks] == [Unread.TWICE] * 2
+    assert [remark.reason for remark in work.remarks] == [Unread.TWICE] * 2
 
 
 def test_a_name_may_be_in_two_columns_and_a_value_in_one(tmp_path: Path) -> None:
     (work,) = read(tmp_path, "Фамилия;Имя;что;значение;ответ\nИванов;Пётр;v B;2;3\n")
     assert work.student == "Иванов Пётр"
     assert [answer.value for answer in work.answers] == [2.0]
-    assert [(r.why, r.fault) for r in work.remarks] == [(Unread.COLUMN, "ответ")]
+    assert [(r.reason, r.fault) for r in work.remarks] == [(Unread.COLUMN, "ответ")]
 
 
 @pytest.mark.parametrize("columns", ["значение, мм/с;единица", "единица;значение, мм/с"])
@@ -157,7 +157,7 @@ def test_a_scale_beside_an_answer_is_that_of_its_plan(tmp_path: Path) -> None:
     text = "student;what;mm;масштаб\ns01;v B3;45,5;0,05\ns01;a B3;54;1\ns01;omega 3;45,5;0,05\n"
     (work,) = read(tmp_path, text)
     assert work.scales == {"mu_v": 0.05, "mu_a": 1.0}
-    assert [remark.why for remark in work.remarks] == [Unread.SCALE]
+    assert [remark.reason for remark in work.remarks] == [Unread.SCALE]
 
 
 def test_a_student_without_a_name_is_called_by_number_or_variant(tmp_path: Path) -> None:
@@ -192,5 +192,5 @@ def test_one_student_may_be_named_above_the_table(tmp_path: Path) -> None:
     ],
 )
 def test_a_fault_of_the_whole_file_is_an_error(tmp_path: Path, data: bytes, said: str) -> None:
-    with pytest.raises(WorksError, match=said):
+    with pytest.raises(SubmissionError, match=said):
         read(tmp_path, data)

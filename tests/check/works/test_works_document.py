@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from worked import ROOT
 
-from planmethod.check.works import read_works
-from planmethod.check.works.answer import NotReadError, read_scaled
-from planmethod.check.works.cells import Cell, read_sense
-from planmethod.check.works.table import read_head
+from planmethod.check.submissions import read_works
+from planmethod.check.submissions.answer import NotReadError, read_scaled
+from planmethod.check.submissions.cells import Cell, read_sense
+from planmethod.check.submissions.table import read_head
 from planmethod.problem.units import read_unit
 
 TEXT = (ROOT / "docs" / "works.md").read_text("utf-8")

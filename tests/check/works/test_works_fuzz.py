@@ -1,4 +1,4 @@
-"""Any file of a stranger is read, or rejected with `WorksError`."""
+"""Any file of a stranger is read, or rejected with `SubmissionError`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from test_works_csv import LONG, WIDE
 from test_works_student import GOOD
 from test_works_xlsx import ROWS, saved
 
-from planmethod.check.works import WorksError, read_works
+from planmethod.check.submissions import SubmissionError, read_works
 
 TOML = b'student = 7\nscales.mu_v = 0.05\n[[answers]]\nwhat = "v B3"\nvalue = 2.275\n'
 BOOK = saved(ROWS, lambda sheet: sheet.merge_cells("A4:A6"))
@@ -94,13 +94,13 @@ def test_malformed_files(tmp_path: Path, seed: int) -> None:
         path.write_bytes(data)
         try:
             works = read_works(path)
-        except WorksError as error:
+        except SubmissionError as error:
             assert str(path) in str(error), number
             continue
         read += 1
         for work in works:
             for answer in (*work.answers, *work.remarks):
                 assert answer.value is None or abs(answer.value) < 1e40
-                assert bool(answer.unreadable) == (answer.why is not None)
+                assert bool(answer.unreadable) == (answer.reason is not None)
     assert read > 50
     assert [path.stem for path in tmp_path.iterdir()] == ["work"] * len(list(tmp_path.iterdir()))

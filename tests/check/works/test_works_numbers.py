@@ -3,8 +3,8 @@ from __future__ import annotations
 import pytest
 
 from planmethod.check.model import Sense, WrittenAnswer
-from planmethod.check.works.cells import read_sense
-from planmethod.check.works.units import Number, ratio, read_number
+from planmethod.check.submissions.cells import read_sense
+from planmethod.check.submissions.units import Number, ratio, read_number
 from planmethod.problem.units import read_unit
 
 NUMBERS = [

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from planmethod.check.model import Sense, Unread, Work
-from planmethod.check.works import WorksError, read_works
+from planmethod.check.model import Sense, Submission, Unread
+from planmethod.check.submissions import SubmissionError, read_works
 from planmethod.errors import ExitCode
 
 GOOD: dict[str, Any] = {
@@ -26,13 +26,13 @@ GOOD: dict[str, Any] = {
 }
 
 
-def read(folder: Path, whole: Any, name: str = "s.json") -> list[Work]:
+def read(folder: Path, whole: Any, name: str = "s.json") -> list[Submission]:
     path = folder / name
     path.write_text(whole if isinstance(whole, str) else json.dumps(whole), "utf-8")
     return read_works(path)
 
 
-def read_one(folder: Path, **changes: Any) -> Work:
+def read_one(folder: Path, **changes: Any) -> Submission:
     (work,) = read(folder, GOOD | changes)
     return work
 
@@ -45,7 +45,7 @@ def test_one_student_is_read(tmp_path: Path) -> None:
     first, second, third = work.answers
     assert (first.what, first.id, first.unit, first.segment) == ("v B3", "v_B3", "m/s", "p b3")
     assert (first.value, first.step, first.mm, first.mm_step) == (2.275, 0.001, 45.5, 0.1)
-    assert (first.sense, first.where, first.raw) == (Sense.LEFT, "answers[0]", "2.275")
+    assert (first.sense, first.location, first.raw) == (Sense.LEFT, "answers[0]", "2.275")
     assert (second.value, second.step, second.position) == (15.0, 1.0, 2)
     assert third.is_blank
 
@@ -84,7 +84,7 @@ def test_a_fault_of_one_answer_is_reported_with_its_place(
 ) -> None:
     answers = [{"id": "v_C"} | answer, {"id": "v_D", "value": 1}]
     first, second = read_one(tmp_path, answers=answers).answers
-    assert (first.id, first.why, first.where) == ("v_C", why, where)
+    assert (first.id, first.reason, first.location) == ("v_C", why, where)
     assert first.unreadable and first.fault
     assert not first.is_blank
     assert second.value == 1.0 and not second.unreadable
@@ -92,19 +92,19 @@ def test_a_fault_of_one_answer_is_reported_with_its_place(
 
 def test_nan_is_no_number(tmp_path: Path) -> None:
     text = '{"student": "a", "answers": [{"id": "x", "value": NaN}, {"id": "y", "value": 1e999}]}'
-    assert [answer.why for answer in read(tmp_path, text)[0].answers] == [Unread.NUMBER] * 2
+    assert [answer.reason for answer in read(tmp_path, text)[0].answers] == [Unread.NUMBER] * 2
 
 
 def test_an_answer_given_twice_is_not_read_unless_both_agree(tmp_path: Path) -> None:
     one, other = {"id": "x", "value": 2}, {"id": "x", "value": 3}
     assert len(read_one(tmp_path, answers=[one, one]).answers) == 1
     first, second = read_one(tmp_path, answers=[one, other]).answers
-    assert (first.value, first.why) == (2.0, None)
-    assert (second.why, second.where) == (Unread.TWICE, "answers[1]")
+    assert (first.value, first.reason) == (2.0, None)
+    assert (second.reason, second.location) == (Unread.TWICE, "answers[1]")
     (joined,) = read_one(tmp_path, answers=[one, {"id": "x", "mm": 40}]).answers
     assert (joined.value, joined.mm) == (2.0, 40.0)
     several = read_one(tmp_path, answers=[one, other | {"position": 1}]).answers
-    assert not any(answer.why for answer in several)
+    assert not any(answer.reason for answer in several)
 
 
 @pytest.mark.parametrize(
@@ -126,7 +126,7 @@ def test_an_entry_that_is_not_an_answer_goes_to_the_remarks(
     tmp_path: Path, changes: dict[str, Any], why: Unread, where: str
 ) -> None:
     (remark,) = read_one(tmp_path, **changes).remarks
-    assert (remark.why, remark.where) == (why, where)
+    assert (remark.reason, remark.location) == (why, where)
 
 
 @pytest.mark.parametrize(
@@ -149,7 +149,7 @@ def test_a_scale_is_per_millimetre_however_it_is_written(
 
 def test_the_scale_of_lengths_may_be_a_ratio(tmp_path: Path) -> None:
     assert read_one(tmp_path, scales={"mu_l": "М 1:2"}).scales == {"mu_l": 0.002}
-    assert read_one(tmp_path, scales={"mu_v": "1:2"}).remarks[0].why is Unread.SCALE
+    assert read_one(tmp_path, scales={"mu_v": "1:2"}).remarks[0].reason is Unread.SCALE
 
 
 def test_half_characters_are_reported_by_place_and_stop_no_other_work(tmp_path: Path) -> None:
@@ -157,9 +157,9 @@ def test_half_characters_are_reported_by_place_and_stop_no_other_work(tmp_path: 
     whole = [{"student": "\ud800Ив", "answers": answers}, {"student": "B", "answers": []}]
     first, second = read(tmp_path, whole)
     assert (first.student, second.student) == ("s [0]", "B")
-    assert [(one.why, one.where) for one in first.remarks] == [(Unread.TEXT, "[0].student")]
+    assert [(one.reason, one.location) for one in first.remarks] == [(Unread.TEXT, "[0].student")]
     assert [one.value for one in first.answers] == [1, None]
-    assert first.answers[1].where == "[0].answers[1].value"
+    assert first.answers[1].location == "[0].answers[1].value"
     for text in (first.student, *(one.fault + one.unreadable for one in first.answers)):
         text.encode()
 
@@ -196,7 +196,7 @@ def test_toml_and_lists_of_students_are_read(tmp_path: Path) -> None:
     assert (work.student, work.scales, work.answers[0].step) == ("7", {"mu_v": 0.05}, 0.001)
     one, two = read(tmp_path, [GOOD, GOOD | {"student": "s03"}])
     assert (one.student, two.student) == ("s02", "s03")
-    assert two.answers[0].where == "[1].answers[0]"
+    assert two.answers[0].location == "[1].answers[0]"
 
 
 def test_a_work_without_a_student_is_named_after_its_file(tmp_path: Path) -> None:
@@ -217,7 +217,7 @@ def test_a_work_without_a_student_is_named_after_its_file(tmp_path: Path) -> Non
     ],
 )
 def test_a_fault_of_the_whole_file_is_an_error(tmp_path: Path, text: str, said: str) -> None:
-    with pytest.raises(WorksError, match=said) as error:
+    with pytest.raises(SubmissionError, match=said) as error:
         read(tmp_path, text)
     assert error.value.exit_code is ExitCode.USAGE
 
@@ -226,7 +226,7 @@ def test_a_file_without_works_is_an_error(tmp_path: Path) -> None:
     large = tmp_path / "large.json"
     large.write_bytes(b" " * (4 * 2**20 + 1))
     for path in (tmp_path, tmp_path / "none.json", large, tmp_path / "a\0b.json"):
-        with pytest.raises(WorksError):
+        with pytest.raises(SubmissionError):
             read_works(path)
-    with pytest.raises(WorksError, match="not one of"):
+    with pytest.raises(SubmissionError, match="not one of"):
         read(tmp_path, "", "work.docx")

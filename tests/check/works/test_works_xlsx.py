@@ -11,8 +11,8 @@ from typing import Any
 import openpyxl
 import pytest
 
-from planmethod.check.model import Sense, Unread, Work
-from planmethod.check.works import WorksError, read_works
+from planmethod.check.model import Sense, Submission, Unread
+from planmethod.check.submissions import SubmissionError, read_works
 
 ROWS: list[list[Any]] = [
     ["Группа 321", None, None, None, None],
@@ -38,7 +38,7 @@ def saved(rows: list[list[Any]], change: Callable[[Any], None] | None = None) ->
     return stream.getvalue()
 
 
-def read(folder: Path, data: bytes, name: str = "group.xlsx") -> list[Work]:
+def read(folder: Path, data: bytes, name: str = "group.xlsx") -> list[Submission]:
     path = folder / name
     path.write_bytes(data)
     return read_works(path)
@@ -64,8 +64,8 @@ def test_a_name_merged_over_its_rows_counts_for_all(tmp_path: Path) -> None:
     ivanov, petrov = read(tmp_path, saved(ROWS, lambda sheet: sheet.merge_cells("A4:A6")))
     assert (ivanov.student, petrov.student) == ("Иванов", "Петров")
     v, d, omega = ivanov.answers
-    assert (v.value, v.step, v.sense, v.where) == (2.275, 0.001, Sense.LEFT, "Лист!C4")
-    assert (d.value, d.step, d.where) == (3.41, 0.01, "Лист!C5")
+    assert (v.value, v.step, v.sense, v.location) == (2.275, 0.001, Sense.LEFT, "Лист!C4")
+    assert (d.value, d.step, d.location) == (3.41, 0.01, "Лист!C5")
     assert (omega.value, omega.is_blank, omega.sense) == (0.0, False, Sense.CCW)
     assert petrov.answers[0].is_blank
     assert not ivanov.remarks
@@ -74,7 +74,7 @@ def test_a_name_merged_over_its_rows_counts_for_all(tmp_path: Path) -> None:
 def test_a_name_that_is_not_merged_counts_for_its_row_alone(tmp_path: Path) -> None:
     ivanov, _ = read(tmp_path, saved(ROWS))
     assert len(ivanov.answers) == 1
-    assert [(r.why, r.where) for r in ivanov.remarks] == [
+    assert [(r.reason, r.location) for r in ivanov.remarks] == [
         (Unread.STUDENT, "Лист!B5"),
         (Unread.STUDENT, "Лист!B6"),
     ]
@@ -107,7 +107,7 @@ def test_a_wide_table_may_have_a_head_of_two_rows(tmp_path: Path) -> None:
         *("Иванов", "v_B3", 45.5, 2.275, Sense.LEFT),
     )
     assert (omega.id, omega.value, omega.unit) == ("ω3", 15.2, "1/с")
-    assert petrov.answers[0].where == "Лист!D4"
+    assert petrov.answers[0].location == "Лист!D4"
     assert not ivanov.remarks
 
 
@@ -136,7 +136,7 @@ def test_digits_are_those_that_the_cell_shows(tmp_path: Path) -> None:
 def test_a_cell_that_is_not_a_number_is_reported(tmp_path: Path, value: Any, why: Unread) -> None:
     (work,) = read(tmp_path, saved([["student", "v_B"], ["s", value]]))
     (answer,) = work.answers
-    assert (answer.why, answer.where) == (why, "Лист!B2")
+    assert (answer.reason, answer.location) == (why, "Лист!B2")
     assert not answer.is_blank
 
 
@@ -292,5 +292,5 @@ def entity() -> bytes:
 def test_a_fault_of_the_whole_file_is_an_error(
     tmp_path: Path, data: Callable[[], bytes], said: str
 ) -> None:
-    with pytest.raises(WorksError, match=said):
+    with pytest.raises(SubmissionError, match=said):
         read(tmp_path, data())

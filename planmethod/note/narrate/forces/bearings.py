@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.note.formula import Rich, fraction
-from planmethod.note.narrate.given import point_name
-from planmethod.note.plaintext import found, given
-from planmethod.note.wording import Words
+from planmethod.note.narrate.statement import point_name
+from planmethod.note.plaintext import computed_text, input_text
+from planmethod.note.wording import MessageTable
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem.load_records import BearingTable
 from planmethod.solved.forces.contact import JointForce
@@ -14,22 +14,22 @@ from planmethod.solved.solution import Solution
 
 
 def bearing_text(
-    solution: Solution, joint: JointForce, shared: BearingTable, force: float, words: Words
+    solution: Solution, joint: JointForce, shared: BearingTable, force: float, texts: MessageTable
 ) -> Rich:
     """Return the load of each bearing from a reaction, N, with numbers."""
     called, z = solution.problem.mechanism.called, shared.plane
     (first, second), parts = shared.at, []
     symbol = reaction_symbol(called(joint.on), called(joint.by))
-    length = given(abs(second - first), words)
+    length = input_text(abs(second - first), texts)
     for primes, share, arm in zip(
-        ("'", "''"), shared.shares, (abs(second - z), abs(z - first)), strict=True
+        ("'", "''"), shared.load_fractions, (abs(second - z), abs(z - first)), strict=True
     ):
         name = reaction_symbol(called(joint.on), called(joint.by), letter=f"F^{{{primes}}}")
-        numbers = fraction(f"{found(force, words)}·{given(arm, words)}", length)
-        size = f"{found(abs(share) * force, words)} {words['units']['N']}"
-        back = words.bearing_back.format(symbol=symbol) if share < 0 else ""
+        numbers = fraction(f"{computed_text(force, texts)}·{input_text(arm, texts)}", length)
+        size = f"{computed_text(abs(share) * force, texts)} {texts['units']['N']}"
+        back = texts.bearing_back.format(symbol=symbol) if share < 0 else ""
         parts.append(f"{name} = {numbers} = {size}{back}")
-    return words.bearings.format(
+    return texts.bearings.format(
         joint=point_name(joint.joint), symbol=symbol, first=parts[0], second=parts[1]
     )
 
@@ -43,9 +43,9 @@ def redundant(links: int) -> int:
     return 3 * links // 2 if links > 1 else 0
 
 
-def undetermined(groups: list[AssurGroup], words: Words) -> Rich:
+def undetermined(groups: list[AssurGroup], texts: MessageTable) -> Rich:
     """Describe the reaction components in the groups that statics leaves undetermined."""
     named = ", ".join("–".join(group.links) for group in groups)
     n = len(groups[0].links)  # dyads: what else is there has no force plans
-    template = words.undetermined if len(groups) > 1 else words.undetermined_one
+    template = texts.undetermined if len(groups) > 1 else texts.undetermined_one
     return template.format(groups=named, equations=3 * n, unknowns=3 * (3 * n // 2), q=redundant(n))

@@ -17,7 +17,7 @@ from planmethod.note.narrate.naming import Names
 from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import Balance, Edge
-from planmethod.plans.model import Known, PlanKind
+from planmethod.plans.model import KnownParts, PlanKind
 from planmethod.solved.forces.reading import ForceReading
 
 QUARTERS = {0.0: "way_right", 90.0: "way_up", 180.0: "way_left", 270.0: "way_down"}
@@ -32,26 +32,30 @@ class ForceContext:
     ruler, forces read on one plan and carried over into the next.
     """
 
-    def __init__(self, reading: ForceReading, say: Formulas) -> None:
-        self.reading, self.solution, self.say = reading, reading.solution, say
-        self.names: Names = say.names
-        self.words, self.language, self.notation = say.words, say.language, say.notation
-        self.said, self.units = self.language.forces, self.notation.units
-        self.found, self.short, self.ruled = (
-            self.notation.found,
+    def __init__(self, reading: ForceReading, formulas: Formulas) -> None:
+        self.reading, self.solution, self.formulas = reading, reading.solution, formulas
+        self.names: Names = formulas.names
+        self.note_texts, self.language, self.notation = (
+            formulas.texts,
+            formulas.language,
+            formulas.notation,
+        )
+        self.texts, self.units = self.language.forces, self.notation.units
+        self.computed, self.short, self.measured = (
+            self.notation.computed,
             self.notation.short,
-            self.notation.ruled,
+            self.notation.measured,
         )
         self.symbol = self.notation.symbol
         self.step: dict[Name, Step] = {s.out: s for s in reading.statics.program.steps}
 
     def sense(self, value: float) -> str:
         """Return the sense of a moment."""
-        return self.words.ccw if value > 0 else self.words.cw
+        return self.note_texts.ccw if value > 0 else self.note_texts.cw
 
     def exactly(self, value: float) -> str:
         """Return the exact value in brackets."""
-        return self.say.exactly(abs(value))
+        return self.formulas.exactly(abs(value))
 
     def scaled(self, text: str, per_mm: float, *, back: bool = False) -> str:
         """Return millimetres times the scale of their drawing, or over it: ``70,0·250``.
@@ -64,15 +68,15 @@ class ForceContext:
 
     def on_drawing(self, text: str) -> str:
         """Return millimetres of the position plan as metres."""
-        return self.scaled(text, self.say.per_mm(PlanKind.POSITION))
+        return self.scaled(text, self.formulas.per_mm(PlanKind.POSITION))
 
-    def way(self, vector: complex) -> str:
+    def direction_phrase(self, vector: complex) -> str:
         """Return the phrase for the direction of a vector."""
         angle = float(np.degrees(np.angle(vector))) % 360.0
         for quarter, phrase in QUARTERS.items():
             if abs((angle - quarter + 180.0) % 360.0 - 180.0) < STRAIGHT:
-                return str(getattr(self.said, phrase))
-        return self.said.way_angle.format(angle=self.short(angle, 4))
+                return str(getattr(self.texts, phrase))
+        return self.texts.way_angle.format(angle=self.short(angle, 4))
 
     def base(self, edge: Edge) -> str:
         """Return the line that defines the direction of a force: ``BC`` of ``∥ BC``."""
@@ -85,14 +89,14 @@ def balance_equation(balance: Balance, context: ForceContext, directed: Directed
     terms = (
         term_of(replace(edge, symbol=context.symbol(edge.symbol)), directed)
         for edge in balance.edges
-        if edge.known is not Known.BOTH or not context.reading.is_none(edge)
+        if edge.known is not KnownParts.BOTH or not context.reading.is_negligible(edge)
     )
     return Equation(tuple(terms), name=f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}")
 
 
-def lettered(reading: ForceReading, words: Language) -> ForceContext:
+def lettered(reading: ForceReading, language: Language) -> ForceContext:
     """Return the shared context of the narrators for a sheet."""
-    names = Names(reading.solution, words.note, on_sheet=True)
+    names = Names(reading.solution, language.note, on_sheet=True)
     return ForceContext(reading, Formulas(reading.solution, names, reading.index))
 
 

@@ -11,8 +11,8 @@ from planmethod.note.compared import ComparedNumber, marked, percent_text
 from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, signed_sum
 from planmethod.note.narrate.forces.resultants import force_symbol
-from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.statement import point_name
 from planmethod.note.numbers import MINUS, significant
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
@@ -58,7 +58,7 @@ def compared_balances(statics: Statics, index: int) -> ComparedNumber | None:
 
 def thrust_lines(context: ForceContext) -> list[str]:
     """Return how the force of an actuator is found, which the force plans take as known."""
-    statics, said = context.reading.statics, context.said
+    statics, texts = context.reading.statics, context.texts
     thrust = statics.thrust
     if thrust is None:
         return []
@@ -72,15 +72,15 @@ def thrust_lines(context: ForceContext) -> list[str]:
             return []
         teller = LeverNarrator(context)
         formula = teller.result() if teller.lever.forces else f"{symbol} = 0"
-        return [said.thrust_by_lever.format(formula=formula, **facts)]
+        return [texts.thrust_by_lever.format(formula=formula, **facts)]
     turns = context.solution.problem.drive.is_crank
     newtons, unit = context.units["N"], context.units["N·m" if turns else "N"]
     told = {
-        key: context.found(context.reading.read_number(name))
+        key: context.computed(context.reading.read_number(name))
         for key, name in (
             ("without", thrust.trial.without),
             ("tried", thrust.trial.tried),
-            ("given", thrust.trial.given),
+            ("given", thrust.trial.effect),
             ("value", thrust.value),
         )
     }
@@ -88,16 +88,16 @@ def thrust_lines(context: ForceContext) -> list[str]:
     formula = f"{symbol} = {MINUS}{product} = {told['value']} {newtons}"
     without, given = (f"{told[key]} {unit}" for key in ("without", "given"))
     facts |= {"without": without, "given": given, "tried": f"{told['tried']} {newtons}"}
-    return [said.thrust_by_trial.format(formula=formula, **facts)]
+    return [texts.thrust_by_trial.format(formula=formula, **facts)]
 
 
 class LeverNarrator:
     """Narrates the lever of one position, in which the driver must not be at rest."""
 
     def __init__(self, context: ForceContext) -> None:
-        self.context, self.reading, self.said = context, context.reading, context.said
-        self.names, self.found = context.names, context.found
-        self.ruled, self.notation = context.ruled, context.notation
+        self.context, self.reading, self.texts = context, context.reading, context.texts
+        self.names, self.computed = context.names, context.computed
+        self.measured, self.notation = context.measured, context.notation
         self.lever = LeverReading(context.reading)
         self.unit = context.units[context.reading.balancing.unit]
         self.balancing = context.symbol(context.reading.balancing_symbol)
@@ -118,7 +118,7 @@ class LeverNarrator:
     def arms(self) -> str:
         """Return the arms of the forces that have one, without their unit; empty if none has."""
         found = ((self.context.symbol(o.symbol), abs(o.arm)) for o in self.lever.forces if o.arm)
-        return "; ".join(f"{arm_symbol(name)} = {self.ruled(arm)}" for name, arm in found)
+        return "; ".join(f"{arm_symbol(name)} = {self.measured(arm)}" for name, arm in found)
 
     def _pair(self, one: OnLink) -> PairText:
         """Return a couple, or what else goes with ω, by the ends of its link's segment."""
@@ -132,10 +132,10 @@ class LeverNarrator:
                 letters, self.context.scaled(self.context.short(omega), per_mm, back=True)
             )
         letters, length = f"({names.segment(*one.ends)})", f"l_{{{self._joints(one, *one.joints)}}}"
-        segment, link = self.ruled(one.ratio * one.length), self.context.short(one.length)
+        segment, link = self.measured(one.ratio * one.length), self.context.short(one.length)
         units = self.context.units
-        told = f"{letters} = {segment} {units['mm']}; {length} = {link} {units['m']}"
-        return PairText(fraction(letters, length), fraction(segment, link), told, length)
+        text = f"{letters} = {segment} {units['mm']}; {length} = {link} {units['m']}"
+        return PairText(fraction(letters, length), fraction(segment, link), text, length)
 
     def _joints(self, one: OnLink, first: str, second: str) -> str:
         """Return two joints in the order in which their distance is given."""
@@ -153,26 +153,28 @@ class LeverNarrator:
     def shift(self, one: LeverShift) -> str:
         """Return the distance of a shifted force from the centre of mass on the lever."""
         told = self._pair(one)
-        formula = f"{one.symbol}·{told.letters} = {self.found(one.shift)}·{told.numbers}"
+        formula = f"{one.symbol}·{told.letters} = {self.computed(one.shift)}·{told.numbers}"
         length = self.notation.number(f"{one.shift * one.ratio:.1f}")
         return f"({''.join(one.letters)}) = {formula} = {length} {self.context.units['mm']}"
 
     def lines(self) -> list[str]:
         """Return the moments about the pole, the arms, what balances them, the discrepancy."""
-        said, number = self.context.language.sheets, self.notation.number
+        texts, number = self.context.language.sheets, self.notation.number
         if not self.lever.forces and not self.lever.couples:
-            return [said.lever_no_work.format(symbol=self.balancing)]
+            return [texts.lever_no_work.format(symbol=self.balancing)]
         arms, lines = self.arms(), [self.equation()]
         lines += [f"{arms} {self.context.units['mm']}"] if arms else []
         lines += [text.replace("; ", ";  ") for text in self.segments()]
         lines += [self.shift(one) for one in self.lever.shifts]
-        lines.append(said.lever_found.format(symbol=self.balancing, **self._both()))
+        lines.append(texts.lever_found.format(symbol=self.balancing, **self._both()))
         one = compared_balances(self.reading.statics, self.reading.index)
         if one is not None and one.percent is not None:
-            lines.append(said.lever_difference.format(share=number(percent_text(one.share))))
+            lines.append(
+                texts.lever_difference.format(share=number(percent_text(one.percent_size)))
+            )
             if isfinite(one.sigma):
                 off = f"{number(sigma_text(one.sigma))} {self.unit}"
-                lines.append(said.lever_expected.format(sigma=off))
+                lines.append(texts.lever_expected.format(sigma=off))
         return lines
 
     def _both(self) -> dict[str, str]:
@@ -180,22 +182,22 @@ class LeverNarrator:
         plans, value = both_balances(self.reading)
         assert value is not None
         told = {"plans": plans, "lever": value}
-        return {by: f"{self.found(abs(each))} {self.unit}" for by, each in told.items()}
+        return {by: f"{self.computed(abs(each))} {self.unit}" for by, each in told.items()}
 
     # Sentences -------------------------------------------------------------------------------
 
     def items(self) -> Iterator[list[str]]:
         """Yield the steps."""
-        yield [self.said.turned.format(pole=self.names.pole(PlanKind.VELOCITY)), *self.larger()]
+        yield [self.texts.turned.format(pole=self.names.pole(PlanKind.VELOCITY)), *self.larger()]
         if not self.lever.forces and not self.lever.couples:
-            yield [self.said.no_work.format(symbol=self.balancing)]
+            yield [self.texts.no_work.format(symbol=self.balancing)]
             return
         yield self._hung()
         yield from self._pairs()
         arms = self.arms()
         if arms:
-            yield [self.said.lever_arms.format(arms=arms)]
-        yield [self.said.lever_sum, *self._equation()]
+            yield [self.texts.lever_arms.format(arms=arms)]
+        yield [self.texts.lever_sum, *self._equation()]
         yield self._compared()
 
     def larger(self) -> list[str]:
@@ -204,11 +206,11 @@ class LeverNarrator:
             return []
         convention = self.context.solution.problem.scales.convention
         scale = scale_inscription(self.lever.scale, convention, self.notation)
-        return [self.said.larger.format(scale=scale)]
+        return [self.texts.larger.format(scale=scale)]
 
     def _hung(self) -> list[str]:
         """Return the point at which each force is applied, and the forces at the pole."""
-        motion = self.names.kin.velocity
+        motion = self.names.kinematics.velocity
         at: dict[str, list[str]] = {}
         beside = {force_symbol(one.link): one for one in self.lever.shifts}
         for one in self.lever.forces:
@@ -219,15 +221,15 @@ class LeverNarrator:
         lines = []
         if at:
             told = (
-                self.said.hung_at.format(symbols=", ".join(symbols), point=point)
+                self.texts.hung_at.format(symbols=", ".join(symbols), point=point)
                 for point, symbols in at.items()
             )
-            lines.append(self.said.hung.format(forces="; ".join(told)))
+            lines.append(self.texts.hung.format(forces="; ".join(told)))
         if (ends := self.reading.statics.driving.between) is not None and len(at) > 0:
             points = ", ".join(self.names.point(motion.point[motion.named[end]]) for end in ends)
-            lines.append(self.said.hung_pair.format(symbol=self.balancing, points=points))
+            lines.append(self.texts.hung_pair.format(symbol=self.balancing, points=points))
         lines += [
-            self.said.shift_on_lever.format(
+            self.texts.shift_on_lever.format(
                 point=shift.letters[1], force=force_symbol(shift.link), formula=self.shift(shift)
             )
             for shift in self.lever.shifts
@@ -240,38 +242,38 @@ class LeverNarrator:
             and load.applied.force[self.reading.index]
             and load.applied.name not in hung
         ]
-        return lines + ([self.said.at_pole.format(symbols=", ".join(still))] if still else [])
+        return lines + ([self.texts.at_pole.format(symbols=", ".join(still))] if still else [])
 
     def _pairs(self) -> Iterator[list[str]]:
         """Yield how each couple is applied to the lever."""
-        lines = [self._told(one) for one in self.lever.couples]
+        lines = [self._couple_text(one) for one in self.lever.couples]
         hung = {one.symbol for one in self.lever.couples}
         for load in self.reading.statics.board.given:
             one = load.applied
             if load.couple is None or not one.couple[self.reading.index] or one.name in hung:
                 continue
-            lines.append(self.said.pair_still.format(symbol=one.name, link=one.link))
+            lines.append(self.texts.pair_still.format(symbol=one.name, link=one.link))
         if lines:
             yield lines
 
-    def _told(self, one: LeverCouple) -> str:
+    def _couple_text(self, one: LeverCouple) -> str:
         pair, symbol = self._pair(one), self.context.symbol(one.symbol)
         if pair.segment:
             assert one.ends is not None
-            text = self.said.pair.format(
+            text = self.texts.pair.format(
                 symbol=symbol,
                 length=pair.length,
                 ends=", ".join(map(self.names.point, one.ends)),
                 segment=pair.segment,
             )
         else:
-            size = self.found(abs(one.moment))
-            text = self.said.pair_turning.format(
+            size = self.computed(abs(one.moment))
+            text = self.texts.pair_turning.format(
                 symbol=symbol, letters=pair.letters, size=size, numbers=pair.numbers
             )
         if symbol == self.balancing or not one.lever_moment:
             return text + "."
-        return text + self.said.pair_sense.format(sense=self.context.sense(one.lever_moment))
+        return text + self.texts.pair_sense.format(sense=self.context.sense(one.lever_moment))
 
     def _equation(self) -> list[str]:
         """Return the sum of moments, and what balances the driver with numbers."""
@@ -280,14 +282,14 @@ class LeverNarrator:
         exact = self.context.exactly(float(self.reading.statics.lever[self.reading.index]))
         end = "."
         if self.reading.balancing.turns and value:
-            end = self.said.directed.format(sense=self.context.sense(value))
+            end = self.texts.directed.format(sense=self.context.sense(value))
         return [f"{self.equation()},", f"{self.result()}{exact}{end}"]
 
     def result(self) -> str:
         """Return what balances the driver, with numbers."""
         value = both_balances(self.reading)[1]
         assert value is not None
-        return f"{self.balancing} = {self._numbers()} = {self.found(abs(value))} {self.unit}"
+        return f"{self.balancing} = {self._numbers()} = {self.computed(abs(value))} {self.unit}"
 
     def _numbers(self) -> str:
         """Return the sum of the known moments over the arm of the balancing force."""
@@ -295,19 +297,19 @@ class LeverNarrator:
         terms, divisor, turn = [], "", 1.0
         for force in self.lever.forces:
             if force.symbol == symbol:
-                divisor, turn = self.ruled(abs(force.arm)), -1.0 if force.arm > 0 else 1.0
+                divisor, turn = self.measured(abs(force.arm)), -1.0 if force.arm > 0 else 1.0
             elif force.arm and force.size:
-                text = f"{self.found(force.size)}·{self.ruled(abs(force.arm))}"
+                text = f"{self.computed(force.size)}·{self.measured(abs(force.arm))}"
                 terms.append((force.arm, text))
         for couple in self.lever.couples:
             numbers = self._pair(couple).numbers
             if couple.symbol == symbol:
                 divisor, turn = numbers, -1.0 if couple.lever_moment > 0 else 1.0
             elif couple.lever_moment:
-                text = f"{self.found(abs(couple.moment))}·{numbers}"
+                text = f"{self.computed(abs(couple.moment))}·{numbers}"
                 terms.append((couple.lever_moment, text))
-        said = signed_sum([(turn * moment, text) for moment, text in terms])
-        return fraction(said or "0", divisor)  # in an extreme position all moments may be zero
+        phrase = signed_sum([(turn * moment, text) for moment, text in terms])
+        return fraction(phrase or "0", divisor)  # in an extreme position all moments may be zero
 
     def _compared(self) -> list[str]:
         """Return the difference of lever and force plans, and the one expected of a drawing."""
@@ -318,16 +320,18 @@ class LeverNarrator:
         assert one is not None
         decimals = len(significant(one.exact).partition(".")[2])  # those of the compared value
         lines = [
-            self.said.compared.format(
+            self.texts.compared.format(
                 symbol=self.balancing,
                 **self._both(),
                 difference=number(f"{abs(one.off):.{decimals}f}"),
                 unit=self.unit,
-                share="" if one.percent is None else f" ({number(percent_text(one.share))} %)",
+                share=""
+                if one.percent is None
+                else f" ({number(percent_text(one.percent_size))} %)",
             )
         ]
         if isfinite(one.sigma):
             part = "" if one.expected is None else f" ({number(percent_text(one.expected))} %)"
             off = number(sigma_text(one.sigma))
-            lines.append(self.said.expected.format(sigma=off, unit=self.unit, share=part))
+            lines.append(self.texts.expected.format(sigma=off, unit=self.unit, share=part))
         return lines

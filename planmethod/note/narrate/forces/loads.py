@@ -22,8 +22,8 @@ class LoadNarrator:
 
     def __init__(self, context: ForceContext) -> None:
         self.context, self.reading = context, context.reading
-        self.said, self.units = context.said, context.units
-        self.short, self.found = context.short, context.found
+        self.texts, self.units = context.texts, context.units
+        self.short, self.computed = context.short, context.computed
 
     # Formulas --------------------------------------------------------------------------------
 
@@ -53,16 +53,18 @@ class LoadNarrator:
     def shifted(self, force: GivenLoad, shift: Shift) -> list[str]:
         """Return the couple that a shifted force of inertia replaces, and the shift."""
         size, moment = self.reading.read_load(force), self.reading.read_number(shift.couple)
-        metres = self.context.say.per_mm(PlanKind.POSITION) * self.reading.read_number(shift.length)
+        metres = self.context.formulas.per_mm(PlanKind.POSITION) * self.reading.read_number(
+            shift.length
+        )
         letters = f"{shift_symbol(shift.link)} = {fraction(shift.moment.name, force.applied.name)}"
         numbers, found = (
-            fraction(self.found(abs(moment)), self.found(abs(size))),
-            self.found(abs(metres)),
+            fraction(self.computed(abs(moment)), self.computed(abs(size))),
+            self.computed(abs(metres)),
         )
-        told = f"{letters} = {numbers} = {found} {self.units['m']}"
-        return [self._product(shift.moment, shift.couple), told]
+        text = f"{letters} = {numbers} = {found} {self.units['m']}"
+        return [self._product(shift.moment, shift.couple), text]
 
-    def _product(self, one: Applied, made: NumberName) -> str:
+    def _product(self, one: Applied, number: NumberName) -> str:
         dynamics = self.context.solution.problem.dynamics
         assert dynamics is not None
         mass, inertia = f"m_{{{one.link}}}", f"J_{{S{one.link}}}"
@@ -71,11 +73,11 @@ class LoadNarrator:
             LoadKind.INERTIA: f"{mass}·a_{{{dynamics.masses[one.link].centre}}}",
             LoadKind.INERTIA_COUPLE: f"{inertia}·ε_{{{one.link}}}",
         }[one.kind]
-        step = self.context.step[made]
+        step = self.context.step[number]
         assert isinstance(step, Compute)
         factors = (self.short(abs(self.reading.read_number(name))) for name, _ in step.powers)
-        unit, size = self.units["N" if one.point else "N·m"], self.reading.read_number(made)
-        return f"{one.name} = {letters} = {'·'.join(factors)} = {self.found(abs(size))} {unit}"
+        unit, size = self.units["N" if one.point else "N·m"], self.reading.read_number(number)
+        return f"{one.name} = {letters} = {'·'.join(factors)} = {self.computed(abs(size))} {unit}"
 
     # Sentences -------------------------------------------------------------------------------
 
@@ -88,8 +90,8 @@ class LoadNarrator:
         """Return the text on the loads of a link."""
         lines = list(self._loads(link))
         if not lines:
-            return [self.said.unloaded.format(link=link)]
-        return [self.said.of_link.format(link=link), *closed(lines)]
+            return [self.texts.unloaded.format(link=link)]
+        return [self.texts.of_link.format(link=link), *closed(lines)]
 
     def _loads(self, link: str) -> Iterator[str]:
         dynamics = self.context.solution.problem.dynamics
@@ -97,15 +99,17 @@ class LoadNarrator:
         own = [load for load in self.reading.statics.board.given if load.applied.link == link]
         mass = dynamics.masses.get(link)
         for kind in (LoadKind.WEIGHT, LoadKind.INERTIA, LoadKind.INERTIA_COUPLE, LoadKind.EXTERNAL):
-            found = [text for load in own if load.applied.kind is kind for text in self._told(load)]
+            found = [
+                text for load in own if load.applied.kind is kind for text in self._load_lines(load)
+            ]
             yield from found
             if mass is not None and not found and not self._is_shifted(link, kind):
-                yield from self._none(link, mass, kind)
+                yield from self._zero_inertia(link, mass, kind)
 
     def _is_shifted(self, link: str, kind: LoadKind) -> bool:
         return kind is LoadKind.INERTIA_COUPLE and link in self.reading.statics.board.shifts
 
-    def _told(self, load: GivenLoad) -> list[str]:
+    def _load_lines(self, load: GivenLoad) -> list[str]:
         """Return the text on a load; for a shifted force of inertia, its couple and place too."""
         one = load.applied
         shift = self.reading.statics.board.shifts.get(one.link)
@@ -118,11 +122,11 @@ class LoadNarrator:
         if not couple:
             return []
         one, (moment, formula) = load.applied, self.shifted(load, shift)
-        turning = self.said.inertia_couple.format(
+        turning = self.texts.inertia_couple.format(
             formula=moment, exact="", sense=self.context.sense(couple), epsilon=f"ε_{{{one.link}}}"
         )
         length = abs(self.reading.read_number(shift.length))
-        laid = self.said.shift.format(
+        laid = self.texts.shift.format(
             formula=formula,
             length=self.short(round(length, 2)),
             centre=one.point,
@@ -133,49 +137,52 @@ class LoadNarrator:
         )
         return [turning, laid]
 
-    def _none(self, link: str, mass: Mass, kind: LoadKind) -> Iterator[str]:
+    def _zero_inertia(self, link: str, mass: Mass, kind: LoadKind) -> Iterator[str]:
         """Yield the statement that an inertia force or couple is always zero."""
         if kind is LoadKind.INERTIA and mass.mass:
-            yield self.said.inertia_zero.format(symbol=f"Φ_{{{link}}}", point=mass.centre)
+            yield self.texts.inertia_zero.format(symbol=f"Φ_{{{link}}}", point=mass.centre)
         if kind is LoadKind.INERTIA_COUPLE and mass.inertia:
-            yield self.said.inertia_couple_zero.format(
+            yield self.texts.inertia_couple_zero.format(
                 symbol=f"M_{{Φ{link}}}", epsilon=f"ε_{{{link}}}"
             )
 
     def _load(self, load: GivenLoad) -> str:
-        one, index, said = load.applied, self.reading.index, self.said
+        one, index, texts = load.applied, self.reading.index, self.texts
         force, couple = complex(one.force[index]), float(one.couple[index])
         value = couple if one.point is None else abs(force)
         if not value:
-            return said.absent.format(symbol=one.name)
+            return texts.absent.format(symbol=one.name)
         read = abs(self.reading.read_load(load))
-        is_exact = self.found(read) == self.found(abs(value))
+        is_exact = self.computed(read) == self.computed(abs(value))
         common = {"point": one.point, "exact": "" if is_exact else self.context.exactly(value)}
         if one.kind is LoadKind.EXTERNAL:
             return self._external(load, force, couple)
         common["formula"] = self.formula(load)
         match one.kind:
             case LoadKind.WEIGHT:
-                return said.weight.format(**common)
+                return texts.weight.format(**common)
             case LoadKind.INERTIA:
                 shifted = one.link in self.reading.statics.board.shifts
-                template = said.inertia_shifted if shifted else said.inertia
+                template = texts.inertia_shifted if shifted else texts.inertia
                 return template.format(acceleration=f"a_{{{one.point}}}", **common)
             case LoadKind.INERTIA_COUPLE:
                 sense = self.context.sense(couple)
                 epsilon = f"ε_{{{one.link}}}"
-                return said.inertia_couple.format(sense=sense, epsilon=epsilon, **common)
+                return texts.inertia_couple.format(sense=sense, epsilon=epsilon, **common)
             case LoadKind.FRICTION:
                 raise AssertionError("forces of friction are told by themselves")
 
     def _external(self, load: GivenLoad, force: complex, couple: float) -> str:
         symbol = load.applied.name
         if load.applied.point is not None:
-            size = f"{self.found(abs(force))} {self.units['N']}"
-            point, way = load.applied.point, self.context.way(force) + self._resisting(load)
-            return self.said.force.format(symbol=symbol, size=size, point=point, way=way)
-        size = f"{self.found(abs(couple))} {self.units['N·m']}"
-        return self.said.couple.format(symbol=symbol, size=size, sense=self.context.sense(couple))
+            size = f"{self.computed(abs(force))} {self.units['N']}"
+            point, way = (
+                load.applied.point,
+                self.context.direction_phrase(force) + self._resisting(load),
+            )
+            return self.texts.force.format(symbol=symbol, size=size, point=point, way=way)
+        size = f"{self.computed(abs(couple))} {self.units['N·m']}"
+        return self.texts.couple.format(symbol=symbol, size=size, sense=self.context.sense(couple))
 
     def _resisting(self, load: GivenLoad) -> str:
         """Return the phrase for a force opposed to the velocity of its point; else nothing."""
@@ -187,5 +194,5 @@ class LoadNarrator:
         velocity = complex(self.context.solution.points[one.point].velocity[self.reading.index])
         force = complex(one.force[self.reading.index])
         is_against = (force * velocity.conjugate()).real < 0
-        template = self.said.against if is_against else self.said.along
+        template = self.texts.against if is_against else self.texts.along
         return template.format(point=one.point)

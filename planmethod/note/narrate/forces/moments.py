@@ -11,10 +11,10 @@ from msgspec import Struct
 
 from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, closed, signed_sum
-from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.statement import point_name
 from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force
-from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Moments, Share
+from planmethod.plans.forces.polygons import Component, CoupleOn, Edge, ForcePlan, Moments
 from planmethod.plans.model import Direction, PlanKind, Relation
 from planmethod.solved.forces.guides import Guided, guide_of
 
@@ -53,19 +53,19 @@ class MomentNarrator:
 
     def __init__(self, context: ForceContext, plan: ForcePlan) -> None:
         self.context, self.plan = context, plan
-        self.reading, self.said, self.units = context.reading, context.said, context.units
-        self.found, self.short, self.symbol = context.found, context.short, context.symbol
+        self.reading, self.texts, self.units = context.reading, context.texts, context.units
+        self.computed, self.short, self.symbol = context.computed, context.short, context.symbol
         self.statics = context.reading.statics
 
     # Equations -------------------------------------------------------------------------------
 
-    def told(self, equation: Moments) -> MomentText | None:
+    def equation_text(self, equation: Moments) -> MomentText | None:
         """Return the text of an equation of moments; None where there is no couple to find."""
         reading, edge, couple = self.reading, equation.force, equation.couple
         forces = [
             (self.symbol(known.symbol), reading.read(known), reading.arm(known, equation.about))
             for known in equation.edges
-            if not reading.is_none(known)
+            if not reading.is_negligible(known)
         ]
         forces = [(name, size, arm) for name, size, arm in forces if size and arm]
         couples = [
@@ -81,7 +81,7 @@ class MomentNarrator:
             symbol, unit, nothing, value = (
                 self.symbol(edge.symbol),
                 "N",
-                reading.is_none(edge),
+                reading.is_negligible(edge),
                 reading.read(edge),
             )
             peak, turn = reading.peak, 1.0 if reading.turns(edge, equation.about) else -1.0
@@ -100,10 +100,10 @@ class MomentNarrator:
         numbers = self._numbers(forces, couples, 1.0 if value < 0 else -1.0)
         if length:
             numbers = fraction(numbers, length)
-        result = f"= {self.found(abs(value))} {self.units[unit]}" if value else "≈ 0"
+        result = f"= {self.computed(abs(value))} {self.units[unit]}" if value else "≈ 0"
         return MomentText(
             f"{head} = {signed_sum(letters)} = 0",
-            tuple(f"{arm_symbol(n)} = {self.context.ruled(abs(a))}" for n, _, a in forces),
+            tuple(f"{arm_symbol(n)} = {self.context.measured(abs(a))}" for n, _, a in forces),
             measured,
             f"{symbol} = {numbers} {'= 0' if cancel and not value else result}"
             if forces or couples
@@ -122,15 +122,15 @@ class MomentNarrator:
             return None
         letters = [(a, f"{name}·{arm_symbol(name)}") for name, _, a in forces]
         letters += [(moment, name) for name, moment in couples]
-        metres = self.context.say.per_mm(PlanKind.POSITION)
+        metres = self.context.formulas.per_mm(PlanKind.POSITION)
         left = sum(size * arm * metres for _, size, arm in forces)
         left += sum(moment for _, moment in couples)
         numbers = self._numbers(forces, couples, 1.0)
         return MomentText(
             f"{head} = {signed_sum(letters)}",
-            tuple(f"{arm_symbol(n)} = {self.context.ruled(abs(a))}" for n, _, a in forces),
+            tuple(f"{arm_symbol(n)} = {self.context.measured(abs(a))}" for n, _, a in forces),
             "",
-            f"{head} = {numbers} = {self.found(left)} {self.units['N·m']}",
+            f"{head} = {numbers} = {self.computed(left)} {self.units['N·m']}",
             left,
         )
 
@@ -143,17 +143,19 @@ class MomentNarrator:
         metres = self.short(abs(read))
         if edge.is_aslant:
             letters = arm_symbol(self.symbol(edge.symbol))
-            ruled = self.context.ruled(abs(self.reading.read_number(first[0])))
-            told = f"{letters} = {self.context.on_drawing(ruled)} = {metres} {self.units['m']}"
-            return letters, metres, told
+            ruled = self.context.measured(abs(self.reading.read_number(first[0])))
+            text = f"{letters} = {self.context.on_drawing(ruled)} = {metres} {self.units['m']}"
+            return letters, metres, text
         if not more:
             return self.context.names.symbol(first[0]), metres, ""
         letters = f"l_{{{edge.at}{equation.about}}}"
-        own = Direction(Relation.ACROSS, (str(equation.about), str(edge.at)))
-        if edge.share is not Share.TANGENTIAL and edge.direction != own:  # not across its arm
+        own = Direction(Relation.PERPENDICULAR, (str(equation.about), str(edge.at)))
+        if (
+            edge.component is not Component.TANGENTIAL and edge.direction != own
+        ):  # not across its arm
             letters = arm_symbol(edge.symbol)
         read = abs(self.reading.read_number(first[0]))
-        length = self.context.on_drawing(self.context.ruled(read))
+        length = self.context.on_drawing(self.context.measured(read))
         return letters, metres, f"{letters} = {length} = {metres} {self.units['m']}"
 
     def _numbers(
@@ -167,33 +169,33 @@ class MomentNarrator:
         if forces:
             inside = signed_sum(
                 [
-                    (turn * arm, f"{self.found(size)}·{self.context.ruled(abs(arm))}")
+                    (turn * arm, f"{self.computed(size)}·{self.context.measured(abs(arm))}")
                     for _, size, arm in forces
                 ]
             )
             inside = f"({inside})" if len(forces) > 1 or inside.startswith(MINUS) else inside
             terms.append((1.0, self.context.on_drawing(inside)))
-        terms += [(turn * moment, self.found(abs(moment))) for _, moment in couples]
+        terms += [(turn * moment, self.computed(abs(moment))) for _, moment in couples]
         return signed_sum(terms)
 
     def lines(self, equation: Moments) -> list[str]:
         """Return an equation of moments, its arms and its result; empty where all is zero."""
-        told = self.told(equation)
+        told = self.equation_text(equation)
         if told is None:
             return []
         arms = f"{'; '.join(told.arms)} {self.units['mm']}" if told.arms else ""
         return [line for line in (told.equation, arms, told.length, told.result) if line]
 
-    def _sum(self, equation: Moments, told: MomentText) -> list[str]:
+    def _sum(self, equation: Moments, text: MomentText) -> list[str]:
         """Return the sum of moments in letters and the arms."""
-        template = self.said.moments_link if len(equation.links) == 1 else self.said.moments_links
+        template = self.texts.moments_link if len(equation.links) == 1 else self.texts.moments_links
         lines = [
             template.format(links=", ".join(equation.links), point=equation.about),
-            told.equation + ("," if told.result else "."),
+            text.equation + ("," if text.result else "."),
         ]
-        if told.arms:
-            lines.append(self.said.arms.format(arms="; ".join(told.arms)))
-        return [*lines, *([f"{told.length};"] if told.length else [])]
+        if text.arms:
+            lines.append(self.texts.arms.format(arms="; ".join(text.arms)))
+        return [*lines, *([f"{text.length};"] if text.length else [])]
 
     def before(self) -> Iterator[list[str]]:
         """Yield the moment equations of a component or a balanced crank, before the plan."""
@@ -202,40 +204,40 @@ class MomentNarrator:
                 yield self._component(equation, equation.force)
             elif equation.couple is not None and self._is_balancing(equation.couple):
                 yield self._balancing(equation, equation.couple)
-            elif equation.couple is None and (told := self.told(equation)) is not None:
-                yield [*self._sum(equation, told), f"{told.result} ≈ 0.", self.said.in_balance]
+            elif equation.couple is None and (told := self.equation_text(equation)) is not None:
+                yield [*self._sum(equation, told), f"{told.result} ≈ 0.", self.texts.in_balance]
 
     def _is_balancing(self, couple: CoupleOn) -> bool:
         return couple.moment == self.statics.driving.balance
 
     def _component(self, equation: Moments, edge: Edge) -> list[str]:
-        told, point = self.told(equation), equation.about
+        told, point = self.equation_text(equation), equation.about
         assert told is not None
         lines = self._sum(equation, told)
         if not told.result:
-            return [*lines, self.said.no_moments.format(point=point)]
+            return [*lines, self.texts.no_moments.format(point=point)]
         if not told.value:
             return [*lines, f"{told.result}."]
         sense = self.context.sense(told.value)
         exact = self.context.exactly(abs(self.reading.force(edge)))
         symbol = self.symbol(edge.symbol)
-        turns = self.said.turns.format(symbol=symbol, link=edge.on, point=point, sense=sense)
+        turns = self.texts.turns.format(symbol=symbol, link=edge.on, point=point, sense=sense)
         return [*lines, f"{told.result}{exact}.", turns]
 
     def _balancing(self, equation: Moments, couple: CoupleOn) -> list[str]:
-        told = self.told(equation)
+        told = self.equation_text(equation)
         if told is None:
             zero = f"{self.symbol(couple.symbol)} = 0."
-            return [self.said.no_moments.format(point=equation.about), zero]
+            return [self.texts.no_moments.format(point=equation.about), zero]
         return [*self._sum(equation, told), self._couple(told, couple)]
 
-    def _couple(self, told: MomentText, couple: CoupleOn) -> str:
+    def _couple(self, text: MomentText, couple: CoupleOn) -> str:
         """Return a found couple with numbers, its exact value and its sense."""
-        if not told.value:
-            return f"{told.result}."
+        if not text.value:
+            return f"{text.result}."
         exact = self.context.exactly(self.reading.number(couple.moment))
-        sense = self.said.directed.format(sense=self.context.sense(told.value))
-        return f"{told.result}{exact}{sense}"
+        sense = self.texts.directed.format(sense=self.context.sense(text.value))
+        return f"{text.result}{exact}{sense}"
 
     # Guides ----------------------------------------------------------------------------------
 
@@ -247,32 +249,34 @@ class MomentNarrator:
                 yield self._guide(equation, couple)
 
     def _guide(self, equation: Moments, couple: CoupleOn) -> list[str]:
-        said, guided = self.said, guide_of(self.reading, couple)
+        texts, guided = self.texts, guide_of(self.reading, couple)
         assert guided is not None, "a couple that a plan finds is the driver's or a guide's"
         symbols = {"moment": guided.symbol("M"), "force": guided.symbol("F")}
         symbols["point"] = str(equation.about)
-        told = self.told(equation)
+        told = self.equation_text(equation)
         if told is None:
-            return [said.guide_through.format(link=", ".join(equation.links), **symbols)]
+            return [texts.guide_through.format(link=", ".join(equation.links), **symbols)]
         lines = [*self._sum(equation, told), self._couple(told, couple)]
         if not told.value:
-            return [*lines, said.guide_cancelled.format(**symbols)]
+            return [*lines, texts.guide_cancelled.format(**symbols)]
         edges = self._edges(guided)
         if guided.is_read:
             pressing = guided.reaction.force
             pressing = pressing if guided.sense > 0 else pressing.reversed()
             symbols |= {"formula": self._place(guided), "side": self._side(pressing, told.value)}
-            lines.append(said.guide_at.format(**symbols))
+            lines.append(texts.guide_at.format(**symbols))
         else:
-            lines.append(said.guide_couple.format(sign="=" if guided.is_none else "≈", **symbols))
-        head = said.guide_edges if guided.is_read else said.guide_pair
+            lines.append(
+                texts.guide_couple.format(sign="=" if guided.is_negligible else "≈", **symbols)
+            )
+        head = texts.guide_edges if guided.is_read else texts.guide_pair
         return [*lines, *([head, *closed(edges)] if edges else [])]
 
     def _side(self, force: Force, moment: float) -> str:
         """Return on which side of its joint a force acts."""
-        away = -1j * self.reading.by_hand(force.tail, force.head) * moment
+        away = -1j * self.reading.drawn_segment(force.tail, force.head) * moment
         quarter = round(float(np.degrees(np.angle(away))) / 90.0) % 4
-        return str(getattr(self.said, f"side_{SIDES[quarter]}"))
+        return str(getattr(self.texts, f"side_{SIDES[quarter]}"))
 
     def places(self) -> list[str]:
         """Return the distance from its joint at which each guide's reaction acts.
@@ -281,7 +285,7 @@ class MomentNarrator:
         """
         found = (guide_of(self.reading, one.couple) for one in self.plan.moments if one.couple)
         here = [guided for guided in found if guided is not None]
-        in_joints = [one.own.symbol("l") for one in here if one.is_no_couple and one.is_read]
+        in_joints = [one.as_planned.symbol("l") for one in here if one.is_no_couple and one.is_read]
         lines = [f"{' = '.join(in_joints)} = 0"] if in_joints else []
         for one in here:
             if not one.is_no_couple:
@@ -291,9 +295,9 @@ class MomentNarrator:
     def _place(self, guided: Guided) -> str:
         """Return the distance from its joint at which the reaction of a guide acts."""
         letters = fraction(guided.symbol("M"), guided.symbol("F"))
-        numbers = fraction(self.found(guided.read_moment), self.found(guided.read_force))
-        found = f"{self.found(guided.read_distance)} {self.units['m']}"
-        return f"{guided.own.symbol('l')} = {letters} = {numbers} = {found}"
+        numbers = fraction(self.computed(guided.read_moment), self.computed(guided.read_force))
+        found = f"{self.computed(guided.read_distance)} {self.units['m']}"
+        return f"{guided.as_planned.symbol('l')} = {letters} = {numbers} = {found}"
 
     def _edges(self, guided: Guided) -> list[str]:
         """Return what acts at the edges of a slider that does not reach as far as the resultant.
@@ -304,10 +308,10 @@ class MomentNarrator:
         if length is None or not guided.edges:
             return []
         if not guided.is_read:
-            names = " = ".join(guided.own.symbol("F", primes) for primes in ("'", "''"))
-            formula = fraction(guided.symbol("M"), guided.own.symbol("a"))
-            numbers = fraction(self.found(guided.read_moment), self.short(length))
-            found = self.found(guided.read_moment / length)
+            names = " = ".join(guided.as_planned.symbol("F", primes) for primes in ("'", "''"))
+            formula = fraction(guided.symbol("M"), guided.as_planned.symbol("a"))
+            numbers = fraction(self.computed(guided.read_moment), self.short(length))
+            found = self.computed(guided.read_moment / length)
             return [f"{names} = {formula} = {numbers} = {found} {self.units['N']}"]
         force, distance = guided.read_force, guided.read_distance
         if not guided.centred or distance <= length / 2:
@@ -319,9 +323,9 @@ class MomentNarrator:
         for primes, is_near in (("'", stronger), ("''", not stronger)):
             sign = "+" if is_near else MINUS
             size = force * (distance + (length if is_near else -length) / 2) / length
-            numbers = f"{self.found(force)}·({self.found(distance)} {sign} {half})"
+            numbers = f"{self.computed(force)}·({self.computed(distance)} {sign} {half})"
             letters = fraction(f"{f}·({arm} {sign} {fraction(a, '2')})", a)
             formula = f"{letters} = {fraction(numbers, self.short(length))}"
             name = guided.symbol("F", primes)
-            lines.append(f"{name} = {formula} = {self.found(size)} {self.units['N']}")
+            lines.append(f"{name} = {formula} = {self.computed(size)} {self.units['N']}")
         return lines

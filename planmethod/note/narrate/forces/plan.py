@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from planmethod.construct.steps import (
     Carry,
-    LayOff,
+    IntersectLines,
+    LayOffLength,
     LineName,
-    MeetLines,
     Parallel,
     Perpendicular,
     PointName,
@@ -16,11 +16,11 @@ from planmethod.construct.steps import (
 )
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.common import ForceContext, closed
-from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.statement import point_name
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.loads import LoadKind
-from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Share, reaction_symbol
+from planmethod.plans.forces.polygons import Component, CoupleOn, Edge, ForcePlan, reaction_symbol
 from planmethod.plans.forces.thrust import Thrust
 from planmethod.plans.model import Relation
 
@@ -38,12 +38,12 @@ class ForcePlanNarrator:
 
     def __init__(self, context: ForceContext, plan: ForcePlan, number: int) -> None:
         self.context, self.plan, self.number = context, plan, number
-        self.scale = context.reading.own_scale(number)
+        self.scale = context.reading.plan_scale(number)
         self.reading, self.names = context.reading, context.names
-        self.said, self.words = context.said, context.words
+        self.texts, self.note_texts = context.texts, context.note_texts
         self.statics = context.reading.statics
         start = self.statics.board.starts[number + 1]
-        self._ends: dict[PointName, str] = {start: self.said.of_start}
+        self._ends: dict[PointName, str] = {start: self.texts.of_start}
         self._begun = False
         self._drawn: list[Edge] = []
 
@@ -57,39 +57,39 @@ class ForcePlanNarrator:
         return (*self.plan.polygon, *self.plan.inner)
 
     @property
-    def is_nothing(self) -> bool:
+    def is_unloaded(self) -> bool:
         """True if neither a force nor a couple acts on the links."""
-        forces, couples = map(self.reading.is_none, self._edges), self.plan.couples
+        forces, couples = map(self.reading.is_negligible, self._edges), self.plan.couples
         return all(forces) and all(map(self.reading.is_no_couple, couples))
 
     # Cut free --------------------------------------------------------------------------------
 
     def freed(self) -> list[str]:
         """Return the reactions that replace the removed links."""
-        said = self.said
+        texts = self.texts
         outer = [r for r in self.statics.board.reactions if self._is_outer(r)]
         reactions = ", ".join(self._reaction(reaction) for reaction in outer)
         drive = self.context.solution.problem.drive.link
         if self.plan.links == (drive,):
             if self.statics.thrust is not None:
-                freed = said.freed_actuated.format(reactions=reactions)
+                freed = texts.freed_actuated.format(reactions=reactions)
                 return [freed, *self._pushed, *self._known]
             symbol = self.context.symbol(self.reading.balancing_symbol)
-            template = said["and_balance"][self.reading.balancing.said]
+            template = texts["and_balance"][self.reading.balancing.phrase_key]
             pushed = self.context.solution.problem.drive.pushed
             point = "" if pushed is None else point_name(pushed.at)
             balancing = template.format(symbol=symbol, point=point)
-            freed = said.freed_driver.format(reactions=reactions, balancing=balancing)
+            freed = texts.freed_driver.format(reactions=reactions, balancing=balancing)
             return [freed, *self._known]
-        lines = [said.freed.format(reactions=reactions)]
-        if self.is_nothing:
+        lines = [texts.freed.format(reactions=reactions)]
+        if self.is_unloaded:
             return lines
         for whole in self.plan.wholes:
             normal, tangential = self._components(whole)
             line = self.context.base(normal)
             symbols = {"whole": whole, "normal": normal, "tangential": tangential}
             said_of = {key: self.context.symbol(edge.symbol) for key, edge in symbols.items()}
-            lines.append(said.components.format(line=line, **said_of))
+            lines.append(texts.components.format(line=line, **said_of))
         return [*lines, *self._pushed, *self._known]
 
     @property
@@ -101,7 +101,7 @@ class ForcePlanNarrator:
         symbol = self.context.symbol(self.reading.balancing_symbol)
         line = "".join(map(point_name, thrust.ends))
         return [
-            self.said.thrust.format(
+            self.texts.thrust.format(
                 symbol=symbol, line=line, link=link, point=point_name(str(force.at))
             )
             for link, force in thrust.pushes
@@ -112,17 +112,17 @@ class ForcePlanNarrator:
         return reaction.on in self.plan.links and reaction.by not in self.plan.links
 
     def _reaction(self, reaction: Reaction) -> str:
-        said = self.said
-        by = said.from_frame if reaction.by == FRAME else said.from_link.format(link=reaction.by)
+        texts = self.texts
+        by = texts.from_frame if reaction.by == FRAME else texts.from_link.format(link=reaction.by)
         symbol = self.context.symbol(reaction.force.symbol)
-        return said.reaction.format(symbol=symbol, by=by, point=reaction.joint)
+        return texts.reaction.format(symbol=symbol, by=by, point=reaction.joint)
 
-    def _components(self, whole: Edge) -> tuple[Edge, Edge]:
+    def _components(self, reaction: Edge) -> tuple[Edge, Edge]:
         """Return the normal and the tangential component of a reaction."""
-        own = [e for e in self.plan.polygon if (e.on, e.at) == (whole.on, whole.at)]
+        own = [e for e in self.plan.polygon if (e.on, e.at) == (reaction.on, reaction.at)]
         return (
-            next(e for e in own if e.share is Share.NORMAL),
-            next(e for e in own if e.share is Share.TANGENTIAL),
+            next(e for e in own if e.component is Component.NORMAL),
+            next(e for e in own if e.component is Component.TANGENTIAL),
         )
 
     @property
@@ -130,22 +130,22 @@ class ForcePlanNarrator:
         """Reactions known from the preceding groups, with their sign."""
         links, told = self.plan.links, []
         for r in self.statics.board.reactions:
-            if r.by not in links or r.on in links or self._is_nothing(r):
+            if r.by not in links or r.on in links or self._is_zero(r):
                 continue
-            for letter in "F" if self._is_still(r) else "FM":  # between moving links
+            for letter in "F" if self._has_no_moment(r) else "FM":  # between moving links
                 own = reaction_symbol(r.by, r.on, letter=letter)
                 other = reaction_symbol(r.on, r.by, letter=letter)
                 told.append(self.context.symbol(f"{own} = −{other}"))
-        return [self.said.passed_on.format(reactions=", ".join(told))] if told else []
+        return [self.texts.passed_on.format(reactions=", ".join(told))] if told else []
 
-    def _is_nothing(self, reaction: Reaction) -> bool:
+    def _is_zero(self, reaction: Reaction) -> bool:
         """Return whether there is neither force nor moment in a joint."""
         at, tail, head = reaction.force.at, reaction.force.tail, reaction.force.head
-        return self.reading.is_none(Edge("", reaction.on, at, tail, head)) and self._is_still(
-            reaction
-        )
+        return self.reading.is_negligible(
+            Edge("", reaction.on, at, tail, head)
+        ) and self._has_no_moment(reaction)
 
-    def _is_still(self, reaction: Reaction) -> bool:
+    def _has_no_moment(self, reaction: Reaction) -> bool:
         """Return whether a joint has no moment."""
         if reaction.couple is None:
             return True
@@ -161,60 +161,62 @@ class ForcePlanNarrator:
         return [
             step
             for step in steps
-            if step.out in ends and isinstance(step, LayOff | Carry | MeetLines)
+            if step.out in ends and isinstance(step, LayOffLength | Carry | IntersectLines)
         ]
 
     def steps(self) -> Iterator[list[str]]:
         """Yield the steps of drawing the plan, and the readings."""
         for step in self._steps:
-            if isinstance(step, LayOff):
+            if isinstance(step, LayOffLength):
                 edge = self._side(step.origin, step.out)
                 yield self._tangential(edge)
                 if edge in self.plan.inner:
                     self._drawn.append(edge)
             elif isinstance(step, Carry):
                 yield self._carry(step)
-            elif isinstance(step, MeetLines):
+            elif isinstance(step, IntersectLines):
                 yield from self._meet(step)
         yield from self._closing()
-        yield [self.said.read_off, *closed([self._read(edge) for edge in self.plan.reactions])]
+        yield [self.texts.read_off, *closed([self._read(edge) for edge in self.plan.reactions])]
 
     def _read(self, edge: Edge) -> str:
-        text = self.closing(edge)
-        if self.reading.is_none(edge):
+        text = self.force_text(edge)
+        if self.reading.is_negligible(edge):
             return text
         return text + self.context.exactly(abs(self.reading.force(edge)))
 
-    def closing(self, edge: Edge) -> str:
+    def force_text(self, edge: Edge) -> str:
         """Return a force read from its plan: ``F_{42} = 70,0/0,01 = 7000 Н``."""
         symbol, length = self.context.symbol(edge.symbol), self.reading.length(edge, self.number)
-        if self.reading.is_none(edge):
+        if self.reading.is_negligible(edge):
             return f"{symbol} = 0"
         if not length:
             return f"{symbol} ≈ 0"
-        numbers = self.context.scaled(self.context.ruled(length), self.scale.per_mm)
-        size = self.context.found(self.reading.read(edge))
+        numbers = self.context.scaled(self.context.measured(length), self.scale.per_mm)
+        size = self.context.computed(self.reading.read(edge))
         return f"{symbol} = {numbers} = {size} {self.context.units['N']}"
 
     def _tangential(self, edge: Edge) -> list[str]:
         """Return how a component or balancing force, known from moments, is laid off."""
         direction = edge.direction
         if direction is not None and direction.relation is Relation.ANGLED:
-            return self._lay(edge, self.context.way(self.reading.force(edge)))
-        if edge.share is Share.TANGENTIAL or direction is None:
-            return self._lay(edge, self.said.way_tangent.format(line=self._across(edge)))
-        along = direction.relation is Relation.ALONG
-        template = self.said.way_along if along else self.said.way_tangent
-        return self._lay(edge, template.format(line=self.context.base(edge)))
+            return self._plot_vector(edge, self.context.direction_phrase(self.reading.force(edge)))
+        if edge.component is Component.TANGENTIAL or direction is None:
+            return self._plot_vector(
+                edge, self.texts.way_tangent.format(line=self._base_line(edge))
+            )
+        along = direction.relation is Relation.PARALLEL
+        template = self.texts.way_along if along else self.texts.way_tangent
+        return self._plot_vector(edge, template.format(line=self.context.base(edge)))
 
-    def _across(self, edge: Edge) -> str:
+    def _base_line(self, edge: Edge) -> str:
         """Return the line that a tangential component is perpendicular to."""
         if edge.direction is not None:
             return self.context.base(edge)
         normal = next(
             e
             for e in self.plan.polygon
-            if (e.on, e.at, e.share) == (edge.on, edge.at, Share.NORMAL)
+            if (e.on, e.at, e.component) == (edge.on, edge.at, Component.NORMAL)
         )
         return self.context.base(normal)
 
@@ -223,25 +225,27 @@ class ForcePlanNarrator:
         source = self._source(step)
         if source is not None:
             other = self.context.symbol(source.force.symbol)
-            return self._lay(
-                edge, self.said.way_back.format(other=other), back=edge.tail == step.out
+            return self._plot_vector(
+                edge, self.texts.way_back.format(other=other), back=edge.tail == step.out
             )
         thrust = self.statics.thrust
         if thrust is not None and {step.tail, step.head} == {*thrust.force.ends}:
-            return self._lay(edge, self._along(thrust, edge), back=edge.tail == step.out)
-        return self._lay(edge, self._way(step), back=edge.tail == step.out)
+            return self._plot_vector(
+                edge, self._thrust_direction(thrust, edge), back=edge.tail == step.out
+            )
+        return self._plot_vector(edge, self._load_direction(step), back=edge.tail == step.out)
 
-    def _along(self, thrust: Thrust, edge: Edge) -> str:
+    def _thrust_direction(self, thrust: Thrust, edge: Edge) -> str:
         """Return the direction of the force of an actuator: from one of its ends to the other."""
         ends = list(map(point_name, thrust.ends))
         one, two = (self.reading.place(PointName(end)) for end in thrust.ends)
         if (self.reading.force(edge) * (two - one).conjugate()).real < 0:
             ends.reverse()
-        return self.said.way_thrust.format(line="".join(ends), first=ends[0], second=ends[1])
+        return self.texts.way_thrust.format(line="".join(ends), first=ends[0], second=ends[1])
 
-    def _side(self, one: PointName, other: PointName) -> Edge:
+    def _side(self, one: PointName, two: PointName) -> Edge:
         """Return the side of the polygon between two points, whichever way it points."""
-        return next(e for e in self._edges if {e.tail, e.head} == {one, other})
+        return next(e for e in self._edges if {e.tail, e.head} == {one, two})
 
     def _source(self, step: Carry) -> Reaction | None:
         """Return the reaction that a step carries over from the plan of another group."""
@@ -255,7 +259,7 @@ class ForcePlanNarrator:
             None,
         )
 
-    def _way(self, step: Carry) -> str:
+    def _load_direction(self, step: Carry) -> str:
         """Return the direction of a load."""
         load = next(
             given
@@ -266,60 +270,65 @@ class ForcePlanNarrator:
         one = load.applied
         assert one.point is not None
         if one.kind is not LoadKind.INERTIA:
-            return self.context.way(complex(one.force[self.reading.index]))
-        motion = self.names.kin.acceleration
+            return self.context.direction_phrase(complex(one.force[self.reading.index]))
+        motion = self.names.kinematics.acceleration
         head = motion.point[motion.named[one.point]]
-        return self.said.way_against.format(
+        return self.texts.way_against.format(
             segment=self.names.segment(motion.pole, head), acceleration=f"a_{{{one.point}}}"
         )
 
-    def _lay(self, edge: Edge, way: str, *, back: bool = False) -> list[str]:
+    def _plot_vector(self, edge: Edge, direction: str, *, back: bool = False) -> list[str]:
         """Return how a vector is laid off; no lines for a zero vector."""
         new, old = (edge.tail, edge.head) if back else (edge.head, edge.tail)
         symbol = self.context.symbol(edge.symbol)
         length = self.reading.length(edge, self.number)
-        if self.reading.is_none(edge) or not length:
+        if self.reading.is_negligible(edge) or not length:
             self._ends[new] = self._ends[old]
-            if self.reading.is_none(edge):
+            if self.reading.is_negligible(edge):
                 return []
-            return [self.said.too_short.format(symbol=symbol)]
-        template = self.said.lay_before if back else self.said.lay_off
+            return [self.texts.too_short.format(symbol=symbol)]
+        template = self.texts.lay_before if back else self.texts.lay_off
         if not self._begun and not back:
-            template = self.said.lay_first
-        said = {"of": self._ends[old], "way": way, "symbol": symbol, "length": self._length(edge)}
+            template = self.texts.lay_first
+        said = {
+            "of": self._ends[old],
+            "way": direction,
+            "symbol": symbol,
+            "length": self._length(edge),
+        }
         self._begun = True
-        phrase = self.said.of_tail if back else self.said.of_head
+        phrase = self.texts.of_tail if back else self.texts.of_head
         self._ends[new] = phrase.format(symbol=symbol)
         return [template.format(**said)]
 
     def _length(self, edge: Edge) -> str:
         """Return how the length of a force on the plan is computed."""
-        context, newtons = self.context, self.context.found(self.reading.read(edge))
+        context, newtons = self.context, self.context.computed(self.reading.read(edge))
         formula = context.scaled(newtons, self.scale.per_mm, back=True)
         length = context.short(self.reading.length(edge, self.number), 4)
         return f"{formula} = {length} {context.units['mm']}"
 
     # Closing ---------------------------------------------------------------------------------
 
-    def _meet(self, step: MeetLines) -> Iterator[list[str]]:
-        edges = [self._carried_by(line, step.out) for line in (step.first, step.second)]
+    def _meet(self, step: IntersectLines) -> Iterator[list[str]]:
+        edges = [self._edge_on_line(line, step.out) for line in (step.first, step.second)]
         for edge in edges:
             start = edge.tail if edge.head == step.out else edge.head
             yield [self._line(edge, self._ends[start])]
-        self._ends[step.out] = self.said.of_meeting
+        self._ends[step.out] = self.texts.of_meeting
         self._drawn += edges
-        vectors = [self._vector(edge) for edge in edges if not self.reading.is_none(edge)]
+        vectors = [self._vector(edge) for edge in edges if not self.reading.is_negligible(edge)]
         if vectors:
-            told = "; ".join(vectors)
-            yield [self.said.meet.format(plan=self._plan_of(0), vectors=told)]
+            text = "; ".join(vectors)
+            yield [self.texts.meet.format(plan=self._plan_of(0), vectors=text)]
 
     def _plan_of(self, number: int) -> str:
         """Return whose force plan one of the equations of forces is."""
         links = self.plan.balances[min(number, len(self.plan.balances) - 1)].links
-        template = self.said.plan_of_link if len(links) == 1 else self.said.plan_of_group
+        template = self.texts.plan_of_link if len(links) == 1 else self.texts.plan_of_group
         return template.format(links="–".join(links))
 
-    def _carried_by(self, line: LineName, out: PointName) -> Edge:
+    def _edge_on_line(self, line: LineName, out: PointName) -> Edge:
         """Return the side of the plan on a line."""
         step = self.context.step[line]
         assert isinstance(step, Parallel | Perpendicular)
@@ -330,19 +339,19 @@ class ForcePlanNarrator:
         assert edge.direction is not None
         base, angle = self.names.base(edge.direction), ""
         match edge.direction.relation:
-            case Relation.ALONG:
-                template = self.words.draw_parallel
-            case Relation.ACROSS:
-                template = self.words.draw_perpendicular
+            case Relation.PARALLEL:
+                template = self.note_texts.draw_parallel
+            case Relation.PERPENDICULAR:
+                template = self.note_texts.draw_perpendicular
             case _:
-                template = self.words.draw_at_angle
+                template = self.note_texts.draw_at_angle
                 angle = self.context.short(edge.direction.angle, 4)
         symbol = self.context.symbol(edge.symbol)
         text = template.format(of=of, base=base, angle=angle)
-        return f"{text}{self.words.carries.format(symbol=symbol)}."
+        return f"{text}{self.note_texts.carries.format(symbol=symbol)}."
 
     def _vector(self, edge: Edge) -> str:
-        return self.said.vector.format(**self._span(edge))
+        return self.texts.vector.format(**self._span(edge))
 
     def _span(self, edge: Edge) -> dict[str, str]:
         return {
@@ -354,29 +363,31 @@ class ForcePlanNarrator:
     def _closing(self) -> Iterator[list[str]]:
         """Yield the forces that close a plan without a line of their own."""
         for edge in self.plan.reactions:
-            if edge in self._drawn or self.reading.is_none(edge):
+            if edge in self._drawn or self.reading.is_negligible(edge):
                 continue
             same = self._same(edge)
             if edge in self.plan.wholes:
-                yield [self._whole(edge)]
+                yield [self._total_text(edge)]
             elif same:
                 yield [
-                    self.said.same.format(
+                    self.texts.same.format(
                         link=edge.on, symbol=self.context.symbol(edge.symbol), same=same
                     )
                 ]
             elif edge in self.plan.inner:
-                yield [self.said.inner.format(link=edge.on, **self._span(edge))]
+                yield [self.texts.inner.format(link=edge.on, **self._span(edge))]
             else:
-                yield [self.said.close.format(plan=self._plan_of(1), **self._span(edge))]
+                yield [self.texts.close.format(plan=self._plan_of(1), **self._span(edge))]
             self._drawn.append(edge)
 
-    def _whole(self, edge: Edge) -> str:
-        parts = [e for e in self._components(edge) if not self.reading.is_none(e)]
+    def _total_text(self, edge: Edge) -> str:
+        parts = [e for e in self._components(edge) if not self.reading.is_negligible(e)]
         text = " + ".join(self.context.symbol(part.symbol) for part in parts)
         if len(parts) == 1:
-            return self.said.whole_single.format(symbol=self.context.symbol(edge.symbol), part=text)
-        return self.said.whole.format(parts=text, **self._span(edge))
+            return self.texts.whole_single.format(
+                symbol=self.context.symbol(edge.symbol), part=text
+            )
+        return self.texts.whole.format(parts=text, **self._span(edge))
 
     def _same(self, edge: Edge) -> str:
         """Return the vector of the plan that a force is too, or ``−`` it; empty if none is.

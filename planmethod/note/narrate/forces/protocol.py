@@ -29,12 +29,12 @@ from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.solved.forces.reading import ForceReading
 
 
-def force_chapters(say: Formulas, index: int) -> Iterator[Node]:
+def force_chapters(formulas: Formulas, index: int) -> Iterator[Node]:
     """Yield the chapters on forces of one position.
 
     Parameters
     ----------
-    say : Formulas
+    formulas : Formulas
         Of the position.
     index : int
         Which position.
@@ -44,27 +44,27 @@ def force_chapters(say: Formulas, index: int) -> Iterator[Node]:
     AssemblyError
         Where a force plan does not close.
     """
-    context = ForceContext(ForceReading(say.solution, index), say)
+    context = ForceContext(ForceReading(formulas.solution, index), formulas)
     context.reading.statics.si  # noqa: B018 - report first what cannot be drawn
     yield from _loads(context)
     yield from _plans(context)
     yield from _lever(context)
-    dynamics = say.solution.problem.dynamics
+    dynamics = formulas.solution.problem.dynamics
     if dynamics is not None and dynamics.friction is not None:
-        yield from _friction(context, say)
+        yield from _friction(context, formulas)
 
 
 def _loads(context: ForceContext) -> Iterator[Node]:
-    said, voice = context.said, LoadNarrator(context)
-    yield Chapter(said.title_loads)
+    texts, voice = context.texts, LoadNarrator(context)
+    yield Chapter(texts.title_loads)
     if context.solution.problem.scales.mu_F is not None:
-        yield Step((said.scale.format(scale=voice.scale()),))
+        yield Step((texts.scale.format(scale=voice.scale()),))
     for link in context.solution.problem.mechanism.links:
         yield Step(tuple(voice.link(link)))
 
 
 def _plans(context: ForceContext) -> Iterator[Node]:
-    said, words = context.said, context.words
+    said, words = context.texts, context.note_texts
     yield Chapter(said.title_plans)
     groups: list[AssurGroup | None] = [*reversed(context.solution.structure.groups), None]
     driver = words.driver.format(link=context.solution.problem.drive.link)
@@ -83,63 +83,63 @@ def _plans(context: ForceContext) -> Iterator[Node]:
 def _plan(context: ForceContext, plan: ForcePlan, number: int) -> Iterator[Node]:
     voice, moments = ForcePlanNarrator(context, plan, number), MomentNarrator(context, plan)
     yield Step(tuple(voice.freed()))
-    if voice.is_nothing:
-        yield Step((context.said.nothing,))
+    if voice.is_unloaded:
+        yield Step((context.texts.nothing,))
         return
     yield from _balances(context, plan)
     if not _readable(context, *(end for edge in plan.polygon for end in (edge.tail, edge.head))):
-        yield Step((context.said.unreadable,))
+        yield Step((context.texts.unreadable,))
         return
     for lines in moments.before():
         yield from step_of(lines)
     if context.solution.problem.scales.mu_F is None:
-        yield Step((context.said.own_scale.format(scale=voice.inscription()),))
+        yield Step((context.texts.own_scale.format(scale=voice.inscription()),))
     for lines in (*voice.steps(), *moments.guides()):
         yield from step_of(lines)
 
 
 def _readable(context: ForceContext, *names: Name) -> bool:
     """Return whether the hand has all named values: not where it divides by zero."""
-    hand, index = context.reading.statics.by_hand, context.reading.index
+    hand, index = context.reading.statics.ruler_reading, context.reading.index
     return all(hand.has(name)[index] for name in names)
 
 
 def _balances(context: ForceContext, plan: ForcePlan) -> Iterator[Node]:
-    said, directed = context.said, partial(direction_note, context.names)
+    texts, directed = context.texts, partial(direction_note, context.names)
     for balance in plan.balances:
-        template = said.balance_link if len(balance.links) == 1 else said.balance_group
+        template = texts.balance_link if len(balance.links) == 1 else texts.balance_group
         yield Caption(template.format(links="–".join(balance.links)))
         yield Equations((balance_equation(balance, context, directed),))
 
 
 def _lever(context: ForceContext) -> Iterator[Node]:
-    yield Chapter(context.said.title_lever)
+    yield Chapter(context.texts.title_lever)
     lever = context.reading.statics.lever_at(context.reading.index)
     if lever is None:
-        yield Step((context.said.stands,))
+        yield Step((context.texts.stands,))
     elif not _readable(context, lever.balance):
-        yield Step((context.said.unreadable,))
+        yield Step((context.texts.unreadable,))
     else:
         for lines in LeverNarrator(context).items():
             yield from step_of(lines)
 
 
-def _friction(context: ForceContext, say: Formulas) -> Iterator[Node]:
+def _friction(context: ForceContext, formulas: Formulas) -> Iterator[Node]:
     """Yield the friction of the pairs, and the force plans with one correction."""
-    from planmethod.note.narrate.forces.friction import FrictionTeller  # few need it
+    from planmethod.note.narrate.forces.friction import FrictionNarrator  # few need it
     from planmethod.solved.forces.friction import rubbed_reading
 
-    tell, words = FrictionTeller(context), context.words
-    yield Chapter(tell.said.title)
-    yield Step((tell.said.order, *closed(tell.given())))
-    for pair in tell.friction.pairs:
-        yield Step((tell.pair(pair),))
-    corrected = ForceContext(rubbed_reading(context.solution, context.reading.index), say)
-    driver = words.driver.format(link=context.solution.problem.drive.link)
-    yield Chapter(tell.said.corrected)
+    narrator, texts = FrictionNarrator(context), context.note_texts
+    yield Chapter(narrator.texts.title)
+    yield Step((narrator.texts.order, *closed(narrator.given_lines())))
+    for pair in narrator.friction.pairs:
+        yield Step((narrator.pair(pair),))
+    corrected = ForceContext(rubbed_reading(context.solution, context.reading.index), formulas)
+    driver = texts.driver.format(link=context.solution.problem.drive.link)
+    yield Chapter(narrator.texts.corrected)
     groups: list[AssurGroup | None] = [*reversed(context.solution.structure.groups), None]
     for number, (plan, group) in enumerate(zip(corrected.reading.plans, groups, strict=True)):
-        yield Part(driver if group is None else group_title(group, words))
+        yield Part(driver if group is None else group_title(group, texts))
         yield from _plan(corrected, plan, number)
-    yield Part(tell.said.results)
-    yield from (Step((line,)) for line in (*tell.results(), *tell.turn()))
+    yield Part(narrator.texts.results)
+    yield from (Step((line,)) for line in (*narrator.results(), *narrator.cycle_lines()))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from planmethod.note.plaintext import given
-from planmethod.note.wording import Words
+from planmethod.note.plaintext import input_text
+from planmethod.note.wording import MessageTable
 from planmethod.solved.forces.resultants import Hindrance, UnshiftedInertia, farthest
 from planmethod.solved.forces.statics import Statics
 
@@ -18,37 +18,37 @@ def force_symbol(link: str) -> str:
     return f"Φ_{{{link}}}"
 
 
-def shift_lines(statics: Statics, words: Words, index: int | None = None) -> list[str]:
+def shift_lines(statics: Statics, texts: MessageTable, index: int | None = None) -> list[str]:
     """Return where the shifted forces act, as rich text; in one position with its exact h."""
     lines = []
     for shift in statics.board.shifts.values():
-        said = words.resultant_shift.format(
+        phrase = texts.resultant_shift.format(
             force=force_symbol(shift.link), point=shift.letter, couple=shift.moment.name
         )
         if index is not None:
             length = abs(float(statics.si.number(shift.length)[index]))
-            unit = words["units"]["m"]
-            said += f": {shift_symbol(shift.link)} = {given(length, words, 4)} {unit}"
-        lines.append(f"{said}.")
+            unit = texts["units"]["m"]
+            phrase += f": {shift_symbol(shift.link)} = {input_text(length, texts, 4)} {unit}"
+        lines.append(f"{phrase}.")
     return lines
 
 
-def kept_lines(statics: Statics, words: Words) -> list[str]:
+def unshifted_lines(statics: Statics, texts: MessageTable) -> list[str]:
     """Return which links keep the couple, and why, as rich text; the same for all positions."""
-    return [_kept(statics, one, words) for one in statics.unshifted]
+    return [_unshifted_line(statics, one, texts) for one in statics.unshifted]
 
 
-def _kept(statics: Statics, one: UnshiftedInertia, words: Words) -> str:
+def _unshifted_line(statics: Statics, one: UnshiftedInertia, texts: MessageTable) -> str:
     text = {
-        Hindrance.NO_FORCE: words.resultant_no_force,
-        Hindrance.FAINT: words.resultant_faint,
-        Hindrance.FAR: words.resultant_far,
-    }[one.why]
+        Hindrance.NO_FORCE: texts.resultant_no_force,
+        Hindrance.FAINT: texts.resultant_faint,
+        Hindrance.TOO_LONG: texts.resultant_far,
+    }[one.hindrance]
     return text.format(
         link=one.link,
         force=force_symbol(one.link),
         couple=one.moment.name,
         shift=shift_symbol(one.link),
-        value=given(one.reach, words, 4),
-        limit=given(farthest(statics.solution.problem), words, 4),
+        value=input_text(one.reach, texts, 4),
+        limit=input_text(farthest(statics.solution.problem), texts, 4),
     )

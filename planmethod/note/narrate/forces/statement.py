@@ -6,12 +6,11 @@ import math
 from collections.abc import Iterable
 
 from planmethod.note.document import GivenFact
-from planmethod.note.narrate.given import NBSP, As, given, point_name
+from planmethod.note.narrate.statement import NBSP, StatedNumbers, given_facts, point_name
 from planmethod.note.numbers import Notation, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.plans.forces.polygons import ForcePlan, reaction_symbol
-from planmethod.problem.bodies import rotation
 from planmethod.problem.load_records import (
     Against,
     Couple,
@@ -23,8 +22,9 @@ from planmethod.problem.load_records import (
 )
 from planmethod.problem.model import Problem
 from planmethod.problem.names import segment
+from planmethod.problem.placement import rotation
 from planmethod.solved.forces.friction import pair_data
-from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading
+from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION, ForceReading
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.solution import Solution
 
@@ -34,21 +34,21 @@ def link_names(links: tuple[str, ...]) -> str:
     return "–".join(links)
 
 
-def plan_title(reading: ForceReading, plan: ForcePlan, words: Language) -> str:
+def plan_title(reading: ForceReading, plan: ForcePlan, language: Language) -> str:
     """Return the name of the free body: ``Группа звеньев 4–5``, ``Начальное звено 1``."""
     is_driver = plan.links == (reading.solution.problem.drive.link,)
-    title = words.sheets.cut_driver if is_driver else words.sheets.cut_group
+    title = language.sheets.cut_driver if is_driver else language.sheets.cut_group
     return title.format(links=link_names(plan.links))
 
 
-def statement(reading: ForceReading, words: Language) -> list[GivenFact]:
+def statement(reading: ForceReading, language: Language) -> list[GivenFact]:
     """Return the given facts: the mechanism, masses, moments of inertia, external loads."""
     problem, index = reading.solution.problem, reading.index
     dynamics = problem.dynamics
     assert dynamics is not None
-    facts = given(problem, words, [float(reading.solution.positions[index])])
-    facts += mass_lines(problem, words)
-    text = As(problem, words)
+    facts = given_facts(problem, language, [float(reading.solution.positions[index])])
+    facts += mass_lines(problem, language)
+    text = StatedNumbers(problem, language)
     for contact in reading.statics.contacts.values():
         if contact.length is not None:
             by = problem.mechanism.called(contact.joint.by)
@@ -64,7 +64,10 @@ def statement(reading: ForceReading, words: Language) -> list[GivenFact]:
             continue
         unit, key = ("N", "force") if one.point else ("N·m", "couple")
         if one.name not in loads:
-            facts.append(GivenFact(f"{one.name} = {words.say.found(size)} {words.say.units[unit]}"))
+            notation = language.notation
+            facts.append(
+                GivenFact(f"{one.name} = {notation.computed(size)} {notation.units[unit]}")
+            )
             continue
         number, load = loads[one.name]
         if isinstance(load.size, SizeTable):
@@ -72,30 +75,30 @@ def statement(reading: ForceReading, words: Language) -> list[GivenFact]:
             if isinstance(load, Load) and isinstance(load.sense, Fixed):
                 along = complex(one.force[index]) / rotation(load.sense.angle)
                 signed = math.copysign(size, along.real)
-            said = f"{words.say.found(size)} {words.say.units[unit]}"
+            phrase = f"{language.notation.computed(size)} {language.notation.units[unit]}"
         else:
             signed = load.size
-            said = text.number(size, unit, f"loads[{number}].{key}")
-        where, data = _where(load, number, signed, words)
+            phrase = text.number(size, unit, f"loads[{number}].{key}")
+        where, data = _placement(load, number, signed, language)
         data[f"loads[{number}].{key}"] = signed
-        facts.append(GivenFact(f"{one.name} = {said} ({where})", data))
-    return [*facts, *_pushed(problem, words), *_in_pairs(reading.statics, words)]
+        facts.append(GivenFact(f"{one.name} = {phrase} ({where})", data))
+    return [*facts, *_pushed(problem, language), *_in_pairs(reading.statics, language)]
 
 
-def mass_lines(problem: Problem, words: Language) -> list[GivenFact]:
+def mass_lines(problem: Problem, language: Language) -> list[GivenFact]:
     """Return the masses, moments of inertia and the acceleration of free fall as the file has."""
-    dynamics, text, facts = problem.dynamics, As(problem, words), []
+    dynamics, text, facts = problem.dynamics, StatedNumbers(problem, language), []
     assert dynamics is not None
     for symbol, key, unit in (("m_{%s}", "mass", "kg"), ("J_{S%s}", "inertia", "kg·m²")):
         for link, mass in dynamics.masses.items():
             if value := getattr(mass, key):
                 path = f"dynamics.links.{segment(link)}.{key}"
-                said = text.number(value, unit, path)
-                facts.append(GivenFact(f"{symbol % link} = {said}", {path: value}))
+                phrase = text.number(value, unit, path)
+                facts.append(GivenFact(f"{symbol % link} = {phrase}", {path: value}))
     for link, mass in dynamics.masses.items():
         if mass.centre is not None and mass.mass:
             path = f"dynamics.links.{segment(link)}.centre"
-            told = words.note.given_centre.format(link=link, point=point_name(mass.centre))
+            told = language.note.given_centre.format(link=link, point=point_name(mass.centre))
             # S2 is the centre of link 2 by its name.
             named = mass.centre == f"S{link}" or len(problem.bodies[link].points) == 1
             facts.append(GivenFact("" if named else told, {path: mass.centre}))
@@ -103,11 +106,11 @@ def mass_lines(problem: Problem, words: Language) -> list[GivenFact]:
     return [*facts, GivenFact(f"g = {gravity}", {"dynamics.gravity": dynamics.gravity})]
 
 
-def _where(
-    load: Load | Couple, number: int, size: float, words: Language
+def _placement(
+    load: Load | Couple, number: int, size: float, language: Language
 ) -> tuple[str, dict[str, object]]:
     """Return the point of action and the direction of a load, and the keys for them."""
-    note, path = words.note, f"loads[{number}]"
+    note, path = language.note, f"loads[{number}]"
     data: dict[str, object] = {f"{path}.name": load.name, f"{path}.link": load.link}
     if isinstance(load, Couple):
         if isinstance(load.sense, Against):
@@ -125,49 +128,50 @@ def _where(
         angle = (load.sense.angle + (0.0 if size >= 0 else 180.0)) % 360.0
         quarter = {0.0: "right", 90.0: "up", 180.0: "left", 270.0: "down"}.get(angle)
         ways = note["given_ways"]
-        degrees = with_unit(words.say.given(angle), words.say.units["deg"])
+        degrees = with_unit(language.notation.as_input(angle), language.notation.units["deg"])
         way = ways[quarter] if quarter else note.given_angle.format(angle=degrees)
     return note.load_at.format(point=point_name(load.at), link=load.link, way=way), data
 
 
-def _pushed(problem: Problem, words: Language) -> list[GivenFact]:
+def _pushed(problem: Problem, language: Language) -> list[GivenFact]:
     """Return where a force balances the crank, in place of a couple."""
     pushed, pivot = problem.drive.pushed, problem.drive.pivot
     if pushed is None or pivot is None:
         return []
     data: dict[str, object] = {"balancing_force.at": pushed.at}
     if pushed.angle is None:
-        way = words.note.push_across.format(line=f"{point_name(pivot)}{point_name(pushed.at)}")
+        way = language.note.push_across.format(line=f"{point_name(pivot)}{point_name(pushed.at)}")
     else:
         data["balancing_force.angle"] = pushed.angle
-        way = words.note.push_angle.format(angle=words.say.given(pushed.angle))
-    told = words.note.given_push.format(
-        symbol=words.say.symbol(problem.drive.balancing.symbol),
+        way = language.note.push_angle.format(angle=language.notation.as_input(pushed.angle))
+    text = language.note.given_push.format(
+        symbol=language.notation.symbol(problem.drive.balancing.symbol),
         point=point_name(pushed.at),
         way=way,
     )
-    return [GivenFact(told, data)]
+    return [GivenFact(text, data)]
 
 
-def _in_pairs(statics: Statics, words: Language) -> list[GivenFact]:
+def _in_pairs(statics: Statics, language: Language) -> list[GivenFact]:
     """Return the given facts on the pairs: their friction, the bearings of shafts."""
-    dynamics, say = statics.solution.problem.dynamics, words.say
-    facts = friction_facts(statics, words)
+    dynamics, notation = statics.solution.problem.dynamics, language.notation
+    facts = friction_facts(statics, language)
     for joint, bearing in {} if dynamics is None else dynamics.bearings.items():
         first, second, plane = (
-            with_unit(say.given(z), say.units["m"]) for z in (*bearing.at, bearing.plane)
+            with_unit(notation.as_input(z), notation.units["m"])
+            for z in (*bearing.at, bearing.plane)
         )
-        told = words.note.given_bearings.format(
+        text = language.note.given_bearings.format(
             joint=point_name(joint), first=first, second=second, plane=plane
         )
         path = f"bearings.{segment(joint)}"
-        facts.append(GivenFact(told, {f"{path}.at": [*bearing.at], f"{path}.plane": bearing.plane}))
+        facts.append(GivenFact(text, {f"{path}.at": [*bearing.at], f"{path}.plane": bearing.plane}))
     return facts
 
 
-def friction_facts(statics: Statics, words: Language) -> list[GivenFact]:
+def friction_facts(statics: Statics, language: Language) -> list[GivenFact]:
     """Return the coefficients of friction and the radii of pins, those of pairs alike once."""
-    problem, say = statics.solution.problem, words.say
+    problem, notation = statics.solution.problem, language.notation
     task = None if problem.dynamics is None else problem.dynamics.friction
     found: dict[tuple[bool, float, float], tuple[list[str], dict[str, object]]] = {}
     for joint in statics.reactions if task is not None else ():
@@ -184,10 +188,10 @@ def friction_facts(statics: Statics, words: Language) -> list[GivenFact]:
             data[f"{path}.radius"] = pair.radius
     return [
         GivenFact(
-            (words.friction.given_sliding if slides else words.friction.given_turning).format(
+            (language.friction.given_sliding if slides else language.friction.given_turning).format(
                 pairs=", ".join(names),
-                f=say.short(f),
-                radius=f"{say.short(1e3 * radius)} {say.units['mm']}",
+                f=notation.short(f),
+                radius=f"{notation.short(1e3 * radius)} {notation.units['mm']}",
             ),
             data,
         )
@@ -200,66 +204,71 @@ def _external(reading: ForceReading) -> list[Applied]:
     return [one for one in loads if one.kind is LoadKind.EXTERNAL]
 
 
-def wanted(reading: ForceReading, say: Notation) -> str:
+def force_unknowns(reading: ForceReading, notation: Notation) -> str:
     """Return the unknowns as one line of symbols."""
     statics, called = reading.statics, reading.solution.problem.mechanism.called
     symbols = [reaction_symbol(joint.on, called(joint.by)) for joint in statics.reactions]
     for k, contact in statics.contacts.items():
         # A guide that gives only a couple has no point of action.
-        is_none = abs(statics.reactions[k].force[reading.index]) <= FAINT_SHARE * reading.peak
+        is_none = (
+            abs(statics.reactions[k].force[reading.index]) <= NEGLIGIBLE_FRACTION * reading.peak
+        )
         letter = "M" if is_none else "l"
         by = called(contact.joint.by)
         symbols.append(reaction_symbol(contact.joint.on, by, letter=letter))
-    return ", ".join([*symbols, say.symbol(reading.balancing_symbol)])
+    return ", ".join([*symbols, notation.symbol(reading.balancing_symbol)])
 
 
-def cycle_statement(solution: Solution, words: Language) -> list[GivenFact]:
+def cycle_statement(solution: Solution, language: Language) -> list[GivenFact]:
     """Return the given facts for all positions: mechanism, masses, external loads."""
     problem = solution.problem
     assert problem.dynamics is not None
-    facts = given(problem, words, [float(position) for position in solution.positions])
-    facts += mass_lines(problem, words)
-    facts += [*load_facts(problem, words), *_pushed(problem, words)]
-    return [*facts, *_in_pairs(statics_of(solution), words)]
+    facts = given_facts(problem, language, [float(position) for position in solution.positions])
+    facts += mass_lines(problem, language)
+    facts += [*load_facts(problem, language), *_pushed(problem, language)]
+    return [*facts, *_in_pairs(statics_of(solution), language)]
 
 
-def load_facts(problem: Problem, words: Language) -> list[GivenFact]:
+def load_facts(problem: Problem, language: Language) -> list[GivenFact]:
     """Return the loads of a whole cycle: sizes, or what they are tables of; where they act."""
     loads = () if problem.dynamics is None else problem.dynamics.loads
     found = []
     for k, load in enumerate(loads):
-        found.append(_load(problem, load, k, words))
+        found.append(_load(problem, load, k, language))
         if isinstance(load.size, SizeTable) and load.size.like is None:
-            found.append(_rows(problem, load, k, words))
+            found.append(_rows(problem, load, k, language))
     return found
 
 
-def _load(problem: Problem, load: Load | Couple, number: int, words: Language) -> GivenFact:
-    say = words.say
+def _load(problem: Problem, load: Load | Couple, number: int, language: Language) -> GivenFact:
+    notation = language.notation
     unit, key = ("N", "force") if isinstance(load, Load) else ("N·m", "couple")
     if not isinstance(load.size, SizeTable):
-        where, data = _where(load, number, load.size, words)
-        phase = _phase(load, number, words)
-        said = with_unit(say.short(abs(load.size)), say.units[unit])
+        where, data = _placement(load, number, load.size, language)
+        phase = _phase(load, number, language)
+        phrase = with_unit(notation.short(abs(load.size)), notation.units[unit])
         data = {**data, **phase.data, f"loads[{number}].{key}": load.size}
-        return GivenFact(f"{load.name} = {said} ({where}{phase.text})", data)
+        return GivenFact(f"{load.name} = {phrase} ({where}{phase.text})", data)
     if load.size.like is not None:
-        where, data = _where(load, number, max(load.size.values, key=abs), words)
+        where, data = _placement(load, number, max(load.size.values, key=abs), language)
         keys = {f"loads[{number}].like": load.size.like, f"loads[{number}].shift": load.size.shift}
-        return GivenFact(f"{like_line(load, words)} ({where})", {**data, **keys})
+        return GivenFact(f"{like_line(load, language)} ({where})", {**data, **keys})
     largest = max(load.size.values, key=abs)
-    over = _over(problem, load, words)
+    over = _over(problem, load, language)
     name, index, end = load.name.partition("_{")
     peak = f"{name}_{{{end.removesuffix('}')}{' ' if index else ''}max}}"
-    where, data = _where(load, number, largest, words)
-    phase = _phase(load, number, words)
-    told = words.sheets.load_table.format(
-        name=load.name, over=over, peak=peak, largest=f"{say.short(abs(largest))} {say.units[unit]}"
+    where, data = _placement(load, number, largest, language)
+    phase = _phase(load, number, language)
+    text = language.sheets.load_table.format(
+        name=load.name,
+        over=over,
+        peak=peak,
+        largest=f"{notation.short(abs(largest))} {notation.units[unit]}",
     )
-    return GivenFact(f"{told} ({where}{phase.text})", {**data, **phase.data})
+    return GivenFact(f"{text} ({where}{phase.text})", {**data, **phase.data})
 
 
-def _over(problem: Problem, load: Load | Couple, words: Language) -> str:
+def _over(problem: Problem, load: Load | Couple, language: Language) -> str:
     """Return the letter of the independent variable of a table."""
     assert isinstance(load.size, SizeTable)
     match load.size.over:
@@ -274,21 +283,23 @@ def _over(problem: Problem, load: Load | Couple, words: Language) -> str:
             assert isinstance(load, Load), "a couple has no point"
             return f"s_{{{point_name(load.at)}}}"
         case Over.POSITION:
-            return str(words.note.number)
+            return str(language.note.number)
 
 
-def _rows(problem: Problem, load: Load | Couple, number: int, words: Language) -> GivenFact:
+def _rows(problem: Problem, load: Load | Couple, number: int, language: Language) -> GivenFact:
     """Return the rows of a table, those of an indicator diagram stroke by stroke, as the file."""
-    say, note, size = words.say, words.note, load.size
+    notation, note, size = language.notation, language.note, load.size
     assert isinstance(size, SizeTable)
     unit, key = ("N", "force") if isinstance(load, Load) else ("N·m", "couple")
     path = f"loads[{number}].{key}"
-    over = _over(problem, load, words)
+    over = _over(problem, load, language)
     if size.over in (Over.PATH, Over.STROKES):
         over += "/H"
 
     def listed(rows: Iterable[tuple[float, float]], scale: float = 1.0) -> str:
-        return ", ".join(f"({say.given(x)};{NBSP}{say.given(scale * y)})" for x, y in rows)
+        return ", ".join(
+            f"({notation.as_input(x)};{NBSP}{notation.as_input(scale * y)})" for x, y in rows
+        )
 
     if size.indicator is not None:
         told = size.indicator
@@ -296,10 +307,10 @@ def _rows(problem: Problem, load: Load | Couple, number: int, words: Language) -
             note.load_stroke.format(number=k, rows=listed(rows, 1e-6))
             for k, rows in enumerate(told.strokes, 1)
         )
-        square = f"{say.units['m']}^{{2}}"
-        area, other = (with_unit(say.given(x), square) for x in (told.area, told.area_2))
+        square = f"{notation.units['m']}^{{2}}"
+        area, other = (with_unit(notation.as_input(x), square) for x in (told.area, told.area_2))
         template = note.load_indicator_both if told.sides == 2 else note.load_indicator
-        said = template.format(name=load.name, over=over, strokes=strokes, area=area, other=other)
+        phrase = template.format(name=load.name, over=over, strokes=strokes, area=area, other=other)
         data: dict[str, object] = {
             f"{path}.law": "indicator",
             f"{path}.area": told.area,
@@ -308,10 +319,12 @@ def _rows(problem: Problem, load: Load | Couple, number: int, words: Language) -
         if problem.machine is not None and problem.machine.cycle_deg != 360.0:
             whole = problem.machine.cycle_deg
             data["machine.cycle_deg"] = whole
-            said += note.load_cycle.format(cycle=with_unit(say.given(whole), say.units["deg"]))
+            phrase += note.load_cycle.format(
+                cycle=with_unit(notation.as_input(whole), notation.units["deg"])
+            )
         if told.sides == 2:
             data |= {f"{path}.sides": 2, f"{path}.area_2": told.area_2}
-        return GivenFact(said, data)
+        return GivenFact(phrase, data)
     data = {f"{path}.over": size.over.value}
     rows: list[tuple[float, float]]
     if size.over is Over.POSITION:
@@ -322,40 +335,43 @@ def _rows(problem: Problem, load: Load | Couple, number: int, words: Language) -
         data[f"{path}.interpolation"] = size.interpolation.value
     steps = size.interpolation is Interpolation.STEP
     template = note.load_steps if steps else note.load_rows
-    units = say.units[unit]
+    units = notation.units[unit]
     return GivenFact(
         template.format(name=load.name, over=over, unit=units, rows=listed(rows)), data
     )
 
 
-def _phase(load: Load | Couple, number: int, words: Language) -> GivenFact:
+def _phase(load: Load | Couple, number: int, language: Language) -> GivenFact:
     """Return when a load acts: the phrase after its point of action."""
-    phase, note = load.phase, words.note
+    phase, note = load.phase, language.note
     if phase is None:
         return GivenFact("")
     data: dict[str, object] = {}
-    said, path = "", f"loads[{number}].phases"
+    phrase, path = "", f"loads[{number}].phases"
     if phase.phi:
         data[f"{path}.phi"] = [[*pair] for pair in phase.phi]
-        pairs = (f"{words.say.given(one)}…{words.say.given(two)}°" for one, two in phase.phi)
-        said += note.load_between.format(ranges=", ".join(pairs))
+        pairs = (
+            f"{language.notation.as_input(one)}…{language.notation.as_input(two)}°"
+            for one, two in phase.phi
+        )
+        phrase += note.load_between.format(ranges=", ".join(pairs))
     for key, sense in (("moving", phase.moving), ("turning", phase.turning)):
         if sense is not None:
             data[f"{path}.{key}"] = sense.value
-            said += note["load_while"][sense.value]
-    return GivenFact(said, data)
+            phrase += note["load_while"][sense.value]
+    return GivenFact(phrase, data)
 
 
-def like_line(load: Load | Couple, words: Language) -> str:
+def like_line(load: Load | Couple, language: Language) -> str:
     """Return the load whose indicator diagram a load shares, and the delay (второй цилиндр)."""
     assert isinstance(load.size, SizeTable) and load.size.like is not None
-    shift = f"{words.say.given(load.size.shift)}{words.say.units['deg']}"
-    return words.sheets.load_like.format(name=load.name, other=load.size.like, shift=shift)
+    shift = f"{language.notation.as_input(load.size.shift)}{language.notation.units['deg']}"
+    return language.sheets.load_like.format(name=load.name, other=load.size.like, shift=shift)
 
 
-def cycle_wanted(solution: Solution, say: Notation) -> str:
+def cycle_force_unknowns(solution: Solution, notation: Notation) -> str:
     """Return the unknowns of all positions as one line of symbols."""
     called = solution.problem.mechanism.called
     joints = statics_of(solution).reactions
     symbols = [reaction_symbol(joint.on, called(joint.by)) for joint in joints]
-    return ", ".join([*symbols, say.symbol(solution.problem.drive.balancing.symbol)])
+    return ", ".join([*symbols, notation.symbol(solution.problem.drive.balancing.symbol)])

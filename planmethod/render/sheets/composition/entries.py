@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.plans.model import RATES, PlanKind
-from planmethod.problem.fields import Faults, Table, read_keys, read_text, read_whole
+from planmethod.problem.fields import Faults, Table, read_integer, read_keys, read_text
 from planmethod.problem.names import is_label
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composition.values import (
@@ -23,7 +23,7 @@ from planmethod.render.sheets.composition.values import (
     read_size,
     read_switch,
 )
-from planmethod.render.sheets.model import Entry
+from planmethod.render.sheets.model import BlockSpec
 
 ALWAYS = ("kind", "group", "sheet", "droppable")
 """Keys of every block; the others are those of its kind."""
@@ -36,17 +36,17 @@ ON_SHEET_LIMIT = 16
 """Most blocks on one sheet: the time to arrange them grows with the third power."""
 SHEET_LIMIT = 12
 GROUP_DEPTH = 4
-MOST_PER_ROW = 12
-MOST_LETTERS = 40
-MOST_ASKED = 24
-MOST_NUMBER = 119
-MOST_CHOSEN = 36
+MAX_PER_ROW = 12
+MAX_LETTERS = 40
+MAX_QUANTITIES = 24
+MAX_NUMBER = 119
+MAX_CHOSEN = 36
 
 OF = {kind.value: kind for kind in RATES}
 COLUMNS = {"v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}
 
 
-def read_entries(faults: Faults, value: object) -> tuple[Entry, ...]:
+def read_entries(faults: Faults, value: object) -> tuple[BlockSpec, ...]:
     """Read ``[[blocks]]``: every block, and their order."""
     example = 'Give the blocks: [[blocks]] kind = "scheme".'
     if value is None:
@@ -56,9 +56,9 @@ def read_entries(faults: Faults, value: object) -> tuple[Entry, ...]:
         faults.expected("blocks", "tables [[blocks]]", value, example)
         return ()
     if not 1 <= len(value) <= BLOCK_LIMIT:
-        faults.add("blocks", say("expected 1 to {} blocks, got {}", BLOCK_LIMIT, len(value)))
+        faults.add("blocks", translate("expected 1 to {} blocks, got {}", BLOCK_LIMIT, len(value)))
         return ()
-    entries: list[tuple[int, Entry]] = []
+    entries: list[tuple[int, BlockSpec]] = []
     for k, item in enumerate(value):
         before = entries[-1][1].sheet if entries else 1
         entry = _read_block(faults, f"blocks[{k}]", item, before)
@@ -67,15 +67,19 @@ def read_entries(faults: Faults, value: object) -> tuple[Entry, ...]:
     _check_order(faults, entries)
     for number, count in Counter(entry.sheet for _, entry in entries).items():
         if count > ON_SHEET_LIMIT:
-            limit = say("sheet {} has {} blocks, the limit is {}", number, count, ON_SHEET_LIMIT)
-            faults.add("blocks", limit, say("Put some on another sheet: sheet = {}.", number + 1))
+            limit = translate(
+                "sheet {} has {} blocks, the limit is {}", number, count, ON_SHEET_LIMIT
+            )
+            faults.add(
+                "blocks", limit, translate("Put some on another sheet: sheet = {}.", number + 1)
+            )
     return tuple(entry for _, entry in entries)
 
 
-def _read_block(faults: Faults, path: str, table: Table, sheet: int) -> Entry | None:
+def _read_block(faults: Faults, path: str, table: Table, sheet: int) -> BlockSpec | None:
     """Read a block; it is on the ``sheet`` of the previous one unless it names another."""
     if "kind" not in table:
-        faults.add(f"{path}.kind", "missing", say("The kinds are {}.", ", ".join(BLOCKS)))
+        faults.add(f"{path}.kind", "missing", translate("The kinds are {}.", ", ".join(BLOCKS)))
         return None
     kind = read_choice(faults, f"{path}.kind", table["kind"], tuple(BLOCKS))
     if kind is None:
@@ -87,14 +91,14 @@ def _read_block(faults: Faults, path: str, table: Table, sheet: int) -> Entry | 
             hint = (
                 'Name the plan: of = "velocity".' if key == "of" else 'For example: text = "...".'
             )
-            faults.add(f"{path}.{key}", say("missing in a block of kind {}", kind), hint)
+            faults.add(f"{path}.{key}", translate("missing in a block of kind {}", kind), hint)
     values: dict[str, Any] = {"sheet": sheet}
     for key, item in given.items():
         if key != "kind":
             field = "heights" if key == "height" else key
             values[field] = _READERS[key](faults, f"{path}.{key}", item)
     values["sheet"] = values["sheet"] or sheet
-    return Entry(kind, **values)
+    return BlockSpec(kind, **values)
 
 
 def _read_of(faults: Faults, path: str, value: object) -> PlanKind | None:
@@ -109,7 +113,7 @@ def _read_group(faults: Faults, path: str, value: object) -> tuple[str, ...]:
         return names
     faults.expected(
         path,
-        say("names with dots between, {} at the most", GROUP_DEPTH),
+        translate("names with dots between, {} at the most", GROUP_DEPTH),
         value,
         'For example: "left" or "left.equations".',
     )
@@ -132,8 +136,8 @@ def _read_columns(faults: Faults, path: str, value: object) -> tuple[str, ...]:
 
 
 def _read_positions(faults: Faults, path: str, value: object) -> tuple[int, ...]:
-    given = read_list(faults, path, value, "positions", MOST_CHOSEN)
-    read = (read_whole(faults, f"{path}[{k}]", item, low=0, high=MOST_NUMBER)
+    given = read_list(faults, path, value, "positions", MAX_CHOSEN)
+    read = (read_integer(faults, f"{path}[{k}]", item, low=0, high=MAX_NUMBER)
             for k, item in enumerate(given))  # fmt: skip
     return tuple(dict.fromkeys(number for number in read if number is not None))
 
@@ -141,19 +145,19 @@ def _read_positions(faults: Faults, path: str, value: object) -> tuple[int, ...]
 def _read_traces(faults: Faults, path: str, value: object) -> bool | tuple[str, ...]:
     if not isinstance(value, list):
         return read_switch(faults, path, value)
-    letters = read_list(faults, path, value, "letters", MOST_LETTERS)
+    letters = read_list(faults, path, value, "letters", MAX_LETTERS)
     return tuple(read_line(faults, f"{path}[{k}]", item) for k, item in enumerate(letters))
 
 
-def _read_asked(faults: Faults, path: str, value: object) -> tuple[str, ...]:
-    asked = read_list(faults, path, value, "quantities", MOST_ASKED)
+def _read_quantities(faults: Faults, path: str, value: object) -> tuple[str, ...]:
+    asked = read_list(faults, path, value, "quantities", MAX_QUANTITIES)
     return tuple(read_line(faults, f"{path}[{k}]", item) for k, item in enumerate(asked))
 
 
 _READERS: Mapping[str, Callable[[Faults, str, object], object]] = {
     "of": _read_of,
     "group": _read_group,
-    "sheet": partial(read_whole, low=1, high=SHEET_LIMIT),
+    "sheet": partial(read_integer, low=1, high=SHEET_LIMIT),
     "droppable": read_switch,
     "title": read_markup,
     "text": read_paragraph,
@@ -161,32 +165,32 @@ _READERS: Mapping[str, Callable[[Faults, str, object], object]] = {
     "letter": read_height,
     "title_height": read_height,
     "width": _read_width,
-    "per_row": partial(read_whole, low=1, high=MOST_PER_ROW),
-    "position": partial(read_whole, low=0, high=MOST_NUMBER),
+    "per_row": partial(read_integer, low=1, high=MAX_PER_ROW),
+    "position": partial(read_integer, low=0, high=MAX_NUMBER),
     "positions": _read_positions,
     "columns": _read_columns,
     "traces": _read_traces,
-    "asked": _read_asked,
+    "asked": _read_quantities,
 }
-"""Readers of the keys of a block, each of which is a field of `Entry`; ``height`` is `heights`."""
+"""Readers of the keys of a block: each is a field of `BlockSpec`; ``height`` is `heights`."""
 
 
-def _check_order(faults: Faults, entries: list[tuple[int, Entry]]) -> None:
+def _check_order(faults: Faults, entries: list[tuple[int, BlockSpec]]) -> None:
     """Note sheets out of order, and groups that are resumed."""
-    last, before = 1, Entry("")
+    last, before = 1, BlockSpec("")
     closed: set[tuple[int, tuple[str, ...]]] = set()
     for k, entry in entries:
         path = f"blocks[{k}]"
         if entry.sheet < last:
             faults.add(
                 f"{path}.sheet",
-                say("sheet {} after sheet {}", entry.sheet, last),
+                translate("sheet {} after sheet {}", entry.sheet, last),
                 "Put the blocks in the order of the sheets.",
             )
         elif entry.sheet > last + 1 or (k == 0 and entry.sheet != 1):
             faults.add(
                 f"{path}.sheet",
-                say("sheet {}, but no sheet {}", entry.sheet, last + 1 if k else 1),
+                translate("sheet {}, but no sheet {}", entry.sheet, last + 1 if k else 1),
                 "Number the sheets from 1 without gaps.",
             )
         last = max(last, entry.sheet)
@@ -200,7 +204,7 @@ def _check_order(faults: Faults, entries: list[tuple[int, Entry]]) -> None:
                 name = ".".join(entry.group[:depth])
                 faults.add(
                     f"{path}.group",
-                    say("group '{}' is resumed after another group", name),
+                    translate("group '{}' is resumed after another group", name),
                     "Put the blocks of a group one after another.",
                 )
                 break

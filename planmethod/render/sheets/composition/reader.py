@@ -8,17 +8,17 @@ from functools import cache
 from pathlib import Path
 
 from planmethod.errors import CompositionError, LayoutError, ProblemError
-from planmethod.languages import LANGUAGES, say
+from planmethod.languages import LANGUAGES, translate
 from planmethod.paper import BASIC, paper_format
 from planmethod.plans.model import PlanKind
 from planmethod.problem.fields import (
     Faults,
     Table,
+    read_integer,
     read_keys,
     read_table,
-    read_whole,
 )
-from planmethod.problem.names import joined, near_hint, segment, short
+from planmethod.problem.names import joined, nearest_name_hint, segment, short
 from planmethod.problem.source import parse, read_source
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.render.sheets.composer import Sizes
@@ -32,7 +32,7 @@ from planmethod.render.sheets.composition.values import (
     read_switch,
 )
 from planmethod.render.sheets.compositions import SHIPPED, shipped_text
-from planmethod.render.sheets.model import Composition, Entry
+from planmethod.render.sheets.model import BlockSpec, Composition
 
 TOP = (
     "about",
@@ -51,7 +51,7 @@ TOP = (
 SIZES = ("letter", "title", "text", "column", "scheme", "velocity", "acceleration")
 SHEET = ("title",)
 
-MOST_PER_SHEET = 36
+MAX_PER_SHEET = 36
 
 VIEWS = {"scheme": PlanKind.POSITION, **OF}
 ARRANGES: tuple[Arrange, ...] = ("free", "row", "column")
@@ -63,7 +63,7 @@ def shipped(name: str, lang: str = LANGUAGES[0]) -> Composition:
     return read_composition(shipped_text(name, lang), name=name)
 
 
-def composition(asked: str | Path, lang: str = LANGUAGES[0]) -> Composition:
+def composition(source: str | Path, lang: str = LANGUAGES[0]) -> Composition:
     """Return a composition: a shipped one by its name in a language, else a file.
 
     Raises
@@ -71,14 +71,16 @@ def composition(asked: str | Path, lang: str = LANGUAGES[0]) -> Composition:
     CompositionError
         With every fault of the file: path, expected and actual value, the next action.
     """
-    if str(asked) in SHIPPED:
-        return shipped(str(asked), lang)
-    path = Path(asked)
+    if str(source) in SHIPPED:
+        return shipped(str(source), lang)
+    path = Path(source)
     if path.suffix != ".toml" and not path.exists():
-        hint = near_hint(str(asked), SHIPPED, say("Shipped are {}.", ", ".join(SHIPPED)))
+        hint = nearest_name_hint(
+            str(source), SHIPPED, translate("Shipped are {}.", ", ".join(SHIPPED))
+        )
         faults = Faults()
         faults.add("", "neither a layout nor a file has this name", hint)
-        raise CompositionError(str(asked), faults.found)
+        raise CompositionError(str(source), faults.listed)
     try:
         text = read_source(path)
     except ProblemError as error:
@@ -106,7 +108,7 @@ def read_composition(text: str, *, name: str) -> Composition:
     grow = read_switch(faults, "grow", given.get("grow", False))
     turn = read_switch(faults, "turn", given.get("turn", False))
     cycle = read_switch(faults, "cycle", given.get("cycle", turn))
-    sizes = _read_sizes(faults, given.get("sizes", {}), whole=name == SHIPPED[0])
+    sizes = _read_sizes(faults, given.get("sizes", {}), is_complete=name == SHIPPED[0])
     blocks = read_entries(faults, given.get("blocks"))
     made = Composition(
         name=name,
@@ -123,7 +125,7 @@ def read_composition(text: str, *, name: str) -> Composition:
         blocks=blocks,
     )
     if faults:
-        raise CompositionError(name, faults.found)
+        raise CompositionError(name, faults.listed)
     return made
 
 
@@ -138,7 +140,9 @@ def _read_formats(faults: Faults, value: object, key: str = "formats") -> tuple[
             found.append(paper_format(name).name)
         except LayoutError:
             faults.add(
-                path, say("unknown paper format '{}'", short(name)), 'For example: "A2", "A4x3".'
+                path,
+                translate("unknown paper format '{}'", short(name)),
+                'For example: "A2", "A4x3".',
             )
     return tuple(dict.fromkeys(found))
 
@@ -146,7 +150,7 @@ def _read_formats(faults: Faults, value: object, key: str = "formats") -> tuple[
 def _read_per_sheet(faults: Faults, value: object) -> tuple[int, ...]:
     found: list[int] = []
     for k, item in enumerate(read_list(faults, "per_sheet", value, "numbers of positions", 12)):
-        number = read_whole(faults, f"per_sheet[{k}]", item, 1, MOST_PER_SHEET)
+        number = read_integer(faults, f"per_sheet[{k}]", item, 1, MAX_PER_SHEET)
         if number is not None:
             found.append(number)
     if found != sorted(found, reverse=True):
@@ -154,9 +158,9 @@ def _read_per_sheet(faults: Faults, value: object) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _read_sizes(faults: Faults, value: object, *, whole: bool) -> dict[str, Sizes]:
+def _read_sizes(faults: Faults, value: object, *, is_complete: bool) -> dict[str, Sizes]:
     """Read the sizes by format; defaults are those of the first shipped composition."""
-    sizes = {} if whole else dict(shipped(SHIPPED[0]).sizes)
+    sizes = {} if is_complete else dict(shipped(SHIPPED[0]).sizes)
     table = read_table(faults, "sizes", value, "A2 = { text = 5 }") or {}
     for name, asked in read_keys(faults, "sizes", table, BASIC).items():
         path = f"sizes.{name}"
@@ -199,7 +203,7 @@ def _read_sheets(faults: Faults, value: object, numbers: set[int]) -> dict[int, 
 
 
 def _read_groups(
-    faults: Faults, given: Table, blocks: tuple[Entry, ...]
+    faults: Faults, document: Table, blocks: tuple[BlockSpec, ...]
 ) -> dict[tuple[str, ...], Arrange]:
     """Read the arrangement of groups: tables nested like the names of groups."""
     arranged: dict[tuple[str, ...], Arrange] = {}
@@ -220,8 +224,8 @@ def _read_groups(
             else:
                 read_one(at, item, group)
 
-    if "arrange" in given:
-        read_one("arrange", given["arrange"], ())
-    if "groups" in given:
-        read_level("groups", given["groups"], ())
+    if "arrange" in document:
+        read_one("arrange", document["arrange"], ())
+    if "groups" in document:
+        read_level("groups", document["groups"], ())
     return arranged

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from planmethod.errors import LayoutError
-from planmethod.languages import say
+from planmethod.languages import translate
 from planmethod.problem.fields import Faults, read_number, read_text
-from planmethod.problem.names import near_hint
+from planmethod.problem.names import nearest_name_hint
 from planmethod.render.ink.style import HEIGHTS
 from planmethod.render.ink.typeset import SMALLEST, typeset
 
@@ -33,7 +33,9 @@ def _is_markup(faults: Faults, path: str, text: str) -> bool:
         depth += (sign == "{") - (sign == "}")
         deepest = max(deepest, depth)
     if deepest > BRACE_DEPTH:
-        faults.add(path, say("braces are nested {} deep, the limit is {}", deepest, BRACE_DEPTH))
+        faults.add(
+            path, translate("braces are nested {} deep, the limit is {}", deepest, BRACE_DEPTH)
+        )
         return False
     try:
         for line in text.split("\n"):
@@ -53,7 +55,7 @@ def read_paragraph(faults: Faults, path: str, value: object) -> str:
     if len(value) > TEXT_LIMIT:
         faults.add(
             path,
-            say("the text has {} characters, the limit is {}", len(value), TEXT_LIMIT),
+            translate("the text has {} characters, the limit is {}", len(value), TEXT_LIMIT),
             "Shorten it.",
         )
         return ""
@@ -79,22 +81,22 @@ def read_choice(faults: Faults, path: str, value: object, known: tuple[str, ...]
         return value
     faults.expected(
         path,
-        say("one of {}", ", ".join(known)),
+        translate("one of {}", ", ".join(known)),
         value,
-        near_hint(value, known) if isinstance(value, str) else "",
+        nearest_name_hint(value, known) if isinstance(value, str) else "",
     )
     return None
 
 
 def read_size(
-    faults: Faults, path: str, value: object, what: str, low: float, high: float
+    faults: Faults, path: str, value: object, noun: str, low: float, high: float
 ) -> float | None:
     """Read a size within bounds, mm."""
-    number = read_number(faults, path, value, what)
+    number = read_number(faults, path, value, noun)
     if number is not None and not low <= number <= high:
         faults.add(
             path,
-            say("expected {} from {:g} to {:g}, got {:g}", what, low, high, number),
+            translate("expected {} from {:g} to {:g}, got {:g}", noun, low, high, number),
             "Sizes are in millimetres.",
         )
         return None
@@ -111,8 +113,8 @@ def read_height(faults: Faults, path: str, value: object) -> float | None:
     closest = min(known, key=lambda height: abs(height - number))
     faults.add(
         path,
-        say("expected a height of GOST 2.304 ({}), got {:g}", listed, number),
-        say("Take {:g}.", closest),
+        translate("expected a height of GOST 2.304 ({}), got {:g}", listed, number),
+        translate("Take {:g}.", closest),
     )
     return None
 
@@ -128,9 +130,11 @@ def read_heights(faults: Faults, path: str, value: object) -> tuple[float, ...]:
     return tuple(height for height in read if height is not None)
 
 
-def read_list(faults: Faults, path: str, value: object, what: str, most: int) -> list[Any]:
+def read_list(faults: Faults, path: str, value: object, noun: str, limit: int) -> list[Any]:
     """Read a list that is neither empty nor too long; empty after a fault."""
-    if isinstance(value, list) and 1 <= len(value) <= most:
+    if isinstance(value, list) and 1 <= len(value) <= limit:
         return value
-    faults.expected(path, say("a list of {}, one to {} of them", say(what), most), value)
+    faults.expected(
+        path, translate("a list of {}, one to {} of them", translate(noun), limit), value
+    )
     return []

@@ -10,7 +10,7 @@ from pathlib import Path
 from string import Template
 
 from planmethod.languages import LANGUAGES
-from planmethod.note.wording import language
+from planmethod.note.wording import get_language
 
 SHIPPED = (
     "one-position",
@@ -44,7 +44,7 @@ def shipped_text(name: str, lang: str = LANGUAGES[0]) -> str:
     if name not in SHIPPED:
         raise KeyError(name)
     text = (Path(__file__).parent / f"{name}.toml").read_text(encoding="utf-8")
-    return Template(text).substitute(language(lang).layouts)
+    return Template(text).substitute(get_language(lang).layouts)
 
 
 def about(name: str, lang: str = LANGUAGES[0]) -> str:

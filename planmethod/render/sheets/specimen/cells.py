@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from msgspec import Struct
 
-from planmethod.note.wording import Words
+from planmethod.note.wording import MessageTable
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.labels import Label
@@ -32,14 +32,14 @@ class Clause(NamedTuple):
     item: str = ""
     paragraph: str = ""
 
-    def told(self, words: Words) -> str:
+    def describe(self, texts: MessageTable) -> str:
         """Return the standard and its clause in a language."""
         if not self.item:
-            return words.standard.format(number=self.number)
+            return texts.standard.format(number=self.number)
         item = self.item
         if self.paragraph:
-            item += f", {words.clause_letters['abc'.index(self.paragraph)]}"
-        return words.clause.format(number=self.number, item=item)
+            item += f", {texts.clause_letters['abc'.index(self.paragraph)]}"
+        return texts.clause.format(number=self.number, item=item)
 
 
 class SymbolCell(Struct, frozen=True):
@@ -76,14 +76,14 @@ def scheme(*parts: list[Item]) -> tuple[Item, ...]:
     return tuple(before_links([item for part in parts for item in part]))
 
 
-def drawn_cell(cell: SymbolCell, number: int, box: Bounds, words: Words) -> list[Item]:
+def drawn_cell(cell: SymbolCell, number: int, box: Bounds, texts: MessageTable) -> list[Item]:
     """Return a cell in its box: number, picture in the middle, name and clause below it."""
     left, low, right, high = box
     middle, inner = (left + right) / 2, right - left - 2 * EDGE
     # Base lines are those of the grid, regardless of descenders.
     base = low + EDGE + 0.3 * CLAUSE
-    name = words["cells"][cell.name].format(size=cell.size)
-    clause = words.course if cell.clause is None else cell.clause.told(words)
+    name = texts["cells"][cell.name].format(size=cell.size)
+    clause = texts.course if cell.clause is None else cell.clause.describe(texts)
     items = list(typeset(clause, CLAUSE).at(complex(middle, base), anchor="centre"))
     base += CLAUSE + 2.5
     for line in reversed(paragraph(name, NAME, inner).inscriptions):
@@ -100,9 +100,9 @@ def drawn_cell(cell: SymbolCell, number: int, box: Bounds, words: Words) -> list
 def drawn_grid(
     cells: Sequence[SymbolCell],
     corner: complex,
-    words: Words,
+    texts: MessageTable,
     *,
-    across: int,
+    columns: int,
     width: float,
     height: float,
 ) -> list[Item]:
@@ -110,10 +110,10 @@ def drawn_grid(
     items: list[Item] = []
     sides: dict[tuple[complex, complex], None] = {}
     for k, cell in enumerate(cells):
-        row, column = divmod(k, across)
+        row, column = divmod(k, columns)
         left, high = corner.real + column * width, corner.imag - row * height
         box = (left, high - height, left + width, high)
-        items += drawn_cell(cell, k + 1, box, words)
+        items += drawn_cell(cell, k + 1, box, texts)
         sides |= dict.fromkeys(_sides(box))
     return [*(Stroke(side, Pen.THIN, tag="grid") for side in sides), *items]
 

@@ -41,8 +41,8 @@ class Measured(Struct, frozen=True):
     """A measure of the letters in parts of h: its sign, by the standard, on the ink."""
 
     symbol: str
-    asked: float
-    found: float
+    nominal: float
+    actual: float
 
 
 def measured(lettering: OutlineLettering) -> list[Measured]:
@@ -70,18 +70,18 @@ def measured(lettering: OutlineLettering) -> list[Measured]:
     ]
 
 
-def lettering_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
+def lettering_sheet(fields: Mapping[str, str], language: Language) -> Drawing:
     """Draw the specimen of the lettering in use (образец шрифта).
 
     ``fields`` are texts of the title block that outrank those of the specimen.
     """
     used, fmt = in_use(), paper_format(PAPER)
-    said = words.specimens
+    said = language.specimens
     slope = said.slanted if used.style.slanted else said.upright
     title = said.lettering.format(kind=said["kinds"][used.style.kind], slope=slope)
     texts = {"title": title, "material": said.standard.format(number="2.304-81"), **fields}
     drawing = Drawing(fmt.width, fmt.height, title)
-    items, inner, *_ = sheet_frame(fmt, texts, Furniture(graph_26=False, lang=words.lang))
+    items, inner, *_ = sheet_frame(fmt, texts, Furniture(graph_26=False, lang=language.lang))
     drawing.extend(items)
     left, top = inner[0] + EDGE, inner[3] - EDGE - 4.0
     d = HEIGHT * used.line
@@ -93,7 +93,7 @@ def lettering_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
     heights = [height for height in HEIGHTS if 2.5 <= height <= 10.0]
     samples = Column([_sample(said["samples"], height) for height in heights], gap=10.0)
     drawing.extend(samples.place(complex(left, low + HEIGHT)))
-    table = _proportions(used, words)
+    table = _proportions(used, language)
     drawing.extend(table.place(complex(inner[2] - EDGE - table.width, low + HEIGHT - 10.0)))
     return drawing
 
@@ -135,23 +135,23 @@ def _grid(at: complex, wide: float, d: float, cap: int, tail: int) -> Iterator[I
         yield Stroke((place(0.0, k * d), place(wide, k * d)), pen, tag=GRID)
 
 
-def _proportions(lettering: OutlineLettering, words: Language) -> Column:
+def _proportions(lettering: OutlineLettering, language: Language) -> Column:
     """Return the table of proportions: by the standard, and measured on the letters, mm."""
     measures = measured(lettering)
     cap = lettering.style.proportions.cap
     heights = list(islice((h for h in HEIGHTS if h >= 2.5), 5))
-    said, number = words.specimens, words.say.number
-    size, by_standard, found = said["columns_measured"]
+    texts, number = language.specimens, language.notation.number
+    size, by_standard, found = texts["columns_measured"]
     columns = [
-        TableColumn("", tuple(m.symbol for m in measures), least=8.0),
-        TableColumn(size, tuple(said["measures"][m.symbol] for m in measures)),
-        TableColumn(by_standard, tuple(f"{round(m.asked * cap)}/{cap} h" for m in measures)),
-        TableColumn(found, tuple(number(f"{m.found * cap:.2f}") + f"/{cap} h" for m in measures)),
+        TableColumn("", tuple(m.symbol for m in measures), min_width=8.0),
+        TableColumn(size, tuple(texts["measures"][m.symbol] for m in measures)),
+        TableColumn(by_standard, tuple(f"{round(m.nominal * cap)}/{cap} h" for m in measures)),
+        TableColumn(found, tuple(number(f"{m.actual * cap:.2f}") + f"/{cap} h" for m in measures)),
     ]
     columns += [
         TableColumn(
-            f"h = {number(f'{h:g}')}", tuple(number(f"{m.found * h:.2f}") for m in measures)
+            f"h = {number(f'{h:g}')}", tuple(number(f"{m.actual * h:.2f}") for m in measures)
         )
         for h in heights
     ]
-    return table_block(columns, 3.5, units="none", title=escape(said.measured_title))
+    return table_block(columns, 3.5, units="none", title=escape(texts.measured_title))

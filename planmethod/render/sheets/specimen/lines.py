@@ -20,7 +20,7 @@ from planmethod.render.frame.frame import sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.style import ARROW, PENS, S, stroke_lines
-from planmethod.render.layout.block import Align, fit, heading
+from planmethod.render.layout.block import Align, fit_text, heading
 from planmethod.render.sheets.specimen.cells import Clause, SymbolCell, drawn_grid
 from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import (
@@ -42,7 +42,7 @@ ROW, HEAD = 12.5, 13.0
 
 TEXT = 3.5
 RULE = Clause("2.303")
-ACROSS = 6
+RULES_PER_ROW = 6
 """Pictures of rules in a row."""
 
 
@@ -67,9 +67,9 @@ TYPES: tuple[LineType, ...] = (
 """The lines of the sheets, in the order of GOST 2.303."""
 
 
-def said(value: float, say: Notation) -> str:
+def length_text(value: float, notation: Notation) -> str:
     """Return the text of a length with one decimal."""
-    return say.number(f"{round(value, 1):g}")
+    return notation.number(f"{round(value, 1):g}")
 
 
 def sample(kind: LineType, start: complex) -> list[Item]:
@@ -81,7 +81,7 @@ def sample(kind: LineType, start: complex) -> list[Item]:
     return [Stroke((start, end), kind.pen, tag="sample")]
 
 
-def measured(items: Sequence[Item], say: Notation) -> str:
+def measured(items: Sequence[Item], notation: Notation) -> str:
     """Return stroke and gap of a dashed sample, measured on its items; a dash if none."""
     (line,) = (item for item in items if isinstance(item, Stroke))
     pieces = stroke_lines(line)
@@ -90,34 +90,36 @@ def measured(items: Sequence[Item], say: Notation) -> str:
     longest = max(abs(piece[-1] - piece[0]) for piece in pieces)
     long = [piece for piece in pieces if abs(piece[-1] - piece[0]) > longest / 2]
     gap = long[1][0] - long[0][-1]
-    return f"{said(longest, say)}; {said(abs(gap), say)}"
+    return f"{length_text(longest, notation)}; {length_text(abs(gap), notation)}"
 
 
-def lines_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
+def lines_sheet(fields: Mapping[str, str], language: Language) -> Drawing:
     """Draw every line type with its width, dashes and use (лист типов линий)."""
     texts = {
-        "title": words.specimens.lines,
-        "material": RULE.told(words.specimens),
+        "title": language.specimens.lines,
+        "material": RULE.describe(language.specimens),
         "scale": "1:1",
         **fields,
     }
-    items, inner, *_ = sheet_frame(PAPER, texts, Furniture(graph_26=False, lang=words.lang))
+    items, inner, *_ = sheet_frame(PAPER, texts, Furniture(graph_26=False, lang=language.lang))
     sheet = Drawing(420.0, 297.0, texts["title"], items)
     middle = (inner[0] + inner[2]) / 2
-    head = heading(words.specimens.lines_head.format(s=said(S, words.say)), 7.0)
+    head = heading(language.specimens.lines_head.format(s=length_text(S, language.notation)), 7.0)
     sheet.extend(head.place(complex(middle - head.width / 2, inner[3] - 5.0)))
     corner = complex(middle - sum(COLUMNS) / 2, inner[3] - 16.0)
-    sheet.extend(_table(corner, words))
+    sheet.extend(_table(corner, language))
     below = corner - 1j * (HEAD + ROW * len(TYPES) + 5.0)
-    width, height = sum(COLUMNS) / ACROSS, (below.imag - inner[1] - 5.0) / 2
-    cells = rule_cells(words.say)
+    width, height = sum(COLUMNS) / RULES_PER_ROW, (below.imag - inner[1] - 5.0) / 2
+    cells = rule_cells(language.notation)
     sheet.extend(
-        drawn_grid(cells, below, words.specimens, across=ACROSS, width=width, height=height)
+        drawn_grid(
+            cells, below, language.specimens, columns=RULES_PER_ROW, width=width, height=height
+        )
     )
     return sheet
 
 
-def _table(corner: complex, words: Language) -> list[Item]:
+def _table(corner: complex, language: Language) -> list[Item]:
     """Return the table of the line types from its upper left corner."""
     edges = [corner.real, *(corner.real + x for x in accumulate(COLUMNS))]
     levels = [corner.imag, corner.imag - HEAD]
@@ -138,37 +140,37 @@ def _table(corner: complex, words: Language) -> list[Item]:
     )
     items.append(Stroke(outline, closed=True, tag="table"))
 
-    def put(text: str, column: int, row: int, align: Align = "left") -> None:
+    def fill_cell(text: str, column: int, row: int, align: Align = "left") -> None:
         box = (edges[column], levels[row + 1], edges[column + 1], levels[row])
-        items.extend(fit(text, box, (TEXT, 2.5), align=align, pad=2.5, tag="table"))
+        items.extend(fit_text(text, box, (TEXT, 2.5), align=align, pad=2.5, tag="table"))
 
-    for column, text in enumerate(words.specimens["columns_lines"]):
-        put(text, column, 0, "centre")
+    for column, text in enumerate(language.specimens["columns_lines"]):
+        fill_cell(text, column, 0, "centre")
     for row, kind in enumerate(TYPES, 1):
         drawn = sample(kind, complex(edges[1] + (COLUMNS[1] - SAMPLE) / 2, levels[row] - ROW / 2))
         items += drawn
-        put(words.specimens["line_names"][kind.name], 0, row)
-        put(_width(kind.pen, words.say), 2, row, "centre")
-        put(measured(drawn, words.say), 3, row, "centre")
-        put(words.specimens["line_uses"][kind.name], 4, row)
+        fill_cell(language.specimens["line_names"][kind.name], 0, row)
+        fill_cell(_width(kind.pen, language.notation), 2, row, "centre")
+        fill_cell(measured(drawn, language.notation), 3, row, "centre")
+        fill_cell(language.specimens["line_uses"][kind.name], 4, row)
     return items
 
 
-def _width(pen: Pen, say: Notation) -> str:
+def _width(pen: Pen, notation: Notation) -> str:
     """Return the width of a pen, marked (s) for a main line."""
     width = PENS[pen].width
-    return f"{said(width, say)} (s)" if width == S else said(width, say)
+    return f"{length_text(width, notation)} (s)" if width == S else length_text(width, notation)
 
 
 # Rules -------------------------------------------------------------------------------------------
 
 
-def rule_cells(say: Notation) -> list[SymbolCell]:
+def rule_cells(notation: Notation) -> list[SymbolCell]:
     """Return the rules for crossings and ends of lines, each with its picture."""
-    return [*_crossings(say), *_dashed(), *_meanings()]
+    return [*_crossings(notation), *_dashed(), *_meanings()]
 
 
-def _crossings(say: Notation) -> Iterator[SymbolCell]:
+def _crossings(notation: Notation) -> Iterator[SymbolCell]:
     """Yield axes that cross and touch."""
     yield SymbolCell(
         "axes_cross",
@@ -180,7 +182,7 @@ def _crossings(say: Notation) -> Iterator[SymbolCell]:
         "small_circle",
         RULE,
         (Arc(0j, small), *centre_lines(0j, small)),
-        size=said(SMALL_CIRCLE, say),
+        size=length_text(SMALL_CIRCLE, notation),
     )
     touch = 9 + 0j
     yield SymbolCell(

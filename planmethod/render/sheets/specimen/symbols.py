@@ -20,50 +20,50 @@ from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import axis_line
 
 PAPER = "A2"
-ACROSS, WIDTH, HEIGHT = 7, 79.0, 73.0
+CELLS_PER_ROW, WIDTH, HEIGHT = 7, 79.0, 73.0
 """Cells in a row, and their size, mm."""
 
 
-def symbols_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
+def symbols_sheet(fields: Mapping[str, str], language: Language) -> Drawing:
     """Draw every symbol at working size with its name (лист условных обозначений)."""
-    said = words.specimens
-    texts = {"title": said.symbols, "material": GEARS.told(said), "scale": "1:1", **fields}
-    items, inner, *_ = sheet_frame(PAPER, texts, Furniture(graph_26=False, lang=words.lang))
+    said = language.specimens
+    texts = {"title": said.symbols, "material": GEARS.describe(said), "scale": "1:1", **fields}
+    items, inner, *_ = sheet_frame(PAPER, texts, Furniture(graph_26=False, lang=language.lang))
     sheet = Drawing(594.0, 420.0, texts["title"], items)
     middle = (inner[0] + inner[2]) / 2
     head = heading(said.symbols, 7.0)
     sheet.extend(head.place(complex(middle - head.width / 2, inner[3] - 6.0)))
-    corner = complex(middle - ACROSS * WIDTH / 2, inner[3] - 19.0)
+    corner = complex(middle - CELLS_PER_ROW * WIDTH / 2, inner[3] - 19.0)
     cells = symbol_cells()
-    sheet.extend(drawn_grid(cells, corner, said, across=ACROSS, width=WIDTH, height=HEIGHT))
-    sheet.extend(_sizes(corner, inner, words))
+    sheet.extend(drawn_grid(cells, corner, said, columns=CELLS_PER_ROW, width=WIDTH, height=HEIGHT))
+    sheet.extend(_sizes(corner, inner, language))
     return sheet
 
 
-def _sizes(corner: complex, inner: Bounds, words: Language) -> list[Item]:
+def _sizes(corner: complex, inner: Bounds, language: Language) -> list[Item]:
     """Return the sizes of the symbols, in the space that the grid leaves above the title block."""
     left = corner.real + 4 * WIDTH + 8.0
     high = corner.imag - 4 * HEIGHT - 7.0
 
-    def said(*values: float) -> str:
-        return "×".join(words.say.number(f"{value:g}") for value in values)
+    def join_sizes(*values: float) -> str:
+        return "×".join(language.notation.number(f"{value:g}") for value in values)
 
     s = SIZES
     sizes = {
-        "joint": said(s.joint),
-        "support": said(s.support_height),
-        "base": said(s.base),
-        "hatch": said(s.hatch_step),
-        "slider": said(s.slider_length, s.slider_width),
-        "corner": said(s.corner),
-        "arrow": said(ARROW.length, ARROW.width),
-        "teeth": said(s.teeth),
-        "mesh": said(s.mesh),
+        "joint": join_sizes(s.joint),
+        "support": join_sizes(s.support_height),
+        "base": join_sizes(s.base),
+        "hatch": join_sizes(s.hatch_step),
+        "slider": join_sizes(s.slider_length, s.slider_width),
+        "corner": join_sizes(s.corner),
+        "arrow": join_sizes(ARROW.length, ARROW.width),
+        "teeth": join_sizes(s.teeth),
+        "mesh": join_sizes(s.mesh),
     }
-    lines = [line.format(**sizes) for line in words.specimens["sizes"]]
+    lines = [line.format(**sizes) for line in language.specimens["sizes"]]
     room = Column(
         [
-            heading(words.specimens.sizes_title, 5.0),
+            heading(language.specimens.sizes_title, 5.0),
             paragraph("\n".join(lines), 3.5, inner[2] - 8.0 - left),
         ],
         gap=3.5,
@@ -76,7 +76,7 @@ def symbol_cells() -> list[SymbolCell]:
     return [*_joints(), *_links(), *_sliders(), *_mobile(), *_drivers(), *wheel_cells()]
 
 
-def way(degrees: float, length: float = 1.0) -> complex:
+def polar(degrees: float, length: float = 1.0) -> complex:
     """Return a vector, mm."""
     return cmath.rect(length, radians(degrees))
 
@@ -91,7 +91,7 @@ def _joints() -> Iterator[SymbolCell]:
         (letter("A", a, 1j), letter("B", b, 1j), letter("2", 0j, 1j, gap=1.5)),
     )
     yield SymbolCell("frame", Clause("2.770", "2"), scheme(symbols.ground_line(-18, 18)))
-    tip = way(55, 24)
+    tip = polar(55, 24)
     yield SymbolCell(
         "support",
         None,
@@ -101,16 +101,18 @@ def _joints() -> Iterator[SymbolCell]:
     yield SymbolCell(
         "support_turned",
         None,
-        scheme(symbols.link(0j, way(-60, 24), tag="link 1"), symbols.fixed_pivot(0j, direction=1j)),
-        (letter("O", 0j, -1), letter("1", way(-60, 12), 1 + 1j, gap=1.5)),
+        scheme(
+            symbols.link(0j, polar(-60, 24), tag="link 1"), symbols.fixed_pivot(0j, direction=1j)
+        ),
+        (letter("O", 0j, -1), letter("1", polar(-60, 12), 1 + 1j, gap=1.5)),
     )
     pair = (0j, 8 + 0j)
     yield SymbolCell(
         "supports",
         None,
         scheme(
-            symbols.link(pair[0], way(125, 22), tag="link 1"),
-            symbols.link(pair[1], 8 + way(50, 24), tag="link 3"),
+            symbols.link(pair[0], polar(125, 22), tag="link 1"),
+            symbols.link(pair[1], 8 + polar(50, 24), tag="link 3"),
             symbols.fixed_pivots(pair),
         ),
         (letter("A", pair[0], -1), letter("D", pair[1], 1)),
@@ -118,14 +120,14 @@ def _joints() -> Iterator[SymbolCell]:
     yield SymbolCell(
         "revolute",
         Clause("2.770", "6", "a"),
-        scheme(symbols.link(way(215, 24), 0j, way(-25, 22)), symbols.revolute(0j)),
+        scheme(symbols.link(polar(215, 24), 0j, polar(-25, 22)), symbols.revolute(0j)),
         (
             letter("B", 0j, 1j),
-            letter("1", way(215, 12), -1 + 1j, gap=1.5),
-            letter("2", way(-25, 12), 1 + 1j, gap=1.5),
+            letter("1", polar(215, 12), -1 + 1j, gap=1.5),
+            letter("2", polar(-25, 12), 1 + 1j, gap=1.5),
         ),
     )
-    arms = (way(205, 22), way(-20, 22), way(80, 18))
+    arms = (polar(205, 22), polar(-20, 22), polar(80, 18))
     yield SymbolCell(
         "double",
         Clause("2.770", "6", "b"),
@@ -137,26 +139,26 @@ def _joints() -> Iterator[SymbolCell]:
             letter("4", arms[2] / 2, 1, gap=1.5),
         ),
     )
-    along = way(10)
+    along = polar(10)
     yield SymbolCell(
         "on_link",
         None,
         scheme(
             symbols.link(-24 * along, 24 * along),
-            symbols.link(0j, way(-75, 20)),
+            symbols.link(0j, polar(-75, 20)),
             symbols.revolute_on(0j, along),
         ),
         (
             letter("N", 0j, 1j, gap=2.0),
             letter("3", -14 * along, 1j, gap=1.5),
-            letter("4", way(-75, 11), 1, gap=1.5),
+            letter("4", polar(-75, 11), 1, gap=1.5),
         ),
     )
 
 
 def _links() -> Iterator[SymbolCell]:
     """Yield rigid joints and links with three pairs."""
-    a, b = way(180, 20), way(40, 26)
+    a, b = polar(180, 20), polar(40, 26)
     yield SymbolCell(
         "rigid",
         Clause("2.770", "5", "a"),
@@ -178,20 +180,20 @@ def _links() -> Iterator[SymbolCell]:
     yield SymbolCell(
         "ternary_corners",
         None,
-        scheme(symbols.stiff_triangle(*corners, marked=True), joints),
+        scheme(symbols.rigid_polygon(*corners, marked=True), joints),
         letters,
     )
     yield SymbolCell(
         "ternary_hatched",
         None,
-        scheme(symbols.stiff_triangle(*corners, hatched=True), joints),
+        scheme(symbols.rigid_polygon(*corners, hatched=True), joints),
         letters,
     )
 
 
 def _sliders() -> Iterator[SymbolCell]:
     """Yield sliding pairs."""
-    rod = way(32, 30)
+    rod = polar(32, 30)
     axis = axis_line(-29, -SIZES.slider_length / 2), axis_line(SIZES.slider_length / 2, 29)
     yield SymbolCell(
         "slider",
@@ -228,7 +230,7 @@ def _sliders() -> Iterator[SymbolCell]:
         scheme(
             axis[0],
             symbols.guide_line(0j, before=13, after=8),
-            symbols.link(pin + way(20, 28), pin, tag="link 4"),
+            symbols.link(pin + polar(20, 28), pin, tag="link 4"),
             symbols.slider(0j),
             bars,
             welds,
@@ -242,23 +244,23 @@ def _sliders() -> Iterator[SymbolCell]:
         ),
     )
     turn = 35.0
-    bar = (way(turn, -16), way(turn, 30))
+    bar = (polar(turn, -16), polar(turn, 30))
     yield SymbolCell(
         "stone",
         None,
         scheme(
             symbols.fixed_pivot(bar[0]),
-            symbols.stone(8 * way(turn), angle=turn, pin=False),
+            symbols.sliding_block(8 * polar(turn), angle=turn, pin=False),
             symbols.link(*bar, tag="link 3"),
-            symbols.link(8 * way(turn) + way(-55, 20), 8 * way(turn), tag="link 1"),
-            symbols.revolute(8 * way(turn)),
+            symbols.link(8 * polar(turn) + polar(-55, 20), 8 * polar(turn), tag="link 1"),
+            symbols.revolute(8 * polar(turn)),
             symbols.revolute(bar[0]),
         ),
         (
             letter("C", bar[0], -1),
-            letter("B", 8 * way(turn), 1j, gap=5.5),
-            letter("3", way(turn, 24), 1j, gap=1.5),
-            letter("1", 8 * way(turn) + way(-55, 12), 1, gap=1.5),
+            letter("B", 8 * polar(turn), 1j, gap=5.5),
+            letter("3", polar(turn, 24), 1j, gap=1.5),
+            letter("1", 8 * polar(turn) + polar(-55, 12), 1, gap=1.5),
         ),
     )
     yield SymbolCell(
@@ -267,16 +269,16 @@ def _sliders() -> Iterator[SymbolCell]:
         scheme(
             symbols.fixed_pivot(0j),
             symbols.slider(0j, angle=20, factor=0.85),
-            symbols.link(way(200, 22), way(20, 30), tag="link 2"),
+            symbols.link(polar(200, 22), polar(20, 30), tag="link 2"),
             symbols.revolute(0j),
         ),
-        (letter("C", -2j, -1, gap=5), letter("2", way(20, 22), 1j, gap=1.5)),
+        (letter("C", -2j, -1, gap=5), letter("2", polar(20, 22), 1j, gap=1.5)),
     )
 
 
 def _mobile() -> Iterator[SymbolCell]:
     """Yield the pairs of schemes without redundant constraints."""
-    arms = (way(215, 24), way(-25, 22))
+    arms = (polar(215, 24), polar(-25, 22))
     for key, name in (("cylinder", "2c"), ("sphere", "3s")):
         joint = symbols.mobile_revolute(0j, name, opening=arms[1])
         yield SymbolCell(
@@ -298,7 +300,7 @@ def _mobile() -> Iterator[SymbolCell]:
 
 def _drivers() -> Iterator[SymbolCell]:
     """Yield cranks, rockers and the arrows of the driver."""
-    pin = way(50, 15)
+    pin = polar(50, 15)
     yield SymbolCell(
         "crank",
         None,
@@ -312,7 +314,7 @@ def _drivers() -> Iterator[SymbolCell]:
             symbols.crank(0j, pin * 1.4, tag="link 1"),
             symbols.turn_arrow(0j, 12, 1, middle=104, sweep=80),
         ),
-        (letter("ω_{1}", way(140, 12), -1, gap=1.5), letter("1", pin * 0.8, 1 - 1j, gap=1.5)),
+        (letter("ω_{1}", polar(140, 12), -1, gap=1.5), letter("1", pin * 0.8, 1 - 1j, gap=1.5)),
     )
     yield SymbolCell(
         "driver_sliding",
@@ -320,7 +322,7 @@ def _drivers() -> Iterator[SymbolCell]:
         scheme(
             symbols.guide_line(0j, before=13, after=13),
             symbols.slider(0j),
-            symbols.link(0j, way(25, 28), tag="link 2"),
+            symbols.link(0j, polar(25, 28), tag="link 2"),
             symbols.revolute(0j),
             symbols.drive_arrow(-9 + 8j, 5 + 8j),
         ),
@@ -329,8 +331,8 @@ def _drivers() -> Iterator[SymbolCell]:
     yield SymbolCell(
         "rocker",
         None,
-        scheme(symbols.rocker(0j, way(85, 28), swing=(35.0, 28.0), tag="link 3")),
-        (letter("D", 0j, 1), letter("C", way(85, 28), 1j)),
+        scheme(symbols.rocker(0j, polar(85, 28), swing=(35.0, 28.0), tag="link 3")),
+        (letter("D", 0j, 1), letter("C", polar(85, 28), 1j)),
     )
     shaft = (-20 + 0j, 20 + 0j)
     yield SymbolCell(

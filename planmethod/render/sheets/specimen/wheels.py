@@ -101,7 +101,7 @@ def _side() -> Iterator[SymbolCell]:
             link(-22 + 0j, 0j, tag="link 1"),
             wheel_profile(0j, sun, tag="link 1"),
             wheel_profile(pin, planet, loose=True, tag="link 2"),
-            ring_profile(0j, ring, stem=4.0),
+            ring_profile(0j, ring, support=4.0),
             carrier_profile(pin, 0j, reach=12.0, tag="link H"),
             link(12 + 0j, 30 + 0j, tag="link H"),
             bearing(-14 + 0j),

@@ -1,0 +1,81 @@
+"""Project of a command: its file is read, its decisions are made and checked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+from msgspec.structs import replace
+
+from planmethod.commands.problems import load_unsettled, solution_of, warn
+from planmethod.errors import ProblemError
+from planmethod.options import UsageError, drawn_by
+
+if TYPE_CHECKING:
+    from planmethod.commands.sheet_options import ResolvedRequest
+    from planmethod.project.model import Project
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def note_options(command: F) -> F:
+    """Add the template of the department, and the frames of the note's pages."""
+    command = click.option(
+        "--frame", is_flag=True, help="Frames and title blocks on the note's pages (forms 2, 2a)."
+    )(command)
+    return click.option(
+        "--template",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE.docx",
+        help="File of Word whose page and styles the note takes.",
+    )(command)
+
+
+def load_project(
+    path: Path, variant: str | None, position: int | None, request: ResolvedRequest
+) -> Project:
+    """Return the project of a file, with the sheet options of the command line.
+
+    Parameters
+    ----------
+    position : int or None
+        Number of the calculated position, if the command line has it.
+
+    Raises
+    ------
+    PlanMethodError
+        The file is faulty, or the mechanism cannot be assembled in a position.
+    click.UsageError
+        It is not a linkage.
+    """
+    from planmethod.kinds import kind_of
+    from planmethod.problem.cycle_records import ProjectTask
+    from planmethod.project.settle import settle
+    from planmethod.project.train import warn_of_separate_train
+
+    kind = kind_of(path)
+    if kind is not None:
+        raise UsageError(
+            "{}: a project is that of a linkage; [{}] alone: planmethod sheet",
+            path.name,
+            kind.table,
+        )
+    problem = request.over(load_unsettled(path, variant))
+    if position is not None:
+        task = replace(problem.project or ProjectTask(), calculated=position)
+        problem = replace(problem, project=task)
+    try:
+        project = settle(problem, path)
+    except ProblemError as error:
+        if position is None or error.faults[0].path != "project.calculated":
+            raise
+        raise UsageError(
+            "--position: {}. {}", error.faults[0].message, error.faults[0].hint
+        ) from None
+    solution_of(project.problem, None, drawn_by(None, None), forces=True)
+    apart = warn_of_separate_train(project)
+    if apart is not None:
+        warn(project.problem, apart)
+    return project

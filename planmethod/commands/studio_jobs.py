@@ -1,0 +1,503 @@
+"""Worker side of the studio, which runs the commands in a separate process (работа студии).
+
+Every function gets its request as plain data and returns plain data; files go into the folder of
+the request, which the server chose.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from planmethod.commands.capture import run
+from planmethod.commands.helptext import answering
+from planmethod.errors import Fault, PlanMethodError, ProblemError
+from planmethod.languages import translate
+
+if TYPE_CHECKING:
+    from planmethod.solved.partial_mechanism import MechanismPart
+
+StudioRequest = dict[str, Any]
+StudioResponse = dict[str, Any]
+ProgressCallback = Callable[[float], None]
+
+OUT = "out"
+
+
+def act(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse:
+    """Process a request; its errors are in the response."""
+    with answering(request.get("lang", "ru")):
+        try:
+            _reject_unsupported(request)
+            return _cleaned(ACTS[request["do"]](request, on_progress), request)
+        except ProblemError as error:
+            return _report_faults(request, error.faults)
+        except PlanMethodError as error:
+            return _report_faults(request, [Fault("", str(error))], placed=False)
+        except click.ClickException as error:
+            return _report_faults(request, [Fault("", error.format_message())], placed=False)
+        except (MemoryError, RecursionError):
+            raise
+        except Exception as error:  # the last safety net, as that of the command line
+            phrase = translate(
+                "Error: planmethod failed inside ({}: {}). Please report the problem file "
+                "and the command.",
+                type(error).__name__,
+                error,
+            )
+            return _report_faults(request, [Fault("", phrase)], placed=False)
+
+
+_NO_ANSWERS = "Answers to such problems are not checked. Their numbers are in the tables."
+_NO_PROJECT = "Only a linkage has a note and a project. This file has sheets."
+LACKING = {
+    "live": ("live_page", "Such a problem has no page that moves. See its sheets and tables."),
+    "structure": (
+        "structure_document",
+        "This problem has no links and joints, hence no structure.",
+    ),
+    "assemblies": (
+        "",
+        "Only linkages have several assembly configurations. This problem has only one.",
+    ),
+    "note": ("", _NO_PROJECT),
+    "project": ("", _NO_PROJECT),
+    **dict.fromkeys(("form", "key", "questions", "verdicts", "checked"), ("figures", _NO_ANSWERS)),
+}
+"""Features that some kinds of problem lack: their method, and the message when it is missing."""
+
+
+def _reject_unsupported(request: StudioRequest) -> None:
+    """Reject a feature that this kind of problem lacks.
+
+    Raises
+    ------
+    PlanMethodError
+    """
+    from planmethod.kinds import kind_of
+
+    method, phrase = LACKING.get(request.get("what") or request["do"], ("", ""))
+    if not phrase:
+        return
+    with suppress(ProblemError):  # an unreadable file is reported where it is read
+        kind = kind_of(_file(request))
+        if kind is not None and not (method and kind.has(method)):
+            raise PlanMethodError(translate(phrase))
+
+
+def _report_faults(request: StudioRequest, faults: Any, *, placed: bool = True) -> StudioResponse:
+    from planmethod.studio.places import place_of
+
+    text, told = request.get("text", ""), []
+    for fault in faults:
+        line, column = (place_of(text, fault) if placed else None) or (None, None)
+        told.append(
+            {"path": fault.path, "message": fault.message, "hint": fault.hint,
+             "choices": list(fault.choices), "line": line, "column": column}
+        )  # fmt: skip
+    return _cleaned({"faults": told}, request)
+
+
+def _cleaned(response: StudioResponse, request: StudioRequest) -> StudioResponse:
+    """Return a response without the server's folders."""
+    if "folder" not in request:
+        return response
+    home = re.escape(str(Path(request["folder"]).parent))
+    place = rf"{home}[/\\](?:\d+[/\\](?:{OUT}[/\\])?|works[/\\])?"
+    for key in ("output", "errors"):
+        if key in response:
+            response[key] = re.sub(place, "", response[key])
+    for fault in response.get("faults", ()):
+        fault["message"] = re.sub(place, "", fault["message"])
+    return response
+
+
+def _file(request: StudioRequest) -> Path:
+    """Write the typed problem file, and return its path."""
+    path = Path(request["folder"]) / f"{request['name']}.toml"
+    path.write_bytes(request["text"].encode("utf-8", "replace"))
+    return path
+
+
+# The scheme while one types ----------------------------------------------------------------------
+
+
+def sketched(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
+    """Return the scheme as SVG, with the faults of the file at their places."""
+    from planmethod.kinds import kind_of, part_of
+    from planmethod.note.wording import get_language
+    from planmethod.problem import variant_names
+    from planmethod.render.sketch import VIEWS
+    from planmethod.render.sketch import sketch as drawn
+
+    path, variant = _file(request), request.get("variant")
+    kind = kind_of(path)
+    if kind is not None:
+        return _sketch_other_kind(kind, path, variant, request["lang"])
+    title, part = part_of(path, variant=variant, views=VIEWS)
+    found, trouble = _report_part(request, part)
+    ways = len(part.assemblies)
+    is_there = part.solution is not None or ways or part.fixed
+    return found | {
+        "svg": _svg(drawn(part, title, get_language(request["lang"]), [])) if is_there else "",
+        "title": title,
+        "kind": "",
+        "variants": [] if part.faults else list(variant_names(path)),
+        "ways": ways,
+        "moves": part.solution is not None and trouble is None,
+    }
+
+
+def _report_part(
+    request: StudioRequest, part: MechanismPart
+) -> tuple[StudioResponse, PlanMethodError | None]:
+    """Return the faults of a linkage's file, and the reason why it cannot be solved."""
+    from planmethod.solved.failures import PositionError
+
+    trouble = part.trouble
+    if trouble is None and part.failure is not None:
+        trouble = PositionError(part.failure)
+    if trouble is not None and not part.faults:
+        return _report_faults(request, [Fault("", str(trouble))], placed=False), trouble
+    return _report_faults(request, part.faults), trouble
+
+
+def _sketch_other_kind(kind: Any, path: Path, variant: str | None, lang: str) -> StudioResponse:
+    """Return the same for a problem of another kind: its scheme, or else its first sheet."""
+    from msgspec.structs import replace
+
+    from planmethod.options import drawn_by
+    from planmethod.problem import variant_names
+
+    problem = kind.load(path, variant)
+    problem = replace(problem, sheet=replace(problem.sheet, lang=lang))
+    drawing = kind.scheme(problem)
+    if drawing is None:
+        drawing = kind.drawings(problem, fields={}, profile=drawn_by(None, None))[0]
+    return {
+        "faults": [], "svg": _svg(drawing), "title": problem.title, "kind": kind.table,
+        "variants": list(variant_names(path)), "ways": 0, "moves": True,
+    }  # fmt: skip
+
+
+def _svg(drawing: Any) -> str:
+    from planmethod.render.backends import render
+
+    return render(drawing, "svg").decode()
+
+
+def assemblies(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
+    """Return the assembly configurations, each with the rules that choose it.
+
+    If the file leaves several of them, those; else all, including those it excludes.
+    """
+    from msgspec.structs import replace
+
+    from planmethod.kinds import part_of
+    from planmethod.note.wording import get_language
+    from planmethod.render.sketch import ASSEMBLY_VIEWS
+    from planmethod.render.sketch import sketch as drawn
+
+    path = _file(request)
+    whole = part = part_of(path, variant=request.get("variant"), views=ASSEMBLY_VIEWS)[1]
+    if not part.assemblies:
+        bare = _without_assembly(request["text"])
+        path.write_bytes(bare.encode("utf-8", "replace"))
+        part = part_of(path, variant=request.get("variant"), views=ASSEMBLY_VIEWS)[1]
+    language = get_language(request["lang"])
+    if not part.assemblies:
+        found, trouble = _report_part(request, whole)
+        if trouble is not None:
+            return found
+    return {
+        "faults": [],
+        "ways": [
+            {"rules": dict(way.rules), "svg": _svg(drawn(one, "", language, []))}
+            for way in part.assemblies
+            for one in [replace(part, solution=way.solution, assemblies=(), unsure=())]
+        ],
+    }
+
+
+def _without_assembly(text: str) -> str:
+    """Return a problem file without its rules of assembly."""
+    kept, inside = [], False
+    for line in text.split("\n"):
+        if re.match(r"\s*\[", line):
+            inside = re.match(r"\s*\[\s*assembly\b", line) is not None
+        kept.append("" if inside or re.match(r"\s*assembly\b[^=]*=", line) else line)
+    return "\n".join(kept)
+
+
+def pictured(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
+    """Return the picture of a shipped task: its scheme, without results."""
+    from planmethod.kinds import kind_of, part_of
+    from planmethod.note.wording import get_language
+    from planmethod.problem.tasks import home
+    from planmethod.render.sketch import VIEWS, assigned
+    from planmethod.render.sketch import sketch as drawn
+
+    path = home() / request["file"]
+    kind = kind_of(path)
+    if kind is not None:
+        return _sketch_other_kind(kind, path, None, request["lang"])
+    title, part = part_of(path, variant=request.get("variant"), views=VIEWS)
+    if part.solution is None:
+        return {"svg": _svg(drawn(part, title, get_language(request["lang"]), []))}
+    return {"svg": _svg(assigned(part.solution))}
+
+
+# Sheets ------------------------------------------------------------------------------------------
+
+
+def sheets(job: StudioRequest, _: ProgressCallback) -> StudioResponse:
+    """Draw the sheets, and return them with the data that the ruler needs of their views."""
+    from planmethod.commands.problems import for_each_problem
+    from planmethod.commands.sheet import SheetOptions, drawn_for, resolve_problem
+    from planmethod.commands.sheet_options import PaperRequest
+    from planmethod.problem.keys import known
+
+    given = {**dict.fromkeys(known("sheet")), "lang": job["lang"]}
+    request = PaperRequest({}, given, no_config=job["served"])
+    options = SheetOptions(
+        request=request.resolve(), phi=None, ruler=None, profile=None, errors=False, sigma=None,
+        layout=job.get("layout"), out=Path(job["folder"]), formats=("svg",), dpi=100,
+        dxf_text="strokes",
+    )  # fmt: skip
+    made: list[list[Any]] = []
+    printed, errors = io.StringIO(), io.StringIO()
+    with redirect_stdout(printed), redirect_stderr(errors):
+        code = for_each_problem(
+            (_file(job),), job.get("variant"), False,
+            lambda item: drawn_for(resolve_problem(item, options), options), on_result=made.append,
+        )  # fmt: skip
+    pages = [_page(drawing, job["lang"]) for drawings in made for drawing in drawings]
+    return {"code": int(code), "errors": errors.getvalue(), "pages": pages}
+
+
+def _page(drawing: Any, lang: str) -> dict[str, Any]:
+    from planmethod.note.plaintext import plain_text
+    from planmethod.note.wording import get_language
+    from planmethod.plans.model import FACTS
+
+    known = get_language(lang).notation.units
+    units = {f.scale.removeprefix("mu_"): plain_text(known[f.unit]) for f in FACTS.values()}
+    views = [
+        {
+            "kind": view.kind, "box": list(view.box), "per_mm": view.per_mm,
+            "scale": plain_text(view.scale) if view.scale else "",
+            "unit": units.get(re.sub(r"[^A-Za-z]", "", view.scale), ""),
+            "spans": [
+                {"name": plain_text(span.name), "share": span.share,
+                 "ends": [span.start.real, span.start.imag, span.end.real, span.end.imag]}
+                for span in view.spans
+            ],
+        }
+        for view in drawing.views
+    ]  # fmt: skip
+    return {
+        "svg": _svg(drawing), "width": drawing.width, "height": drawing.height,
+        "title": drawing.title, "views": views,
+    }  # fmt: skip
+
+
+# Commands ----------------------------------------------------------------------------------------
+
+
+def _listed(folder: Path) -> list[dict[str, Any]]:
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    return [
+        {"name": path.relative_to(folder).as_posix(), "bytes": path.stat().st_size}
+        for path in files
+    ]
+
+
+def _paper(request: StudioRequest) -> list[str]:
+    """Return the options of sheets; the server's config file is not for remote users."""
+    return ["--no-config"] if request["served"] else []
+
+
+def _args(request: StudioRequest) -> dict[str, list[str]]:
+    """Return the available command lines, without the problem and the folder."""
+    layout = ["--layout", request["layout"]] if request.get("layout") else []
+    lang = ["--lang", request["lang"]]
+    paper = [*_paper(request), *lang]
+    return {
+        "tables": ["solve", *lang],
+        "protocol": ["protocol", *lang],
+        "structure": ["structure", "--no-drawing", *lang],
+        "live": ["live", *lang],
+        "pdf": ["sheet", "--format", "pdf", *layout, *paper],
+        "dxf": ["sheet", "--format", "dxf", *layout, *paper],
+        "svg": ["sheet", "--format", "svg", *layout, *paper],
+        "note": ["note", *paper],
+        "project": ["project", *paper],
+        "form": ["form", *lang],
+        "key": ["check", "--key", *lang],
+    }
+
+
+FILED = ("live", "pdf", "dxf", "svg", "note", "project", "form", "key")
+"""Command lines that write files."""
+
+
+def command(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse:
+    """Run one of the command lines on the problem file."""
+    name, *args = _args(request)[request["what"]]
+    path, out = _file(request), Path(request["folder"]) / OUT
+    folder = ["-o", str(out)] if request["what"] in FILED else []
+    if request.get("variant"):
+        args += ["--variant", request["variant"]]
+    found = run(name, *args, *folder, str(path), on_progress=on_progress)
+    return {**found, "files": _listed(out)}
+
+
+# Answers -----------------------------------------------------------------------------------------
+
+
+def questions(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
+    """Return the questions without the answers."""
+    from planmethod.check.form import list_form_rows, unit_factor
+    from planmethod.check.group import key_of_problem
+    from planmethod.check.marks import DEFAULT
+    from planmethod.commands.problems import for_each_problem
+    from planmethod.note.wording import get_language
+
+    texts = get_language(request["lang"]).form
+    keys: list[Any] = []
+    errors = io.StringIO()
+    with redirect_stderr(errors):
+        for_each_problem(
+            (_file(request),), request.get("variant"), False,
+            lambda item: key_of_problem(item.kind, item.problem, DEFAULT), on_result=keys.append,
+        )  # fmt: skip
+    entries = keys[0].entries if keys else ()
+    return {
+        "errors": errors.getvalue(),
+        "rows": [
+            {
+                "id": row.id, "letters": row.letters, "mm": row.mm, "unit": row.unit,
+                "units": {one: unit_factor(one) for one in dict.fromkeys((row.unit, *row.units))},
+                "senses": dict(row.senses), "scale": row.scale, "position": row.position,
+            }
+            for row in list_form_rows(entries, texts)
+        ],
+        "scales": {
+            name: label for name, label in texts["scales"].items()
+            if name in {entry.scale for entry in entries if entry.mm is not None}
+        },
+    }  # fmt: skip
+
+
+def verdicts(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse:
+    """Grade one submission, as on the student's page."""
+    path, folder = _file(request), Path(request["folder"])
+    work = folder / "work.json"
+    work.write_text(json.dumps(request["work"], ensure_ascii=False), encoding="utf-8")
+    variant = ["--variant", request["variant"]] if request.get("variant") else []
+    found = run(
+        "check", str(path), str(work), "-o", str(folder / OUT), "--lang", request["lang"], *variant,
+        on_progress=on_progress,
+    )  # fmt: skip
+    return found | {"files": _listed(folder / OUT)}
+
+
+# The instructor ----------------------------------------------------------------------------------
+
+
+def checked(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse:
+    """Check the uploaded submissions, with the manually set scores."""
+    from planmethod.check.pages.listing import safe
+    from planmethod.check.pages.overrides import COLUMNS
+
+    path, folder = _file(request), Path(request["folder"])
+    out = folder / OUT
+    by_hand = folder / "overrides.csv"
+    rows = [COLUMNS, *([str(row.get(key, "")) for key in COLUMNS] for row in request["by_hand"])]
+    by_hand.write_bytes(_csv(rows))
+    variant = ["--variant", request["variant"]] if request.get("variant") else []
+    found = run(
+        "check", str(path), *request["works"], "-o", str(out), "--gradebook",
+        "--overrides", str(by_hand), "--lang", request["lang"], *variant, on_progress=on_progress,
+    )  # fmt: skip
+    return found | {
+        "files": _listed(out),
+        "marks": _table(out / "gradebook.csv"),
+        "answers": _table(out / "results.csv"),
+        "pages": {safe(student): page for student, page in _pages(out / "run.json").items()},
+    }
+
+
+def _pages(record: Path) -> dict[str, str]:
+    """Return the page of each student by the record of a run, as names do not determine it."""
+    return json.loads(record.read_bytes()).get("pages", {}) if record.exists() else {}
+
+
+def _csv(rows: Any) -> bytes:
+    import csv
+
+    from planmethod.check.pages.listing import safe
+
+    text = io.StringIO(newline="")
+    csv.writer(text, delimiter=";", lineterminator="\r\n").writerows(
+        [safe(cell) for cell in row] for row in rows
+    )
+    return text.getvalue().encode("utf-8-sig")
+
+
+def _table(path: Path) -> list[list[str]]:
+    import csv
+
+    if not path.exists():
+        return []
+    text = path.read_text(encoding="utf-8-sig")
+    mark = max(";,", key=text.partition("\n")[0].count)
+    return list(csv.reader(io.StringIO(text, newline=""), delimiter=mark))
+
+
+def varied(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse:
+    """Choose variants; the file with them, their table, and questions for Moodle are written."""
+    path, out = _file(request), Path(request["folder"]) / OUT
+    lang, written = ["--lang", request["lang"]], out / f"{request['name']}-variants.toml"
+    out.mkdir(exist_ok=True)
+    found = run(
+        "variants", str(path), "--count", str(request["count"]), "--seed", str(request["seed"]),
+        "-o", str(written), *lang, on_progress=on_progress,
+    )  # fmt: skip
+    if written.exists() and request.get("moodle"):
+        quiz = out / f"{request['name']}-moodle.xml"
+        more = run(
+            "check", "--key", "--moodle", str(quiz), *lang, str(written), on_progress=on_progress
+        )
+        found = {**found, "errors": f"{found['errors']}\n{more['errors']}".strip()}
+    return found | {"files": _listed(out)}
+
+
+def warm(_: StudioRequest, on_progress: ProgressCallback) -> StudioResponse:
+    """Draw a shipped task, to load the modules and tables."""
+    from tempfile import TemporaryDirectory
+
+    from planmethod.problem.tasks import tasks
+
+    task = next(task for task in tasks() if task.name == "linkages-ex3")
+    with TemporaryDirectory() as folder:
+        asked = {"folder": folder, "name": "warm", "text": task.text, "lang": "ru", "served": True}
+        sketched(asked, on_progress)
+        sheets(asked, on_progress)
+    return {}
+
+
+ACTS: dict[str, Callable[[StudioRequest, ProgressCallback], StudioResponse]] = {
+    one.__name__: one
+    for one in (
+        sketched, assemblies, pictured, sheets, command, questions, verdicts, checked, varied, warm,
+    )
+}  # fmt: skip
+"""Requests by name."""

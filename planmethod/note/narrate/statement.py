@@ -1,0 +1,912 @@
+"""The statement of a problem in symbols: given data and unknowns (Дано, Определить)."""
+
+# no messages: rules, in the words of the file
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from enum import Enum
+from functools import partial
+
+import numpy as np
+from msgspec.structs import replace
+
+from planmethod.mechanism.model import FRAME
+from planmethod.mechanism.structure import analyse
+from planmethod.note.document import GivenFact, Item, Node, Paragraph
+from planmethod.note.formula import Rich, escape, fraction
+from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
+from planmethod.note.wording import Language
+from planmethod.plans.legend import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
+from planmethod.plans.model import Relation
+from planmethod.plans.motion.legs import slot_name, track_direction
+from planmethod.problem.common import KindProblem
+from planmethod.problem.model import (
+    ANYWHERE,
+    AssemblyRelation,
+    Body,
+    CamDrive,
+    Drive,
+    GearDrive,
+    OutputPositionKind,
+    OutputPositions,
+    PointForm,
+    Problem,
+    Rule,
+    Slide,
+)
+from planmethod.problem.names import UNITS, segment, split_names
+from planmethod.problem.placement import rotation
+from planmethod.solved.driving import driven
+from planmethod.solved.rules import from_joint
+from planmethod.solved.solution import Solution
+
+NBSP = "\u00a0"
+
+SHORT = 40
+"""Letters of a sentence that is not broken."""
+
+
+def reading_notes(problem: KindProblem, language: Language) -> Iterator[Node]:
+    """Yield that the scheme is one of several that fit the data, and what the others are."""
+    if problem.reading:
+        yield Item(language.tasks.reading)
+        if problem.other_readings:
+            others = escape("; ".join(problem.other_readings))
+            yield Item(language.tasks.other_readings.format(others=others))
+
+
+def point_name(point: str) -> str:
+    """Return a point's name as rich text: S2 gives ``S_{2}``."""
+    return f"{point[:1]}_{{{point[1:]}}}" if point[1:] else point
+
+
+def unbroken(facts: Iterable[Rich]) -> Rich:
+    """Return facts in one line that is broken between them; sentences at their words as well."""
+    return "; ".join(map(_unbroken, filter(None, facts)))
+
+
+def _unbroken(fact: Rich) -> Rich:
+    if " = " in fact or len(fact) <= SHORT:
+        return fact.replace(" ", NBSP)
+    return re.sub(r"(?<=[0-9}]) (?=\w)", NBSP, fact)  # a number stays with its unit
+
+
+def given_paragraph(facts: Sequence[GivenFact], language: Language) -> Paragraph:
+    """Return the given facts as one paragraph, which keeps the keys of its facts (дано)."""
+    text = unbroken(fact.text for fact in facts)
+    return Paragraph(language.note.given.format(given=text), facts=tuple(facts))
+
+
+def given_facts(
+    problem: Problem, language: Language, positions: Sequence[float] | None = None
+) -> list[GivenFact]:
+    """Return the given facts; with the scheme of `drawn` the mechanism can be rebuilt from them.
+
+    Each fact has the keys of the problem file that it states, with their values (`GivenFact`).
+    ``positions`` are the driver's, degrees (m for a slider). Default: the file's.
+    """
+    drive, text = problem.drive, StatedNumbers(problem, language)
+    asked = drive.positions if positions is None else tuple(positions)
+    facts = [_position(text, asked), *_reference_lines(text)]
+    for link, name, metres in problem.lengths:
+        centre = problem.bodies[link].arc
+        if centre is not None and name == "".join(problem.bodies[link].axis or ()):
+            facts.append(_arc(link, name, metres, text))
+            continue
+        path = _path(link, name)
+        data: dict[str, object] = {path: metres}
+        for point, form in problem.bodies[link].forms.items():
+            if form.kind in ("on", "from") and {*split_names(name)} == {point, _start(form)}:
+                data[f"{_path(link, segment(point))}.at"] = form.at
+        facts.append(GivenFact(f"l_{{{name}}} = {text.metres(metres, path)}", data))
+    for link, body in problem.bodies.items():
+        if link != FRAME:
+            facts += _third_points(link, body, text)
+    for point, place in problem.bodies[FRAME].points.items():
+        path = f"frame.{segment(point)}"
+        if place != 0:
+            facts += _coordinates(point, place, text, path)
+        else:
+            origin = language.note.given_origin.format(point=point_name(point))
+            facts.append(GivenFact(origin, {path: [0.0, 0.0]}))
+    facts += _guides(text)
+    for slide in problem.slides.values():
+        if slide.host != FRAME or slide.label not in problem.guides:
+            facts += _slide_line_facts(slide, text)
+    facts += _angles_sense(text)
+    facts += _assembled(text, asked)
+    if drive.posed is not None and drive.posed.by is OutputPositionKind.LENGTH:
+        return facts
+    if drive.cam_drive is not None:
+        return [*facts, *_cam_facts(drive, drive.cam_drive, text, asked)]
+    return [*facts, *_rates(text)]
+
+
+def _rates(text: StatedNumbers) -> Iterator[GivenFact]:
+    """Yield how the driving link moves."""
+    drive, units = text.problem.drive, text.notation.units
+    if not drive.is_crank:
+        yield GivenFact(
+            f"v = {text.number(drive.rate, 'm/s', 'driver.v')}", {"driver.v": drive.rate}
+        )
+        gain = drive.acceleration
+        yield GivenFact(f"a = {text.number(gain, 'm/s²', 'driver.a')}", {"driver.a": gain})
+        return
+    constant = "" if drive.acceleration else " = const"
+    if drive.gear_drive is not None:
+        yield from _through(drive.gear_drive, text, constant)
+        return
+    omega = f"ω_{{{drive.link}}}"
+    still = {} if drive.acceleration else {"driver.epsilon": 0.0}
+    if drive.turns is not None:
+        turned = text.number(drive.turns, "rev/min", "driver.n")
+        symbol = turns_symbol(text.problem, text.language)
+        turns = fraction(f"π{symbol}", "30")
+        found = f"{omega} = {turns} = {text.notation.computed(drive.rate)} {units['1/s']}"
+        phrase = f"{symbol} = {turned}{constant} ({found})"
+        yield GivenFact(phrase, {"driver.n": drive.turns, **still})
+    else:
+        rate = text.number(drive.rate, "1/s", "driver.omega")
+        yield GivenFact(f"{omega} = {rate}{constant}", {"driver.omega": drive.rate, **still})
+    yield from _gain(text)
+
+
+def _gain(text: StatedNumbers) -> Iterator[GivenFact]:
+    drive = text.problem.drive
+    if drive.acceleration:
+        epsilon = text.number(drive.acceleration, "1/s²", "driver.epsilon")
+        yield GivenFact(f"ε_{{{drive.link}}} = {epsilon}", {"driver.epsilon": drive.acceleration})
+
+
+def turns_symbol(problem: Problem, language: Language) -> Rich:
+    """Return the letters of the crank's rotational speed: beside a train not those of wheel 1."""
+    drive, task = problem.drive, problem.project
+    if drive.gear_drive is not None:
+        return f"n_{{{drive.gear_drive.label}}}"
+    has_train = "gears" in problem.tables or bool(task is not None and task.gears)
+    return language.notation.symbol("crank turns") if has_train else f"n_{{{drive.link}}}"
+
+
+def drawn(problem: Problem, language: Language) -> GivenFact:
+    """Return the scheme in words: links with their points, sliders with their guides.
+
+    It replaces the scheme where none is beside the given data.
+    """
+    note, told = language.note, []
+    data: dict[str, object] = {"driver.link": problem.drive.link}
+    for link in problem.mechanism.links:
+        body, slide = problem.bodies[link], problem.slides.get(link)
+        points = [point for point in body.points if point != body.arc]
+        data[_path(link, "points")] = points
+        phrase = f"{link} ({', '.join(map(point_name, points))}"
+        if slide is not None:
+            on = slide.label if slide.label in problem.guides else slide.host
+            data[_path(link, "slides.on")] = on
+            way = problem.guide_name(on) if slide.host == FRAME else on
+            template = note.drawn_on_guide if slide.host == FRAME else note.drawn_on_link
+            phrase += "; " + template.format(on=problem.mechanism.called(way))
+        phrase += "; " + note.drawn_driver if link == problem.drive.link else ""
+        told.append(phrase + ")")
+    return GivenFact(note.drawn.format(links=", ".join(told)), data)
+
+
+class StatedNumbers:
+    """Numbers as a file gives them: in its arithmetic and its unit of lengths (как дано)."""
+
+    def __init__(self, problem: Problem, language: Language) -> None:
+        self.problem, self.language, self.notation = problem, language, language.notation
+
+    def number_text(self, value: float, path: str = "") -> str:
+        """Return a number without its unit; its arithmetic where digits would not be exact."""
+        stated = self.problem.stated.get(path)
+        if stated is None or abs(float(trimmed(value, 6)) - value) <= 1e-12 * abs(value):
+            return self.notation.as_input(value)
+        return arithmetic(stated, self.notation)
+
+    def number(self, value: float, unit: str, path: str = "") -> str:
+        """Return a number with its unit."""
+        return with_unit(self.number_text(value, path), self.notation.units[unit])
+
+    def metres(self, value: float, path: str = "") -> str:
+        """Return a length, m, in the unit of the file."""
+        unit = self.problem.unit
+        return self.number(value * UNITS[unit], unit, path)
+
+    def size(self, value: float, path: str = "") -> str:
+        """Return the magnitude of a length whose sense is given in words."""
+        return self.metres(value, path) if value >= 0 else self.metres(-value)
+
+
+def arithmetic(text: str, notation: Notation) -> str:
+    """Return arithmetic of a file as rich text: ``0.25/3`` gives ``0,25/3``."""
+    text = text.replace("**", "^").replace("sqrt", "√").replace("pi", "π").strip(" °")
+    text = re.sub(r"\^ *([0-9]+)", r"^{\1}", text.replace("²", "^2").replace("³", "^3"))
+    return text.replace(".", notation.decimal).replace("*", "·").replace("-", MINUS)
+
+
+def _path(link: str, key: str) -> str:
+    return f"links.{segment(link)}.{key}"
+
+
+DRAWN = 5
+"""Digits of a coordinate that was computed: a hundredth of a millimetre of a link."""
+
+POSITION_TOLERANCE_DEG = 0.5
+"""Degrees within which an angle is that of a position."""
+
+MAX_LISTED = 6
+"""Most positions that are given one by one where their steps are even."""
+
+MAX_UNEVEN = 36
+"""Most that are, where they are not."""
+
+
+def _position(text: StatedNumbers, positions: Sequence[float]) -> GivenFact:
+    """Return the position: by the output, where the requested ones are those of the file."""
+    drive = text.problem.drive
+    of = [k for k, position in enumerate(drive.positions) if position in positions]
+    if drive.posed is not None and len(of) == len(positions):
+        return _posed(drive.posed, of, text)
+    path = f"driver.{drive.coordinate.name}"
+    return GivenFact(_positions_text(text, positions), {path: [float(one) for one in positions]})
+
+
+def _positions_text(text: StatedNumbers, positions: Sequence[float]) -> str:
+    drive = text.problem.drive
+    unit, key = drive.coordinate.unit, ""
+    if len(positions) == 1 and tuple(positions) == drive.positions:
+        key = f"driver.{drive.coordinate.name}"
+
+    def position_text(value: float) -> str:
+        if unit == "m":
+            return text.metres(value, key)
+        return text.number(value if key else text.problem.display_position(value), unit, key)
+
+    symbol = drive.coordinate.symbol
+    if tuple(positions) == text.problem.numbered:
+        return _numbered(text, positions)
+    if len(positions) > MAX_LISTED:
+        first, last = float(positions[0]), float(positions[-1])
+        step = round((last - first) / (len(positions) - 1), 4)
+        if np.allclose(np.diff(positions), step, rtol=0.0, atol=1e-6 * abs(step)):
+            return f"{symbol} " + text.language.note.given_steps.format(
+                first=position_text(first), last=position_text(last), step=position_text(step)
+            )
+        if len(positions) > MAX_UNEVEN:
+            count = text.language.note.given_count.format(count=len(positions))
+            return f"{symbol} = {position_text(first)}…{position_text(last)}{count}"
+    return f"{symbol} = {', '.join(position_text(float(one)) for one in positions)}"
+
+
+def _reference_lines(text: StatedNumbers) -> Iterator[GivenFact]:
+    """Yield the line from which the crank's angle is measured, or the axis of its slider."""
+    problem, note = text.problem, text.language.note
+    drive = problem.drive
+    posed, body = drive.posed, problem.bodies[drive.link]
+    if posed is not None and posed.by is OutputPositionKind.PHI:
+        axis = problem.bodies[posed.of].axis
+        if axis is not None:
+            yield GivenFact(note.given_axis.format(symbol=f"φ_{{{posed.of}}}", line=_line(*axis)))
+    if drive.is_crank and body.axis is not None:
+        start, direction = (body.points[p] for p in body.axis)
+        for place in body.points.values():
+            aside = (place - start) * (direction - start).conjugate()
+            if aside.real < 0 or abs(aside.imag) > 1e-9 * abs(aside):
+                line = _line(*body.axis)
+                yield GivenFact(note.given_axis.format(symbol=f"φ_{{{drive.link}}}", line=line))
+                return
+    elif not drive.is_crank and (slide := problem.slides.get(drive.link)) is not None:
+        base = "; ".join(text.metres(one) for one in (slide.base.real, slide.base.imag))
+        origin = f"({base})" if slide.through is None else point_name(slide.through)
+        way = note["given_ways"][_direction_key(slide.angle)]
+        name = problem.guide_name(slide.label)
+        data: dict[str, object] = {}
+        if slide.through is None:
+            path = f"frame.guides.{segment(slide.label)}.through"
+            data = {f"{path}[{k}]": x for k, x in enumerate((slide.base.real, slide.base.imag))}
+        yield GivenFact(note.given_place.format(guide=name, start=origin, way=way), data)
+
+
+def _direction_key(angle: float) -> str:
+    """Return the direction of a line as a key of words: right, up, left or down."""
+    x, y = rotation(angle).real, rotation(angle).imag
+    if y == 0:
+        return "right" if x > 0 else "left"
+    return "up" if y > 0 else "down"
+
+
+def _arc(link: str, name: str, metres: float, text: StatedNumbers) -> GivenFact:
+    """Return the fact on a sliding block in a circular slot."""
+    problem = text.problem
+    body, path = problem.bodies[link], _path(link, "slides.radius")
+    phrase = text.language.note.given_arc.format(
+        link=link, radius=text.metres(metres, path), line=_line(*split_names(name))
+    )
+    host = next((x for x, other in problem.bodies.items()
+                 if x != link and body.arc in other.points), FRAME)  # fmt: skip
+    keys = {"on": host, "centre": body.arc, "radius": metres}
+    return GivenFact(phrase, {_path(link, f"slides.{key}"): value for key, value in keys.items()})
+
+
+def _numbered(text: StatedNumbers, positions: Sequence[float]) -> str:
+    """Return the numbered positions of the cycle: the first one, the step and its sense."""
+    drive, note = text.problem.drive, text.language.note
+    step = float(positions[1]) - float(positions[0])
+    against = step * (drive.rate or 1.0) < 0.0
+    first = text.problem.display_position(float(positions[0]))
+    facts = [text.number(round(one, 2), drive.coordinate.unit, "") for one in (first, abs(step))]
+    return note.given_numbered.format(
+        symbol=drive.coordinate.symbol,
+        first=facts[0],
+        step=facts[1],
+        sense=text.language.cycle["senses"][drive.mover]["against" if against else "along"],
+        count=len(positions),
+    )
+
+
+def angle_with_positions(problem: Problem, position: float, angle: str, language: Language) -> str:
+    """Return an angle of the crank with its position numbers, which distinguish two turns.
+
+    Parameters
+    ----------
+    position : float, degrees
+        Position of the driver, continuous over both turns.
+    angle : str
+        The angle as text.
+    """
+    place, count = problem.counted(position), len(problem.numbered)
+    if place is None:
+        return angle
+    number, note = round(place), language.note
+    if abs(place - number) * 360.0 * problem.turns / count < POSITION_TOLERANCE_DEG:
+        return note.at_position.format(at=angle, number=number % count)
+    before = int(place)
+    return note.between_positions.format(at=angle, one=before, other=(before + 1) % count)
+
+
+def _posed(posed: OutputPositions, of: Sequence[int], text: StatedNumbers) -> GivenFact:
+    """Return how the output determines positions, and which of several is meant."""
+    note, values = text.language.note, [posed.values[k] for k in of]
+    root: int | str = posed.number or ""
+    way = ""
+    if posed.going:
+        root, way = f"going {posed.going}", note["given_going"][posed.going]
+    elif posed.nearest_to is not None:
+        root = f"near {posed.nearest_to!r}"
+        coordinate = text.problem.drive.coordinate
+        near = (text.metres if coordinate.unit == "m" else partial(text.number, unit="deg"))(
+            posed.nearest_to
+        )
+        way = note.given_near.format(place=f"{coordinate.symbol} = {near}")
+    elif posed.number:
+        symbol = text.problem.drive.coordinate.symbol
+        way = note.given_which.format(number=posed.number, symbol=symbol)
+    data: dict[str, object] = {"driver.root": root} if root else {}
+    if posed.by is OutputPositionKind.LINE:
+        said = [posed.extremes[k] for k in of]
+        pairs = [one.split(" on ") for one in said]
+        told = [note.given_on_line.format(point=one, line=line) for one, line in pairs]
+        return GivenFact("; ".join(told) + way, {"driver.at": said, **data})
+    if posed.by is OutputPositionKind.EXTREME:
+        told, keys = [], []
+        for where, after in ((posed.extremes[k], posed.values[k]) for k in of):
+            sign = f" {MINUS if after < 0 else '+'} {text.notation.as_input(abs(after))}°"
+            told.append(note["given_extremes"][where] + (sign if after else ""))
+            keys.append(f"{where} extreme".strip() + (f" {after:+}" if after else ""))
+        output, cycle = _output(text)
+        said_so = note.given_position.format(position=", ".join(told))
+        return GivenFact(said_so + output, {"driver.at": keys, **cycle})
+
+    def value_text(value: float) -> str:
+        path = f"driver.{posed.key}"
+        if path not in text.problem.stated:
+            path += f"[{posed.values.index(value)}]"
+        if posed.by is OutputPositionKind.STROKE:
+            return text.number_text(value, path)
+        if posed.by in (OutputPositionKind.PHI, OutputPositionKind.BETWEEN):
+            return text.number(value, "deg", path)
+        return text.metres(value, path)
+
+    if posed.by is OutputPositionKind.LENGTH:
+        pair, drive, notation = posed.of, text.problem.drive, text.notation
+        v, a = posed.rates
+        acted = f"l_{{{pair}}} = {value_text(values[0])}{way}; "
+        acted += f"v_{{{pair}}} = {text.number(v, 'm/s', f'driver.v_{pair}')}; "
+        acted += f"a_{{{pair}}} = {text.number(a, 'm/s²', f'driver.a_{pair}')}"
+        letter, unit = (f"ω_{{{drive.link}}}", "1/s") if drive.is_crank else ("v", "m/s")
+        found = f" ({letter} = {notation.computed(drive.rate)} {notation.units[unit]})"
+        rates = {f"driver.v_{pair}": v, f"driver.a_{pair}": a}
+        return GivenFact(acted + found, {f"driver.{pair}": values[0], **rates, **data})
+    letter = {
+        OutputPositionKind.PHI: "φ",
+        OutputPositionKind.BETWEEN: "φ",
+        OutputPositionKind.STROKE: "s/H",
+    }.get(posed.by, posed.by.value)
+    symbol = f"{letter}_{{{posed.of.replace('_', ',')}}}" if posed.of else letter
+    symbol += _between(posed, text.problem)
+    if posed.by is OutputPositionKind.STROKE:
+        output, cycle = _output(text)
+        way, data = way + output, {**data, **cycle}
+    key = f"driver.{posed.key}"
+    return GivenFact(f"{symbol} = {', '.join(map(value_text, values))}{way}", {key: values, **data})
+
+
+def _between(posed: OutputPositions, problem: Problem) -> str:
+    """Return the letters of the angle between two links that have a pin in common."""
+    if posed.by is not OutputPositionKind.BETWEEN:
+        return ""
+    one, two = (problem.bodies[link].axis or () for link in posed.of.split("_"))
+    common = {*one} & {*two}
+    if len(common) != 1:
+        return ""
+    (pin,) = common
+    ends = [point_name(*({*axis} - common)) for axis in (one, two)]
+    return f" = ∠{ends[0]}{point_name(pin)}{ends[1]}"
+
+
+def _output(text: StatedNumbers) -> tuple[str, dict[str, object]]:
+    """Return whose extremes and stroke are meant, and which extreme is the first one."""
+    cycle = text.problem.cycle
+    if cycle is None:
+        return "", {}
+    data: dict[str, object] = {}
+    phrase = ""
+    if cycle.output is not None:
+        data["cycle.output"] = cycle.output
+        phrase = text.language.note.given_output.format(output=point_name(cycle.output))
+    for key, value in (("zero", cycle.zero), ("direction", cycle.direction),
+                       ("working", cycle.working)):  # fmt: skip
+        told = value.value if isinstance(value, Enum) else value
+        if told not in ("", None):
+            data[f"cycle.{key}"] = told
+    return phrase, data
+
+
+def _through(geared: GearDrive, text: StatedNumbers, constant: str) -> Iterator[GivenFact]:
+    """Yield what drives the crank: the train, the ratio to the crank, and the speed of it."""
+    notation, drive = text.notation, text.problem.drive
+    yield from geared.given_facts(text.language)
+    if geared.ratio is not None:
+        source, ratio = geared.inputs[0][0], notation.as_input(float(geared.ratio))
+        yield GivenFact(f"U_{{{source}-{geared.label}}} = {ratio}")
+    rate = text.number(drive.rate, "1/s", "driver.omega")
+    phrase = f"ω_{{{drive.link}}} = ω_{{{geared.label}}} = {rate}{constant}"
+    still: dict[str, object] = {} if drive.acceleration else {"driver.epsilon": 0.0}
+    yield GivenFact(phrase, {"driver.train": geared.label, **still})
+    yield from _gain(text)
+
+
+def _cam_facts(
+    drive: Drive, led: CamDrive, text: StatedNumbers, positions: Sequence[float]
+) -> list[GivenFact]:
+    """Return the cam that drives, its lowest place, and the motion that its follower gives.
+
+    Of several positions that is in their tables: here stands where the follower rests.
+    """
+    notation, note, path = text.notation, text.language.note, f"driver.{drive.program_inputs[0]}"
+    lowest = text.number(led.lowest, "deg", path) if led.turns else text.metres(led.lowest, path)
+    symbol = f"φ_{{{drive.link}}}" if led.turns else "s"
+    speed = text.number(led.n, "rev/min", "cam.n")
+    phrase = note.given_cam.format(n=speed, lowest=f"{symbol} = {lowest}")
+    facts = [GivenFact(phrase, {path: led.lowest, "cam.n": led.n}), *led.given_facts(text.language)]
+    _, rates, gains = map(np.asarray, driven(drive, np.asarray(positions, dtype=float)))
+    resting = np.flatnonzero((rates == 0.0) & (gains == 0.0))
+    if len(positions) == 1:
+        names = (f"ω_{{{drive.link}}}", f"ε_{{{drive.link}}}") if led.turns else ("v", "a")
+        units = ("1/s", "1/s²") if led.turns else ("m/s", "m/s²")
+        told = zip(names, (rates, gains), units, strict=True)
+        facts += [
+            GivenFact(f"{name} = {notation.computed(of[0])} {notation.units[unit]}")
+            for name, of, unit in told
+        ]
+        return [*facts, GivenFact(note.given_rest)] if resting.size else facts
+    if resting.size:
+        facts.append(GivenFact(note.given_rests.format(numbers=", ".join(map(str, resting)))))
+    return facts
+
+
+def offset_slide(guide: str, problem: Problem) -> Slide | None:
+    """Return the only slide of a guide, if it is offset from the point that locates the guide.
+
+    The guide is then described, and drawn, where the slider runs; else where the file has it.
+    """
+    if problem.guides[guide][0] is None:
+        return None
+    on = [s for s in problem.slides.values() if s.host == FRAME and s.label == guide]
+    return on[0] if len(on) == 1 and on[0].offset else None
+
+
+def _guides(text: StatedNumbers) -> Iterator[GivenFact]:
+    """Yield where the guides of the frame run that something slides on."""
+    problem = text.problem
+    carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
+    pins = [slide.pin for slide in problem.slides.values() if slide.offset]
+    for guide, (through, base, angle) in problem.guides.items():
+        on = [s for s in problem.slides.values() if s.host == FRAME and s.label == guide]
+        if through is not None and guide in carried:
+            yield from _through_point(guide, through, text)
+        elif through is None:
+            yield from _guide(guide, base, angle, text)
+        if offset_slide(guide, problem) is not None:
+            continue  # the guide is described where the slider runs
+        for slide in on:
+            if slide.offset:
+                name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
+                way = text.language.note["given_ways"][_offset_side(slide)]
+                yield _offset(slide, name, way, text)
+
+
+def _offset(slide: Slide, name: str, side: str, text: StatedNumbers) -> GivenFact:
+    """Return the distance and the side of a pin from the line that its slider runs along."""
+    path = _path(slide.slider, "slides.offset")
+    size = text.size(slide.offset, path)
+    return GivenFact(f"e_{{{name}}} = {size} ({side})", {path: slide.offset})
+
+
+def _offset_side(slide: Slide) -> str:
+    """Return on which side of a guide of the frame the pin is, a key of words."""
+    return _direction_key(slide.angle + (90.0 if slide.offset > 0 else -90.0))
+
+
+def _through_point(guide: str, through: str, text: StatedNumbers) -> Iterator[GivenFact]:
+    """Yield how a guide runs that passes through a fixed point, or beside it."""
+    problem, note = text.problem, text.language.note
+    path = f"frame.guides.{segment(guide)}"
+    angle = problem.guides[guide][2]
+    key, phrase = _inclination(angle, path, text)
+    data: dict[str, object] = {f"{path}.through": through, f"{path}.angle": angle}
+    places = {"guide": problem.guide_name(guide), "point": point_name(through), "angle": phrase}
+    beside = offset_slide(guide, problem)
+    if beside is None:
+        yield GivenFact(note["given_through"][key].format(**places), data)
+        return
+    own = _path(beside.slider, "slides.offset")
+    way = note["given_ways"][_offset_side(beside)]
+    yield GivenFact(
+        note["given_beside"][key].format(offset=text.size(beside.offset, own), way=way, **places),
+        {**data, own: beside.offset},
+    )
+
+
+def _inclination(angle: float, path: str, text: StatedNumbers) -> tuple[str, str]:
+    """Return the inclination of a line as a key of words (level, upright, angled), and its text."""
+    key = {0.0: "level", 90.0: "upright"}.get(angle, "angled")
+    return key, text.number(angle, "deg", f"{path}.angle")
+
+
+def _third_points(link: str, body: Body, text: StatedNumbers) -> Iterator[GivenFact]:
+    """Yield how a link's further points are given, where its lengths do not determine them."""
+    note = text.language.note
+    named = {name for of, name, _ in text.problem.lengths if of == link}
+    lying: dict[str, tuple[list[str], dict[str, object]]] = {}
+    for point, form in body.forms.items():
+        path = _path(link, segment(point))
+        start = _start(form)
+        if form.kind == "side":
+            side = note.given_left if form.left else note.given_right
+            phrase = side.format(point=point_name(point), line=_line(*form.line))
+            sense = "left" if form.left else "right"
+            yield GivenFact(phrase, {f"{path}.side": f"{sense} of {''.join(form.line)}"})
+        elif form.kind == "vertex":
+            angle = text.number(form.angle, "deg", f"{path}.angle")
+            data: dict[str, object] = {
+                f"{path}.vertex": start,
+                f"{path}.ray": "".join(form.line),
+                f"{path}.angle": form.angle,
+            }
+            yield GivenFact(f"∠{_line(form.line[1], start)}{point_name(point)} = {angle}", data)
+            if form.distance is not None:
+                distance = text.metres(form.distance, f"{path}.distance")
+                own: dict[str, object] = {f"{path}.distance": form.distance}
+                yield GivenFact(f"l_{{{start}{point}}} = {distance}", own)
+        elif form.lateral_offset or (form.kind == "from" and body.axis is None):
+            yield _offset_point(link, point, text)
+        else:
+            axis = form.line if form.kind == "on" else body.axis or ()
+            place: dict[str, object] = {f"{path}.{form.kind}": "".join(form.line) or start}
+            if not {f"{start}{point}", f"{point}{start}"} & named:
+                at = text.size(form.at, f"{path}.at")
+                yield GivenFact(f"l_{{{start}{point}}} = {at}", {f"{path}.at": form.at})
+            template = note.given_beyond if form.at < 0 else note.given_on
+            phrase = template.format(points="{points}", line=_line(*axis), start=point_name(start))
+            if point in axis:  # the line is named by the point itself
+                phrase = ""
+            points, keys = lying.setdefault(phrase, ([], {}))
+            points.append(point_name(point))
+            keys |= place
+    for phrase, (points, keys) in lying.items():
+        yield GivenFact(phrase.replace("{points}", ", ".join(points)), keys)
+    for key, degrees in body.angles.items():
+        angle = text.number(degrees, "deg", f"{_path(link, 'angle')}.{key}")
+        letters = [point_name(name) for name in split_names(key)]
+        phrase = "".join(letters)
+        if len(letters) == 4:
+            phrase = f"({''.join(letters[:2])}, {''.join(letters[2:])})"
+        yield GivenFact(f"∠{phrase} = {angle}", {f"{_path(link, 'angle')}.{segment(key)}": degrees})
+
+
+def _start(form: PointForm) -> str:
+    """Return the point that a third point is measured from."""
+    return form.point or form.line[0]
+
+
+def _offset_point(link: str, point: str, text: StatedNumbers) -> GivenFact:
+    """Return where a point is along a line of its link and beside it, or along its own guide."""
+    problem, note = text.problem, text.language.note
+    body, path = problem.bodies[link], _path(link, segment(point))
+    form, ways = body.forms[point], note["given_ways"]
+    start = _start(form)
+    axis = form.line if form.kind == "on" else body.axis
+    data: dict[str, object] = {
+        f"{path}.{form.kind}": "".join(form.line) or start,
+        f"{path}.at": form.at,
+        f"{path}.across": form.lateral_offset,
+    }
+    turn = _axis_angle(link, problem)
+    across = text.size(form.lateral_offset, f"{path}.across")
+    if turn is None or axis is not None:
+        line = _line(*axis) if axis else _own_axis_name(link, text)
+        at, way = text.metres(form.at, f"{path}.at"), ""
+        side = str(note["given_sides"]["left" if form.lateral_offset > 0 else "right"]).format(
+            line=line
+        )
+    else:
+        line, at = _own_axis_name(link, text), text.size(form.at, f"{path}.at")
+        way = f" {ways[_direction_key(turn if form.at >= 0 else turn + 180.0)]}" if form.at else ""
+        side = ways[_direction_key(turn + (90.0 if form.lateral_offset > 0 else -90.0))]
+    if not form.lateral_offset:
+        along = note.given_along_line if form.at >= 0 else note.given_along_back
+        told = way.strip() or along.format(line=line)
+        at = text.size(form.at, f"{path}.at")
+        return GivenFact(f"l_{{{start}{point}}} = {at} ({told})", data)
+    places = {"point": point_name(point), "start": point_name(start), "line": line, "at": at + way}
+    return GivenFact(note.given_along.format(across=f"{across} {side}", **places), data)
+
+
+def _axis_angle(link: str, problem: Problem) -> float | None:
+    """Return the direction of a slider's own axis, degrees from +x; None where it turns."""
+    turn = 0.0
+    while link != FRAME:
+        slide = problem.slides.get(link)
+        if slide is None:
+            return None
+        turn, link = turn + slide.angle, slide.host
+    return turn
+
+
+def _own_axis_name(link: str, text: StatedNumbers) -> str:
+    """Return the name of a link's axis that has no letters: that of its slide's line."""
+    problem = text.problem
+    slides = [s for s in problem.slides.values() if link in (s.slider, s.host)]
+    slide = min(slides, key=lambda s: s.slider != link)
+    told = track_direction(slide, problem)
+    if told.guide:
+        return told.guide
+    if told.relation is Relation.PARALLEL:
+        return _line(*told.points)
+    return text.language.note.given_way.format(link=slide.host)
+
+
+def _line(start: str, end: str) -> str:
+    return f"{point_name(start)}{point_name(end)}"
+
+
+def _slide_line_facts(slide: Slide, text: StatedNumbers) -> Iterator[GivenFact]:
+    """Yield the position of a slide's line on its link, or on the frame."""
+    problem, note = text.problem, text.language.note
+    host, path = problem.bodies[slide.host], _path(slide.slider, "slides")
+    pin, beside = (
+        point_name(slide.pin),
+        note["given_sides"]["left" if slide.offset > 0 else "right"],
+    )
+    own: dict[str, object] = {f"{path}.offset": slide.offset} if slide.offset else {}
+    size = text.size(slide.offset, f"{path}.offset")
+    if slide.towards is not None and slide.through is not None:
+        line = _line(slide.through, slide.towards)
+        data: dict[str, object] = {f"{path}.along": f"{slide.through}{slide.towards}"}
+        yield GivenFact(note.given_slides.format(point=pin, line=line), data)
+        if slide.offset:
+            yield GivenFact(f"e_{{{slide.pin}}} = {size} ({beside.format(line=line)})", own)
+        return
+    assert slide.through is not None, "a line of a link goes through a point of it"
+    turn = _axis_angle(slide.host, problem)
+    angle = slide.angle if turn is None else (slide.angle + turn + 180.0) % 360.0 - 180.0
+    data = {f"{path}.through": slide.through, f"{path}.angle": angle}
+    line = slot_name(slide) if slide.offset else _line(slide.through, slide.pin)
+    if slide.offset:
+        phrase = note.given_slot.format(
+            guide=line, link=problem.mechanism.called(slide.host), slider=slide.slider,
+            point=point_name(slide.through),
+        )  # fmt: skip
+        yield GivenFact(phrase, {f"{path}.through": slide.through})
+    told = text.number(angle, "deg", f"{path}.angle")
+    if turn is not None:
+        key, _ = _inclination(angle, path, text)
+        yield GivenFact(note["given_runs"][key].format(line=line, angle=told), data)
+    elif host.axis is None:
+        first = next(s for s in problem.slides.values() if slide.host in (s.host, s.slider))
+        if slide is first and not slide.angle:
+            slides = note.given_slides_on.format(slider=slide.slider, host=slide.host, line=line)
+            yield GivenFact(slides, data)
+        else:
+            yield GivenFact(f"∠({_own_axis_name(slide.host, text)}, {line}) = {text}", data)
+    elif angle % 180 == 90:
+        yield GivenFact(f"{line} ⊥ {_line(*host.axis)}", data)
+    elif angle % 180:
+        yield GivenFact(f"∠({_line(*host.axis)}, {line}) = {text}", data)
+    elif slide.offset or slide.through not in host.axis:
+        yield GivenFact(f"{line} ∥ {_line(*host.axis)}", data)
+    else:
+        yield GivenFact(note.given_slides.format(point=pin, line=_line(*host.axis)), data)
+    if slide.offset:
+        if turn is not None:
+            way = note["given_ways"][_direction_key(angle + (90.0 if slide.offset > 0 else -90.0))]
+        elif host.axis is None:
+            way = beside.format(line=line)
+        else:
+            turned = note.given_turned.format(line=_line(*host.axis), angle=told)
+            way = beside.format(line=turned if angle else _line(*host.axis))
+        yield GivenFact(f"e_{{{slide.pin}}} = {size} ({way})", own)
+
+
+def _angles_sense(text: StatedNumbers) -> Iterator[GivenFact]:
+    """Yield the positive sense of angles of links, where such are given."""
+    problem = text.problem
+    told = any(
+        body.angles or any(form.kind == "vertex" for form in body.forms.values())
+        for body in problem.bodies.values()
+    )
+    slots = (s for s in problem.slides.values() if s.host != FRAME and s.towards is None)
+    if told or any(s.angle % 90 and _axis_angle(s.host, problem) is None for s in slots):
+        yield GivenFact(text.language.note.given_sense)
+
+
+_RULES = {
+    AssemblyRelation.LEFT_OF: "left of {}",
+    AssemblyRelation.RIGHT_OF: "right of {}",
+    AssemblyRelation.RIGHT: "right of {}",
+    AssemblyRelation.LEFT: "left of {}",
+    AssemblyRelation.ABOVE: "above {}",
+    AssemblyRelation.BELOW: "below {}",
+    AssemblyRelation.TOWARDS: "towards {}",
+    AssemblyRelation.AWAY: "away from {}",
+}
+"""Phrases of the file for the rules that have one."""
+
+
+def _with_joint(problem: Problem, rule: Rule) -> Rule:
+    """Return a rule with the joint from which it measures a direction, where it does."""
+    groups = (
+        analyse(problem.mechanism).groups
+        if rule.relation in (AssemblyRelation.TOWARDS, AssemblyRelation.AWAY)
+        else ()
+    )
+    for group in groups:
+        if any(rule.point in problem.bodies[link].points for link in group.links):
+            return from_joint(problem, group, rule)
+    return rule
+
+
+def _assembled(text: StatedNumbers, positions: Sequence[float]) -> Iterator[GivenFact]:
+    """Yield the assembly of each group, and the position to which it refers."""
+    problem, rules = text.problem, text.language.note["given_rules"]
+    for rule in map(partial(_with_joint, problem), problem.assembly):
+        path = f"assembly.{segment(rule.point)}"
+        ray = rule.relation in (AssemblyRelation.TOWARDS, AssemblyRelation.AWAY)
+        letters = [point_name(ref) for ref in rule.refs]
+        said = rules[rule.relation.value].format(
+            point=point_name(rule.point),
+            of=letters[0] if ray else "".join(letters),
+            joint=letters[-1] if letters else "",
+            at="; ".join(text.metres(one) for one in (rule.at.real, rule.at.imag)),
+        )
+        data: dict[str, object]
+        if rule.relation is AssemblyRelation.PARALLEL:
+            data = {f"{path}.keep": "parallel"}
+        elif rule.relation is AssemblyRelation.NEAR:
+            data = {f"{path}.near": [rule.at.real, rule.at.imag]}
+        else:
+            phrase = _RULES[rule.relation].format("".join(rule.refs[: 1 if ray else None]))
+            data = {f"{path}.rule": phrase} if rule.continuous else {path: phrase}
+        if rule.continuous:
+            data[f"{path}.keep"] = "continuous"
+            said += text.language.note.given_continuous
+        yield GivenFact(said, data)
+    drive = problem.drive
+    judged = drive.assembly_positions or drive.positions
+    if not problem.assembly or drive.posed is not None or {*positions} <= {*judged}:
+        return
+    note, data = text.language.note, {"judged": [*judged]}
+    if judged == ANYWHERE:
+        yield GivenFact(note.given_anywhere.format(symbol=drive.coordinate.symbol), data)
+    else:
+        shown = _positions_text(StatedNumbers(problem, text.language), judged)
+        yield GivenFact(note.given_judged.format(positions=shown), data)
+
+
+def _coordinates(name: str, place: complex, text: StatedNumbers, path: str) -> list[GivenFact]:
+    facts = []
+    for index, (letter, metres) in enumerate((("x", place.real), ("y", place.imag))):
+        value, stated = metres * UNITS[text.problem.unit], f"{path}[{index}]"
+        phrase = text.number_text(value, stated)
+        # A computed coordinate has more digits than can be drawn.
+        if stated not in text.problem.stated and trimmed(value) != trimmed(value, 6):
+            phrase = text.notation.number(trimmed(value, DRAWN))
+        told = f"{letter}_{{{name}}} = {phrase} {text.notation.units[text.problem.unit]}"
+        facts.append(GivenFact(told, {stated: metres}))
+    return facts
+
+
+def _guide(name: str, base: complex, angle: float, text: StatedNumbers) -> Iterator[GivenFact]:
+    """Yield where a guide is: by one coordinate when it runs along an axis."""
+    shown, path = text.problem.guide_name(name), f"frame.guides.{segment(name)}"
+    x, y = _coordinates(shown, base, text, f"{path}.through")
+    if angle % 180 == 0 or angle % 180 == 90:
+        told = x if angle % 180 == 90 else y
+        level: dict[str, object] = {f"{path}.angle": angle}
+        yield replace(told, data={**told.data, **(level if angle in (0, 90) else {})})
+        if angle not in (0, 90):
+            yield GivenFact(f"∠({shown}) = {text.number(angle, 'deg', f'{path}.angle')}", level)
+        return
+    yield x
+    yield y
+    phrase = f"∠({shown}) = {text.number(angle, 'deg', f'{path}.angle')}"
+    yield GivenFact(phrase, {f"{path}.angle": angle})
+
+
+def reported_points(solution: Solution) -> list[str]:
+    """Return the moving points whose velocity and acceleration the sheet reports.
+
+    Points of a translating link move alike: the first represents them all.
+    """
+    velocity = solution.construction.kinematics.velocity
+    seen: set[object] = {velocity.pole}
+    asked = []
+    for name, at in velocity.named.items():
+        if velocity.point[at] not in seen:
+            seen.add(velocity.point[at])
+            asked.append(name)
+    return asked
+
+
+def reported_links(solution: Solution) -> list[str]:
+    """Return the links whose angular velocity is not given and not zero by nature.
+
+    That of a link driven by a cam's follower is given in one position, in several it is reported.
+    """
+    kinematics, drive = solution.construction.kinematics, solution.problem.drive
+    given = "" if drive.cam_drive is not None and len(solution.positions) > 1 else drive.link
+    return [
+        link
+        for link in solution.problem.mechanism.links
+        if link in kinematics.omega and link != given
+    ]
+
+
+def reported_quantities(solution: Solution, *kinds: QuantityKind) -> list[Quantity]:
+    """Return the quantities of the motion that a sheet reports, kind by kind.
+
+    Points and links are those of `asked_points` and `asked_links`.
+    """
+    still = {*solution.points} - {*reported_points(solution)}
+    driven = {*solution.links} - {*reported_links(solution)}
+    return [
+        quantity
+        for kind in kinds
+        for of, quantities in solution.quantities(kind).items()
+        for quantity in quantities
+        if of not in (driven if kind in TURNINGS else still)
+    ]
+
+
+def motion_unknowns(solution: Solution) -> str:
+    """Return the unknowns as one line of symbols."""
+    return ", ".join(quantity.symbol for quantity in reported_quantities(solution, *MOTION_KINDS))
+
+
+def solution_peak(solution: Solution, kind: QuantityKind) -> float:
+    """Return the largest value of a kind of quantities in all positions of a solution."""
+    found = [quantity for each in solution.quantities(kind).values() for quantity in each]
+    return float(np.max([np.abs(solution.exact(quantity)) for quantity in found]))

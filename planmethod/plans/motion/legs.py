@@ -1,0 +1,434 @@
+"""The two legs of every dyad (поводки), on the velocity and acceleration plans.
+
+A revolute leg gives a ray across the link: it starts at the plan point of the link's outer joint
+(on the acceleration plan, after the normal component). A prismatic leg gives a ray along the guide:
+it starts at the plan point of the coincident point of the other link (on the acceleration plan,
+after the Coriolis component). The middle joint is where two rays meet.
+
+Sources: the equations of plane motion and of compound motion, as in "Кинематический анализ плоских
+рычажных механизмов" (section 2.1) and in the homework guide's section 1.
+"""
+
+from __future__ import annotations
+
+from msgspec import Struct, field
+
+from planmethod.construct.steps import LineName, NumberName, PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.draft import Draft
+from planmethod.plans.model import (
+    FACTS,
+    Direction,
+    KnownParts,
+    PlanKind,
+    Relation,
+    Vector,
+    VectorEquation,
+    VectorKind,
+    perpendicular_to,
+    towards,
+)
+from planmethod.plans.motion.board import MotionBoard, Ray
+from planmethod.problem.model import Problem, Slide
+
+
+class Relative(Struct):
+    """Motion of a point of one link relative to the coincident point of another.
+
+    The velocity is from ``start`` to ``head`` on the velocity plan; on the acceleration plan the
+    Coriolis component is from ``a_start`` to ``a_coriolis`` and the relative one from there to
+    ``a_head``.
+    """
+
+    point: str
+    of: str
+    to: str
+    speed: NumberName
+    start: PointName
+    head: PointName
+    a_start: PointName | None = None
+    a_coriolis: PointName | None = None
+    a_head: PointName | None = None
+
+    @property
+    def name(self) -> str:
+        """Name of the sliding that its quantities describe: ``B3/2``."""
+        return f"{self.point}{self.of}/{self.to}"
+
+    def label(self, letter: str) -> str:
+        """Return the label of one of its quantities: ``v_B3/2``, ``ak_B3/2``."""
+        return f"{letter}_{self.name}"
+
+
+class Turning(Struct, frozen=True):
+    """Segment of a plan from which a link's angular velocity or acceleration was read.
+
+    ``arm`` are the factors of the length between the joint and the place, m.
+    """
+
+    start: PointName
+    head: PointName
+    joint: str
+    place: str
+    arm: tuple[tuple[NumberName, int], ...]
+
+
+class Kinematics(Struct):
+    """Angular motion of the links, shared by both plans (угловые скорости и ускорения).
+
+    A link is in ``omega`` only when it turns; it is in ``epsilon`` only when its angular
+    acceleration is not zero by nature (a crank at constant speed has none).
+    """
+
+    draft: Draft
+    velocity: MotionBoard
+    acceleration: MotionBoard
+    omega: dict[str, NumberName] = field(default_factory=dict)
+    epsilon: dict[str, NumberName] = field(default_factory=dict)
+    relatives: dict[tuple[str, str, str], Relative] = field(default_factory=dict)
+    turnings: dict[tuple[PlanKind, str], Turning] = field(default_factory=dict)
+
+    def rates(self, kind: PlanKind) -> dict[str, NumberName]:
+        """Return how fast the links turn by a plan: omega of velocities, epsilon of the others."""
+        return self.omega if kind is PlanKind.VELOCITY else self.epsilon
+
+    def note_common_rotation(self, link: str, with_link: str) -> None:
+        """Note that a prismatic pair gives two links the same rotation."""
+        for table in (self.omega, self.epsilon):
+            if with_link in table:
+                table[link] = table[with_link]
+
+
+class Arm(Struct, frozen=True):
+    """Segment of a link from a joint to a place, and how its length is known.
+
+    ``length`` holds factors of a length in metres: a given ``l_BC``, or the millimetres read on the
+    drawing times ``mu_l``.
+    """
+
+    line: LineName
+    length: tuple[tuple[NumberName, int], ...]
+
+
+def arm(draft: Draft, link: str, joint: str, place: str) -> Arm:
+    """Return the arm of a link from one of its joints to a place on the drawing."""
+    line = draft.b.join(PointName(joint), PointName(place))
+    if {joint, place} <= set(draft.problem.bodies[link].points):
+        return Arm(line, ((draft.length(link, joint, place), 1),))
+    return Arm(line, ((draft.measured(joint, place), 1), (draft.mu_l, 1)))
+
+
+def _inverse(powers: tuple[tuple[NumberName, int], ...]) -> tuple[tuple[NumberName, int], ...]:
+    return tuple((name, -power) for name, power in powers)
+
+
+def revolute_ray(
+    kinematics: Kinematics, motion: MotionBoard, link: str, joint: str, place: str
+) -> Ray:
+    """Return the ray of a leg with a revolute outer joint (вращательный поводок).
+
+    ``place`` is the middle point's place on the drawing.
+    """
+    b = kinematics.draft.b
+    start = motion.point[link, joint]
+    lever = arm(kinematics.draft, link, joint, place)
+    name = motion.label(link, place)
+    both = f"{name}{joint}"
+    terms: list[Vector] = [motion.absolute(joint, start)]
+    if motion.kind is PlanKind.VELOCITY:
+        line = b.perpendicular(start, lever.line)
+        return Ray(
+            start,
+            line,
+            tuple(terms),
+            (f"v_{{{both}}}", VectorKind.RELATIVE, perpendicular_to(place, joint)),
+            f"v_{both}",
+        )
+    end = _normal(kinematics, motion, link, (joint, place), start, lever)
+    symbol = f"a^{{n}}_{{{both}}}"
+    direction = towards(place, joint)
+    terms.append(
+        motion.add(Vector(symbol, VectorKind.NORMAL, start, end, KnownParts.BOTH, direction))
+    )
+    line = b.perpendicular(end, lever.line)
+    unknown = (f"a^{{τ}}_{{{both}}}", VectorKind.TANGENTIAL, perpendicular_to(place, joint))
+    return Ray(end, line, tuple(terms), unknown, f"at_{both}")
+
+
+def _normal(
+    kinematics: Kinematics,
+    motion: MotionBoard,
+    link: str,
+    ends: tuple[str, str],
+    start: PointName,
+    lever: Arm,
+) -> PointName:
+    """Lay off the normal component omega²·l from the place towards the joint."""
+    b, (joint, place) = kinematics.draft.b, ends
+    n = motion.name(f"n_{motion.label(link, place)}{joint}")
+    inward = b.parallel(start, b.join(PointName(place), PointName(joint)))
+    both = f"{motion.label(link, place)}{joint}"
+    value = motion.segments.compute(f"an_{both}", (kinematics.omega[link], 2), *lever.length)
+    motion.letters.setdefault(PointName(n), [f"n_{{{both}}}"])
+    return motion.segments.lay_off_vector(n, start, inward, value)
+
+
+def slot_name(slide: Slide) -> str:
+    """Return the name of a guide that joins no two letters, by its slider: ``n_{2}–n_{2}``."""
+    return f"n_{{{slide.slider}}}–n_{{{slide.slider}}}"
+
+
+def has_slot_name(slide: Slide, problem: Problem) -> bool:
+    """Return whether a guide on a moving link joins no two letters: pin and point lie beside it."""
+    told = slide.host == FRAME or slide.through is None or slide.towards is not None
+    return not told and bool(slide.offset) and problem.bodies[slide.host].axis is None
+
+
+def track_direction(slide: Slide, problem: Problem, *, perpendicular: bool = False) -> Direction:
+    """Return the direction of a slide line: ``∥ x-x``, ``∥ CB``, or ``⊥ BC``.
+
+    ``perpendicular`` asks for the direction across the line. A line on a moving link is named by
+    its point and the pin when the pin is on it, else by the link's own axis where it runs along or
+    across that, else by its angle to the axis; on a link without an axis it has its own name.
+    """
+    along, beside = Relation.PARALLEL, Relation.PERPENDICULAR
+    if perpendicular:
+        along, beside = beside, along
+    axis = problem.bodies[slide.host].axis
+    if slide.host == FRAME or slide.through is None:
+        return Direction(along, guide=problem.guide_name(slide.label))
+    if slide.towards is not None and slide.offset:
+        return Direction(along, (slide.through, slide.towards))
+    if has_slot_name(slide, problem):
+        return Direction(along, guide=slot_name(slide))
+    if not slide.offset or axis is None:
+        return Direction(along, (slide.through, slide.pin))
+    if slide.angle % 180 in (0, 90):
+        return Direction(along if slide.angle % 180 == 0 else beside, axis)
+    angle = slide.angle + (90.0 if perpendicular else 0.0)
+    return Direction(Relation.ANGLED, axis, angle=(angle + 90.0) % 180.0 - 90.0)
+
+
+def prismatic_ray(
+    kinematics: Kinematics, motion: MotionBoard, slide: Slide, of: str, to: str, place: str
+) -> Ray:
+    """Return the ray of a link that slides on another (поступательный поводок).
+
+    ``of`` is the link whose point is sought at ``place``, ``to`` the link it slides on.
+    """
+    b = kinematics.draft.b
+    guide = kinematics.draft.direction(slide)
+    start = plan_point_at(kinematics, motion, to, place)
+    base = (
+        motion.label(to, place)
+        if to != FRAME
+        else f"{place}{kinematics.draft.problem.mechanism.frame}"
+    )
+    if (to, place) in motion.alias:
+        base = motion.moving[to][0]  # the whole link moves so: its first letter represents it
+    both = f"{motion.label(of, place)}{base}"
+    problem = kinematics.draft.problem
+    direction = track_direction(slide, problem)
+    symbol = FACTS[motion.kind].letter
+    terms: list[Vector] = [motion.absolute(base, start)]
+    if motion.kind is PlanKind.VELOCITY:
+        line = b.parallel(start, guide)
+        unknown = (f"{symbol}_{{{both}}}", VectorKind.SLIDING, direction)
+        return Ray(start, line, tuple(terms), unknown, f"v_{place}{of}/{to}")
+    relative = kinematics.relatives[place, of, to]
+    relative.a_start = relative.a_coriolis = start
+    end = start
+    if to in kinematics.omega:
+        name = motion.name(f"k_{both}")
+        powers = ((kinematics.omega[to], 1), (relative.speed, 1))
+        # v_rel turned by 90 degrees along omega: the signs of both are in the product.
+        value = motion.segments.compute(f"ak_{place}{of}/{to}", *powers, factor=2.0)
+        end = motion.segments.lay_off_vector(name, start, b.perpendicular(start, guide), value)
+        relative.a_coriolis = end
+        motion.letters.setdefault(end, [f"k_{{{both}}}"])
+        turned = Vector(
+            f"a^{{k}}_{{{both}}}",
+            VectorKind.CORIOLIS,
+            start,
+            end,
+            KnownParts.BOTH,
+            track_direction(slide, problem, perpendicular=True),
+        )
+        terms.append(motion.add(turned))
+    line = b.parallel(end, guide)
+    unknown = (f"a^{{r}}_{{{both}}}", VectorKind.SLIDING, direction)
+    return Ray(end, line, tuple(terms), unknown, f"ar_{place}{of}/{to}")
+
+
+def close(
+    kinematics: Kinematics,
+    motion: MotionBoard,
+    links: tuple[str, str],
+    place: str,
+    rays: tuple[Ray, Ray],
+) -> PointName:
+    """Intersect the rays of two legs: the plan point of the middle joint, and its equations."""
+    owner = links[0]
+    name = motion.label(owner, place)
+    # The meeting is counted along the first line: from the pole, what moves along a guide of the
+    # frame does so exactly.
+    first, second = rays if rays[1].start != motion.pole else rays[::-1]
+    head = kinematics.draft.b.intersect_lines(motion.name(name), first.line, second.line)
+    motion.add_point(owner, place, head, name=name)
+    for ray in rays:
+        unknown = ray.close(motion, head)
+        left = motion.absolute(name, head, KnownParts.NONE)
+        motion.equations.append(VectorEquation(left, (*ray.terms, unknown)))
+    return head
+
+
+def read_turning(
+    kinematics: Kinematics, motion: MotionBoard, link: str, joint: str, place: str, ray: Ray
+) -> None:
+    """Read the angular velocity (or acceleration) of a link off its closed ray."""
+    b = kinematics.draft.b
+    head = motion.point[link, place]
+    lever = arm(kinematics.draft, link, joint, place)
+    kinematics.turnings[motion.kind, link] = Turning(ray.start, head, joint, place, lever.length)
+    value = motion.segments.read_signed(ray.start, head, ray.line, ray.name)
+    powers = ((value, 1), *_inverse(lever.length))
+    if motion.kind is PlanKind.VELOCITY:
+        kinematics.omega[link] = b.compute(f"omega_{link}", *powers)
+    else:
+        kinematics.epsilon[link] = b.compute(f"epsilon_{link}", *powers)
+
+
+def read_sliding(
+    kinematics: Kinematics, motion: MotionBoard, of: str, to: str, place: str, ray: Ray
+) -> None:
+    """Read the relative motion off a closed ray."""
+    head = motion.point[of, place]
+    value = motion.segments.read_signed(ray.start, head, ray.line, ray.name)
+    if motion.kind is PlanKind.ACCELERATION:
+        kinematics.relatives[place, of, to].a_head = head
+        return
+    kinematics.relatives[place, of, to] = Relative(place, of, to, value, ray.start, head)
+
+
+def plan_point_at(kinematics: Kinematics, motion: MotionBoard, link: str, place: str) -> PointName:
+    """Return the plan point of the point of a link that is at ``place`` on the drawing.
+
+    By similarity from two known points; by turning about one known point when the link's angular
+    velocity is known; at once when the link does not turn.
+    """
+    known = motion.point.get((link, place))
+    if known is not None:
+        return known
+    if link == FRAME:
+        return motion.pole
+    body = kinematics.draft.problem.bodies[link].points
+    here = motion.moving[link]
+    if link not in kinematics.omega:
+        at = motion.point[link, here[0]]
+        motion.alias.add((link, place))
+        return motion.add_point(link, place, at, name=motion.label(link, place), show=place in body)
+    name = motion.label(link, place)
+    pair = _spread(motion, link)
+    if pair is not None:
+        p, q = pair
+        at = _similar(kinematics, motion, link, (p, q), place)
+    else:
+        at = rotate_about(kinematics, motion, link, here[0], place)
+    return motion.add_point(link, place, at, name=name)
+
+
+def _similar(
+    kinematics: Kinematics, motion: MotionBoard, link: str, known: tuple[str, str], place: str
+) -> PointName:
+    """Find a point by similarity; its distances from the two known points are computed."""
+    b, name, segments = kinematics.draft.b, motion.name(motion.label(link, place)), motion.segments
+    one, two = motion.point[link, known[0]], motion.point[link, known[1]]
+    side, span = segments.length(one, two), _on_drawing(kinematics.draft, link, *known)
+    arm = _on_drawing(kinematics.draft, link, known[0], place)
+    first = b.compute(f"|{name}|", (side, 1), (arm, 1), (span, -1))
+    segments.lengths[one, PointName(name)] = first
+    if not kinematics.draft.in_line(
+        link, *known, place
+    ):  # then the corner of a triangle, by two arcs
+        other = _on_drawing(kinematics.draft, link, known[1], place)
+        second = b.compute(f"|{name}|*", (side, 1), (other, 1), (span, -1))
+        segments.lengths[two, PointName(name)] = second
+    given = kinematics.draft.problem.bodies[link].points
+    return b.similar(
+        name,
+        (one, two),
+        (PointName(known[0]), PointName(known[1]), PointName(place)),
+        side,
+        span=None if set(known) <= set(given) else span,
+        arm=None if {known[0], place} <= set(given) else arm,
+    )
+
+
+def _on_drawing(draft: Draft, link: str, p: str, q: str) -> NumberName:
+    """Return the distance of two places of a link on the drawing, mm: given, or read."""
+    if {p, q} <= set(draft.problem.bodies[link].points):
+        return draft.drawn(draft.length(link, p, q))
+    return draft.measured(p, q)
+
+
+def _spread(motion: MotionBoard, link: str) -> tuple[str, str] | None:
+    """Return two known places of a link far enough apart to compare by, the given ones first."""
+    body = motion.draft.problem.bodies[link].points
+    here = motion.moving[link]
+    given = [place for place in here if place in body]
+    pairs = [(p, q) for i, p in enumerate(given) for q in given[i + 1 :] if body[p] != body[q]]
+    if pairs:
+        return max(pairs, key=lambda pair: abs(body[pair[1]] - body[pair[0]]))
+    found = [place for place in here if place not in body]
+    return (given[0], found[0]) if given and found else None
+
+
+def rotate_about(
+    kinematics: Kinematics, motion: MotionBoard, link: str, joint: str, place: str
+) -> PointName:
+    """Lay off the motion of a place about a known point of a link whose turning is known."""
+    b = kinematics.draft.b
+    start = motion.point[link, joint]
+    lever = arm(kinematics.draft, link, joint, place)
+    label = motion.label(link, place)
+    out = motion.name(label)
+    fixed = start == motion.pole
+    both = label if fixed else f"{label}{joint}"
+    terms = [] if fixed else [motion.absolute(joint, start)]
+    if motion.kind is PlanKind.VELOCITY:
+        value = motion.segments.compute(f"v_{both}", (kinematics.omega[link], 1), *lever.length)
+        head = motion.segments.lay_off_vector(out, start, b.perpendicular(start, lever.line), value)
+        direction = perpendicular_to(place, joint)
+        kind = VectorKind.ABSOLUTE if fixed else VectorKind.RELATIVE
+        last = motion.add(Vector(f"v_{{{both}}}", kind, start, head, KnownParts.BOTH, direction))
+        if not fixed:
+            left = motion.absolute(label, head, KnownParts.NONE)
+            motion.equations.append(VectorEquation(left, (*terms, last)))
+        return head
+    if link in kinematics.epsilon:
+        end = _normal(kinematics, motion, link, (joint, place), start, lever)
+        value = motion.segments.compute(f"at_{both}", (kinematics.epsilon[link], 1), *lever.length)
+        head = motion.segments.lay_off_vector(out, end, b.perpendicular(end, lever.line), value)
+    else:
+        inward = b.parallel(start, b.join(PointName(place), PointName(joint)))
+        value = motion.segments.compute(f"an_{both}", (kinematics.omega[link], 2), *lever.length)
+        head = end = motion.segments.lay_off_vector(out, start, inward, value)
+    normal = Vector(
+        f"a^{{n}}_{{{both}}}",
+        VectorKind.NORMAL,
+        start,
+        end,
+        KnownParts.BOTH,
+        towards(place, joint),
+    )
+    if end != head or not fixed:
+        terms.append(motion.add(normal))
+    else:
+        terms.append(normal)
+    if end != head:
+        symbol, direction = f"a^{{τ}}_{{{both}}}", perpendicular_to(place, joint)
+        tangential = Vector(symbol, VectorKind.TANGENTIAL, end, head, KnownParts.BOTH, direction)
+        terms.append(motion.add(tangential))
+    left = motion.absolute(label, head, KnownParts.NONE)
+    motion.equations.append(VectorEquation(left, tuple(terms)))
+    return head

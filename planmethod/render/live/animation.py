@@ -1,0 +1,434 @@
+"""A mechanism as it moves, for slides: scheme and velocity plan in frames (анимация).
+
+It draws the scene of the live page: rigid parts on their links, segments and inscriptions on points
+of the tape. A film has the place of each of them in every frame; it is written as an SVG that plays
+by itself (SMIL, no script), or its frames as a GIF.
+"""
+
+# no messages: SVG
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from html import escape
+
+import numpy as np
+import numpy.typing as npt
+from msgspec import Struct, field
+from msgspec.structs import replace
+
+from planmethod.construct.scale import Scale
+from planmethod.errors import AssemblyError
+from planmethod.languages import translate
+from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.wording import get_language
+from planmethod.plans.draft import cis
+from planmethod.plans.legend import QuantityKind
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import Problem
+from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.svg import SvgCanvas
+from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke, placed
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.live.scene import LETTER, LiveScene, LiveView, Ref
+from planmethod.render.symbols import vector_arrow
+
+Complexes = npt.NDArray[np.complex128]
+Reals = npt.NDArray[np.float64]
+
+_FINER = 4  # times as many places of the lines that points move along
+_GAP = 1.2  # mm between an inscription and its point; of the scheme's joints twice that
+_CAPTION = 18.0  # mm of paper over a view: its name, and its scale on the paper of the SVG
+_NEAR = 1e-9
+_LABEL_DISTANCES = (1.0, 4.0, 8.0, 12.0)
+_LABEL_OFFSETS = np.array(
+    [far * np.exp(1j * np.pi / 8 * k) for far in _LABEL_DISTANCES for k in range(16)]
+)
+"""Offsets of inscriptions from their points in all directions, mm: 1 is the gap alone."""
+
+_MOVE_COST = 1.5  # cost of a move by a unit of these
+
+
+class DrawnBody(Struct, frozen=True):
+    """Items in their own axes, and the places, mm, and angles, degrees, of these in every frame."""
+
+    items: tuple[Item, ...]
+    places: Complexes
+    turns: Reals
+
+
+class AnimatedSegment(Struct, frozen=True):
+    """Segment between two points, mm in every frame, with an arrowhead at its head or without."""
+
+    tails: Complexes
+    heads: Complexes
+    pen: Pen
+    arrow: bool
+
+    def drawn(self, k: int) -> list[Item]:
+        """Return it in a frame."""
+        tail, head = complex(self.tails[k]), complex(self.heads[k])
+        if self.arrow:
+            return vector_arrow(tail, head, pen=self.pen)
+        return [Stroke((tail, head), self.pen)]
+
+
+class Animation(Struct):
+    """Frames of a moving mechanism (кадры); all is mm, y up, from the lower left corner.
+
+    Attributes
+    ----------
+    positions : ndarray of shape (n,)
+        Driver positions of the frames.
+    total : int
+        Number of tried positions; ``closed``: all of them exist, and the first follows the last.
+    static_items : list of Item
+    segments, drawn_bodies : list
+        Moving items, the lowest layer first.
+    readings : list of list of Item
+        The inscription of the driver's position in every frame.
+    """
+
+    title: str
+    positions: Reals
+    total: int
+    closed: bool
+    width: float = 0.0
+    height: float = 0.0
+    static_items: list[Item] = field(default_factory=list)
+    segments: list[AnimatedSegment] = field(default_factory=list)
+    drawn_bodies: list[DrawnBody] = field(default_factory=list)
+    readings: list[list[Item]] = field(default_factory=list)
+
+    @property
+    def skipped(self) -> str:
+        """Note on the range if some of the tried positions do not exist; otherwise empty."""
+        there = len(np.unique(self.positions))
+        if there == self.total:
+            return ""
+        low, high = float(self.positions.min()), float(self.positions.max())
+        turns = 360.0 * round((low + high) / 720.0)
+        low, high = low - turns, high - turns
+        text = (
+            "{} of {} positions do not exist and are skipped; the driver moves to and fro "
+            "from {:.6g} to {:.6g}."
+        )
+        return translate(text, self.total - there, self.total, low, high)
+
+    def frames(self) -> Iterator[Drawing]:
+        """Yield the frames as drawings."""
+        for k in range(len(self.positions)):
+            items = [*self.static_items, *(one for each in self.segments for one in each.drawn(k))]
+            for body in self.drawn_bodies:
+                items += placed(body.items, complex(body.places[k]), float(body.turns[k]))
+            yield Drawing(self.width, self.height, self.title, [*items, *self.readings[k]])
+
+    # SVG -----------------------------------------------------------------------------------------
+
+    def svg(self, seconds: float) -> bytes:
+        """Return an SVG that plays by itself and repeats after ``seconds``."""
+        canvas = SvgCanvas(Options())
+        canvas.open(Drawing(0.0, 0.0))
+        times = f'dur="{seconds:g}s" repeatCount="indefinite"'
+        ring = [*range(len(self.positions)), *([0] if self.closed else [])]
+
+        def moving(name: str, values: list[str], more: str = "") -> str:
+            text = ";".join(values[k] for k in ring)
+            if len(set(values)) == 1:
+                return ""
+            return f'<animate attributeName="{name}" values="{text}" {times}{more}/>'
+
+        def turning(kind: str, values: list[str]) -> str:
+            text = ";".join(values)
+            return (
+                f'<g transform="{kind}({values[0]})"><animateTransform attributeName="transform" '
+                f'type="{kind}" values="{text}" {times}/>'
+            )
+
+        parts = [canvas.parts(self.static_items)]
+        for segment in self.segments:
+            pieces: dict[str, list[str]] = {"line": [], "head": []}
+            for k in range(len(self.positions)):
+                drawn = segment.drawn(k)
+                tail = complex(segment.tails[k])
+                line = next((i.points for i in drawn if isinstance(i, Stroke)), (tail, tail))
+                head = next((i.points for i in drawn if isinstance(i, Fill)), (tail,) * 4)
+                pieces["line"].append(_path(line))
+                pieces["head"].append(_path(head) + "Z")
+            items: list[Item] = [Stroke((0j, 1 + 0j), segment.pen)]
+            if segment.arrow:
+                items.append(Fill((0j, 1 + 0j, 1j)))
+            drawn_parts = canvas.parts(items)
+            for name in ("line", "head")[: len(items)]:  # the canvas has pens, here are places
+                start = drawn_parts.index("<path d=")
+                end = drawn_parts.index("/>", start)
+                path = f'<path d="{pieces[name][0]}">{moving("d", pieces[name])}</path>'
+                parts.append(drawn_parts[:start] + path)
+                drawn_parts = drawn_parts[end + 2 :]
+            parts.append(drawn_parts)
+        for body in self.drawn_bodies:
+            # A rotation keeps its full angle, not the shorter one between two frames.
+            turns = np.degrees(np.unwrap(np.radians(body.turns[ring])))
+            there = turning("translate", [f"{p.real:.3f} {-p.imag:.3f}" for p in body.places[ring]])
+            turned = turning("rotate", [f"{-turn:.3f}" for turn in turns]) if turns.any() else ""
+            parts.append(f"{there}{turned}{canvas.parts(body.items)}</g>{'</g>' * bool(turned)}")
+        count = len(self.positions)
+        for k, items_ in enumerate(self.readings):
+            shown = ["hidden"] * count
+            shown[k] = "visible"
+            text = f'<animate attributeName="visibility" calcMode="discrete" {times} '
+            keys = [(k / count, "visible"), ((k + 1) / count, "hidden")]
+            keys = [(0.0, "hidden"), *keys] if k else keys
+            keys = [key for key in keys if key[0] < 1.0]
+            text += f'values="{";".join(v for _, v in keys)}" '
+            text += f'keyTimes="{";".join(f"{t:.6g}" for t, _ in keys)}"/>'
+            parts.append(f'<g visibility="{shown[0]}">{text}{canvas.parts(items_)}</g>')
+        size = f"{self.width:.3f} {self.height:.3f}"
+        return (
+            '<?xml version="1.0" encoding="UTF-8"?>\n'
+            '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
+            f'viewBox="0 {-self.height:.3f} {size}" width="{self.width:.3f}mm" '
+            f'height="{self.height:.3f}mm"><title>{escape(self.title)}</title>'
+            f"<defs>{canvas.letters()}</defs>"
+            f'<rect y="{-self.height:.3f}" width="{self.width:.3f}" height="{self.height:.3f}" '
+            f'fill="#ffffff"/>{"".join(parts)}</svg>\n'
+        ).encode()
+
+
+def _path(points: tuple[complex, ...]) -> str:
+    return "M" + "L".join(f"{p.real:.2f} {-p.imag:.2f}" for p in points)
+
+
+def make_animation(problem: Problem, lang: str, *, frames: int, plans: bool) -> Animation:
+    """Return the film of a mechanism: a turn of its crank, or its driver's travel to and fro.
+
+    Positions that do not exist are left out: a crank that does not turn fully goes to and fro
+    through the range of its first position.
+
+    Parameters
+    ----------
+    frames : int
+        Positions of a turn, or of the travel one way.
+    plans : bool
+        The velocity plan beside the scheme.
+
+    Raises
+    ------
+    StructureError, ProblemError, AssemblyError, SelfCheckError
+    """
+    language = get_language(lang)
+    scene = LiveScene(replace(problem, dynamics=None, machine=None), language, is_round=True)
+    shown = ("scheme", *([PlanKind.VELOCITY.value] if plans else []))
+    return _AnimationBuilder(
+        scene, [view for view in scene.views if view.id in shown], frames
+    ).build()
+
+
+class _AnimationBuilder:
+    """Builder of a film: its frames, and the items and their places in them."""
+
+    def __init__(self, scene: LiveScene, views: list[LiveView], frames: int) -> None:
+        self.scene, self.views, self.frames = scene, views, frames
+        self.drive = scene.problem.drive
+        self.origin = scene.construction.draft.origin
+        self.positions, self.closed = self._exist()
+        self.values = scene.sweep.run(self.positions)
+
+    def _tried(self) -> Reals:
+        """Return positions of a turn, of turns until the motion repeats, or of the travel."""
+        if not self.drive.goes_round:
+            return np.linspace(*self.scene.driver_range, self.frames)
+        sense = -1.0 if self.drive.rate < 0 else 1.0
+        return self.scene.start + sense * self.scene.period * np.arange(self.frames) / self.frames
+
+    def _exist(self) -> tuple[Reals, bool]:
+        tried = self._tried()
+        values = self.scene.sweep.run(tried)
+        rows = self.scene.rows_of(lambda kind: kind is QuantityKind.PLACE)
+        for view in self.views[1:]:
+            rows = rows + [ref[0] + k for ref in _refs(view) for k in (0, 1)]
+        there = np.asarray(np.isfinite(values[rows]).all(axis=0))
+        if there.all() and self.drive.goes_round:
+            return tried, True
+        if not there.all() and self.drive.goes_round:  # a range that begins after a gap
+            tried = np.concatenate([tried, tried + (tried[1] - tried[0]) * len(tried)])
+            there = np.tile(there, 2)
+        cuts = np.flatnonzero(np.diff(there.astype(int))) + 1
+        runs = [r for r in np.split(np.arange(len(tried)), cuts) if there[r[0]]]
+        if not runs:
+            raise AssemblyError(
+                "None of {} positions of the driver exists, so no animation is possible. "
+                "Give more --frames, or change the lengths.",
+                self.frames,
+            )
+        # In the doubled turn, the first position is again in the middle.
+        longest = max(runs, key=lambda r: (self.frames in r, len(r)))
+        way = tried[longest]
+        return np.concatenate([way, way[-2:0:-1]]), len(way) > 2
+
+    def build(self) -> Animation:
+        scene, problem = self.scene, self.scene.problem
+        made = Animation(problem.title or problem.name, self.positions, self.frames, self.closed)
+        left = 0.0
+        made.height = max(view.box[3] for view in self.views) + _CAPTION
+        for view in self.views:
+            corner = complex(left - view.box[0], view.box[1] + view.box[3])
+            corner += 1j * (made.height - _CAPTION - view.box[3]) / 2
+            text = typeset(view.title, 0.8 * LETTER)
+            at = complex(left + (view.box[2] - text.width) / 2, made.height - 0.5 * _CAPTION)
+            made.static_items += text.at(at)
+            mu = Scale(view.scale.symbol, view.per_mm, view.scale.unit)
+            convention = problem.scales.convention
+            told = typeset(scale_inscription(mu, convention, scene.language.notation), 0.6 * LETTER)
+            middle = left + (view.box[2] - told.width) / 2
+            made.static_items += told.at(complex(middle, made.height - 0.9 * _CAPTION))
+            self._view(made, view, corner)
+            left += view.box[2]
+        made.width = left
+        unit, symbol = (
+            scene.language.notation.units[self.drive.coordinate.unit],
+            self.drive.coordinate.symbol,
+        )
+        space = "" if self.drive.goes_round else " "
+        for position in self.positions:
+            turn = position % 360.0 if self.drive.goes_round else position
+            digits = f"{turn:.1f}" if self.drive.goes_round else f"{turn:.4f}"
+            text = typeset(
+                f"{symbol} = {scene.language.notation.number(digits)}{space}{unit}", LETTER
+            )
+            made.readings.append(list(text.at(complex(4.0, 4.0))))
+        return made
+
+    def _view(self, animation: Animation, view: LiveView, corner: complex) -> None:
+        scene = self.scene
+
+        def at(ref: Ref, values: npt.NDArray[np.float64] = self.values) -> Complexes:
+            place = values[ref[0]] + 1j * values[ref[0] + 1]
+            place = 1j * place if ref[1:] else place - (self.origin if view.id == "scheme" else 0)
+            return np.asarray(place / view.per_mm + corner, dtype=complex)
+
+        if view.id == "scheme":
+            animation.static_items += self._traces(view, at)
+            for part in scene.parts:
+                if part.link == FRAME:
+                    animation.static_items += placed(part.items, corner, 0.0)
+                    continue
+                start, turn = scene.axes(part)
+                own = tuple(placed(part.items, -start * cis(-turn), -turn))
+                turns = self.values[scene.row(f"{part.link}.phi_deg")]
+                animation.drawn_bodies.append(
+                    DrawnBody(own, at(scene.place(scene.anchor_point(part.link))), turns)
+                )
+        else:
+            for one in view.segments:
+                pen = Pen.MAIN if one["style"] == "main" else Pen.THIN
+                ends = at(one["a"]), at(one["b"])
+                animation.segments.append(AnimatedSegment(*ends, pen, bool(one.get("arrow"))))
+        animation.drawn_bodies += self._labels(view, at, corner)
+
+    def _traces(self, view: LiveView, at: Callable[..., Complexes]) -> Iterator[Item]:
+        """Yield the lines that the points move along."""
+        count = len(self.positions)
+        ends = [*range(count), *([0] if self.closed else [])]
+        way = self.positions[ends].astype(float)
+        if self.drive.goes_round and self.closed and count == self.frames:
+            way[-1] = way[-2] + (way[1] - way[0])
+        knots = np.arange(len(way))
+        fine = np.interp(np.linspace(0, len(way) - 1, _FINER * (len(way) - 1) + 1), knots, way)
+        values = self.scene.sweep.run(fine)
+        for label in view.labels:
+            if "at" in label:
+                places = at(label["at"], values)
+                if np.ptp(places.real) + np.ptp(places.imag) > _NEAR and np.isfinite(places).all():
+                    yield Stroke(tuple(map(complex, places)), Pen.PALE)
+
+    # Inscriptions --------------------------------------------------------------------------------
+
+    def _labels(
+        self, view: LiveView, at: Callable[..., Complexes], corner: complex
+    ) -> Iterator[DrawnBody]:
+        """Yield the inscriptions in places that cover least and seldom change."""
+        at_left, top, width, height = view.box
+        low = corner + complex(at_left, -top - height)
+        still = np.ones(len(self.positions), complex)
+        lines = [(at(one["a"]), at(one["b"])) for one in view.segments]
+        if view.id == "scheme":
+            fixed = self.scene.fixed
+            ends = [[(complex(x, -y) + corner) * still for x, y in line] for line in fixed]
+            lines += [(tail, head) for tail, head in ends]
+            for part in self.scene.parts:
+                if part.link != FRAME:
+                    foot = at(self.scene.place(self.scene.anchor_point(part.link)))
+                    turns = np.radians(self.values[self.scene.row(f"{part.link}.phi_deg")])
+                    way = np.exp(1j * turns)
+                    lines += [(foot + a * way, foot + b * way) for a, b in self.scene.bars(part)]
+        tails, heads = (np.array([line[k] for line in lines]) for k in (0, 1))
+        # Occupied boxes: their middles in every frame, half their widths and heights.
+        blocks = self.scene.blocks if view.id == "scheme" else []
+        taken = [(at(ref), float(half), float(half)) for ref, half in blocks]
+        for x0, y0, x1, y1 in self.scene.supports if view.id == "scheme" else []:
+            middle = complex(x0 + x1, y0 + y1) / 2 + corner
+            taken.append((middle * still, (x1 - x0) / 2, (y1 - y0) / 2))
+        for label in view.labels:
+            text = typeset(label["text"], label.get("height", LETTER))
+            half = complex(text.width, text.ascent + text.descent) / 2
+            refs = [at(ref) for ref in label.get("on") or [label["at"]]]
+            place = sum(refs[1:], refs[0]) / len(refs)
+            gap = _GAP * (2.0 if view.id == "scheme" else 1.0)
+            reaches = gap + np.abs(_LABEL_OFFSETS) - 1.0
+            offs = _LABEL_OFFSETS.real * (reaches + half.real) + 1j * _LABEL_OFFSETS.imag * (
+                reaches + half.imag
+            )
+            offs /= np.abs(_LABEL_OFFSETS)
+            costs = np.empty((len(_LABEL_OFFSETS), len(place)))
+            for k, off in enumerate(offs):
+                centre = place + off
+                cost = 14.0 * _covered(centre, half, tails, heads) + abs(_LABEL_OFFSETS[k]) - 1.0
+                for other, w, h in taken:
+                    across = half.real + w - np.abs((centre - other).real)
+                    up = half.imag + h - np.abs((centre - other).imag)
+                    cost += 1.5 * np.clip(across, 0, None) * np.clip(up, 0, None)
+                past: list[Complexes] = [low - centre, centre - low - complex(width, height)]
+                for over in past:
+                    beyond = np.clip([half.real + over.real, half.imag + over.imag], 0, None)
+                    cost += 9.0 * beyond.sum(axis=0)
+                costs[k] = cost
+            centre = place + offs[_quiet(costs)]
+            taken.append((centre, half.real, half.imag))
+            start = complex(-half.real, text.descent - half.imag)
+            yield DrawnBody(tuple(text.at(start)), centre, np.zeros(len(place)))
+
+
+def _quiet(costs: Reals) -> npt.NDArray[np.intp]:
+    """Return the number of an inscription's place in every frame of a cycle.
+
+    The sum of the costs of the places and of the moves between them is least.
+    """
+    count = costs.shape[1]
+    moved = _MOVE_COST * np.abs(_LABEL_OFFSETS[:, None] - _LABEL_OFFSETS[None, :])
+    best, back = costs[:, 0], []
+    for k in range(1, 2 * count):  # in the second round the start is known
+        reached = best[:, None] + moved
+        back.append(np.argmin(reached, axis=0))
+        best = reached.min(axis=0) + costs[:, k % count]
+    found = [int(np.argmin(best))]
+    for came in reversed(back):
+        found.append(int(came[found[-1]]))
+    return np.array(found[::-1][count:])
+
+
+def _covered(centre: Complexes, half: complex, tails: Complexes, heads: Complexes) -> Reals:
+    """Return a measure of the segments that a box covers in every frame."""
+    if not tails.size:
+        return np.zeros(len(centre))
+    way = heads - tails
+    along = ((centre - tails) * np.conj(way)).real / np.maximum(np.abs(way) ** 2, 1e-12)
+    off = centre - tails - np.clip(along, 0, 1) * way
+    # Distance in boxes: 1 on the edge of the box.
+    far = np.maximum(np.abs(off.real) / (half.real + 0.6), np.abs(off.imag) / (half.imag + 0.6))
+    return np.asarray(np.clip(1.2 - far, 0.0, None).sum(axis=0))
+
+
+def _refs(view: LiveView) -> list[Ref]:
+    return [one[end] for one in view.segments for end in ("a", "b")]

@@ -1,0 +1,458 @@
+"""Choice of the assembly mode of each group (способ сборки групп).
+
+A rule compares the two candidate places of its point; the side that it selects at the first
+requested position that can be assembled (if none is given, at the first of 0, 10, ... degrees)
+holds for every position, or selects the branch of the motion. So a position gives the same result
+alone and in a batch, and its assembly does not depend on the position before it.
+"""
+
+# no messages: rules, in the words of the file
+
+from __future__ import annotations
+
+from collections.abc import Collection, Generator, Mapping, Sequence
+from itertools import islice
+from math import isfinite
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+
+from planmethod.construct.arithmetic import Float64, Number
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.program import Program
+from planmethod.construct.steps import GivenNumber, GivenPoint, PointName, Step
+from planmethod.errors import Fault, ProblemError
+from planmethod.languages import translate
+from planmethod.mechanism.groups import AssurGroup, triad_of
+from planmethod.mechanism.structure import Structure
+from planmethod.plans.assembly_mode import AssemblyMode, assembly_period
+from planmethod.plans.build import Construction, add_group, begin_positions, build
+from planmethod.plans.draft import Draft
+from planmethod.plans.motion.position import (
+    has_two_modes,
+    inner_point,
+)
+from planmethod.problem.model import AssemblyRelation, Problem, Rule
+from planmethod.problem.names import format_length, format_place
+from planmethod.solved.analysed import structure_of
+from planmethod.solved.assemblies import Assembled, best_third, choose
+from planmethod.solved.changes import changes
+from planmethod.solved.driving import driven
+from planmethod.solved.failures import Cause, Failure, Place, PositionError
+from planmethod.solved.impossible import explain
+from planmethod.solved.reading import Reading, Reals
+from planmethod.solved.rules import (
+    TIE,
+    Tried,
+    ambiguous_fault,
+    distinguishing_rules,
+    from_joint,
+    late_fault,
+    rule_text,
+    score_of,
+    slotted_rule,
+    unkept_fault,
+)
+
+
+def drive_data(
+    problem: Problem, draft: Draft, positions: Reals
+) -> dict[str, complex | float | Reals]:
+    """Return the data of a program at unit scales: a millimetre of the plan is then a metre."""
+    drive = problem.drive
+    data: dict[str, complex | float | Reals] = dict(draft.numbers)
+    data.update(draft.places)
+    data.update({name: one.branch(positions) for name, one in draft.branches.items()})
+    data.update(mu_l=1.0, mu_v=1.0, mu_a=1.0)
+    data.update(zip(drive.program_inputs, driven(drive, positions), strict=True))
+    return data
+
+
+def reject_ambiguous(problem: Problem, draft: Draft, positions: Reals | None = None) -> None:
+    """Reject positions, or all motion, in which no rule of the file determines how a group closes.
+
+    Raises
+    ------
+    PositionError
+    """
+    for closing in draft.choice.values():
+        known = positions is not None and np.isin(positions, closing.only_at).all()
+        if closing.only_at and not known:
+            raise PositionError(_coincident_failure(problem, closing.point, closing.start))
+
+
+def _coincident_failure(problem: Problem, point: str, at: float) -> Failure:
+    place = Place.of(problem, np.array([at]), 0)
+    return Failure(Cause.COINCIDENT, place, point, problem=problem.name)
+
+
+def construct(problem: Problem) -> Construction:
+    """Return the construction of a problem: its groups, assembly modes and plans as one program.
+
+    It is made once for a problem: positions, scales and drafting accuracies are readings of it. The
+    latest ones are cached, because a command uses a problem several times.
+
+    Raises
+    ------
+    StructureError, ProblemError, AssemblyError
+        When the mechanism cannot be analysed or assembled.
+    """
+    global _CACHE
+    for known, made in _CACHE:
+        if known is problem:
+            return made
+    structure = structure_of(problem)
+    made = build(problem, structure, choose_modes(problem, structure))
+    _CACHE = ((problem, made), *_CACHE[:1])
+    return made
+
+
+_CACHE: tuple[tuple[Problem, Construction], ...] = ()
+"""The latest problems, compared by identity, and their constructions. The tuple is replaced, never
+changed: another thread may be iterating over it."""
+
+
+class ReadingRequest(Struct, frozen=True):
+    """Request to evaluate a partly built program.
+
+    Attributes
+    ----------
+    draft : Draft
+        The partly built construction.
+    fixed_steps : int
+        Number of its first steps that every later request shares.
+    positions : ndarray of shape (n,)
+        Positions of the driver.
+    """
+
+    draft: Draft
+    fixed_steps: int
+    positions: Reals
+
+    @property
+    def program(self) -> Program:
+        """Program of the drawn steps."""
+        return self.draft.b.program()
+
+
+ModeSearch = Generator[ReadingRequest, Reading, dict[tuple[str, ...], AssemblyMode]]
+
+
+def choose_modes(problem: Problem, structure: Structure) -> dict[tuple[str, ...], AssemblyMode]:
+    """Return the assembly mode of every group that has two: see `choosing`."""
+    choice, settled = search_modes(problem, structure), _IncrementalReader()
+    try:
+        wanted = next(choice)
+        while True:
+            wanted = choice.send(settled.read(wanted))
+    except StopIteration as end:
+        chosen: dict[tuple[str, ...], AssemblyMode] = end.value
+        return chosen
+
+
+def search_modes(problem: Problem, structure: Structure) -> ModeSearch:
+    """Yield the readings that the choice of assembly modes needs, and return the modes.
+
+    So a single problem requests its readings in turn, and many with the same steps are read
+    together.
+
+    Raises
+    ------
+    ProblemError
+        When a group that needs a rule has none, a rule is about a point it cannot move, or one
+        cannot be kept; all such faults at once. When both modes satisfy a rule.
+    AssemblyError
+        When a group closes in no requested position, or neither mode satisfies its rule.
+    """
+    positions = np.asarray(problem.drive.assembly_positions or problem.drive.positions, dtype=float)
+    rules = {rule.point: rule for rule in problem.assembly}
+    choice: dict[tuple[str, ...], AssemblyMode] = {}
+    faults: list[Fault] = []
+    used: set[str] = set()
+    settled, extent = begin_positions(problem, choice), _Extent(len(positions))
+    before: AssurGroup | None = None
+    for group in structure.groups:
+        if before is not None:
+            add_group(settled, before)
+        before = group
+        own = {point: None for link in group.links for point in problem.bodies[link].points}
+        mine = [
+            from_joint(problem, group, rules[point])
+            for point in own
+            if point in rules and point not in settled.marked
+        ]
+        used.update(rule.point for rule in mine)
+        if triad_of(group) is not None:
+            choice[group.links], wrong = _assembled(settled, group, mine, positions)
+            faults += wrong
+            continue
+        if not has_two_modes(group):
+            continue
+        choice[group.links] = AssemblyMode()
+        both: list[Tried] = []
+        for sign in (1, -1):
+            draft = _with(settled, group, AssemblyMode(sign))
+            both.append((draft, (yield ReadingRequest(draft, len(settled.b.steps), positions))))
+        extent.update(settled.marked, both[:1])
+        late = [late_fault(rule, both[0][0]) for rule in mine] + [
+            unkept_fault(problem, rule, group) for rule in mine
+        ]
+        if any(late):
+            faults += [fault for fault in late if fault is not None]
+        elif any(rule.relation is AssemblyRelation.PARALLEL for rule in mine):
+            choice[group.links] = AssemblyMode(parallel=True)
+        elif mine:
+            size = extent.of(both)
+            judged = [_choose_side(problem, rule, both, positions, size) for rule in mine]
+            choice[group.links] = judged[0]
+            if any(rule.continuous for rule in mine):
+                choice[group.links] = _going_on(problem, both[0], group, judged[0])
+            faults += [
+                Fault(
+                    f"assembly.{rule.point}",
+                    translate(
+                        "'{}' and '{}' require different assemblies of links {}",
+                        rule_text(rule, problem.unit),
+                        rule_text(mine[0], problem.unit),
+                        ", ".join(group.links),
+                    ),
+                    "Keep the correct one",
+                )
+                for rule, closing in zip(mine, judged, strict=True)
+                if closing.side != judged[0].side
+            ]
+        else:
+            untold = slotted_rule(problem, group) if group.signature == "RPR" else None
+            if untold is None and group.signature == "RPR":
+                continue
+            try:
+                faults.append(_missing(group, both, positions, untold))
+            except PositionError:
+                if not faults:  # otherwise an earlier group may be on the side that is not meant
+                    raise
+    for rule in problem.assembly:
+        if rule.point not in used:
+            faults.append(
+                Fault(
+                    f"assembly.{rule.point}",
+                    translate(
+                        "{} belongs to the frame or to the driving link: it has one place",
+                        rule.point,
+                    ),
+                    "Delete the rule, or name a point that a group places",
+                )
+            )
+    if faults:
+        raise ProblemError(problem.name, faults)
+    return choice
+
+
+def _assembled(
+    base: Draft, group: AssurGroup, rules: list[Rule], positions: Reals
+) -> tuple[AssemblyMode, list[Fault]]:
+    """Return the assembly of the triad to be placed next, and the faults of its rules."""
+    problem, triad = base.problem, triad_of(group)
+    assert triad is not None
+
+    def assemble(mode: AssemblyMode) -> Assembled:
+        draft = _with(base, group, mode)
+        program = draft.b.program()
+        return Assembled(draft, program, lambda s: drive_data(problem, draft, s), group, triad)
+
+    drawn = assemble(AssemblyMode())
+    late = [late_fault(rule, drawn.draft) for rule in rules]
+    late += [unkept_fault(problem, rule, group) for rule in rules]
+    if any(late):
+        return AssemblyMode(), [fault for fault in late if fault is not None]
+    closing, faults = choose(drawn, rules, positions)
+    if not faults:
+        closing = replace(closing, third=best_third(assemble(closing), positions))
+    return closing, faults
+
+
+def _going_on(
+    problem: Problem, tried: Tried, group: AssurGroup, mode: AssemblyMode
+) -> AssemblyMode:
+    """Return a mode that changes sides where the motion passes a change point."""
+    draft, program = tried[0], tried[0].b.program()
+    turn, low = problem.drive.coordinate.turn, mode.start
+    if problem.drive.goes_round:
+        # the links it is joined to may repeat only after two turns, and the changes with them
+        settled = {links: one for links, one in draft.choice.items() if links != group.links}
+        again = assembly_period(settled, turn)
+        turn = again if isfinite(again) else turn
+    high = low + turn
+    if not problem.drive.goes_round:
+        way = sum(abs(length) for _, _, length in problem.lengths)
+        low, high, turn = low - way, low + way, mode.period
+    around = problem.drive.goes_round
+    found = changes(draft, program, lambda s: drive_data(problem, draft, s), group, low, high,
+                    around=around)  # fmt: skip
+    return replace(mode, changes=found, period=turn)
+
+
+def _with(base: Draft, group: AssurGroup, mode: AssemblyMode) -> Draft:
+    """Return a position plan with one group more, which closes in some way."""
+    draft = base.copy()
+    draft.choice = {**base.choice, group.links: mode}
+    add_group(draft, group)
+    return draft
+
+
+class _IncrementalReader:
+    """Incremental evaluator of reading requests: shared steps are computed once."""
+
+    def __init__(self) -> None:
+        self._reading: Reading | None = None
+        self._read = 0
+
+    def read(self, request: ReadingRequest) -> Reading:
+        steps, end = request.draft.b.steps, request.fixed_steps
+        before = self._reading or Reading(Trace({}, {}), len(request.positions))
+        data = drive_data(request.draft.problem, request.draft, request.positions)
+        self._reading = _further(before, steps[self._read : end], data)
+        self._read = end
+        return _further(self._reading, steps[end:], data)
+
+
+def _further(before: Reading, steps: Sequence[Step], data: Mapping[str, Number]) -> Reading:
+    """Return a reading extended by further steps with their part of the data."""
+    given = [step.out for step in steps if isinstance(step, GivenPoint | GivenNumber)]
+    own: dict[str, Number] = {name: data[name] for name in given}
+    return before.extend(steps, own, Float64())
+
+
+class _Extent:
+    """Distance of the farthest point from the first placed one, in every position, m."""
+
+    def __init__(self, count: int) -> None:
+        self._far = np.full(count, 1e-300)
+        self._taken = 0
+
+    def update(self, points: Collection[str], read: Sequence[Tried]) -> None:
+        """Add the points that are new since the last call."""
+        self._far, self._taken = self._with(points, read), len(points)
+
+    def of(self, both: Sequence[Tried]) -> Reals:
+        """Return the extent of the fixed steps and of a group in both modes."""
+        return self._with(both[0][0].marked, both)
+
+    def _with(self, points: Collection[str], read: Sequence[Tried]) -> Reals:
+        far = self._far
+        for _, reading in read:
+            first = reading.point(PointName(next(iter(points))))
+            for name in islice(points, self._taken, None):
+                away = np.abs(reading.point(PointName(name)) - first)
+                far = np.fmax(far, np.where(np.isfinite(away), away, 0.0))
+        return far
+
+
+def _explained(both: list[Tried], positions: Reals) -> Failure:
+    """Return the reason why a group closes in none of the positions."""
+    draft, reading = both[0]
+    program = draft.b.program()
+
+    def read(at: Reals) -> Reading:
+        data = drive_data(draft.problem, draft, at)
+        return Reading(evaluate(program, data, Float64()), len(at))
+
+    return explain(draft, program, reading, positions, read)
+
+
+def _choose_side(
+    problem: Problem,
+    rule: Rule,
+    both: list[Tried],
+    positions: Reals,
+    extent: Reals,
+) -> AssemblyMode:
+    """Return the side that a rule selects in the first position that distinguishes the modes."""
+    scores = [score_of(rule, draft, reading) for draft, reading in both]
+    able = np.flatnonzero(np.isfinite(scores[0]) & np.isfinite(scores[1]))
+    if not able.size:
+        raise PositionError(_explained(both, positions))
+    size = float(extent[able[0]])
+    one, two = (reading.point(PointName(rule.point)) for _, reading in both)
+    apart = abs(one - two)
+    # A dead position does not distinguish the modes: the next requested one does.
+    distinct = able[apart[able] > TIE * size]
+    if not distinct.size:
+        # The arcs touch: there is one place, which exists. No side is known of the motion, nor of
+        # other positions.
+        at = tuple(float(place) for place in positions[able])
+        return AssemblyMode(start=at[0], point=rule.point, only_at=at)
+    first = int(distinct[0])
+    plus, minus = float(scores[0][first]), float(scores[1][first])
+    place = Place.of(problem, positions, first)
+    phrase = rule_text(rule, problem.unit)
+    if abs(plus - minus) <= TIE * size:
+        raise ProblemError(
+            problem.name,
+            [
+                Fault(
+                    f"assembly.{rule.point}",
+                    translate(
+                        "'{}' does not distinguish the two assemblies at {}: both give {}",
+                        phrase,
+                        place.driver,
+                        format_length(plus, problem.unit),
+                    ),
+                    "Compare with another point or with a directed line",
+                )
+            ],
+        )
+    if rule.relation is not AssemblyRelation.NEAR and min(plus, minus) > TIE * size:
+        raise ProblemError(problem.name, [ambiguous_fault(rule, both, first, place.driver)])
+    if rule.relation is not AssemblyRelation.NEAR and max(plus, minus) <= 0:
+        missed = (-plus, -minus)
+        raise PositionError(Failure(Cause.NEITHER, place, phrase, (rule.point,), missed))
+    return AssemblyMode(1 if plus > minus else -1, start=float(positions[first]))
+
+
+def _missing(
+    group: AssurGroup, both: list[Tried], positions: Reals, suggested_rule: Rule | None
+) -> Fault:
+    """Return the fault of a group whose mode is not given, with a rule for each mode.
+
+    Raises
+    ------
+    PositionError
+        The group closes in no position: a rule would not help.
+    """
+    c = inner_point(group) if suggested_rule is None else suggested_rule.point
+    places = []
+    for draft, reading in both:
+        values = reading.point(PointName(c)) + draft.origin
+        able = values[np.isfinite(values)]
+        if not able.size:
+            raise PositionError(_explained(both, positions))
+        places.append(format_place(complex(able[0]), both[0][0].problem.unit))
+    hint = translate(
+        'Add {} = "right of ..." (or left of, above, below, or {{ near = [x, y] }}) to [assembly]',
+        c,
+    )
+    words = [] if suggested_rule else distinguishing_rules(c, both, slice(None))
+    if suggested_rule is not None:
+        ahead = [score_of(suggested_rule, draft, reading) for draft, reading in both]
+        sides = [float(np.nansum(score)) for score in ahead]
+        if sides[0] * sides[1] < 0:  # both lie to one side if far off the line
+            words = [f"towards {suggested_rule.refs[0]}", f"away from {suggested_rule.refs[0]}"]
+            words = words if sides[0] > 0 else words[::-1]
+    if words:
+        hint = translate(
+            'Add {} = "{}" for the first or "{}" for the second to [assembly]', c, *words
+        )
+    return Fault(
+        f"assembly.{c}",
+        translate(
+            "links {} can be assembled in two ways, with {} at ({}) or at ({}) {}, "
+            "and no rule selects one",
+            ", ".join(group.links),
+            c,
+            *places,
+            translate(both[0][0].problem.unit),
+        ),
+        hint,
+        tuple(words),
+    )

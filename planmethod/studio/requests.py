@@ -1,0 +1,209 @@
+"""Possible requests, with a server or without, and starting files (запросы)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+from msgspec import Meta, MsgspecError, Struct
+from msgspec.json import Decoder
+from msgspec.structs import asdict
+
+from planmethod.errors import ArgumentError
+from planmethod.note.wording import get_language
+from planmethod.problem import FAMILIES, OTHER_FAMILIES, template
+from planmethod.problem.tasks import tasks, text_for
+
+ACTS = ("sketched", "assemblies", "sheets", "command", "questions", "verdicts", "checked", "varied")
+QUICK = ("sketched", "pictured", "questions")
+"""Computations that run at each keystroke."""
+
+TRUSTED = ("checked", "varied")
+"""Computations for instructors only, on a public server."""
+
+COMMANDS = (
+    "tables",
+    "protocol",
+    "structure",
+    "live",
+    "pdf",
+    "dxf",
+    "svg",
+    "note",
+    "project",
+    "form",
+)
+TRUSTED_COMMANDS = ("key",)
+SLOW = ("note", "project")
+"""Commands that take minutes of processor time."""
+
+WORKS = (".csv", ".xlsx", ".json", ".toml", ".txt", ".dxf", ".svg")
+"""Suffixes of submission files."""
+
+MAX_VARIANTS = 60
+MAX_DEPTH = 32
+"""Maximum depth of objects and lists in a submission."""
+
+MAX_NAME_BYTES = 200
+"""Bytes of the name of a file: systems take 255."""
+
+
+class StudioRequest(Struct, frozen=True, kw_only=True):
+    """Request from the page (запрос страницы); other types are rejected.
+
+    Attributes
+    ----------
+    text, name, variant : str or None
+        The problem file, what it is called, and which variant of it is meant.
+    what, layout : str or None
+        Which command, which composition of its sheets.
+    work : dict or None
+        A submission, as in JSON.
+    by_hand : list of dict
+        Points and remarks of the instructor.
+    count, seed : int or None
+        Of variants.
+    token, file, mark, over
+        Of the instructor; of one's own file, and whether to overwrite a conflicting version.
+    """
+
+    text: str = ""
+    name: str | None = None
+    variant: str | None = None
+    what: str | None = None
+    layout: str | None = None
+    work: dict[str, Any] | None = None
+    by_hand: Annotated[list[dict[str, str]], Meta(max_length=10_000)] = []
+    count: int | None = None
+    seed: int | None = None
+    moodle: bool = False
+    token: str = ""
+    file: str = ""
+    mark: str = ""
+    over: bool = False
+
+
+_DECODER = Decoder(StudioRequest)
+
+
+def request_of(data: bytes) -> StudioRequest:
+    """Return the request in JSON data.
+
+    Raises
+    ------
+    ArgumentError
+        It is no JSON, no object, of another type than the page sends, or nested too deep.
+    """
+    try:
+        found = _DECODER.decode(data or b"{}")
+        deep = _is_deeper(found.work, MAX_DEPTH)
+    except (MsgspecError, ValueError) as error:
+        named = re.search(r"at `\$\.(\w+)", str(error))
+        if named is None:
+            raise ArgumentError("This is not valid JSON from the page. Reload the page.") from None
+        phrase = "'{}' does not have the type that the page sends. Reload the page."
+        raise ArgumentError(phrase, named[1]) from None
+    except RecursionError:
+        deep = True
+    if deep:
+        raise ArgumentError(
+            "This is nested deeper than {} levels. A submission has three.", MAX_DEPTH
+        )
+    return found
+
+
+def _is_deeper(value: object, limit: int) -> bool:
+    inner: Iterable[object] = ()
+    if isinstance(value, dict):
+        inner = value.values()
+    elif isinstance(value, list):
+        inner = value
+    return any(limit == 0 or _is_deeper(one, limit - 1) for one in inner)
+
+
+def page_data(lang: str, layouts: Sequence[str], uploads: int) -> dict[str, Any]:
+    """Return the data of the page in a language, wherever it is served from."""
+    families = {name: get_language(lang).families[name] for name in (*FAMILIES, *OTHER_FAMILIES)}
+    return {
+        "served": False, "files": (), "one": False, "layouts": layouts, "families": families,
+        "uploads": uploads, "works": WORKS,
+    }  # fmt: skip
+
+
+def find_tasks(query: str) -> list[dict[str, Any]]:
+    """Return the shipped tasks; of a search, those that say its words."""
+    return [asdict(task) for task in tasks() if not query or task.matches(query[:200])]
+
+
+def start_of(name: str, variant: str | None, lang: str) -> dict[str, str] | None:
+    """Return the text of a task, of a variant of it, or of a template; None of any other name.
+
+    A template is in the language of the page.
+    """
+    if name in (*FAMILIES, *OTHER_FAMILIES):
+        return {"name": name, "text": template(name, lang)}
+    task = next((task for task in tasks() if task.name == name), None)
+    if task is None or (variant is not None and variant not in task.variants):
+        return None
+    return {"name": name, "text": text_for(task, variant)}
+
+
+def upload_name(name: str) -> str | None:
+    """Return the plain name of an uploaded submission; None if it is not one."""
+    plain = Path(name).name
+    is_one = Path(plain).suffix.lower() in WORKS and plain.isprintable()
+    return plain if is_one and len(plain.encode()) <= MAX_NAME_BYTES else None
+
+
+def build_job(
+    do: str,
+    request: StudioRequest,
+    *,
+    lang: str,
+    layouts: Sequence[str],
+    works: Path,
+    served: bool = False,
+) -> dict[str, Any] | None:
+    """Return the job for a process, with validated parts of the request; None for unknown ones.
+
+    Parameters
+    ----------
+    do : str
+        One of `ACTS`.
+    works : Path
+        Folder of the uploaded submissions.
+    served : bool
+        Strangers come.
+    """
+    if do == "command" and request.what not in (*COMMANDS, *TRUSTED_COMMANDS):
+        return None
+    asked: dict[str, Any] = {
+        "do": do, "what": request.what, "lang": lang, "served": served,
+        "name": _name(request.name or ""), "text": request.text,
+        "variant": request.variant[:100] if request.variant else None,
+        "layout": request.layout if request.layout in layouts else None,
+    }  # fmt: skip
+    if asked["variant"] and asked["variant"].startswith("-"):
+        return None
+    if do == "verdicts":
+        asked["work"] = request.work
+    if do == "checked":
+        asked["by_hand"] = request.by_hand
+        asked["works"] = sorted(str(path) for path in works.iterdir())
+    if do == "varied":
+        asked["count"] = _number(request.count, MAX_VARIANTS)
+        asked["seed"] = _number(request.seed, 1_000_000)
+        asked["moodle"] = request.moodle
+    return asked
+
+
+def _name(text: str) -> str:
+    """Return a file name made from typed text."""
+    plain = re.sub(r"[^\w-]+", "-", Path(text).stem).strip("-_")[:60]
+    return plain or "problem"
+
+
+def _number(value: int | None, limit: int) -> int:
+    return min(max(value or 1, 1), limit)
