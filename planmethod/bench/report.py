@@ -79,7 +79,8 @@ def speed_section(readings: Sequence[speed.ReadSpeed]) -> Table:
         "Position, velocity and acceleration of every point and link. The error is the largest one "
         f"against a referee of {speed.RIGHT} digits: of a sweep, each row in units of its own "
         f"largest value (at most {speed.CHECKED_POSITIONS} positions, evenly spread); of "
-        "one position and of the hand, in units of the largest result of its kind. The hand reads the plans at the "
+        "one position and of the hand, in units of the largest result of its kind. The hand "
+        "reads the plans at the "
         "scales that planmethod chooses; its error is that of reading alone. Sweeps take turns, "
         f"nine rounds; {load()}.",
         "",
@@ -333,7 +334,8 @@ def checking_section(
         "Works of the board's profile; of trains and points, numbers computed and rounded to three "
         f"digits or four. Two mistakes: at most {confusion.PAIRS} pairs in each linkage, of which "
         f"neither mistake alone gives {confusion.MIN_DIFFERENT_ANSWERS} of the answers; *named*: "
-        "both, *among*: one of them, or a right one among two or three. Inherited: one number is wrong, and the "
+        "both, *among*: one of them, or a right one among two or three. Inherited: one number "
+        "is wrong, and the "
         "plans, another formula of the textbook or the formulas of a train go on with it.",
         "",
         *confusion_tables(confused),

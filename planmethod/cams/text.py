@@ -139,10 +139,10 @@ def _limits(problem: CamProblem, language: Language) -> Iterator[GivenFact]:
         ("offset", "e", "offset"),
         ("centre", "a", "centre"),
         ("roller", "r_{p}", "roller"),
-        ("least", "[ρ]", "curvature"),
+        ("min_radius", "[ρ]", "curvature"),
     ):
         value = getattr(problem, name)
-        if value if name == "least" else value is not None:
+        if value if name == "min_radius" else value is not None:
             text = f"{symbol} = {notation.as_input(MM * value)} {notation.units['mm']}"
             yield GivenFact(text, {f"cam.{key}": value})
     if problem.mass:

@@ -73,7 +73,7 @@ def synthesize(options: Mapping[str, Any]) -> Synthesis:
         FileTable("assembly", "assembly", (f'D = "{"right of" if lies else "above"} O3"',)),
     ]
     found: dict[str, Any] = {
-        "asked": {"swing": swing} | ({} if options["K_v"] is None else {"K_v": options["K_v"]}),
+        "targets": {"swing": swing} | ({} if options["K_v"] is None else {"K_v": options["K_v"]}),
         "output": "3",
         "pressure": ("", "", ""),
     }
@@ -122,7 +122,7 @@ def synthesize(options: Mapping[str, Any]) -> Synthesis:
             FileTable("links.5", "slider", ('points = ["C"]', 'slides = {{ on = "x-x" }}')),
             FileTable("assembly", "assembly", ('D = "above O3"', 'C = "right of B"')),
         ]
-        found["asked"]["stroke"] = options["stroke"]
+        found["targets"]["stroke"] = options["stroke"]
         found |= {"output": "C", "pressure": ("B", "C", ""), "guide": ("M",)}
     return Synthesis(
         "slotted",

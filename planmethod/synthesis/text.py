@@ -190,7 +190,11 @@ class SynthesisNarrator(BoardNarrator):
 
     def __init__(self, drawn: Drawn, language: Language) -> None:
         super().__init__(SynthesisNaming(drawn, language), language.note)
-        self.drawn, self.texts, self.notation = drawn, language.synthesis, language.notation
+        self.drawn, self.synthesis_texts, self.notation = (
+            drawn,
+            language.synthesis,
+            language.notation,
+        )
         self.board, self.step = self.naming.board, self.naming.step
 
     def sentences(self) -> Iterator[Rich]:
@@ -235,14 +239,14 @@ class SynthesisNarrator(BoardNarrator):
                 shown[name] = set_angle(float(value), ruler, self.naming.language)
             elif name == "angle":
                 shown[name] = input_text(round(float(value), 2), self.texts)
-        sentence: str = self.texts["steps"][key]
+        sentence: str = self.synthesis_texts["steps"][key]
         return sentence.format(**shown)
 
     def given_point(self, step: steps.GivenPoint) -> list[Rich]:
         """Describe a given point by its coordinates."""
         at = place(self.drawn.paper, step.out)
         x, y = (input_text(value + 0.0, self.texts, 5) for value in (at.real, at.imag))
-        return [self.texts.point.format(point=point_name(step.out), x=x, y=y)]
+        return [self.synthesis_texts.point.format(point=point_name(step.out), x=x, y=y)]
 
     def lay_off(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a length that is laid off."""

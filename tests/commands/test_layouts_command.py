@@ -83,7 +83,7 @@ def test_a_faulty_file_is_reported_once(command: str, tmp_path: Path) -> None:
 def test_no_such_layout(name: str) -> None:
     result = run("sheet", EX1, "--layout", name)
     assert result.exit_code == ExitCode.USAGE
-    assert "there is no such" in result.output
+    assert "neither a layout nor a file has this name" in result.output
 
 
 def test_lint_looks_over_the_sheets_of_a_layout() -> None:

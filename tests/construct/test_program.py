@@ -113,7 +113,8 @@ def test_only_the_steps_that_are_needed_are_kept() -> None:
     program = triangle()
     kept = program.needed_for([NumberName("height")])
     assert [type(s).__name__ for s in kept.steps] == [
-        "Given", "Given", "Given", "Join", "Perpendicular", "MeetLines", "Measure",
+        "GivenPoint", "GivenPoint", "GivenPoint", "Join", "Perpendicular", "IntersectLines",
+        "Measure",
     ]  # fmt: skip
     assert [s for s in program.steps if s in kept.steps] == list(kept.steps)
     assert program.needed_for([PointName("P")]).steps == (GivenPoint(PointName("P")),)
@@ -229,7 +230,8 @@ def test_each_verb_makes_its_step_and_returns_its_name() -> None:
     assert made == list("abcdemnfghijkl")
     steps = {str(step.out): step for step in b.program().steps}
     assert [type(steps[name]).__name__ for name in made] == [
-        "LayOff", "MeetLines", "MeetLineCircle", "MeetCircles", "Touch", "Hold", "Spot",
+        "LayOffLength", "IntersectLines", "IntersectLineCircle", "IntersectCircles", "Touch",
+        "TriadPose", "Spot",
         "Similar", "Measure", "MeasureAlong", "Compute", "Carry", "MeasureArm", "Total",
     ]  # fmt: skip
     trace = evaluate(

@@ -183,7 +183,7 @@ def test_only_writers_lay_text_out() -> None:
     used = {
         names.strip()
         for path in (ROOT / "planmethod" / "commands").glob("*.py")
-        for names in re.findall(r"note\.writers\.plain import (.*)", path.read_text("utf-8"))
+        for names in re.findall(r"note\.writers\.terminal import (.*)", path.read_text("utf-8"))
     }
     assert {names.split()[0] for names in used} == {"plain_document"}
     assert not [

@@ -378,7 +378,8 @@ class ListCanvas(Canvas):
 
 
 def _listed(drawing: Drawing) -> Iterator[str]:
-    marks = [name for name in ("is_cut_down", "goes_on") if getattr(drawing, name)]
+    marks = ["has_omissions"] * drawing.has_omissions
+    marks += ["is_continuation"] * drawing.is_continuation
     size = f"{_mm(drawing.width)} {_mm(drawing.height)}"
     yield f"<svg> sheet {' '.join([size, drawing.title, *marks])}\n"
     for item in drawing.items:
