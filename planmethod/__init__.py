@@ -13,8 +13,7 @@ from __future__ import annotations
 
 TYPE_CHECKING = False  # not of typing: its import is a tenth of the way to the command line
 if TYPE_CHECKING:
-    from planmethod.kinds import load as load
-    from planmethod.kinds import loads as loads
+    from planmethod.kinds import load as load, loads as loads
     from planmethod.note.protocol import document_of as document
     from planmethod.problem import Problem as Problem
     from planmethod.render.sheets.kinematics import kinematics_sheets as draw

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
-from planmethod.arguments import of_type
-from planmethod.arguments import text as words
+from planmethod.arguments import of_type, text as words
 from planmethod.cams.kind import Cams
 from planmethod.errors import Fault, ProblemError
 from planmethod.gears.involute.kind import Meshings

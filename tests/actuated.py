@@ -7,16 +7,20 @@ import random
 import re
 from itertools import count
 
+from doors import (
+    FRAME,
+    Drive,
+    ModelProblem as Problem,
+    OutputPositionKind,
+    OutputPositions,
+    problem_loads as loads,
+)
 from full_system import Ends
 from loaded import loaded_text
 from msgspec.structs import replace
-from newton import Motion
-from newton import solve as newton
+from newton import Motion, solve as newton
 
 from benchmarks.generator import Pose, random_problem
-from planmethod.mechanism.model import FRAME
-from planmethod.problem import loads
-from planmethod.problem.model import Drive, OutputPositionKind, OutputPositions, Problem
 
 _LEAST = 0.15
 """Share of the speed of its ends that its rate has at least: else it is nearly dead."""

@@ -7,13 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
+from doors import RATES, PlanKind, Sheet, Trace, normalize, plan_letters, point
 from ezdxf.enums import TextEntityAlignment
-
-from planmethod.check.letters import normalize
-from planmethod.check.sheet import Sheet, point
-from planmethod.construct.evaluate import Trace
-from planmethod.note.narrate.letters import plan_letters
-from planmethod.plans.model import RATES, PlanKind
 
 ORIGINS = {PlanKind.VELOCITY: 100 + 150j, PlanKind.ACCELERATION: 300 + 150j}
 

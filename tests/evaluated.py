@@ -8,9 +8,15 @@ from itertools import pairwise
 from math import pi, radians
 
 import pytest
-
-from planmethod.note.document import Document, Formula, Item, Note, Paragraph, Step
-from planmethod.note.formula import inlined
+from doors import (
+    Document,
+    DocumentItem as Item,
+    DocumentStep as Step,
+    Formula,
+    Note,
+    Paragraph,
+    inlined,
+)
 
 TERM = r"(?:[\d(π|](?:[\d,.()·/^{}−°π|]*[\d)}°π|])?)"
 SUM = rf"−?{TERM}(?: [+−] {TERM})*"

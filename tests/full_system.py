@@ -14,11 +14,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from doors import FRAME, Against, Fixed, Load, ModelProblem as Problem, Slide
 from newton import Motion
-
-from planmethod.mechanism.model import FRAME
-from planmethod.problem.load_records import Against, Fixed, Load
-from planmethod.problem.model import Problem, Slide
 
 Number = Any
 Joint = tuple[str, str, str]

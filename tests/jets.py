@@ -11,12 +11,16 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-
-from planmethod.construct.arithmetic import Exact, Number
-from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.jet import Jet
-from planmethod.construct.multiprecision import DIGITS, Precise
-from planmethod.construct.program import Program
+from doors import (
+    DIGITS,
+    ArithmeticNumber as Number,
+    Exact,
+    Jet,
+    Precise,
+    Program,
+    Trace,
+    evaluate_evaluate as evaluate,
+)
 
 
 def adjudicate(program: Program, data: Mapping[str, Number], *, digits: int = DIGITS) -> Trace:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import re
 
-from planmethod.note.formula import inlined
-from planmethod.note.narrate.forces.common import lettered
-from planmethod.note.narrate.forces.lever import LeverNarrator
-from planmethod.note.narrate.forces.loads import LoadNarrator
-from planmethod.note.narrate.forces.moments import MomentNarrator
-from planmethod.note.narrate.forces.plan import ForcePlanNarrator
-from planmethod.note.wording import get_language
-from planmethod.plans.forces.polygons import ForcePlan
-from planmethod.solved.forces.reading import ForceReading
+from doors import (
+    ForcePlan,
+    ForcePlanNarrator,
+    ForceReading,
+    LeverNarrator,
+    LoadNarrator,
+    MomentNarrator,
+    get_language,
+    inlined,
+    lettered,
+)
 
 
 def load_lines(reading: ForceReading, lang: str = "ru") -> list[str]:

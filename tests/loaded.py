@@ -6,11 +6,10 @@ import random
 import re
 import tomllib
 
+from doors import ModelProblem as Problem, problem_loads as loads
 from msgspec.structs import replace
 
 from benchmarks.generator import Pose, random_problem
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
 
 
 def with_resultant(problem: Problem) -> Problem:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import pytest
-
-from planmethod.errors import ProblemError
-from planmethod.problem import Problem, loads
+from doors import ProblemError, ProblemProblem as Problem, problem_loads as loads
 
 CRANK = """
 [frame]

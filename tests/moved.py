@@ -11,10 +11,16 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from doors import (
+    FRAME,
+    AssemblyRelation,
+    Body,
+    ModelProblem as Problem,
+    Rule,
+    Scales,
+    Slide,
+)
 from msgspec.structs import replace
-
-from planmethod.mechanism.model import FRAME
-from planmethod.problem.model import AssemblyRelation, Body, Problem, Rule, Scales, Slide
 
 MIRRORED = {
     AssemblyRelation.LEFT_OF: AssemblyRelation.RIGHT_OF,

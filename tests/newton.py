@@ -15,9 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-
-from planmethod.mechanism.model import FRAME
-from planmethod.problem.model import Problem
+from doors import FRAME, ModelProblem as Problem
 
 Pose = Mapping[str, tuple[float, float, float]]
 """Origin x, y in m and direction of the own axis in radians, by moving link."""

@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterator
 from math import floor, log10
 
-from planmethod.construct.scale import SERIES
-from planmethod.render.ink.drawing import Drawing, Text
+from doors import SCALE_SERIES as SERIES, Drawing, Text
 
 _INSCRIBED = re.compile(r"^ ?= ([\d,]+)(?:·10)? .*(?:/мм|мм/)")
 

@@ -6,7 +6,7 @@ import math
 import random
 from collections.abc import Callable
 
-from planmethod.compiled.tape import Ref, Tape
+from doors import Ref, Tape
 
 INPUTS = 3
 

@@ -17,18 +17,21 @@ from pathlib import Path
 import pytest
 from cases import thinned
 from click.testing import CliRunner, Result
+from doors import (
+    LANGUAGES_LANGUAGES as LANGUAGES,
+    MACHINES,
+    OTHER_FAMILIES,
+    PROBLEM_FAMILIES as FAMILIES,
+    PROJECT_PARTS,
+    PartName,
+    cli,
+    load_unsettled,
+    output_write as write,
+    part_drawings,
+    problem_load as load,
+    settle,
+)
 from worked import ROOT, path_of
-
-from planmethod.cli import cli
-from planmethod.commands.problems import load_unsettled
-from planmethod.languages import LANGUAGES
-from planmethod.problem import FAMILIES, OTHER_FAMILIES, load
-from planmethod.problem.cycle_records import PROJECT_PARTS
-from planmethod.problem.families import MACHINES
-from planmethod.project.model import PartName
-from planmethod.project.settle import settle
-from planmethod.project.sheets import part_drawings
-from planmethod.render.backends.output import write
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
 VARIANTS = str(path_of("levers/task12-variants"))

@@ -20,17 +20,20 @@ import matplotlib
 import pytest
 from cases import each, sampled, some
 from click.testing import CliRunner
+from doors import (
+    COMMANDS as NAMES,
+    Document,
+    Drawing,
+    ExitCode,
+    Solution,
+    cli,
+    command_of,
+    problem_loads as loads,
+    verify,
+)
 from matplotlib.figure import Figure
 from worked import PROBLEMS, ROOT
 
-from planmethod.cli import COMMANDS as NAMES
-from planmethod.cli import cli, command_of
-from planmethod.errors import ExitCode
-from planmethod.note.document import Document
-from planmethod.problem import loads
-from planmethod.render.ink.drawing import Drawing
-from planmethod.solved.selfcheck import verify
-from planmethod.solved.solution import Solution
 from scripts import examples, gallery
 
 READMES = ("README.md", "README.ru.md")

@@ -6,13 +6,17 @@ from functools import cache
 import numpy as np
 import pytest
 from cases import each, some
+from doors import (
+    FRAME,
+    AssemblyRelation,
+    ModelProblem as Problem,
+    Revolute,
+    analyse,
+    problem_loads as loads,
+)
 from newton import NotClosedError, differentiate, residual, solve
 
 from benchmarks.generator import random_problem
-from planmethod.mechanism.model import FRAME, Revolute
-from planmethod.mechanism.structure import analyse
-from planmethod.problem import loads
-from planmethod.problem.model import AssemblyRelation, Problem
 
 SEEDS = range(some(200, few=100))
 

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import pytest
-
-from planmethod.errors import ExitCode, LayoutError
-from planmethod.paper import FORMATS, Format, paper_format
-from planmethod.solved.scaling import Views
+from doors import (
+    PAPER_FORMATS as FORMATS,
+    ExitCode,
+    LayoutError,
+    PaperFormat as Format,
+    Views,
+    paper_paper_format as paper_format,
+)
 
 LYING = [fmt for fmt in FORMATS.values() if not fmt.is_portrait]
 

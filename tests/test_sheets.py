@@ -16,18 +16,24 @@ from random import Random
 import pytest
 from cases import each, some, thinned
 from click.testing import CliRunner
+from doors import (
+    FRAME_FORMATS as FORMATS,
+    Drawing,
+    ExitCode,
+    FrameFormat as Format,
+    LayoutError,
+    Solution,
+    Text,
+    cli,
+    kinematics_sheets,
+    lint,
+    problem_loads as loads,
+    render,
+    variant_names,
+)
 from worked import PROBLEMS, ROOT, drawn_sheets, every_file, path_of, problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.cli import cli
-from planmethod.errors import ExitCode, LayoutError
-from planmethod.problem import loads, variant_names
-from planmethod.render.backends import render
-from planmethod.render.control.texts import lint
-from planmethod.render.frame.frame import FORMATS, Format
-from planmethod.render.ink.drawing import Drawing, Text
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.solution import Solution
 
 FILES = {str(path.relative_to(PROBLEMS).with_suffix("")): path for path in every_file()}
 

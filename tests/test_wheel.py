@@ -9,9 +9,9 @@ from importlib.metadata import requires
 from pathlib import Path
 
 import pytest
+from doors import command_of
 from worked import ROOT
 
-from planmethod.cli import command_of
 from scripts.wheel import COMMANDS
 
 PACKAGE = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))

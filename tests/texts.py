@@ -4,21 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.check.key import Key
-from planmethod.check.model import GradedSubmission
-from planmethod.check.pages.compared import compared_document
-from planmethod.check.pages.keypage import key_document
-from planmethod.mechanism.model import Mechanism
-from planmethod.mechanism.structure import Structure
-from planmethod.note.document import Document
-from planmethod.note.narrate.structure import structure_document
-from planmethod.note.protocol import protocol_document
-from planmethod.note.tables.cycle import cycle_steps, cycle_tables
-from planmethod.note.tables.referee import referee_document
-from planmethod.note.tables.results import results_document
-from planmethod.note.wording import Language, get_language
-from planmethod.note.writers.terminal import plain_document
-from planmethod.solved.solution import Solution
+from doors import (
+    Document,
+    GradedSubmission,
+    Key,
+    Language,
+    Mechanism,
+    Solution,
+    Structure,
+    compared_document,
+    cycle_steps,
+    cycle_tables,
+    get_language,
+    key_document,
+    plain_document,
+    protocol_document,
+    referee_document,
+    results_document,
+    structure_document,
+)
 
 
 def protocol(solution: Solution, *, lang: str = "ru", position: int = 0) -> str:

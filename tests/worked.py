@@ -12,17 +12,11 @@ from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from planmethod.kinds import kind_of
-from planmethod.kinds import load as load_any
-from planmethod.problem import load
-from planmethod.problem.model import Problem
+from doors import ModelProblem as Problem, kind_of, kinds_load as load_any, problem_load as load
 
 if TYPE_CHECKING:
     import pytest
-
-    from planmethod.project.model import Project
-    from planmethod.render.ink.drawing import Drawing
-    from planmethod.solved.solution import Solution
+    from doors import Drawing, Project, Solution
 
 ROOT = Path(__file__).resolve().parent.parent
 PROBLEMS = ROOT / "problems"
@@ -94,8 +88,7 @@ def _drawn(
     positions: tuple[float, ...] | None,
     asked: tuple[tuple[str, Any], ...],
 ) -> list[Drawing]:
-    from planmethod.render.ink.lettering import STYLES, lettering
-    from planmethod.render.sheets.kinematics import kinematics_sheets
+    from doors import STYLES, kinematics_sheets, lettering
 
     def draw() -> list[Drawing]:
         return kinematics_sheets(problem_of(name, variant), positions=positions, **dict(asked))
@@ -110,7 +103,7 @@ def _drawn(
 @cache
 def project_of(path: Path) -> Project:
     """Return the project of a file, settled once."""
-    from planmethod.project.settle import settle
+    from doors import settle
 
     return made_once((path,), lambda: settle(load_any(path), path))
 
@@ -119,7 +112,7 @@ def solved_while(
     draw: Callable[[], list[Drawing]], patch: pytest.MonkeyPatch
 ) -> tuple[list[Drawing], Solution]:
     """Return the sheets and the last solution that was tried at their scales."""
-    from planmethod.render.sheets.kinematics import Linkage
+    from doors import Linkage
 
     made: list[Solution] = []
     solved = Linkage.solved

@@ -37,8 +37,7 @@ def audit(
     file: str | None,
 ) -> None:
     """Compare what the sources print with the exact values and with the ruler's."""
-    from planmethod.note.audit.audit import AuditDocument
-    from planmethod.note.audit.audit import audit as examine
+    from planmethod.note.audit.audit import AuditDocument, audit as examine
 
     if file is not None and file.lower().endswith(".toml"):
         raise UsageError("-o would write over the problem file {}; name another one", file)

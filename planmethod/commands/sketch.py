@@ -85,8 +85,7 @@ def _draw(
         hint = translate("Its picture: planmethod sheet {}", path)
         raise ProblemError(str(path), [Fault(kind.table, "only linkages have a sketch", hint)])
     from planmethod.note.wording import get_language
-    from planmethod.render.sketch import VIEWS
-    from planmethod.render.sketch import sketch as drawn
+    from planmethod.render.sketch import VIEWS, sketch as drawn
 
     title, part = part_of(path, variant=variant, views=VIEWS)
     language = get_language(language_of_file(path, lang))

@@ -60,8 +60,7 @@ def specimen(
     specimen-symbols.svg and so on. What is on them: docs/symbols.md, docs/lettering.md.
     """
     from planmethod.note.wording import get_language
-    from planmethod.render.ink.lettering import lettering as lettered
-    from planmethod.render.ink.lettering import using
+    from planmethod.render.ink.lettering import lettering as lettered, using
     from planmethod.render.sheets.specimen import SPECIMENS
 
     language = get_language(lang)

@@ -134,8 +134,7 @@ def sketched(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     from planmethod.kinds import kind_of, part_of
     from planmethod.note.wording import get_language
     from planmethod.problem import variant_names
-    from planmethod.render.sketch import VIEWS
-    from planmethod.render.sketch import sketch as drawn
+    from planmethod.render.sketch import VIEWS, sketch as drawn
 
     path, variant = _file(request), request.get("variant")
     kind = kind_of(path)
@@ -202,8 +201,7 @@ def assemblies(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
 
     from planmethod.kinds import part_of
     from planmethod.note.wording import get_language
-    from planmethod.render.sketch import ASSEMBLY_VIEWS
-    from planmethod.render.sketch import sketch as drawn
+    from planmethod.render.sketch import ASSEMBLY_VIEWS, sketch as drawn
 
     path = _file(request)
     whole = part = part_of(path, variant=request.get("variant"), views=ASSEMBLY_VIEWS)[1]
@@ -241,8 +239,7 @@ def pictured(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     from planmethod.kinds import kind_of, part_of
     from planmethod.note.wording import get_language
     from planmethod.problem.tasks import home
-    from planmethod.render.sketch import VIEWS, assigned
-    from planmethod.render.sketch import sketch as drawn
+    from planmethod.render.sketch import VIEWS, assigned, sketch as drawn
 
     path = home() / request["file"]
     kind = kind_of(path)

@@ -155,8 +155,7 @@ def synthesize(
     from planmethod.errors import AssemblyError, ProblemError
     from planmethod.note.wording import get_language
     from planmethod.problem import loads
-    from planmethod.synthesis import KINDS, options_of
-    from planmethod.synthesis import synthesize as find
+    from planmethod.synthesis import KINDS, options_of, synthesize as find
     from planmethod.synthesis.drawing import Drawn, synthesis_record
     from planmethod.synthesis.verification import checks, problem_text
 

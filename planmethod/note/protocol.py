@@ -26,8 +26,7 @@ from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.equations import direction_note, equation_of
 from planmethod.note.narrate.forces.common import closed
 from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.statement import drawn, given_paragraph
-from planmethod.note.narrate.statement import given_facts as given_facts
+from planmethod.note.narrate.statement import drawn, given_facts as given_facts, given_paragraph
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.narrate.structure import group_title
 from planmethod.note.narrate.transfers import TransferNarrator

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import pytest
 from click.testing import CliRunner
+from doors import (
+    Calculation,
+    Detected,
+    GradedSubmission,
+    Submission,
+    Task,
+    check,
+    cli,
+    confusion,
+    detection,
+    kind_of,
+    tasks_of,
+)
 from msgspec.structs import replace
 from worked import path_of, problem_of
-
-from planmethod.bench import confusion
-from planmethod.bench.checking import Detected, detection, tasks_of
-from planmethod.check.calculation import Calculation
-from planmethod.check.checking import check
-from planmethod.check.model import GradedSubmission, Submission
-from planmethod.check.task import Task
-from planmethod.cli import cli
-from planmethod.kinds import kind_of
 
 
 def computed(name: str) -> Calculation:

@@ -6,14 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from doors import Solution, Timing, crank_angles, forces, statics_of
 from worked import problem_of
 
 from benchmarks import at_once
 from benchmarks.scenes import loaded
-from planmethod.bench import forces
-from planmethod.bench.speed import Timing, crank_angles
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
 
 
 def once(act: Callable[[], object], **_: float) -> Timing:

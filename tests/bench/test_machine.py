@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from doors import Flywheel, constructed, machine_section, problem_load as load
 from worked import path_of
-
-from planmethod.bench.cycle import constructed
-from planmethod.bench.report import machine_section
-from planmethod.problem import load
-from planmethod.solved.machine.flywheel import Flywheel
 
 
 def test_constructions_come_to_the_whole_curves_with_more_positions() -> None:

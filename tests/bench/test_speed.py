@@ -9,14 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from doors import ModelProblem as Problem, Timing, problem_loads as loads, report, speed
 from worked import problem_of
 
 from benchmarks import hard_problems
 from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
-from planmethod.bench import report, speed
-from planmethod.bench.speed import Timing
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
 
 
 def once(act: Callable[[], object], **_: float) -> Timing:

@@ -7,11 +7,8 @@ from functools import cache
 
 import pytest
 from click.testing import CliRunner
+from doors import Timing, checking, cli, report
 from worked import path_of, problem_of
-
-from planmethod.bench import checking, report
-from planmethod.bench.speed import Timing
-from planmethod.cli import cli
 
 
 def once(act: Callable[[], object], **_: float) -> Timing:

@@ -11,8 +11,9 @@ from cases import some
 
 pytest.importorskip("resource", reason="limits of processes are of POSIX")
 
+from doors import ProblemError
+
 from benchmarks.attack.__main__ import DOORS, Found, attack, row
-from planmethod.errors import ProblemError
 
 FILES = {
     "problem files": 60, "works": 40, "groups of works": 6, "drawings": 20,

@@ -8,16 +8,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from doors import Sweep, Timing, speed, speed_section
 
 from benchmarks import bounds, growth, many, report, rivals
 from benchmarks.__main__ import main
 from benchmarks.figure import draw
 from benchmarks.peers import ROWS, peers
 from benchmarks.scenes import FOURBAR_ROWS, chain, fourbar
-from planmethod.bench import speed
-from planmethod.bench.report import speed_section
-from planmethod.bench.speed import Timing
-from planmethod.solved.many.sweep import Sweep
 
 
 def once(act: Callable[[], object], **_: object) -> Timing:

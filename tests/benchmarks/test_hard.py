@@ -8,16 +8,12 @@ from dataclasses import replace
 
 import pytest
 from cases import thinned
+from doors import MULTIPLE, AssemblyError, Solution, problem_loads as loads, verify
 
 from benchmarks import hard_problems as texts
 from benchmarks.hard import HardCase, HardRow, Outcome, run
 from benchmarks.hard_cases import HARD
 from benchmarks.hard_report import summarise, table
-from planmethod.errors import AssemblyError
-from planmethod.problem import loads
-from planmethod.solved.selfcheck import verify
-from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import MULTIPLE
 
 CASES = {case.name: case for case in HARD}
 

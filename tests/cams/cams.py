@@ -9,11 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from doors import CamDesign, LawsReals as Reals, cams_reader_load as load
 from worked import PROBLEMS
-
-from planmethod.cams.design import CamDesign
-from planmethod.cams.laws import Reals
-from planmethod.cams.reader import load
 
 SHIPPED = sorted((PROBLEMS / "cams").glob("*.toml"))
 

@@ -10,37 +10,40 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browser import PROGRAM as CHROMIUM
-from browser import browsing
+from browser import PROGRAM as CHROMIUM, browsing
 from cams import SHIPPED, written
 from cases import sampled
 from click.testing import CliRunner
-
-from planmethod.cams.design import CamDesign
-from planmethod.cams.divisions import nodes_of
-from planmethod.cams.figures import CamFigures
-from planmethod.cams.live import live_page
-from planmethod.cams.model import CamProblem
-from planmethod.cams.pictures import PROFILE
-from planmethod.cams.reader import load
-from planmethod.cams.sheet import drawings
-from planmethod.cams.text import positions
-from planmethod.check.checking import check
-from planmethod.check.group import Variants
-from planmethod.check.marks import DEFAULT
-from planmethod.check.model import GradedSubmission, Submission, WrittenAnswer
-from planmethod.cli import cli
-from planmethod.commands.problems import load_unsettled
-from planmethod.construct.drafting import PROFILES
-from planmethod.note import document
-from planmethod.note.wording import get_language
-from planmethod.problem.families import template
-from planmethod.project.report.cams import cam_chapter
-from planmethod.project.report.context import Report
-from planmethod.project.settle import settle
-from planmethod.render.control.remarks import Severity
-from planmethod.render.control.sheet import inspect
-from planmethod.render.ink.drawing import Drawing, Stroke
+from doors import (
+    DEFAULT,
+    DRAFTING_PROFILES as PROFILES,
+    PROFILE,
+    CamDesign,
+    CamFigures,
+    CamProblem,
+    Drawing,
+    GradedSubmission,
+    Report,
+    Severity,
+    Stroke,
+    Submission,
+    Variants,
+    WrittenAnswer,
+    cam_chapter,
+    cams_live_live_page as live_page,
+    cams_reader_load as load,
+    cams_sheet_drawings as drawings,
+    check,
+    cli,
+    document,
+    families_template as template,
+    get_language,
+    inspect,
+    load_unsettled,
+    nodes_of,
+    settle,
+    text_positions as positions,
+)
 
 BY_NAME = {path.stem: path for path in SHIPPED}
 

@@ -7,17 +7,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cams import SHIPPED, designed
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    FREE,
+    CamConstruction,
+    CamDesign,
+    NumberName,
+    Precise,
+    Sampled,
+    cams_construction_construct as construct,
+    cams_reader_load as load,
+    evaluate_evaluate as evaluate,
+    get_language,
+    text_given_facts as given_facts,
+)
 from msgspec.structs import replace
-
-from planmethod.cams.construction import FREE, CamConstruction, construct
-from planmethod.cams.design import CamDesign
-from planmethod.cams.reader import load
-from planmethod.cams.text import given_facts
-from planmethod.construct.drafting import PROFILES, Sampled
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.multiprecision import Precise
-from planmethod.construct.steps import NumberName
-from planmethod.note.wording import get_language
 
 BUILT = {path.stem: construct(CamDesign(load(path))) for path in SHIPPED}
 

@@ -12,11 +12,7 @@ import pytest
 from cams import LAWS, broken, designed, least_translating, random_cam, written
 from cases import some
 from click.testing import CliRunner
-
-from planmethod.cams.design import CamDesign
-from planmethod.cams.model import CamPhase
-from planmethod.cams.reader import load
-from planmethod.cli import cli
+from doors import CamDesign, CamPhase, cams_reader_load as load, cli
 
 WANTED: dict[str, Any] = {
     "follower": "translating",

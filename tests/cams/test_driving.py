@@ -13,25 +13,28 @@ import pytest
 from browser import PROGRAM, browsing
 from cases import each
 from click.testing import CliRunner
+from doors import (
+    LANGUAGES_LANGUAGES as LANGUAGES,
+    CamProblem,
+    Faults,
+    ModelProblem as Problem,
+    PlanKind,
+    Solution,
+    Sweep,
+    cli,
+    crank_cycle_of,
+    drawn,
+    follower_drive,
+    follower_motion,
+    get_language,
+    page_live_page as live_page,
+    read_cam,
+    statement_given_facts as given_facts,
+    statics_of,
+)
 from rebuilt import rebuilt
 
 import planmethod
-from planmethod.cams.driving import follower_drive
-from planmethod.cams.model import CamProblem
-from planmethod.cams.reader import read_cam
-from planmethod.cli import cli
-from planmethod.languages import LANGUAGES
-from planmethod.note.narrate.statement import drawn, given_facts
-from planmethod.note.wording import get_language
-from planmethod.plans.model import PlanKind
-from planmethod.problem.fields import Faults
-from planmethod.problem.model import Problem
-from planmethod.render.live.page import live_page
-from planmethod.solved.driving import follower_motion
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.cycle import crank_cycle_of
 
 SLIDER = """
 [frame]

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cams import LAWS
-
-from planmethod.cams.laws import CamLawName, UnitLaw, law_of
+from doors import CamLawName, UnitLaw, law_of
 
 MORE: dict[CamLawName, list[dict[str, Any]]] = {
     CamLawName.CONSTANT: [{}, {"ratio": 2.0}],

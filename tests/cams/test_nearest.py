@@ -6,9 +6,8 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from doors import nearest_to_origin
 from numpy.typing import NDArray
-
-from planmethod.cams.peaks import nearest_to_origin
 
 
 def brute(normals: NDArray[np.float64], bounds: NDArray[np.float64]) -> float | None:

@@ -11,13 +11,8 @@ import numpy as np
 import pytest
 from cams import SHIPPED, designed
 from click.testing import CliRunner
+from doors import TURN, CamDesign, CamGeometry, Contact, cams_reader_load as load, cli
 from shapely import LinearRing, Point, distance
-
-from planmethod.cams.design import CamDesign
-from planmethod.cams.geometry import CamGeometry
-from planmethod.cams.model import TURN, Contact
-from planmethod.cams.reader import load
-from planmethod.cli import cli
 
 PLATES: dict[str, dict[str, Any]] = {
     "level": {"follower": "translating", "stroke": 0.02},

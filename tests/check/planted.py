@@ -6,15 +6,20 @@ import math
 from collections.abc import Iterator, Mapping
 from functools import cache
 
+from doors import (
+    Explanation,
+    GradedSubmission,
+    Sense,
+    Sign,
+    Solution,
+    Submission,
+    Task,
+    Verdict,
+    WrittenAnswer,
+    check,
+)
 from loaded import loaded_problem
 from worked import problem_of
-
-from planmethod.check.checking import check
-from planmethod.check.explain import Explanation
-from planmethod.check.model import GradedSubmission, Sense, Submission, Verdict, WrittenAnswer
-from planmethod.check.questions import Sign
-from planmethod.check.task import Task
-from planmethod.solved.solution import Solution
 
 
 @cache

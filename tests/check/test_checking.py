@@ -9,25 +9,31 @@ import math
 import openpyxl
 import pytest
 from cases import some
+from doors import (
+    NO_BREAK,
+    DirectionMode,
+    MistakeContext,
+    PlanKind,
+    ProblemError,
+    QuestionSpec,
+    Sense,
+    Settings,
+    Solution,
+    Submission,
+    Task,
+    Verdict,
+    WrittenAnswer,
+    check,
+    form_of,
+    get_language,
+    key_of,
+    key_of_task,
+    scale_by,
+)
 from msgspec.structs import replace
 from planted import checked, exact, explanations, task_of, verdicts, work_of
 from texts import compared_text, key_text
 from worked import SIX, problem_of
-
-from planmethod.check.checking import check
-from planmethod.check.form import form_of
-from planmethod.check.key import key_of, key_of_task
-from planmethod.check.marks import Settings
-from planmethod.check.mistakes.model import MistakeContext
-from planmethod.check.mistakes.scales import scale_by
-from planmethod.check.model import Sense, Submission, Verdict, WrittenAnswer
-from planmethod.check.task import Task
-from planmethod.errors import ProblemError
-from planmethod.note.plaintext import NO_BREAK
-from planmethod.note.wording import get_language
-from planmethod.plans.model import PlanKind
-from planmethod.problem.common import DirectionMode, QuestionSpec
-from planmethod.solved.solution import Solution
 
 RANDOM = tuple(f"random-{seed}" for seed in range(some(60, 2)))
 

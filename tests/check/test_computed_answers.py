@@ -9,13 +9,8 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
+from doors import DEFAULT, GradedSubmission, Submission, Variants, WrittenAnswer, check, cli
 from worked import PROBLEMS
-
-from planmethod.check.checking import check
-from planmethod.check.group import Variants
-from planmethod.check.marks import DEFAULT
-from planmethod.check.model import GradedSubmission, Submission, WrittenAnswer
-from planmethod.cli import cli
 
 TRAIN = PROBLEMS / "gears/gears-ex2.toml"
 RIGHT = {"z_3": 80.0, "U_1_5": -2 / 15, "n_H": -75.0, "n_5": -375.0, "n_4": 125.0}

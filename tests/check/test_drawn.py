@@ -7,18 +7,25 @@ from functools import cache
 
 import numpy as np
 import pytest
+from doors import (
+    GradedSubmission,
+    Sense,
+    Solution,
+    Task,
+    Variants,
+    Verdict,
+    as_written,
+    check,
+    check_works,
+    checking,
+    key_of_task,
+    planted,
+    read_works,
+    simulate_submissions,
+)
 from worked import ROOT, problem_of
 
 from benchmarks import group
-from planmethod.bench import checking
-from planmethod.check.checking import check
-from planmethod.check.group import Variants, check_works
-from planmethod.check.key import key_of_task
-from planmethod.check.model import GradedSubmission, Sense, Verdict
-from planmethod.check.simulation import as_written, planted, simulate_submissions
-from planmethod.check.submissions import read_works
-from planmethod.check.task import Task
-from planmethod.solved.solution import Solution
 
 FILE = ROOT / group.TARGET
 

@@ -12,42 +12,48 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
+from doors import (
+    AnswerFormatter,
+    ExaminedAnswer,
+    Explanation,
+    ExplanationFit,
+    GradedSubmission,
+    KeyEntry,
+    KeyPage,
+    ModelProblem as Problem,
+    QuestionSpec,
+    Remarks,
+    Selector,
+    Sense,
+    Sign,
+    Solution,
+    Submission,
+    Task,
+    Tolerance,
+    Trace,
+    Variants,
+    Verdict,
+    WrittenAnswer,
+    assign_verdicts,
+    check,
+    check_works,
+    detect_copied_variant,
+    get_language,
+    grading_examine as examine,
+    key_of_task,
+    mark_similar_submissions,
+    match_chance,
+    name_and_symbol,
+    propagate_mistake,
+    read_csv,
+    read_json,
+    replay,
+    simulate_submissions,
+    try_powers,
+)
 from msgspec.structs import replace
 from planted import exact, task_of, verdicts, work_of
 from worked import ROOT
-
-from planmethod.check.checking import check
-from planmethod.check.copied import detect_copied_variant, mark_similar_submissions, match_chance
-from planmethod.check.explain import Explanation, ExplanationFit
-from planmethod.check.following import propagate_mistake
-from planmethod.check.grading import ExaminedAnswer, assign_verdicts, examine, replay
-from planmethod.check.group import Variants, check_works
-from planmethod.check.key import key_of_task
-from planmethod.check.letters import name_and_symbol
-from planmethod.check.model import (
-    GradedSubmission,
-    KeyEntry,
-    Sense,
-    Submission,
-    Verdict,
-    WrittenAnswer,
-)
-from planmethod.check.pages.answer_format import AnswerFormatter
-from planmethod.check.pages.keypage import KeyPage
-from planmethod.check.pages.remarks import Remarks
-from planmethod.check.questions import Sign
-from planmethod.check.routes import try_powers
-from planmethod.check.simulation import simulate_submissions
-from planmethod.check.submissions.csv_file import read_csv
-from planmethod.check.submissions.student import read_json
-from planmethod.check.task import Task
-from planmethod.check.tolerance import Tolerance
-from planmethod.construct.evaluate import Trace
-from planmethod.note.wording import get_language
-from planmethod.problem.common import QuestionSpec
-from planmethod.problem.model import Problem
-from planmethod.problem.selector import Selector
-from planmethod.solved.solution import Solution
 
 TASK13 = ROOT / "problems/levers/task-13.toml"
 

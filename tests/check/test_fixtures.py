@@ -9,20 +9,25 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from doors import (
+    DEFAULT,
+    GradedSubmission,
+    NoValueError,
+    Settings,
+    Sign,
+    Solution,
+    Task,
+    TaskItem,
+    Variants,
+    Verdict,
+    WrittenAnswer,
+    check,
+    get_language,
+    problem_load as load,
+    read_json,
+)
 from msgspec.structs import replace
 from worked import ROOT, path_of
-
-from planmethod.check.checking import check
-from planmethod.check.group import Variants
-from planmethod.check.marks import DEFAULT, Settings
-from planmethod.check.model import GradedSubmission, Verdict, WrittenAnswer
-from planmethod.check.questions import Sign
-from planmethod.check.submissions.student import read_json
-from planmethod.check.task import Task, TaskItem
-from planmethod.note.wording import get_language
-from planmethod.problem import load
-from planmethod.solved.selectors.steps import NoValueError
-from planmethod.solved.solution import Solution
 
 HEAD = "| case | problem | written | settings | verdicts | named | why |"
 

@@ -13,22 +13,31 @@ from typing import Any
 import openpyxl
 import pytest
 from click.testing import CliRunner
+from doors import (
+    HEADS,
+    WORDING_LANGUAGES as LANGUAGES,
+    ExitCode,
+    KeyEntry,
+    Sense,
+    Submission,
+    Unread,
+    Variants,
+    WrittenAnswer,
+    cli,
+    fingerprint_of,
+    form as form_module,
+    form_of,
+    get_language,
+    key,
+    key_of_task,
+    plain_text,
+    problem_load as load,
+    read_sense,
+    read_unit,
+    read_works,
+)
 from msgspec.structs import replace
 from worked import path_of
-
-from planmethod.check import form as form_module
-from planmethod.check.form import fingerprint_of, form_of
-from planmethod.check.group import Variants
-from planmethod.check.key import key_of_task
-from planmethod.check.model import KeyEntry, Sense, Submission, Unread, WrittenAnswer
-from planmethod.check.submissions import read_works
-from planmethod.check.submissions.cells import HEADS, key, read_sense
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
-from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.problem import load
-from planmethod.problem.units import read_unit
 
 EX3 = path_of("linkages/ex3")
 EXACT, SIGMA, LENGTH = 2.2434567, 0.0123456, 44.869134

@@ -8,20 +8,19 @@ import sys
 from pathlib import Path
 
 import pytest
-from worked import ROOT
-
-from planmethod.check.marks import (
+from doors import (
     DEFAULT,
     KEYS,
+    MARKS_PROFILES as PROFILES,
     POLICIES,
-    PROFILES,
     VALUES,
+    ExitCode,
     Settings,
     SettingsError,
+    drafting,
+    load_settings as load,
 )
-from planmethod.check.marks import load_settings as load
-from planmethod.construct import drafting
-from planmethod.errors import ExitCode
+from worked import ROOT
 
 DOCS = (ROOT / "docs" / "marks.md").read_text("utf-8")
 

@@ -12,17 +12,21 @@ import pytest
 from cad import draw
 from cases import sampled, thinned
 from click.testing import CliRunner
-
-from planmethod.check.checking import check
-from planmethod.check.group import Variants
-from planmethod.check.measured.drawing_questions import list_drawing_items
-from planmethod.check.measured.layers import plan_of_layer, read_layers
-from planmethod.check.measured.plan import read_drawing
-from planmethod.check.model import GradedSubmission, Unread, Verdict
-from planmethod.check.submissions.faults import SubmissionError
-from planmethod.check.task import Task
-from planmethod.cli import cli
-from planmethod.plans.model import PlanKind
+from doors import (
+    FaultsSubmissionError as SubmissionError,
+    GradedSubmission,
+    PlanKind,
+    Task,
+    Unread,
+    Variants,
+    Verdict,
+    check,
+    cli,
+    list_drawing_items,
+    plan_of_layer,
+    read_drawing,
+    read_layers,
+)
 
 PROBLEMS = (
     "linkages/ex3",

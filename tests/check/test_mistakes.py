@@ -6,15 +6,17 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
+from doors import (
+    Explanation,
+    Float64,
+    NumberName,
+    PointName,
+    evaluate_evaluate as evaluate,
+    key_of_task,
+    substituted,
+)
 from planted import checked, exact, explanations, task_of
 from worked import SIX
-
-from planmethod.check.explain import Explanation
-from planmethod.check.key import key_of_task
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.rewrite import substituted
-from planmethod.construct.steps import NumberName, PointName
 
 
 def by_code(name: str, code: str) -> list[Explanation]:

@@ -9,14 +9,9 @@ from math import asin, pi, radians, sqrt
 
 import pytest
 from cases import each
+from doors import Explanation, Slip, Solution, WrittenAnswer, grading_examine as examine, slips
 from planted import exact, explanations, task_of
 from worked import problem_of
-
-from planmethod.check.explain import Explanation
-from planmethod.check.grading import examine
-from planmethod.check.model import WrittenAnswer
-from planmethod.check.slips import Slip, slips
-from planmethod.solved.solution import Solution
 
 
 @cache

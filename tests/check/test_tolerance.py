@@ -9,12 +9,17 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each
-
-from planmethod.check.grading import ExaminedAnswer, assign_verdicts
-from planmethod.check.marks import Settings
-from planmethod.check.model import Verdict, WrittenAnswer
-from planmethod.check.questions import Sign
-from planmethod.check.tolerance import FOLDED, Tolerance, limit_of
+from doors import (
+    FOLDED,
+    ExaminedAnswer,
+    Settings,
+    Sign,
+    Tolerance,
+    Verdict,
+    WrittenAnswer,
+    assign_verdicts,
+    tolerance_limit_of as limit_of,
+)
 
 
 def test_folded_is_the_ratio_of_the_folded_spread_to_the_middle_68_per_cent() -> None:

@@ -21,12 +21,10 @@ from typing import Any
 import pytest
 from cases import some
 from click.testing import CliRunner
+from doors import VariantOrder, batch, cli
 from worked import PROBLEMS, ROOT, path_of
 
 from benchmarks.many import killed
-from planmethod.cli import cli
-from planmethod.commands import batch
-from planmethod.commands.batch import VariantOrder
 
 POINT = str(PROBLEMS / "point/k11-01.toml")
 VARIANTS = "\n".join(f"[variants.v{n}]\ndriver.phi = {20 + 5 * n}" for n in range(3))

@@ -8,9 +8,8 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
+from doors import cli
 from worked import path_of
-
-from planmethod.cli import cli
 
 EX3 = str(path_of("linkages/ex3"))
 TASK12 = str(path_of("levers/task12"))

@@ -14,14 +14,12 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
+from doors import check, cli, student_page, student_pdf
 from worked import path_of
 
 import planmethod.check.group
 import planmethod.check.pages.files
 import planmethod.check.submissions
-from planmethod.check.checking import check
-from planmethod.check.pages.student import student_page, student_pdf
-from planmethod.cli import cli
 
 EX3 = str(path_of("linkages/ex3"))
 GOOD = "student;what;value;unit\nПетров П.П.;v B;3,2;м/с\nПетров П.П.;v E;3,9;м/с\n"

@@ -6,9 +6,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
+from doors import ExitCode, cli
 
 EX3 = "problems/linkages/ex3.toml"
 

@@ -15,22 +15,26 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    PointName,
+    Solution,
+    Sweep,
+    SweepError,
+    Timing,
+    UnknownItemError,
+    cli,
+    drafting_of,
+    drawn_forces,
+    forces,
+    problem_load as load,
+    problem_loads as loads,
+    report,
+    speed,
+    statics_of,
+)
 from texts import result_tables
 from worked import ROOT, path_of, problem_of
-
-from planmethod.bench import forces, report, speed
-from planmethod.bench.speed import Timing
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.construct.steps import PointName
-from planmethod.problem import load, loads
-from planmethod.solved.errors.forces import drawn_forces
-from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.errors.spread import UnknownItemError
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.many.varied import SweepError
-from planmethod.solved.solution import Solution
 
 EX3 = str(path_of("linkages/ex3"))
 SIX_LINK = str(path_of("levers/six-link"))

@@ -9,10 +9,8 @@ import click
 import pytest
 from cases import each
 from click.testing import CliRunner, Result
+from doors import ExitCode, cli
 from worked import path_of
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
 VARIANTS = str(path_of("levers/task12-variants"))

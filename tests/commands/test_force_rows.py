@@ -17,20 +17,24 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from click.testing import CliRunner, Result
+from doors import (
+    IntersectLines,
+    Solution,
+    Statics,
+    StepsStep as Step,
+    cli,
+    construct_evaluate as evaluate,
+    drawn_forces,
+    impossible,
+    many_positions as many,
+    problem_load as load,
+    statics_of,
+    symbolic,
+)
 from loaded import loaded_text
 from worked import DEAD, ROOT, path_of
 
 from benchmarks.generator import random_problem
-from planmethod.cli import cli
-from planmethod.compiled import symbolic
-from planmethod.construct import evaluate
-from planmethod.construct.steps import IntersectLines, Step
-from planmethod.problem import load
-from planmethod.solved import impossible
-from planmethod.solved.errors.forces import drawn_forces
-from planmethod.solved.forces.statics import Statics, statics_of
-from planmethod.solved.many import positions as many
-from planmethod.solved.solution import Solution
 
 EX1 = str(path_of("linkages/ex1"))
 SIX_LINK = str(path_of("levers/six-link"))

@@ -14,12 +14,9 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from doors import LoadedProblem, cli, in_processes, run_steps
 from waiting import wait_until
 from worked import PROBLEMS, ROOT, path_of
-
-from planmethod.cli import cli
-from planmethod.commands.problems import LoadedProblem, run_steps
-from planmethod.commands.processes import in_processes
 
 EX3 = path_of("linkages/ex3").read_text("utf-8")
 VARIANTS = """

@@ -8,9 +8,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-
-from planmethod.cli import cli
-from planmethod.languages import OWN_VARIABLE, SYSTEM_VARIABLES
+from doors import OWN_VARIABLE, SYSTEM_VARIABLES, cli
 
 FOUR_BAR = """\
 title = "Four-bar"

@@ -6,11 +6,8 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from doors import SHIPPED, ExitCode, cli, shipped_text
 from worked import path_of
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
-from planmethod.render.sheets.compositions import SHIPPED, shipped_text
 
 EX1 = str(path_of("linkages/ex1"))
 

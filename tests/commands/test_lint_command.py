@@ -9,11 +9,8 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
+from doors import REMARKS, ExitCode, cli
 from worked import path_of
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
-from planmethod.render.control.remarks import REMARKS
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
 VARIANTS = str(path_of("levers/task12-variants"))

@@ -15,20 +15,29 @@ import click
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from doors import (
+    COMMANDS,
+    MOTION,
+    POSITIONS_BLOCK as BLOCK,
+    POSITIONS_SAMPLE as SAMPLE,
+    Cause,
+    Failure,
+    Gaps,
+    ModelProblem as Problem,
+    Place,
+    Solution,
+    Sweep,
+    bar,
+    cli,
+    csv_rows,
+    evenly,
+    large_table,
+    many_positions as many,
+    positions_examine as examine,
+    problem_load as load,
+)
 from msgspec.structs import replace
 from worked import DEAD, path_of
-
-from planmethod.cli import COMMANDS, cli
-from planmethod.commands.output import bar
-from planmethod.note.records.spreadsheet import csv_rows, large_table
-from planmethod.plans.model import MOTION
-from planmethod.problem import load
-from planmethod.problem.model import Problem
-from planmethod.solved.failures import Cause, Failure, Place
-from planmethod.solved.many import positions as many
-from planmethod.solved.many.positions import BLOCK, SAMPLE, Gaps, evenly, examine
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.solution import Solution
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
 SIX_LINK = str(path_of("levers/six-link"))

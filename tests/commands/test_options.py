@@ -7,9 +7,8 @@ from pathlib import Path
 import click
 import pytest
 from click.testing import CliRunner
+from doors import COMMANDS, cli, command_of
 from worked import path_of
-
-from planmethod.cli import COMMANDS, cli, command_of
 
 EX1, EX3 = str(path_of("linkages/ex1")), str(path_of("linkages/ex3"))
 

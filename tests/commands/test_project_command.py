@@ -18,11 +18,8 @@ import openpyxl
 import pytest
 from click.testing import CliRunner, Result
 from docx.oxml.ns import qn
+from doors import PROJECT_PARTS, ExitCode, cli
 from worked import ROOT
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
-from planmethod.problem.cycle_records import PROJECT_PARTS
 
 FILES = ROOT / "tests" / "data" / "projects"
 MATH = "{http://schemas.openxmlformats.org/officeDocument/2006/math}t"

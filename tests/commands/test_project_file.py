@@ -9,20 +9,24 @@ from pathlib import Path
 import pytest
 import worked
 from click.testing import CliRunner, Result
+from doors import (
+    KINDS_KINDS as KINDS,
+    Drawing,
+    ModelProblem as Problem,
+    PartName,
+    Project,
+    ProjectPart,
+    Scales,
+    Solution,
+    cli,
+    first_scales,
+    get_language,
+    paper_of,
+    part_drawings,
+    plain_document,
+    to_builtins,
+)
 from worked import ROOT
-
-from planmethod.cli import cli
-from planmethod.kinds import KINDS
-from planmethod.note.columnar import to_builtins
-from planmethod.note.wording import get_language
-from planmethod.note.writers.terminal import plain_document
-from planmethod.problem.model import Problem, Scales
-from planmethod.project.first import first_scales
-from planmethod.project.model import PartName, Project, ProjectPart
-from planmethod.project.sheets import part_drawings
-from planmethod.render.ink.drawing import Drawing
-from planmethod.render.sheets.controlled import paper_of
-from planmethod.solved.solution import Solution
 
 KINDS_BY_TABLE = {kind.table: kind for kind in KINDS}
 SHAPER = ROOT / "tests/data/projects/shaper.toml"

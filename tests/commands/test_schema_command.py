@@ -8,10 +8,8 @@ from pathlib import Path
 import jsonschema
 import msgspec
 from click.testing import CliRunner, Result
+from doors import ExitCode, cli
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
 
 
 def run(*args: str) -> Result:

@@ -6,10 +6,8 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from doors import cli, named
 from worked import PROBLEMS, path_of
-
-from planmethod.cli import cli
-from planmethod.commands.problems import named
 
 EX1 = str(path_of("linkages/ex1"))
 APART = "Cannot place C at phi = 60 deg"

@@ -9,14 +9,9 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from doors import PAPER_FORMATS as FORMATS, LayoutError, cli, compacted, kinematics_sheets
 from msgspec.structs import replace
 from worked import path_of, problem_of
-
-from planmethod.cli import cli
-from planmethod.commands.sheet import compacted
-from planmethod.errors import LayoutError
-from planmethod.paper import FORMATS
-from planmethod.render.sheets.kinematics import kinematics_sheets
 
 EX1, EX2 = str(path_of("linkages/ex1")), str(path_of("linkages/ex2"))
 SIX_LINK = str(path_of("levers/six-link"))

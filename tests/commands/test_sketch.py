@@ -11,16 +11,21 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from doors import (
+    VIEWS,
+    Arc,
+    Drawing,
+    ExitCode,
+    Stroke,
+    Text,
+    cli,
+    get_language,
+    kinds_loads as loads,
+    largest_part,
+    sketch,
+    unlikely,
+)
 from waiting import wait_until
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
-from planmethod.kinds import loads
-from planmethod.note.wording import get_language
-from planmethod.problem.plausibility import unlikely
-from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
-from planmethod.render.sketch import VIEWS, sketch
-from planmethod.solved.partial_mechanism import largest_part
 
 EX3 = Path("problems/linkages/ex3.toml").read_text(encoding="utf-8")
 FOUR_BAR = """

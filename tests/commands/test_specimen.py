@@ -6,10 +6,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
-from planmethod.render.sheets.specimen import SPECIMENS
+from doors import SPECIMENS, ExitCode, cli
 
 
 @pytest.fixture(autouse=True)

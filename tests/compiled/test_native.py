@@ -11,20 +11,28 @@ from typing import Any
 
 import numpy as np
 import pytest
+from doors import (
+    COMPILERS,
+    CSOURCE_BLOCK as BLOCK,
+    MANY,
+    WORD,
+    Blocks,
+    Guard,
+    ModelProblem as Problem,
+    Native,
+    NotCompiledError,
+    NumberName,
+    Ref,
+    Sweep,
+    Tape,
+    c_source,
+    native as native_module,
+    problem_load as load,
+    problem_loads as loads,
+    problem_template as template,
+)
 from tapes import drawn
 from worked import path_of
-
-from planmethod.compiled import native as native_module
-from planmethod.compiled.blocks import Blocks
-from planmethod.compiled.csource import BLOCK, WORD, c_source
-from planmethod.compiled.native import COMPILERS, Native, NotCompiledError
-from planmethod.compiled.runner import MANY
-from planmethod.compiled.symbolic import Guard
-from planmethod.compiled.tape import Ref, Tape
-from planmethod.construct.steps import NumberName
-from planmethod.problem import load, loads, template
-from planmethod.problem.model import Problem
-from planmethod.solved.many.sweep import Sweep
 
 AS_ALWAYS = native_module.FLAGS
 

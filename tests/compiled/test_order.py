@@ -8,17 +8,24 @@ from typing import Any
 
 import numpy as np
 import pytest
+from doors import (
+    BLOCKS_BLOCK as BLOCK,
+    CACHE_BYTES,
+    MIN_BLOCK,
+    Blocks,
+    ModelProblem as Problem,
+    Ref,
+    Runner,
+    Sweep,
+    Tape,
+    TapeProgram,
+    c_source,
+    symbolic,
+    used_by,
+    varied as sweeping,
+)
 
 from benchmarks.scenes import chain
-from planmethod.compiled import Runner, symbolic
-from planmethod.compiled.blocks import BLOCK, CACHE_BYTES, MIN_BLOCK, Blocks
-from planmethod.compiled.csource import c_source
-from planmethod.compiled.pysource import used_by
-from planmethod.compiled.symbolic import TapeProgram
-from planmethod.compiled.tape import Ref, Tape
-from planmethod.problem.model import Problem
-from planmethod.solved.many import varied as sweeping
-from planmethod.solved.many.sweep import Sweep
 
 
 def written(problem: Problem, asked: list[str] | None, monkeypatch: pytest.MonkeyPatch) -> Any:

@@ -14,21 +14,36 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each, sampled, some
+from doors import (
+    Blocks,
+    Builder,
+    Guard,
+    ImpossibleError,
+    Name,
+    NumberName,
+    PointName,
+    Program,
+    Ref,
+    Side,
+    Sweep,
+    Symbol,
+    Symbolic,
+    Tape,
+    TapeProgram,
+    compiled_blocks as blocks_module,
+    evaluate_limit_of as limit_of,
+    problem_load as load,
+    problem_loads as loads,
+    pysource as straight_module,
+    same,
+    straight,
+    symbolic_write as write,
+    used_by,
+)
 from tapes import INPUTS, drawn
 from worked import every_file
 
 from benchmarks.generator import random_problem
-from planmethod.compiled import blocks as blocks_module
-from planmethod.compiled import pysource as straight_module
-from planmethod.compiled.blocks import Blocks
-from planmethod.compiled.pysource import ImpossibleError, straight, used_by
-from planmethod.compiled.symbolic import Guard, Symbol, Symbolic, TapeProgram, write
-from planmethod.compiled.tape import Ref, Tape, same
-from planmethod.construct.evaluate import limit_of
-from planmethod.construct.program import Builder, Program
-from planmethod.construct.steps import Name, NumberName, PointName, Side
-from planmethod.problem import load, loads
-from planmethod.solved.many.sweep import Sweep
 
 
 @pytest.fixture

@@ -7,14 +7,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
-
-from planmethod.construct.arithmetic import Float64, unit_vectors
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.program import Builder
-from planmethod.construct.ruler import RulerArithmetic
-from planmethod.construct.steps import PointName
+from doors import (
+    Builder,
+    Float64,
+    PointName,
+    RulerArithmetic,
+    evaluate_evaluate as evaluate,
+    unit_vectors,
+)
+from hypothesis import example, given, strategies as st
 
 
 def scalar(value: Any) -> complex:

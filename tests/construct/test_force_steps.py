@@ -9,24 +9,33 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each
-from hypothesis import given
-from hypothesis import strategies as st
+from doors import (
+    Arithmetic,
+    Blocks,
+    Builder,
+    Counted,
+    Dual,
+    Duals,
+    Float64,
+    Jet,
+    Name,
+    NumberName,
+    PointName,
+    Precise,
+    Profile,
+    Program,
+    ProgramError,
+    Propagated,
+    RulerArithmetic,
+    Sampled,
+    as_dual,
+    evaluate_evaluate as evaluate,
+    reach,
+    symbolic_write as write,
+)
+from hypothesis import given, strategies as st
 from jets import Jets, adjudicate
 from msgspec.structs import replace
-
-from planmethod.compiled.blocks import Blocks
-from planmethod.compiled.symbolic import write
-from planmethod.construct.arithmetic import Arithmetic, Float64
-from planmethod.construct.condition import reach
-from planmethod.construct.drafting import Counted, Profile, Propagated, Sampled
-from planmethod.construct.dual import Dual, Duals, as_dual
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.jet import Jet
-from planmethod.construct.multiprecision import Precise
-from planmethod.construct.program import Builder, Program
-from planmethod.construct.ruler import RulerArithmetic
-from planmethod.construct.steps import Name, NumberName, PointName
-from planmethod.errors import ProgramError
 
 coordinate = st.floats(-300.0, 300.0).map(lambda x: round(x, 6))
 place = st.builds(complex, coordinate, coordinate)

@@ -4,17 +4,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from worked import problem_of
-
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.program import Builder, Program
-from planmethod.construct.ruler import RulerArithmetic
-from planmethod.construct.steps import (
+from doors import (
     STEP_TYPES,
+    Builder,
     Compute,
+    Float64,
     GivenNumber,
     GivenPoint,
     IntersectLines,
@@ -25,12 +19,17 @@ from planmethod.construct.steps import (
     LineSense,
     NumberName,
     PointName,
+    Program,
+    ProgramError,
+    RulerArithmetic,
     Side,
+    Solution,
+    evaluate_evaluate as evaluate,
     operands,
     result_kind,
 )
-from planmethod.errors import ProgramError
-from planmethod.solved.solution import Solution
+from hypothesis import given, strategies as st
+from worked import problem_of
 
 A, B, C = PointName("A"), PointName("B"), PointName("C")
 AB, AC = LineName("AB"), LineName("AC")

@@ -7,22 +7,26 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from doors import (
+    UNIT_ROUNDOFF,
+    Builder,
+    Dual,
+    Duals,
+    Float64,
+    Jet,
+    Precise,
+    QuantityKind,
+    Solution,
+    as_dual,
+    drive_data,
+    evaluate_evaluate as evaluate,
+    measured_reach,
+    quantities_of,
+    reach,
+)
+from hypothesis import given, strategies as st
 from jets import Jets, adjudicate
 from worked import SIX, problem_of
-
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.condition import UNIT_ROUNDOFF, measured_reach, reach
-from planmethod.construct.dual import Dual, Duals, as_dual
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.jet import Jet
-from planmethod.construct.multiprecision import Precise
-from planmethod.construct.program import Builder
-from planmethod.plans.legend import QuantityKind
-from planmethod.solved.assembly_modes import drive_data
-from planmethod.solved.quantities import quantities_of
-from planmethod.solved.solution import Solution
 
 SCALES = ("mu_l", "mu_v", "mu_a")
 
@@ -71,7 +75,7 @@ def test_an_impossible_result_is_nan_for_the_referee_too() -> None:
     b = Builder()
     p, q = b.take_point("P"), b.take_point("Q")
     r = b.known("r")
-    from planmethod.construct.steps import Side
+    from doors import Side
 
     x = b.intersect_circles("X", p, r, q, r, Side.LEFT)
     trace = adjudicate(b.program(), {"P": 0j, "Q": 5 + 0j, "r": 2.0})

@@ -4,10 +4,8 @@ import math
 from fractions import Fraction
 
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
-
-from planmethod.construct.scale import SERIES, choose_scale, series_near
+from doors import SCALE_SERIES as SERIES, choose_scale, series_near
+from hypothesis import example, given, strategies as st
 
 MEMBERS = (Fraction(1), Fraction(2), Fraction(5, 2), Fraction(4), Fraction(5))
 values = st.floats(1e-12, 1e12)

@@ -9,23 +9,22 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given
-from hypothesis import strategies as st
-
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.program import Builder
-from planmethod.construct.ruler import RulerArithmetic
-from planmethod.construct.steps import (
+from doors import (
     STEP_TYPES,
+    Builder,
+    Float64,
     Leg,
     LineName,
     LineSense,
     Name,
     NumberName,
     PointName,
+    RulerArithmetic,
     Side,
+    Trace,
+    evaluate_evaluate as evaluate,
 )
+from hypothesis import assume, example, given, strategies as st
 
 REACH = 300.0
 TINY = 1e-9  # mm, on a sheet of 300 mm

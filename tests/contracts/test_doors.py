@@ -15,20 +15,25 @@ from typing import Any
 import pytest
 from cases import is_thinned
 from click.testing import CliRunner, Result
+from doors import (
+    _HEADER,
+    _LITERAL,
+    VIEWS,
+    CamDesign,
+    Drawing,
+    Text,
+    cli,
+    get_language,
+    is_label,
+    largest_part,
+    partial_mechanism as part_module,
+    read_parsed,
+    sketch,
+    without_variants,
+)
 from worked import ROOT, path_of
 
 from benchmarks.attack.patterns import patterns, slow
-from planmethod.cams.design import CamDesign
-from planmethod.cli import cli
-from planmethod.note.wording import get_language
-from planmethod.problem.names import is_label
-from planmethod.problem.reader import read_parsed
-from planmethod.render.ink.drawing import Drawing, Text
-from planmethod.render.sketch import VIEWS, sketch
-from planmethod.solved import partial_mechanism as part_module
-from planmethod.solved.partial_mechanism import largest_part
-from planmethod.varying.candidates import _HEADER, without_variants
-from planmethod.varying.parameters import _LITERAL
 
 EX3 = path_of("linkages/ex3")
 FOUR_BAR = """

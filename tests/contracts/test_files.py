@@ -15,17 +15,22 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from doors import (
+    EXPONENT_LIMIT,
+    LOCK,
+    PREFIX,
+    SOURCE_DEPTH_LIMIT as DEPTH_LIMIT,
+    ProblemError,
+    cause_of,
+    cli,
+    read_decimal,
+    served_folder,
+    source_parse as parse,
+    unwritten,
+    visible,
+)
+from hypothesis import given, settings, strategies as st
 from worked import path_of
-
-from planmethod.cli import cli
-from planmethod.errors import ProblemError
-from planmethod.languages import visible
-from planmethod.problem.formula import EXPONENT_LIMIT, read_decimal
-from planmethod.problem.source import DEPTH_LIMIT, parse
-from planmethod.render.backends.output import cause_of, unwritten
-from planmethod.studio.sessions import LOCK, PREFIX, served_folder
 
 EX3 = path_of("linkages/ex3")
 EX3_TEXT = EX3.read_text("utf-8")

@@ -7,12 +7,8 @@ from functools import cache
 from typing import Any
 
 import pytest
+from doors import JointForce, Solution, Statics, analyse
 from worked import ROOT, problem_of
-
-from planmethod.mechanism.structure import analyse
-from planmethod.solved.forces.contact import JointForce
-from planmethod.solved.forces.statics import Statics
-from planmethod.solved.solution import Solution
 
 LIMIT = 1e-9
 

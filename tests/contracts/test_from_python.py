@@ -12,17 +12,23 @@ from typing import Any
 
 import numpy as np
 import pytest
+from doors import (
+    ArgumentError,
+    AssemblyError,
+    DoubtWarning,
+    PlanKind,
+    PlanMethodError,
+    UnknownNameError,
+    UnknownQuantityError,
+    Variants,
+    check_works,
+    read_works,
+    settle,
+    speaking,
+)
 from worked import path_of
 
 import planmethod
-from planmethod.arguments import UnknownNameError
-from planmethod.check.group import Variants, check_works
-from planmethod.check.submissions import read_works
-from planmethod.errors import ArgumentError, AssemblyError, DoubtWarning, PlanMethodError
-from planmethod.languages import speaking
-from planmethod.plans.model import PlanKind
-from planmethod.project.settle import settle
-from planmethod.solved.quantities import UnknownQuantityError
 
 EX3 = path_of("linkages/ex3")
 VARIANTS = path_of("linkages/ex3-variants")

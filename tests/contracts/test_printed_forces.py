@@ -7,12 +7,8 @@ from functools import cache
 from typing import Any
 
 import pytest
+from doors import Solution, audit, is_force, parse_selector, statics_of
 from worked import ROOT, path_of, problem_of
-
-from planmethod.note.audit.audit import audit
-from planmethod.problem.selector import is_force, parse_selector
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
 
 
 @cache

@@ -11,10 +11,8 @@ from typing import Any
 import newton
 import pytest
 from click.testing import CliRunner
+from doors import PlanKind, cli, pole_letter
 from worked import SIX, exact_values, path_of, problem_of
-
-from planmethod.cli import cli
-from planmethod.plans.model import PlanKind, pole_letter
 
 POINT = ("x", "y", "vx", "vy", "v", "ax", "ay", "a")
 KIND = {"x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "v": "m/s"}

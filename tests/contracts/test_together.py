@@ -16,17 +16,27 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each
+from doors import (
+    Cause,
+    Contradiction,
+    Failure,
+    Fault,
+    ModelProblem as Problem,
+    Place,
+    PlanKind,
+    PlanMethodError,
+    PointName,
+    PositionError,
+    ProblemError,
+    SelfCheckError,
+    current_language,
+    render,
+    speaking,
+    translate,
+)
 from worked import path_of
 
 import planmethod
-from planmethod.construct.steps import PointName
-from planmethod.errors import Fault, PlanMethodError, ProblemError
-from planmethod.languages import current_language, speaking, translate
-from planmethod.plans.model import PlanKind
-from planmethod.problem.model import Problem
-from planmethod.render.backends import render
-from planmethod.solved.failures import Cause, Contradiction, Failure, Place, PositionError
-from planmethod.solved.selfcheck import SelfCheckError
 
 NAMES = ("linkages/ex1", "linkages/ex2", "linkages/ex3", "levers/six-link", "levers/task12")
 WAYS = [way for way in multiprocessing.get_all_start_methods() if way != "forkserver"]

@@ -12,16 +12,19 @@ from typing import Any
 import pytest
 from cases import each, some
 from click.testing import CliRunner
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
-from planmethod.gears.answers import answer
-from planmethod.gears.conditions import conditions
-from planmethod.gears.motion import solve_motion
-from planmethod.gears.reader import load
-from planmethod.gears.teeth import SCHEMES, TeethSpecification, TrainScheme
-from planmethod.gears.teeth_report import problem_text
-from planmethod.gears.teeth_selection import choose
+from doors import (
+    SCHEMES,
+    ExitCode,
+    TeethSpecification,
+    TrainScheme,
+    answer,
+    cli,
+    conditions,
+    gears_reader_load as load,
+    solve_motion,
+    teeth_report_problem_text as problem_text,
+    teeth_selection_choose as choose,
+)
 
 F = Fraction
 ALPHA = math.radians(20)

@@ -14,15 +14,21 @@ import mpmath
 import numpy as np
 import pytest
 from cases import each, some
+from doors import (
+    WORDING_LANGUAGES as LANGUAGES,
+    Condition,
+    MeshKind,
+    TrainMotion,
+    _mesh_properly,
+    conditions,
+    gears_reader_load as load,
+    get_language,
+    judgement,
+    sentence,
+    solve_motion,
+)
 from trains import closed, mesh, planetary, solved, told
 from worked import PROBLEMS
-
-from planmethod.gears.conditions import Condition, conditions, judgement, sentence
-from planmethod.gears.model import MeshKind
-from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.gears.reader import load
-from planmethod.gears.teeth_selection import _mesh_properly
-from planmethod.note.wording import LANGUAGES, get_language
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 TERM = re.compile(r"([−+]?) ?[zr]_([\w']+)")

@@ -9,17 +9,20 @@ import numpy as np
 import pytest
 from cases import each
 from click.testing import CliRunner
+from doors import (
+    WORDING_LANGUAGES as LANGUAGES,
+    SchemeData,
+    SideView,
+    Stroke,
+    TrainMotion,
+    answer,
+    arrange,
+    best_order,
+    cli,
+    derivation_derivation as derivation,
+    get_language,
+)
 from trains import mesh, solved, told
-
-from planmethod.cli import cli
-from planmethod.gears.answers import answer
-from planmethod.gears.arrangement import arrange, best_order
-from planmethod.gears.derivation import derivation
-from planmethod.gears.drawn.side import SideView
-from planmethod.gears.motion import TrainMotion
-from planmethod.gears.scheme import SchemeData
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.render.ink.drawing import Stroke
 
 SENTENCE = {"en": "is not defined: axes cross", "ru": "не определяется: на пути"}
 SENSES = {"en": ("turn in the same sense", "turn in opposite senses"),

@@ -13,24 +13,27 @@ import numpy as np
 import pytest
 from cases import each, some
 from click.testing import CliRunner
+from doors import (
+    ENVELOPE,
+    MESHPICTURE_CURVE as CURVE,
+    POSITIONS,
+    CuttingView,
+    Disc,
+    LineOfAction,
+    Pair,
+    Rack,
+    RackCutting,
+    Stroke,
+    Text,
+    Tooth,
+    cli,
+    cutting_picture,
+    cutting_view,
+    get_language,
+)
 from shapely import MultiPolygon, Point, Polygon, union_all
 from shapely.affinity import rotate, scale, translate
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.gears.involute.cuttingpicture import (
-    ENVELOPE,
-    POSITIONS,
-    CuttingView,
-    cutting_picture,
-    cutting_view,
-)
-from planmethod.gears.involute.generation import RackCutting
-from planmethod.gears.involute.meshpicture import CURVE
-from planmethod.gears.involute.profile import LineOfAction, Tooth
-from planmethod.gears.involute.sizes import Pair, Rack
-from planmethod.note.wording import get_language
-from planmethod.render.ink.drawing import Disc, Stroke, Text
 
 FILE = PROBLEMS / "meshing" / "z12-30.toml"
 NANOMETRE = 1e-6

@@ -11,20 +11,24 @@ from pathlib import Path
 import pytest
 from cases import each, some
 from click.testing import CliRunner
+from doors import (
+    LANGUAGES_LANGUAGES as LANGUAGES,
+    DerivedLine,
+    PlanMethodError,
+    RequestedQuantity,
+    TrainMotion,
+    by_speeds,
+    by_velocities,
+    cli,
+    derivation_derivation as derivation,
+    gears_derivation as module,
+    gears_reader_load as load,
+    get_language,
+    solve_motion,
+)
 from msgspec.structs import replace
 from trains import MAKERS, Made, solved
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.errors import PlanMethodError
-from planmethod.gears import derivation as module
-from planmethod.gears.derivation import DerivedLine, by_speeds, derivation
-from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.gears.reader import load
-from planmethod.gears.requested_quantities import RequestedQuantity
-from planmethod.gears.velocities import by_velocities
-from planmethod.languages import LANGUAGES
-from planmethod.note.wording import get_language
 
 FILES = sorted([*(PROBLEMS / "gears").glob("*.toml"), *(PROBLEMS / "gears/tasks").glob("*.toml")])
 WORDS = get_language("ru")

@@ -11,14 +11,18 @@ import jsonschema
 import pytest
 from cases import each
 from click.testing import CliRunner
+from doors import (
+    KINDS_KINDS as KINDS,
+    ExitCode,
+    ProblemError,
+    RequestedQuantityError,
+    cli,
+    get_language,
+    kind_of,
+    requested_quantities_parse as parse,
+    speaking,
+)
 from worked import PROBLEMS, ROOT
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode, ProblemError
-from planmethod.gears.requested_quantities import RequestedQuantityError, parse
-from planmethod.kinds import KINDS, kind_of
-from planmethod.languages import speaking
-from planmethod.note.wording import get_language
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 SCHEMA = json.loads((ROOT / "planmethod/problem/schema.json").read_text("utf-8"))

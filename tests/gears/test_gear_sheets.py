@@ -12,28 +12,38 @@ import ezdxf
 import pytest
 from cases import each, some, thinned
 from click.testing import CliRunner
+from doors import (
+    DASH,
+    DRAFTING_PROFILES as PROFILES,
+    ENLARGED,
+    Arc,
+    Arrangement,
+    AxisPart,
+    Drawing,
+    ExitCode,
+    LayoutError,
+    SchemeData,
+    Severity,
+    Stroke,
+    Text,
+    arrange,
+    as_drawn,
+    check_drawings,
+    cli,
+    draw,
+    front,
+    gears_construction_construct as construct,
+    gears_reader_load as load,
+    gears_sheet_drawings as drawings,
+    get_language,
+    paper_of,
+    read,
+    render,
+    results,
+    solve_motion,
+)
 from trains import MAKERS, bevel, mesh, solved, told
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.errors import ExitCode, LayoutError
-from planmethod.gears.arrangement import Arrangement, AxisPart, arrange
-from planmethod.gears.construction import construct, read
-from planmethod.gears.drawn.views import front
-from planmethod.gears.motion import solve_motion
-from planmethod.gears.reader import load
-from planmethod.gears.scheme import SchemeData
-from planmethod.gears.sheet import as_drawn, drawings
-from planmethod.gears.sheet_texts import results
-from planmethod.gears.velocity_diagrams import draw
-from planmethod.note.compared import DASH
-from planmethod.note.wording import get_language
-from planmethod.render.backends import render
-from planmethod.render.control.remarks import Severity
-from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
-from planmethod.render.pictures.detail_views import ENLARGED
-from planmethod.render.sheets.controlled import check_drawings, paper_of
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 TASKS = sorted((PROBLEMS / "gears").glob("*/*.toml"))

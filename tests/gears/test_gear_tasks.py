@@ -10,12 +10,9 @@ from typing import Any
 import jsonschema
 import pytest
 from cases import each
+from doors import answer, gears_reader_load as load, solve_motion
 from trains import solved
 from worked import PROBLEMS, ROOT
-
-from planmethod.gears.answers import answer
-from planmethod.gears.motion import solve_motion
-from planmethod.gears.reader import load
 
 KNOWN: dict[str, dict[str, Any]] = json.loads(
     (ROOT / "tests/data/gear_tasks.json").read_text("utf-8")

@@ -12,14 +12,16 @@ import numpy as np
 import pytest
 from cases import each, sampled
 from click.testing import CliRunner
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.gears.angles import involute
-from planmethod.gears.involute.reader import load
-from planmethod.gears.involute.sheet import drawings
-from planmethod.gears.involute.sizes import Pair, Rack
-from planmethod.render.control.sheet import inspect
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    Pair,
+    Rack,
+    cli,
+    inspect,
+    involute,
+    involute_reader_load as load,
+    involute_sheet_drawings as drawings,
+)
 
 CASES: tuple[tuple[tuple[int, int], float, tuple[float, float], float], ...] = (
     ((17, 40), 4.0, (0.3, 0.2), 15.0),

@@ -15,26 +15,37 @@ import numpy as np
 import pytest
 from cases import each, some, thinned
 from click.testing import CliRunner
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    MESHPICTURE_CURVE as CURVE,
+    MESHPICTURE_SCALES as SCALES,
+    Contour,
+    Drawing,
+    LabelsLabel as Label,
+    LimitKind,
+    LineOfAction,
+    Pair,
+    Points,
+    Rack,
+    SolvedMeshing,
+    Stroke,
+    Tooth,
+    angle_of_involute,
+    blocking_choose as choose,
+    cli,
+    contour_picture,
+    diagrams,
+    get_language,
+    inspect,
+    involute_reader_load as load,
+    involute_sheet_drawings as drawings,
+    limits,
+    meets_limits,
+    render,
+    view_for,
+)
 from shapely import Polygon
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.gears.angles import angle_of_involute
-from planmethod.gears.involute import diagrams
-from planmethod.gears.involute.blocking import LimitKind, choose, limits, meets_limits
-from planmethod.gears.involute.diagrams import Contour, contour_picture
-from planmethod.gears.involute.meshpicture import CURVE, SCALES, view_for
-from planmethod.gears.involute.profile import LineOfAction, Points, Tooth
-from planmethod.gears.involute.quantities import SolvedMeshing
-from planmethod.gears.involute.reader import load
-from planmethod.gears.involute.sheet import drawings
-from planmethod.gears.involute.sizes import Pair, Rack
-from planmethod.note.wording import get_language
-from planmethod.render.backends import render
-from planmethod.render.control.sheet import inspect
-from planmethod.render.ink.drawing import Drawing, Stroke
-from planmethod.render.labels import Label
 
 FILE = PROBLEMS / "meshing" / "z12-30.toml"
 EXACT = 1e-6

@@ -13,15 +13,19 @@ import pytest
 from browser import PROGRAM, browsing
 from cases import each
 from click.testing import CliRunner
+from doors import (
+    ExitCode,
+    GearProblem,
+    MeshKind,
+    ProblemError,
+    TrainMotion,
+    cli,
+    families_template as template,
+    gears_live_live_page as live_page,
+    gears_reader_load as load,
+    solve_motion,
+)
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode, ProblemError
-from planmethod.gears.live import live_page
-from planmethod.gears.model import GearProblem, MeshKind
-from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.gears.reader import load
-from planmethod.problem.families import template
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 

@@ -7,18 +7,29 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from doors import (
+    HIGH,
+    LOW,
+    Arc,
+    Contour,
+    MeshView,
+    Pen,
+    SolvedMeshing,
+    Stroke,
+    Text,
+    Window,
+    cutting_picture,
+    cutting_view,
+    get_language,
+    involute_reader_load as load,
+    mesh_dimensions,
+    meshing_picture,
+    sweep,
+    view_for,
+    working,
+)
 from shapely import LineString, Point
 from worked import path_of
-
-from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_view
-from planmethod.gears.involute.diagrams import HIGH, LOW, Contour, Window, working
-from planmethod.gears.involute.meshdimensions import mesh_dimensions
-from planmethod.gears.involute.meshpicture import MeshView, meshing_picture, view_for
-from planmethod.gears.involute.quantities import SolvedMeshing
-from planmethod.gears.involute.reader import load
-from planmethod.note.wording import get_language
-from planmethod.render.ink.drawing import Arc, Pen, Stroke, Text
-from planmethod.render.ink.style import sweep
 
 FILES = ("meshing/z12-30", "meshing/z20-60-internal")
 

@@ -9,17 +9,19 @@ from pathlib import Path
 
 import pytest
 from cases import each
+from doors import (
+    WORDING_LANGUAGES as LANGUAGES,
+    Document,
+    FormulasUnit as Unit,
+    SolvedMeshing,
+    get_language,
+    inlined,
+    involute_reader_load as load,
+    plain_document,
+    plain_text,
+    solved_document,
+)
 from worked import PROBLEMS
-
-from planmethod.gears.involute.formulas import Unit
-from planmethod.gears.involute.quantities import SolvedMeshing
-from planmethod.gears.involute.reader import load
-from planmethod.gears.involute.text import solved_document
-from planmethod.note.document import Document
-from planmethod.note.formula import inlined
-from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.note.writers.terminal import plain_document
 
 BODIES = {
     "shifted": "z = [12, 30]\nm = 5\nx = [0.59, 0.53]",

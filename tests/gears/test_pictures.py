@@ -11,18 +11,23 @@ import mpmath
 import pytest
 from cases import each, some, thinned
 from click.testing import CliRunner
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    ExitCode,
+    GearDrawing,
+    LayOffLength,
+    TrainMotion,
+    VelocityDiagramError,
+    cli,
+    draw,
+    gears_construction_construct as construct,
+    gears_reader_load as load,
+    read,
+    solve_motion,
+)
 from jets import adjudicate
 from trains import MAKERS, bevel, solved
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.construct.steps import LayOffLength
-from planmethod.errors import ExitCode
-from planmethod.gears.construction import GearDrawing, VelocityDiagramError, construct, read
-from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.gears.reader import load
-from planmethod.gears.velocity_diagrams import draw
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 PLANAR = [maker for maker in MAKERS if maker is not bevel]

@@ -11,15 +11,19 @@ from typing import Any
 import pytest
 from cases import each
 from click.testing import CliRunner
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.gears.reader import load
-from planmethod.gears.sheet import drawings
-from planmethod.gears.teeth import SCHEMES, TeethSpecification
-from planmethod.gears.teeth_selection import choose, set_of
-from planmethod.render.control.sheet import inspect
-from planmethod.render.ink.drawing import Stroke, Text
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    SCHEMES,
+    Stroke,
+    TeethSpecification,
+    Text,
+    cli,
+    gears_reader_load as load,
+    gears_sheet_drawings as drawings,
+    inspect,
+    set_of,
+    teeth_selection_choose as choose,
+)
 
 CARRIED = [one for one in SCHEMES if one.is_planetary]
 RATIOS = {"ring": "6.5", "external-internal": "12", "two-external": "-12", "two-internal": "-20"}

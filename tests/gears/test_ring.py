@@ -12,14 +12,18 @@ import numpy as np
 import pytest
 from cases import some
 from click.testing import CliRunner
+from doors import (
+    LineOfAction,
+    Pair,
+    Points,
+    Rack,
+    SolvedMeshing,
+    Tooth,
+    cli,
+    involute_reader_load as load,
+)
 from shapely import Point, Polygon
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.gears.involute.profile import LineOfAction, Points, Tooth
-from planmethod.gears.involute.quantities import SolvedMeshing
-from planmethod.gears.involute.reader import load
-from planmethod.gears.involute.sizes import Pair, Rack
 
 FILE = PROBLEMS / "meshing" / "z20-60-internal.toml"
 

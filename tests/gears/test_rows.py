@@ -10,16 +10,18 @@ from typing import Any
 import pytest
 from cases import each
 from click.testing import CliRunner
+from doors import (
+    GearProblem,
+    ProblemError,
+    answer,
+    cli,
+    compare,
+    conditions,
+    get_language,
+    sentence,
+    train_facts,
+)
 from trains import mesh, solved, told
-
-from planmethod.cli import cli
-from planmethod.errors import ProblemError
-from planmethod.gears.answers import answer
-from planmethod.gears.comparison import compare
-from planmethod.gears.conditions import conditions, sentence
-from planmethod.gears.model import GearProblem
-from planmethod.gears.sheet_texts import train_facts
-from planmethod.note.wording import get_language
 
 WHEELS = {"1": 20, "2": 40, "2'": 25, "3": 85, "4": 13, "5": 20}
 MESHES = [
@@ -167,7 +169,7 @@ def test_gears_are_given_in_centimetres(tmp_path: Path) -> None:
 
 
 def designed(folder: Path, text: str) -> GearProblem:
-    from planmethod.gears.reader import load
+    from doors import gears_reader_load as load
 
     path = folder / "train.toml"
     path.write_text(f"[gears]\n{text}", encoding="utf-8")

@@ -13,17 +13,20 @@ import mpmath
 import pytest
 from cases import each, some
 from click.testing import CliRunner
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    ProblemError,
+    TrainMotion,
+    answer,
+    cli,
+    conditions,
+    draw,
+    gears_construction_construct as construct,
+    get_language,
+    judgement,
+    read,
+)
 from trains import mesh, solved
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.errors import ProblemError
-from planmethod.gears.answers import answer
-from planmethod.gears.conditions import conditions, judgement
-from planmethod.gears.construction import construct, read
-from planmethod.gears.motion import TrainMotion
-from planmethod.gears.velocity_diagrams import draw
-from planmethod.note.wording import get_language
 
 MODULE = 2.0
 

@@ -13,24 +13,33 @@ from pathlib import Path
 import pytest
 from cases import each, some
 from click.testing import CliRunner
+from doors import (
+    ARROW_INSIDE,
+    DRAFTING_PROFILES as PROFILES,
+    Arc,
+    ContactKind,
+    Drawing,
+    Fill,
+    Pen,
+    SchemeData,
+    Text,
+    TrainMotion,
+    answer,
+    cli,
+    draw,
+    front,
+    gears_construction_construct as construct,
+    gears_reader_load as load,
+    gears_sheet_drawings as drawings,
+    get_language,
+    read,
+    results,
+    solve_motion,
+    text_equation_of as equation_of,
+)
 from msgspec.structs import replace
 from trains import MAKERS, Made, bevel, mesh, solved, told
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.gears.answers import answer
-from planmethod.gears.construction import construct, read
-from planmethod.gears.drawn.views import ARROW_INSIDE, front
-from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.gears.reader import load
-from planmethod.gears.scheme import SchemeData
-from planmethod.gears.sheet import drawings
-from planmethod.gears.sheet_texts import results
-from planmethod.gears.text import equation_of
-from planmethod.gears.velocity_diagrams import ContactKind, draw
-from planmethod.note.wording import get_language
-from planmethod.render.ink.drawing import Arc, Drawing, Fill, Pen, Text
 
 PLANAR = [maker for maker in MAKERS if maker is not bevel]
 WITH_PICTURES = (*(f"gears-ex{k}" for k in range(1, 7)), "planetary-k10")

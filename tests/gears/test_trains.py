@@ -10,15 +10,19 @@ from types import MappingProxyType
 
 import pytest
 from cases import each
+from doors import (
+    TrainKind,
+    TrainMotion,
+    answer,
+    conditions,
+    draw,
+    efficiency,
+    max_planets,
+    solve,
+    tabular,
+)
 from scales import is_round
 from trains import MAKERS, Made, bevel, solved
-
-from planmethod.gears.answers import answer, efficiency
-from planmethod.gears.conditions import conditions, max_planets
-from planmethod.gears.linear import solve
-from planmethod.gears.motion import TrainKind, TrainMotion
-from planmethod.gears.text import tabular
-from planmethod.gears.velocity_diagrams import draw
 
 SEEDS = range(100)  # 500 trains
 EXTERNAL_RING = 'wheels = { 1 = 20, 2 = 40, 3 = 100 }\nmeshes = [{ of = [1, 2], carrier = "H"%s },\

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.gears.reader import load
+from doors import TrainMotion, gears_reader_load as load, solve_motion
 
 F = Fraction
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planmethod.mechanism.model import Mechanism, Prismatic, Revolute
+from doors import Mechanism, Prismatic, Revolute
 
 
 def mechanism(points: str, slides: str = "", driver: str = "1") -> Mechanism:

@@ -3,13 +3,18 @@ from __future__ import annotations
 import random
 
 import pytest
+from doors import (
+    FRAME,
+    AssurGroup,
+    Mechanism,
+    Prismatic,
+    Revolute,
+    analyse,
+    links_of,
+    roman,
+)
 from drawings import CLASS_IV, EX1, EX2, EX3, PRESS, SIX_LINK, TASK12, TRIAD, mechanism
-from hypothesis import given
-from hypothesis import strategies as st
-
-from planmethod.mechanism.groups import AssurGroup, links_of
-from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
-from planmethod.mechanism.structure import analyse, roman
+from hypothesis import given, strategies as st
 
 WORKED = {
     "ex1": (EX1, "I(0,1) → II(2,3)", ["RRP"], 3),

@@ -1,10 +1,15 @@
 from __future__ import annotations
 
 import pytest
+from doors import (
+    Mechanism,
+    MotionKind,
+    PairKind,
+    Role,
+    kind_of_motion,
+    pairs,
+)
 from drawings import EX1, EX2, EX3, PRESS, SIX_LINK, TASK12, mechanism
-
-from planmethod.mechanism.describe import MotionKind, PairKind, Role, kind_of_motion, pairs
-from planmethod.mechanism.model import Mechanism
 
 R, P = PairKind.REVOLUTE, PairKind.PRISMATIC
 

@@ -7,19 +7,24 @@ import math
 import re
 
 import pytest
-
-from planmethod.mechanism.describe import PairKind, pairs, stated_pairs
-from planmethod.mechanism.structure import analyse
-from planmethod.note.narrate.structure import structure_document
-from planmethod.note.records.aligned import structure_in_full
-from planmethod.note.wording import get_language
-from planmethod.note.writers.terminal import plain_document
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
-from planmethod.render.ink.drawing import Pen, Stroke, Text
-from planmethod.render.sheets.structure import structure_sheet
-from planmethod.solved.aligned.schemes import self_aligning
-from planmethod.solved.solution import Solution
+from doors import (
+    ModelProblem as Problem,
+    PairKind,
+    Pen,
+    Solution,
+    Stroke,
+    Text,
+    analyse,
+    get_language,
+    pairs,
+    plain_document,
+    problem_loads as loads,
+    self_aligning,
+    stated_pairs,
+    structure_document,
+    structure_in_full,
+    structure_sheet,
+)
 
 A, D = 0j, 0.12 + 0.02j
 AO, DC, REACH, OMEGA = 0.02, 0.1, 0.06, 10.0

@@ -5,11 +5,16 @@ import random
 import numpy as np
 import numpy.typing as npt
 import pytest
+from doors import (
+    FRAME,
+    ExitCode,
+    Mechanism,
+    Prismatic,
+    Revolute,
+    StructureError,
+    analyse,
+)
 from drawings import mechanism
-
-from planmethod.errors import ExitCode, StructureError
-from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
-from planmethod.mechanism.structure import analyse
 
 BALANCE = "Mobility W = 3n - 2p1 = 1, but only by count: "
 

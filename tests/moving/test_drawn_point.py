@@ -12,22 +12,28 @@ import numpy as np
 import pytest
 from cases import each, thinned
 from click.testing import CliRunner
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    PLANVIEW_POLE as POLE,
+    SCALE_SERIES as SERIES,
+    Disc,
+    ExitCode,
+    Scale,
+    Stroke,
+    Undefined,
+    cli,
+    drawn_interval,
+    inspect,
+    move,
+    moving_construction_construct as construct,
+    moving_reader_load as load,
+    moving_sheet_drawings as drawings,
+    read_hodograph,
+    reader_loads as loads,
+    textbook,
+)
 from ezdxf.filemanagement import readfile
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.construct.scale import SERIES, Scale
-from planmethod.errors import ExitCode
-from planmethod.moving.construction import construct, read_hodograph
-from planmethod.moving.interval import drawn_interval
-from planmethod.moving.motion import Undefined, move
-from planmethod.moving.reader import load, loads
-from planmethod.moving.sheet import drawings
-from planmethod.moving.text import textbook
-from planmethod.render.control.sheet import inspect
-from planmethod.render.ink.drawing import Disc, Stroke
-from planmethod.render.pictures.planview import POLE
 
 FILES = sorted((PROBLEMS / "point").glob("*.toml"))
 K11 = PROBLEMS / "point" / "k11-01.toml"

@@ -10,14 +10,19 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
-
-from planmethod.errors import ExitCode, ProblemError
-from planmethod.kinds import kind_of
-from planmethod.moving.model import read_formula
-from planmethod.moving.reader import loads
-from planmethod.moving.series import CALLS, evaluate
-from planmethod.problem.fields import Faults
-from planmethod.problem.formula import DEPTH_LIMIT, FUNCTIONS, LENGTH_LIMIT
+from doors import (
+    CALLS,
+    FORMULA_DEPTH_LIMIT as DEPTH_LIMIT,
+    FUNCTIONS,
+    LENGTH_LIMIT,
+    ExitCode,
+    Faults,
+    ProblemError,
+    kind_of,
+    read_formula,
+    reader_loads as loads,
+    series_evaluate as evaluate,
+)
 
 
 def faults_of(text: str) -> list[str]:

@@ -10,12 +10,14 @@ import mpmath
 import pytest
 from cases import each
 from click.testing import CliRunner
+from doors import (
+    ExitCode,
+    cli,
+    moving_reader_load as load,
+    moving_record_record as record,
+    reader_loads as loads,
+)
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
-from planmethod.moving.reader import load, loads
-from planmethod.moving.record import record
 
 K11 = sorted((PROBLEMS / "point").glob("k11-*.toml"))
 

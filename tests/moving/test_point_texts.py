@@ -10,22 +10,38 @@ import numpy as np
 import pytest
 from cases import each
 from click.testing import CliRunner
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    LEGEND,
+    MOTION_COLUMNS as COLUMNS,
+    PLANVIEW_POLE as POLE,
+    POLAR,
+    ROLLED,
+    WORDING_LANGUAGES as LANGUAGES,
+    Arc,
+    Disc,
+    Drawing,
+    Fill,
+    Motion,
+    Pen,
+    PointProblem,
+    Stroke,
+    Text,
+    View,
+    cli,
+    drawn_interval,
+    get_language,
+    hodograph_picture,
+    inlined,
+    moment,
+    move,
+    moving_construction_construct as construct,
+    moving_sheet_drawings as drawings,
+    reader_loads as loads,
+    sheet_sheet_scales as sheet_scales,
+    trajectory_picture,
+)
 from msgspec.structs import replace
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.moving.construction import construct
-from planmethod.moving.interval import drawn_interval
-from planmethod.moving.model import PointProblem
-from planmethod.moving.motion import COLUMNS, LEGEND, POLAR, ROLLED, Motion, move
-from planmethod.moving.pictures import hodograph_picture, trajectory_picture
-from planmethod.moving.reader import loads
-from planmethod.moving.sheet import drawings, sheet_scales
-from planmethod.moving.text import moment
-from planmethod.note.formula import inlined
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Pen, Stroke, Text, View
-from planmethod.render.pictures.planview import POLE
 
 BOARD = PROFILES["board"]
 LAWS = {

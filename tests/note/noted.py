@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from planmethod.note.document import (
+from doors import (
     Caption,
     Chapter,
     Contents,
     Document,
+    DocumentItem as Item,
+    DocumentStep as Step,
+    Drawing,
+    DrawingView,
     Equation,
     Equations,
     Figure,
     Formula,
-    Item,
     Node,
     Note,
     PageBreak,
     Paragraph,
     Part,
     References,
-    Step,
+    Stroke,
     StructuralHeading,
     Subpart,
     Table,
@@ -26,10 +29,8 @@ from planmethod.note.document import (
     Title,
     TitlePage,
     table_of_columns,
+    typeset,
 )
-from planmethod.render.backends.view import DrawingView
-from planmethod.render.ink.drawing import Drawing, Stroke
-from planmethod.render.ink.typeset import typeset
 
 SPEED = r"v_{C} = \frac{v_{B}·\sqrt{l_{AB}^{2} + 1}}{l_{AB}} = 9,55 м/с,"
 SYSTEM = (

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
+from doors import ModelProblem as Problem, problem_loads as loads
 
 # A kulisa at 45 degrees: B = (0.1, 0), C = (0, -0.1), CB = 0.1·√2, and every component by hand.
 KULISA = """

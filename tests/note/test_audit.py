@@ -7,26 +7,27 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from msgspec.structs import replace
-from slotted import R, problem_of
-from worked import every_file
-
-from planmethod.cli import cli
-from planmethod.kinds import kind_of
-from planmethod.note.audit.audit import (
+from doors import (
+    WORDING_LANGUAGES as LANGUAGES,
     AuditDocument,
     Audited,
     AuditVerdict,
+    KindProblem,
+    ModelProblem as Problem,
+    NoValue,
+    Published,
     audit,
+    cli,
     count,
+    get_language,
     half_digit,
+    kind_of,
+    problem_load as load,
     source_scales,
 )
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.problem import load
-from planmethod.problem.common import KindProblem, Published
-from planmethod.problem.model import Problem
-from planmethod.solved.selectors.steps import NoValue
+from msgspec.structs import replace
+from slotted import R, problem_of
+from worked import every_file
 
 ROOT = Path(__file__).parents[2]
 PROBLEMS = sorted(every_file(), key=str)

@@ -6,21 +6,22 @@ import re
 
 import pytest
 from cases import each, sampled, some
+from doors import (
+    Compute,
+    ForceReading,
+    Names,
+    PlanKind,
+    Solution,
+    calculation,
+    get_language,
+    inlined,
+    plain_text,
+)
 from lettered import computed, force_lines
 from loaded import loaded_problem
 from texts import protocol
 from told import LANGUAGES, drawn, worked
 from worked import PROBLEMS, SIX, every_file
-
-from planmethod.construct.steps import Compute
-from planmethod.note.formula import inlined
-from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.steps import calculation
-from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import get_language
-from planmethod.plans.model import PlanKind
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.solution import Solution
 
 NAMES = [path.relative_to(PROBLEMS).with_suffix("") for path in every_file()]
 SEEDS = range(some(60, few=8))

@@ -6,17 +6,20 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from doors import (
+    Drawing,
+    ModelProblem as Problem,
+    Solution,
+    Text,
+    audit,
+    cli,
+    force_reading,
+    kinematics_sheets,
+    problem_loads as loads,
+    problem_template as template,
+    statics_of,
+)
 from texts import protocol
-
-from planmethod.cli import cli
-from planmethod.note.audit.audit import audit
-from planmethod.problem import loads, template
-from planmethod.problem.model import Problem
-from planmethod.render.ink.drawing import Drawing, Text
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.forces.reading import force_reading
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
 
 CANCEL = """
 [dynamics.links.1]

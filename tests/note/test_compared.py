@@ -13,13 +13,9 @@ from unittest.mock import patch
 import pytest
 from cases import each, sampled, some
 from click.testing import CliRunner
+from doors import Document, Table, TablePart, cli, get_language
 from msgspec import Struct
 from worked import PROBLEMS
-
-from planmethod.cli import cli
-from planmethod.note.document import Document, Table
-from planmethod.note.wording import get_language
-from planmethod.render.layout.tables import TablePart
 
 NONE = "—"
 

@@ -8,6 +8,16 @@ from itertools import product
 
 import pytest
 from cases import each, sampled, some
+from doors import (
+    AssemblyError,
+    ForceReading,
+    Solution,
+    get_language,
+    plain_text,
+    problem_loads as loads,
+    reaction_symbol,
+    statics_of,
+)
 from lettered import closing_lines, lever_lines, moment_lines
 from loaded import loaded_problem
 from msgspec.structs import replace
@@ -16,14 +26,6 @@ from told import LANGUAGES, assert_readable, flat, told, worked
 from worked import path_of
 
 from benchmarks.hard_problems import rocker
-from planmethod.errors import AssemblyError
-from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import get_language
-from planmethod.plans.forces.polygons import reaction_symbol
-from planmethod.problem import loads
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
 TRIADS = 1000

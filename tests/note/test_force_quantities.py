@@ -7,21 +7,28 @@ from math import atan2, degrees, hypot, pi, sqrt
 
 import pytest
 from cases import each
+from doors import (
+    FORCES,
+    WORDING_LANGUAGES as LANGUAGES,
+    Audited,
+    AuditVerdict,
+    ModelProblem as Problem,
+    NoValue,
+    NoValueError,
+    SelectorValues,
+    Solution,
+    audit,
+    drawn_forces,
+    get_language,
+    parse_selector,
+    problem_loads as loads,
+    source_force_scale,
+    statics_of,
+)
 from loaded import with_resultant
 from msgspec.structs import replace
 from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
-
-from planmethod.note.audit.audit import Audited, AuditVerdict, audit, source_force_scale
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
-from planmethod.problem.selector import FORCES, parse_selector
-from planmethod.solved.errors.forces import drawn_forces
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.selectors.steps import NoValue, NoValueError
-from planmethod.solved.selectors.values import SelectorValues
-from planmethod.solved.solution import Solution
 
 LOADS = """
 [dynamics]

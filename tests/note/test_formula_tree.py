@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 import pytest
-
-from planmethod.errors import LayoutError
-from planmethod.note.formula import (
+from doors import (
     Fraction,
     Index,
+    LayoutError,
     Letters,
     Overline,
     Root,
+    formula_parse as parse,
+    formula_written as written,
     fraction,
+    get_language,
     inline,
     inlined,
-    parse,
+    lines_of,
+    pieces,
+    plain_text,
     root,
     sides,
-    written,
+    sole_formula,
+    units_of,
+    with_stops,
 )
-from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import get_language
-from planmethod.note.writers.linebreak import lines_of
-from planmethod.note.writers.sentences import pieces, sole_formula, units_of, with_stops
 
 UNITS = units_of(get_language("ru").note["units"])
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from cases import each
+from doors import (
+    Document,
+    Language,
+    Solution,
+    drawn_by,
+    get_language,
+    kind_of,
+    kinds_load as load,
+    protocol_document,
+)
 from evaluated import count_equations_that_hold, texts_of
 from worked import path_of
-
-from planmethod.kinds import kind_of, load
-from planmethod.note.document import Document
-from planmethod.note.protocol import protocol_document
-from planmethod.note.wording import Language, get_language
-from planmethod.options import drawn_by
-from planmethod.solved.solution import Solution
 
 FILES = (  # of each section of a protocol one, with how many of its formulas have numbers
     ("press/flywheel", 75, "ru"),

@@ -9,9 +9,8 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
+from doors import cli
 from worked import path_of
-
-from planmethod.cli import cli
 
 
 def run(*args: str) -> str:

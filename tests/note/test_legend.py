@@ -5,22 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from doors import (
+    Draft,
+    Kinematics,
+    ModelProblem as Problem,
+    Quantity,
+    QuantityKind,
+    Solution,
+    Sweep,
+    csv_columns,
+    drafting_of,
+    get_language,
+    motion_quantities,
+    plans_build as build,
+    problem_load as load,
+    result_columns,
+    solution_record as record,
+)
 from texts import referee_tables, result_tables
 from worked import path_of
-
-from planmethod.note.records.solution import record
-from planmethod.note.records.spreadsheet import csv_columns
-from planmethod.note.wording import get_language
-from planmethod.plans import build
-from planmethod.plans.draft import Draft
-from planmethod.plans.legend import Quantity, QuantityKind, motion_quantities
-from planmethod.plans.motion.legs import Kinematics
-from planmethod.problem import load
-from planmethod.problem.model import Problem
-from planmethod.render.sheets.results import result_columns
-from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.solution import Solution
 
 
 @pytest.fixture

@@ -6,13 +6,19 @@ import re
 from typing import cast
 
 import pytest
+from doors import (
+    Document,
+    Equation,
+    Node,
+    Term,
+    document,
+    formula_parse as parse,
+    get_language,
+    latex,
+    markdown_document,
+    table_of,
+)
 from noted import note
-
-from planmethod.note import document
-from planmethod.note.document import Document, Equation, Node, Term, table_of
-from planmethod.note.formula import parse
-from planmethod.note.wording import get_language
-from planmethod.note.writers.markdown import latex, markdown_document
 
 
 def written(*nodes: Node, lang: str = "ru") -> str:

@@ -17,23 +17,27 @@ import polib
 import pytest
 from cases import each
 from click.testing import CliRunner
-
-import planmethod
-from planmethod.cli import COMMANDS, cli, command_of
-from planmethod.errors import PlanMethodError
-from planmethod.kinds import load
-from planmethod.languages import (
-    LANGUAGES,
+from doors import (
+    COMMANDS,
+    LANGUAGES_LANGUAGES as LANGUAGES,
+    TITLE_BLOCK,
+    TITLE_BLOCK_IN,
     WRITTEN,
+    NumberKey,
+    PlanMethodError,
     catalogue,
     choose_language,
+    cli,
+    command_of,
+    declared,
+    keys,
+    kinds_load as load,
     look_up_translation,
     speaking,
     translate,
 )
-from planmethod.problem import keys
-from planmethod.problem.common import TITLE_BLOCK, TITLE_BLOCK_IN
-from planmethod.problem.key_types import NumberKey, declared
+
+import planmethod
 
 HOME = Path(planmethod.__file__).parent
 WORDING = HOME / "note" / "wording"

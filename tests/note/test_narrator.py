@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import pytest
-
-from planmethod.construct import steps
-from planmethod.construct.program import Builder
-from planmethod.construct.steps import LineName, LineSense, NumberName, PointName, Side
-from planmethod.note.narrate.narrator import BoardNarrator, StepNarrator
-from planmethod.note.wording import LANGUAGES, get_language
+from doors import (
+    WORDING_LANGUAGES as LANGUAGES,
+    BoardNarrator,
+    Builder,
+    LineName,
+    LineSense,
+    NumberName,
+    PointName,
+    Side,
+    StepNarrator,
+    get_language,
+    steps,
+)
 
 NUMBERS = {"r": 30.0, "s": -40.0, "turned": -1.0, "read AC": 25.04}
 COURSES = {"ray": 3.0 + 1.0j, "post": -0.5 - 2.0j}

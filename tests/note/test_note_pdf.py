@@ -8,28 +8,28 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from noted import SYSTEM, note
-
-from planmethod.note.document import (
+from doors import (
     Chapter,
     Contents,
     Document,
+    DocumentStep as Step,
+    Drawing,
+    DrawingView,
     Figure,
+    FormulaSetter,
     Node,
     PageBreak,
     Paragraph,
     Part,
-    Step,
     Table,
+    formula_parse as parse,
+    get_language,
+    html_document,
+    note_fonts,
+    pdf_note,
+    plain_document,
 )
-from planmethod.note.formula import parse
-from planmethod.note.wording import get_language
-from planmethod.note.writers.html import html_document
-from planmethod.note.writers.pdfformula import FormulaSetter
-from planmethod.note.writers.pdfnote import note_fonts, pdf_note
-from planmethod.note.writers.terminal import plain_document
-from planmethod.render.backends.view import DrawingView
-from planmethod.render.ink.drawing import Drawing
+from noted import SYSTEM, note
 
 RU = get_language("ru")
 

@@ -6,40 +6,41 @@ import re
 from typing import cast, get_args
 
 import pytest
-from worked import ROOT
-
-from planmethod.note.document import (
+from doors import (
+    TERMINAL_WIDTH as WIDTH,
     Caption,
     Chapter,
     Contents,
     Document,
+    DocumentItem as Item,
+    DocumentStep as Step,
     DrawableView,
     Equation,
     Equations,
     Figure,
     Formula,
-    Item,
     Node,
     Note,
     PageBreak,
     Paragraph,
     Part,
     References,
-    Step,
     StructuralHeading,
     Subpart,
     Table,
     Term,
     Title,
     TitlePage,
+    escape,
+    get_language,
+    plain_document,
     step_of,
     table_of,
     table_of_columns,
     table_of_quantities,
+    width,
 )
-from planmethod.note.formula import escape
-from planmethod.note.wording import get_language
-from planmethod.note.writers.terminal import WIDTH, plain_document, width
+from worked import ROOT
 
 LONG = " ".join(["word"] * 30)
 

@@ -5,16 +5,22 @@ from typing import get_args
 
 import pytest
 from cases import each, sampled, some
+from doors import (
+    Carry,
+    MeasureArm,
+    Names,
+    PlanKind,
+    PointName,
+    Solution,
+    StepsStep as Step,
+    Total,
+    problem_loads as loads,
+    result_kind,
+    wording,
+)
 from texts import protocol
 from told import LANGUAGES, assert_readable, drawn, flat, told, worked
 from worked import SIX, path_of
-
-from planmethod.construct.steps import Carry, MeasureArm, PointName, Step, Total, result_kind
-from planmethod.note.narrate.naming import Names
-from planmethod.note.wording import wording
-from planmethod.plans.model import PlanKind
-from planmethod.problem import loads
-from planmethod.solved.solution import Solution
 
 SEEDS = range(some(60, few=12))
 """Random mechanisms: enough for every dyad, driver and kind of step."""
@@ -180,7 +186,7 @@ def test_sections_are_the_whole_program_in_order() -> None:
 
 
 def test_each_of_many_positions_has_its_own_numbers() -> None:
-    from planmethod.solved.solution import Solution
+    from doors import Solution
 
     solution = Solution(worked("linkages/ex1").problem, positions=[10.0, 60.0, 200.0])
     alone = Solution(worked("linkages/ex1").problem, positions=[60.0])

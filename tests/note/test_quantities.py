@@ -7,12 +7,8 @@ from math import sqrt
 
 import pytest
 from cases import each
+from doors import QUANTITIES, NoValue, NoValueError, SelectorValues, Solution, parse_selector
 from slotted import R, problem_of
-
-from planmethod.problem.selector import QUANTITIES, parse_selector
-from planmethod.solved.selectors.steps import NoValue, NoValueError
-from planmethod.solved.selectors.values import SelectorValues
-from planmethod.solved.solution import Solution
 
 
 @cache

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import pytest
+from doors import (
+    SolvedMeshing,
+    gears_reader_load as load_train,
+    gears_record_record as train_record,
+    involute_reader_load as load_meshing,
+    involute_record_record as meshing_record,
+    moving_reader_load as load_point,
+    moving_record_record as point_record,
+)
 from worked import PROBLEMS
-
-from planmethod.gears.involute.quantities import SolvedMeshing
-from planmethod.gears.involute.reader import load as load_meshing
-from planmethod.gears.involute.record import record as meshing_record
-from planmethod.gears.reader import load as load_train
-from planmethod.gears.record import record as train_record
-from planmethod.moving.reader import load as load_point
-from planmethod.moving.record import record as point_record
 
 
 @pytest.mark.parametrize("name", ["z12-30", "z20-60-internal"])

@@ -5,12 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from cases import each
+from doors import ReductionNarrator, Solution, get_language, machine_narrator
 from worked import problem_of
-
-from planmethod.note.narrate.reduction import ReductionNarrator
-from planmethod.note.tables.machine import machine_narrator
-from planmethod.note.wording import get_language
-from planmethod.solved.solution import Solution
 
 
 def told(name: str, variant: str | None = None) -> ReductionNarrator:

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from doors import Solution, accuracy_examine as examine, examine_results, referee_record
 from texts import referee_tables
 from worked import problem_of
-
-from planmethod.note.tables.referee import examine_results, referee_record
-from planmethod.solved.accuracy import examine
-from planmethod.solved.solution import Solution
 
 
 @pytest.mark.parametrize(

@@ -7,15 +7,17 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from cases import each
+from doors import (
+    PlanKind,
+    Solution,
+    Table,
+    drawn_forces,
+    get_language,
+    results_document,
+    size_label,
+    statics_of,
+)
 from worked import problem_of
-
-from planmethod.note.document import Table
-from planmethod.note.tables.results import results_document
-from planmethod.note.wording import get_language
-from planmethod.plans.model import PlanKind
-from planmethod.solved.errors.forces import drawn_forces, size_label
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
 
 EN = get_language("en")
 TURN = {"counter-clockwise": 1.0, "clockwise": -1.0, "—": 0.0}

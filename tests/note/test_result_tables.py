@@ -7,15 +7,20 @@ import math
 import numpy as np
 import pytest
 from cases import each, sampled, some
+from doors import (
+    TERMINAL_WIDTH as WIDTH,
+    Solution,
+    columns_text,
+    csv_rows,
+    pad,
+    plain_text,
+    table,
+    trimmed,
+    width,
+)
 from texts import result_tables
 from told import LANGUAGES, assert_readable, drawn, worked
 from worked import SIX, problem_of
-
-from planmethod.note.numbers import trimmed
-from planmethod.note.plaintext import plain_text
-from planmethod.note.records.spreadsheet import csv_rows
-from planmethod.note.writers.terminal import WIDTH, columns_text, pad, table, width
-from planmethod.solved.solution import Solution
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)

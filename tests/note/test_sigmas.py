@@ -8,20 +8,25 @@ from functools import cache
 import numpy as np
 import pytest
 from cases import each, sampled, some
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    MOTION,
+    Drafting,
+    ErrorCauses,
+    Names,
+    PlanKind,
+    Solution,
+    drafting_of,
+    plain_text,
+    reported_links,
+    reported_points,
+    rounded_to,
+    sigma_text,
+    wording,
+)
 from texts import result_tables
 from told import LANGUAGES, assert_readable, drawn, flat, worked
 from worked import SIX, problem_of
-
-from planmethod.construct.drafting import PROFILES
-from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.statement import reported_links, reported_points
-from planmethod.note.plaintext import plain_text
-from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.tables.causes import ErrorCauses
-from planmethod.note.wording import wording
-from planmethod.plans.model import MOTION, PlanKind
-from planmethod.solved.errors.motion import Drafting, drafting_of
-from planmethod.solved.solution import Solution
 
 NEAR_DEAD = [230.0, 240.0, 250.0]
 """Positions of the six-link where its slider cannot be found by first order."""

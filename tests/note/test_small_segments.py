@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from click.testing import CliRunner
-
-from planmethod.cli import cli
+from doors import cli
 
 CRANK = """
 frame = { O = [0, 0], guides.x-x = { through = "O", angle = 0 } }

@@ -9,12 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from cases import each
+from doors import KINDS_KINDS as KINDS, GivenFact, Notation, get_language
 from rebuilt import file_of, printed, table_of
-
-from planmethod.kinds import KINDS
-from planmethod.note.document import GivenFact
-from planmethod.note.numbers import Notation
-from planmethod.note.wording import get_language
 
 ROOT = Path(__file__).parents[2]
 CASES = [

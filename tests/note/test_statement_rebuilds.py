@@ -10,24 +10,31 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each, some
+from doors import (
+    ForceReading,
+    GivenFact,
+    Language,
+    ModelProblem as Problem,
+    Notation,
+    PlanMethodError,
+    SizeTable,
+    Solution,
+    TrainOutput,
+    arithmetic,
+    cycle_statement,
+    drawn,
+    friction_of,
+    get_language,
+    kind_of,
+    load_each,
+    statement,
+    statement_given_facts as given_facts,
+    statics_of,
+)
 from rebuilt import printed, rebuilt
 
 from benchmarks.generator import random_problem
 from planmethod import loads
-from planmethod.errors import PlanMethodError
-from planmethod.gears.driving import TrainOutput
-from planmethod.kinds import kind_of, load_each
-from planmethod.note.document import GivenFact
-from planmethod.note.narrate.forces.statement import cycle_statement, statement
-from planmethod.note.narrate.statement import arithmetic, drawn, given_facts
-from planmethod.note.numbers import Notation
-from planmethod.note.wording import Language, get_language
-from planmethod.problem.load_records import SizeTable
-from planmethod.problem.model import Problem
-from planmethod.solved.forces.friction import friction_of
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
 
 ROOT = Path(__file__).parents[2]
 TEMPLATE = ROOT / "planmethod/problem/templates/project.toml"

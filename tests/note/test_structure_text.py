@@ -4,22 +4,25 @@ import re
 
 import pytest
 from cases import each, sampled, some
+from doors import (
+    Mechanism,
+    ProblemError,
+    Revolute,
+    Solution,
+    Text,
+    aligned_lines,
+    analyse,
+    get_language,
+    kinds_loads as loads,
+    kinematics_sheets,
+    plain_document,
+    self_aligning,
+    structure_document,
+    structure_record,
+)
 from texts import protocol, result_tables, structure_text
 from told import LANGUAGES, assert_readable, drawn, worked
 from worked import ROOT, SIX, problem_of
-
-from planmethod.errors import ProblemError
-from planmethod.kinds import loads
-from planmethod.mechanism.model import Mechanism, Revolute
-from planmethod.mechanism.structure import analyse
-from planmethod.note.narrate.structure import aligned_lines, structure_document
-from planmethod.note.records.solution import structure_record
-from planmethod.note.wording import get_language
-from planmethod.note.writers.terminal import plain_document
-from planmethod.render.ink.drawing import Text
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.aligned.schemes import self_aligning
-from planmethod.solved.solution import Solution
 
 
 def text_of(name: str, lang: str = "ru") -> str:

@@ -7,16 +7,10 @@ import re
 import numpy as np
 import pytest
 from cases import each
+from doors import CycleTask, Solution, cycle_columns, diagrams_of, drafting_of, get_language
 from msgspec.structs import replace
 from texts import result_tables
 from worked import problem_of
-
-from planmethod.note.tables.cycle import cycle_columns
-from planmethod.note.wording import get_language
-from planmethod.problem.cycle_records import CycleTask
-from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.diagrams import diagrams_of
 
 
 def number(text: str) -> float:

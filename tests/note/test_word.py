@@ -14,30 +14,30 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 import docx
 import pytest
+from doors import (
+    Chapter,
+    Contents,
+    Document,
+    DocumentItem as Item,
+    DocumentStep as Step,
+    Equation,
+    Formula,
+    LayoutError,
+    Node,
+    OutputError,
+    Paragraph,
+    Table,
+    Term,
+    formula_parse as parse,
+    get_language,
+    omml,
+    protocol_document,
+    word_document,
+)
 from noted import SYSTEM, nodes, note
 from PIL import Image
 from told import worked
 from worked import SIX
-
-from planmethod.errors import LayoutError, OutputError
-from planmethod.note.document import (
-    Chapter,
-    Contents,
-    Document,
-    Equation,
-    Formula,
-    Item,
-    Node,
-    Paragraph,
-    Step,
-    Table,
-    Term,
-)
-from planmethod.note.formula import parse
-from planmethod.note.protocol import protocol_document
-from planmethod.note.wording import get_language
-from planmethod.note.writers import omml
-from planmethod.note.writers.word import word_document
 
 RU = get_language("ru")
 M, W = f"{{{omml.MATH}}}", f"{{{omml.WORD}}}"

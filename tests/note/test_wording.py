@@ -9,22 +9,26 @@ from string import Formatter
 from types import CodeType
 
 import pytest
-
-import planmethod
-from planmethod.errors import ExitCode
-from planmethod.languages import WRITTEN
-from planmethod.note.audit.audit import AuditVerdict
-from planmethod.note.numbers import Notation
-from planmethod.note.wording import (
-    LANGUAGES,
+from doors import (
+    FORCE,
+    MOMENT,
+    OTHER_FAMILIES,
+    PROBLEM_FAMILIES as FAMILIES,
+    PUSH,
+    THRUST,
+    WORDING_LANGUAGES as LANGUAGES,
+    WRITTEN,
+    AuditVerdict,
+    ExitCode,
     Language,
     MessageTable,
+    Notation,
+    NoValue,
     UnknownLanguageError,
     get_language,
 )
-from planmethod.problem import FAMILIES, OTHER_FAMILIES
-from planmethod.problem.model import FORCE, MOMENT, PUSH, THRUST
-from planmethod.solved.selectors.steps import NoValue
+
+import planmethod
 
 HOME = Path(planmethod.__file__).parent
 CYRILLIC = re.compile("[\u0400-\u04ff]")

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-from planmethod.note.document import Chapter, Figure, Node, Paragraph
-from planmethod.note.writers.wordpages import NumberedNode, PageFlow, flowing
-from planmethod.render.backends.view import DrawingView
-from planmethod.render.ink.drawing import Drawing
+from doors import (
+    Chapter,
+    Drawing,
+    DrawingView,
+    Figure,
+    Node,
+    NumberedNode,
+    PageFlow,
+    Paragraph,
+    flowing,
+)
 
 FIGURE = Figure(DrawingView(Drawing(80.0, 60.0, "Plan")), "Plan")
 PAGE = 100.0

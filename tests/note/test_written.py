@@ -5,11 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from doors import (
+    ColumnarRecords,
+    Solution,
+    list_of,
+    record_in_columns,
+    record_of,
+    solution_record as record,
+    to_builtins,
+)
 from worked import problem_of
-
-from planmethod.note.columnar import ColumnarRecords, list_of, record_of, to_builtins
-from planmethod.note.records.solution import record, record_in_columns
-from planmethod.solved.solution import Solution
 
 NOTHING = record_of({}, 3)
 

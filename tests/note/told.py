@@ -5,13 +5,11 @@ from __future__ import annotations
 import re
 from functools import cache
 
+from doors import TERMINAL_WIDTH as WIDTH, Solution, problem_loads as loads, width
 from texts import protocol
 from worked import problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.note.writers.terminal import WIDTH, width
-from planmethod.problem import loads
-from planmethod.solved.solution import Solution
 
 LANGUAGES = ("ru", "en")
 

@@ -25,15 +25,26 @@ from zipfile import ZipFile
 from zlib import crc32
 
 from click.testing import CliRunner
+from doors import (
+    BACKENDS,
+    COMMANDS,
+    OTHER_FAMILIES,
+    PACKAGES,
+    PROBLEM_FAMILIES as FAMILIES,
+    SHIPPED,
+    SPECIMENS,
+    Arc,
+    Canvas,
+    Disc,
+    Drawing,
+    DrawingItem as Item,
+    Fill,
+    Options,
+    Stroke,
+    Text,
+    cli,
+)
 from openpyxl import load_workbook
-
-from planmethod.check.pages.files import PACKAGES
-from planmethod.cli import COMMANDS, cli
-from planmethod.problem import FAMILIES, OTHER_FAMILIES
-from planmethod.render.backends import BACKENDS, Canvas, Options
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
-from planmethod.render.sheets.compositions import SHIPPED
-from planmethod.render.sheets.specimen import SPECIMENS
 
 ROOT = Path(__file__).resolve().parents[2]
 PROBLEMS = ROOT / "problems"

@@ -9,12 +9,17 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from doors import (
+    AtAngle,
+    IntersectCircles,
+    LayOffLength,
+    PlanKind,
+    PointName,
+    cli,
+    draft,
+)
 
 from planmethod import Solution, load
-from planmethod.cli import cli
-from planmethod.construct.steps import AtAngle, IntersectCircles, LayOffLength, PointName
-from planmethod.plans import draft
-from planmethod.plans.model import PlanKind
 
 LEVER = """
 frame = {{ O = [0, 0], C = [0.3, 0.12] }}

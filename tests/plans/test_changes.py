@@ -10,17 +10,21 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from cases import some
-
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.multiprecision import Precise
-from planmethod.construct.steps import PointName
-from planmethod.errors import ProblemError
-from planmethod.problem import load, loads
-from planmethod.problem.model import Problem
-from planmethod.problem.reader import read_parsed
-from planmethod.solved.many.sweep import Sweep, sweep_variants
-from planmethod.solved.selfcheck import changed_branches, verify
-from planmethod.solved.solution import Solution
+from doors import (
+    ModelProblem as Problem,
+    PointName,
+    Precise,
+    ProblemError,
+    Solution,
+    Sweep,
+    changed_branches,
+    evaluate_evaluate as evaluate,
+    problem_load as load,
+    problem_loads as loads,
+    read_parsed,
+    sweep_variants,
+    verify,
+)
 
 C = PointName("C")
 CASES = Path(__file__).parents[1] / "data" / "cases"

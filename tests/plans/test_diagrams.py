@@ -6,12 +6,17 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.steps import PointName
-from planmethod.plans.diagrams.board import DiagramAxes, DiagramBoard
-from planmethod.plans.diagrams.calculus import Integration, differentiate, integrate, repeated
+from doors import (
+    DiagramAxes,
+    DiagramBoard,
+    Float64,
+    Integration,
+    PointName,
+    differentiate,
+    evaluate_evaluate as evaluate,
+    integrate,
+    repeated,
+)
 
 AT = [0.0, 20.0, 45.0, 60.0, 96.0]
 """Uneven on purpose."""

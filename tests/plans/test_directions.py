@@ -10,21 +10,30 @@ from functools import partial
 
 import pytest
 from cases import each, some, thinned
+from doors import (
+    FRAME,
+    RATES,
+    Direction,
+    ModelProblem as Problem,
+    Names,
+    Relation,
+    Solution,
+    Vector,
+    VectorKind,
+    direction_note,
+    direction_text,
+    equation_lines,
+    equations_equation_of as equation_of,
+    get_language,
+    problem_load as load,
+    problem_loads as loads,
+    slot_name,
+    statement_given_facts as given_facts,
+    wording,
+)
 from worked import SIX, every_task, problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.equations import direction_note, equation_of
-from planmethod.note.narrate.letters import direction_text
-from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.statement import given_facts
-from planmethod.note.wording import get_language, wording
-from planmethod.note.writers.terminal import equation_lines
-from planmethod.plans.model import RATES, Direction, Relation, Vector, VectorKind
-from planmethod.plans.motion.legs import slot_name
-from planmethod.problem import load, loads
-from planmethod.problem.model import Problem
-from planmethod.solved.solution import Solution
 
 SLOT = """
 [frame]

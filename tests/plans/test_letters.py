@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
+from doors import Solution, letter, mark, problem_loads as loads, solution_record as record
 from worked import path_of
-
-from planmethod.note.narrate.letters import mark
-from planmethod.note.records.solution import record
-from planmethod.plans.motion.board import letter
-from planmethod.problem import loads
-from planmethod.solved.solution import Solution
 
 
 def test_points_have_small_letters_and_their_indices() -> None:

@@ -7,13 +7,19 @@ from typing import Any
 
 import numpy as np
 import pytest
+from doors import (
+    Component,
+    Direction,
+    Edge,
+    KnownParts,
+    PlanKind,
+    ReadingReals as Reals,
+    Relation,
+    Solution,
+    Statics,
+    reaction_symbol,
+)
 from worked import problem_of
-
-from planmethod.plans.forces.polygons import Component, Edge, reaction_symbol
-from planmethod.plans.model import Direction, KnownParts, PlanKind, Relation
-from planmethod.solved.forces.statics import Statics
-from planmethod.solved.reading import Reals
-from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press")
 TURN = {"levers/six-link": (140, 150, 160), "levers/task12": tuple(range(5, 365, 45))}

@@ -8,24 +8,24 @@ from functools import cache
 import numpy as np
 import numpy.typing as npt
 from cases import each, sampled, some
-from newton import Motion, Pose
-from newton import solve as newton
-
-from benchmarks.generator import random_problem
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.steps import (
+from doors import (
+    FRAME,
+    Float64,
     IntersectCircles,
     IntersectLineCircle,
     IntersectLines,
+    ModelProblem as Problem,
+    PlanKind,
     PointName,
+    Solution,
     Touch,
+    VectorKind,
+    problem_loads as loads,
+    verify,
 )
-from planmethod.mechanism.model import FRAME
-from planmethod.plans.model import PlanKind, VectorKind
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
-from planmethod.solved.selfcheck import verify
-from planmethod.solved.solution import Solution
+from newton import Motion, Pose, solve as newton
+
+from benchmarks.generator import random_problem
 
 SEEDS = range(some(200, few=25))
 UNIT_SCALES = {"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0}

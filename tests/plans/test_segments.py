@@ -6,11 +6,7 @@ from collections import Counter
 from functools import cache
 
 import pytest
-from loaded import loaded_problem, with_resultant
-from worked import PROBLEMS, every_file
-
-from planmethod.construct.program import Program
-from planmethod.construct.steps import (
+from doors import (
     Compute,
     GivenNumber,
     LayOffLength,
@@ -18,13 +14,16 @@ from planmethod.construct.steps import (
     MeasureAlong,
     MeasureArm,
     NumberName,
-    Step,
+    Program,
+    Solution,
+    StepsStep as Step,
     Total,
     operands,
+    problem_load as load,
+    statics_of,
 )
-from planmethod.problem import load
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
+from loaded import loaded_problem, with_resultant
+from worked import PROBLEMS, every_file
 
 FILES = [path.relative_to(PROBLEMS).as_posix() for path in every_file()]
 SEEDS = range(60)

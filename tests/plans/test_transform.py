@@ -9,16 +9,20 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from cases import each, sampled, some
+from doors import (
+    MOTION,
+    AssemblyRelation,
+    ModelProblem as Problem,
+    Rule,
+    Solution,
+    problem_loads as loads,
+    verify,
+)
 from moved import Move
 from msgspec.structs import replace
 from worked import SIX, problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.plans.model import MOTION
-from planmethod.problem import loads
-from planmethod.problem.model import AssemblyRelation, Problem, Rule
-from planmethod.solved.selfcheck import verify
-from planmethod.solved.solution import Solution
 
 AWAY = (0.0, 4.0, 133.0, -6.0)
 """Positions of the crank from the file's, degrees; all six mechanisms reach them."""

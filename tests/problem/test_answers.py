@@ -8,17 +8,22 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from doors import (
+    AnswerForm,
+    DirectionMode,
+    ProblemError,
+    ProblemProblem as Problem,
+    QuestionSpec,
+    SelectorValues,
+    Solution,
+    parse_selector,
+    problem_load as load,
+    problem_loads as loads,
+    quantities_for,
+    words_of,
+)
 from mechanisms import CRANK, LOADED, SLIDER, messages
 from worked import PROBLEMS, every_file
-
-from planmethod.errors import ProblemError
-from planmethod.problem import Problem, load, loads
-from planmethod.problem.answers import words_of
-from planmethod.problem.common import AnswerForm, DirectionMode, QuestionSpec
-from planmethod.problem.selector import parse_selector
-from planmethod.solved.labelled import quantities_for
-from planmethod.solved.selectors.values import SelectorValues
-from planmethod.solved.solution import Solution
 
 ALL = every_file()
 SLOTTED = (PROBLEMS / "linkages" / "ex3.toml").read_text("utf-8").partition("[[answers]]")[0]

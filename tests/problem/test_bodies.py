@@ -6,12 +6,14 @@ import cmath
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-
-from planmethod.errors import ProblemError
-from planmethod.problem import Problem, loads
-from planmethod.problem.placement import heading, rotation
+from doors import (
+    ProblemError,
+    ProblemProblem as Problem,
+    placement_heading as heading,
+    problem_loads as loads,
+    rotation,
+)
+from hypothesis import given, strategies as st
 
 CRANK = '[links.1]\npoints = ["A", "B"]\nAB = 0.1\n'
 REST = """

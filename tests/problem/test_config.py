@@ -5,13 +5,19 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from doors import (
+    VARIABLE,
+    ConfigError,
+    ExitCode,
+    ProblemError,
+    SheetSettings,
+    find_config,
+    load_config,
+    problem_loads as loads,
+    usual_place,
+)
 from msgspec.structs import replace
 from worked import path_of
-
-from planmethod.errors import ConfigError, ExitCode, ProblemError
-from planmethod.problem import loads
-from planmethod.problem.common import SheetSettings
-from planmethod.problem.sheet import VARIABLE, find_config, load_config, usual_place
 
 
 def written(folder: Path, text: str) -> Path:

@@ -5,11 +5,16 @@ from __future__ import annotations
 import math
 
 import pytest
-
-from planmethod.errors import ProblemError
-from planmethod.problem import loads
-from planmethod.problem.model import AssemblyRelation, Convention, Drive, Rule, Scales
-from planmethod.problem.plausibility import unlikely
+from doors import (
+    AssemblyRelation,
+    Convention,
+    Drive,
+    ProblemError,
+    Rule,
+    Scales,
+    problem_loads as loads,
+    unlikely,
+)
 
 CRANK = """
 [frame]

@@ -5,10 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from mechanisms import CRANK, LOADED, SLIDER, messages, read
-from worked import problem_of
-
-from planmethod.problem.load_records import (
+from doors import (
     Against,
     Couple,
     Dynamics,
@@ -21,8 +18,10 @@ from planmethod.problem.load_records import (
     Phase,
     SizeTable,
     TurningSense,
+    parse_selector,
 )
-from planmethod.problem.selector import parse_selector
+from mechanisms import CRANK, LOADED, SLIDER, messages, read
+from worked import problem_of
 
 DOCS = Path(__file__).parents[2] / "docs" / "problem-file.md"
 

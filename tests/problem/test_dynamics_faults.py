@@ -8,10 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from doors import ProblemError, problem_loads as loads
 from mechanisms import CRANK, LOADED, SLIDER, messages
-
-from planmethod.errors import ProblemError
-from planmethod.problem import loads
 
 F = '[[loads]]\nlink = "2"\nat = "S2"\n'
 M = '[[loads]]\nlink = "2"\n'

@@ -6,11 +6,16 @@ import re
 from pathlib import Path
 
 import pytest
+from doors import (
+    LINE_LIMIT,
+    SIZE_LIMIT,
+    ExitCode,
+    ProblemError,
+    problem_load as load,
+    problem_loads as loads,
+    variant_names,
+)
 from worked import path_of
-
-from planmethod.errors import ExitCode, ProblemError
-from planmethod.problem import load, loads, variant_names
-from planmethod.problem.source import LINE_LIMIT, SIZE_LIMIT
 
 FAULTY = Path(__file__).parent / "faulty"
 CASES = sorted(FAULTY.glob("*.toml"))

@@ -8,15 +8,18 @@ import tomllib
 from typing import Any
 
 from cases import some
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from doors import (
+    FAMILIES_FAMILIES as FAMILIES,
+    KEYS_KINDS as KINDS,
+    ProblemError,
+    ProblemProblem as Problem,
+    known,
+    problem_loads as loads,
+    problem_template as template,
+    read_parsed,
+)
+from hypothesis import HealthCheck, given, settings, strategies as st
 from mechanisms import CRANK, LOADED
-
-from planmethod.errors import ProblemError
-from planmethod.problem import Problem, loads, template
-from planmethod.problem.families import FAMILIES
-from planmethod.problem.keys import KINDS, known
-from planmethod.problem.reader import read_parsed
 
 ASKED = """
 [[answers]]

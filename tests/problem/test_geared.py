@@ -12,12 +12,10 @@ import jsonschema
 import pytest
 from cases import each
 from click.testing import CliRunner
+from doors import ExitCode, ProblemError, cli, problem_load as load_bare
 from worked import ROOT, path_of
 
 from planmethod import load, loads
-from planmethod.cli import cli
-from planmethod.errors import ExitCode, ProblemError
-from planmethod.problem import load as load_bare
 
 TRAIN = """
 [gears]

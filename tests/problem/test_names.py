@@ -1,8 +1,7 @@
 from __future__ import annotations
 
 import pytest
-
-from planmethod.problem.names import (
+from doors import (
     LOOKALIKES,
     describe_lookalikes,
     fold,

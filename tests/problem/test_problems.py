@@ -14,22 +14,30 @@ from typing import Any
 
 import pytest
 from cases import each, thinned
-from worked import every_file, every_task
-
-import planmethod
-from planmethod.kinds import kind_of
-from planmethod.problem import FAMILIES, keys, load, loads, template, variant_names
-from planmethod.problem.key_types import (
+from doors import (
+    FORCES,
+    MACHINE,
+    PROBLEM_FAMILIES as FAMILIES,
+    QUANTITIES,
     AngleKey,
+    Convention,
     FlagKey,
     IntegerKey,
     NumberKey,
     TextKey,
     WordKey,
     declared,
+    keys,
+    kind_of,
+    parse_selector,
+    problem_load as load,
+    problem_loads as loads,
+    problem_template as template,
+    variant_names,
 )
-from planmethod.problem.model import Convention
-from planmethod.problem.selector import FORCES, MACHINE, QUANTITIES, parse_selector
+from worked import every_file, every_task
+
+import planmethod
 from scripts import reference
 
 ROOT = Path(__file__).parents[2]

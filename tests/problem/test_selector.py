@@ -1,8 +1,7 @@
 from __future__ import annotations
 
 import pytest
-
-from planmethod.problem.selector import (
+from doors import (
     Selector,
     SelectorError,
     is_force,

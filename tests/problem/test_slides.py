@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from doors import Prismatic, ProblemProblem as Problem, Revolute, Slide, problem_loads as loads
 from msgspec.structs import replace
-
-from planmethod.mechanism.model import Prismatic, Revolute
-from planmethod.problem import Problem, loads
-from planmethod.problem.model import Slide
 
 YOKE = """
 [frame]

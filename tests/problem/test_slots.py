@@ -6,11 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-
-from planmethod.errors import ProblemError
-from planmethod.problem import load, loads
-from planmethod.solved.selfcheck import verify
-from planmethod.solved.solution import Solution
+from doors import ProblemError, Solution, problem_load as load, problem_loads as loads, verify
 
 SLOT = Path(__file__).parent / "faulty" / "slides-along-own-pin.toml"
 HINT = 'slides = { on = "3", through = "C", angle = 90 }'

@@ -6,13 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-from planmethod.errors import PlanMethodError, ProblemError
-from planmethod.kinds import load
-from planmethod.note.narrate.statement import given_facts
-from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import get_language
-from planmethod.solved.solution import Solution
+from doors import (
+    PlanMethodError,
+    ProblemError,
+    Solution,
+    get_language,
+    kinds_load as load,
+    plain_text,
+    statement_given_facts as given_facts,
+)
 
 FILES = sorted((Path(__file__).parent / "statement").glob("*.toml"))
 FAULTY = [path for path in FILES if path.stem.endswith("-fault")]

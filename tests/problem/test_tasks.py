@@ -9,25 +9,34 @@ from pathlib import Path
 import pytest
 from cases import each, sampled, some, thinned
 from click.testing import CliRunner, Result
+from doors import (
+    LANGUAGES_LANGUAGES as LANGUAGES,
+    LINKAGE,
+    Faults,
+    ProblemProblem as Problem,
+    Severity,
+    ShippedTask,
+    Solution,
+    Text,
+    apply_variant,
+    cli,
+    controlled_kinematics,
+    get_language,
+    groups_of,
+    home,
+    kinds_load as load,
+    parse_selector,
+    read_variants,
+    source_parse as parse,
+    statics_of,
+    tasks,
+    text_for,
+    variant_names,
+    verify,
+)
 from worked import ROOT, every_task
 
 from benchmarks.tasks import document, index, index_text
-from planmethod.cli import cli
-from planmethod.kinds import load
-from planmethod.languages import LANGUAGES
-from planmethod.note.wording import get_language
-from planmethod.problem import Problem, variant_names
-from planmethod.problem.fields import Faults
-from planmethod.problem.selector import parse_selector
-from planmethod.problem.source import parse
-from planmethod.problem.tasks import LINKAGE, ShippedTask, groups_of, home, tasks, text_for
-from planmethod.problem.variants import apply_variant, read_variants
-from planmethod.render.control.remarks import Severity
-from planmethod.render.ink.drawing import Text
-from planmethod.render.sheets.controlled import controlled_kinematics
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.selfcheck import verify
-from planmethod.solved.solution import Solution
 
 TASKS = {task.name: task for task in tasks()}
 

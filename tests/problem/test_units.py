@@ -10,14 +10,15 @@ from typing import Any
 
 import pytest
 from cases import each
+from doors import (
+    ProblemError,
+    cams_reader_load as load_cam,
+    gears_reader_load as load_train,
+    involute_reader_load as load_mesh,
+    problem_loads as loads,
+    units_measured as measured,
+)
 from worked import path_of
-
-from planmethod.cams.reader import load as load_cam
-from planmethod.errors import ProblemError
-from planmethod.gears.involute.reader import load as load_mesh
-from planmethod.gears.reader import load as load_train
-from planmethod.problem import loads
-from planmethod.problem.units import measured
 
 CRANK = """
 [frame]

@@ -3,11 +3,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-
-from planmethod.errors import ProblemError
-from planmethod.moving.reader import load
-from planmethod.problem import Problem, loads
-from planmethod.problem.model import AssemblyRelation, Rule
+from doors import (
+    AssemblyRelation,
+    ProblemError,
+    ProblemProblem as Problem,
+    Rule,
+    moving_reader_load as load,
+    problem_loads as loads,
+)
 
 TEXT = """
 title = "Основная часть"

@@ -15,45 +15,59 @@ import openpyxl
 import pytest
 import worked
 from cases import each
+from doors import (
+    FIGURES_WIDTH as WIDTH,
+    LETTER,
+    MOTION_KINDS,
+    RATES,
+    WORDING_LANGUAGES as LANGUAGES,
+    Document,
+    FittedView,
+    FlywheelMethod,
+    GearProblem,
+    Language,
+    MeshingProblem,
+    NoteOptions,
+    PartName,
+    ProblemError,
+    Project,
+    QuantityKind,
+    Report,
+    SizeTable,
+    Text,
+    Train,
+    calculation,
+    conclusion,
+    cycle,
+    document,
+    drawing_of,
+    flywheel_chapter,
+    flywheel_of,
+    friction_of,
+    get_language,
+    in_mesh,
+    inlined,
+    kinds_load as load,
+    meshed,
+    note_document,
+    note_files,
+    numbers_of,
+    numbers_workbook,
+    part_drawings,
+    plain_document,
+    plain_text,
+    reported_quantities,
+    settle,
+    sheet_list,
+    solve_motion,
+    statement_given_facts as given_facts,
+    train_chapter,
+    train_facts as train_given,
+    warn_of_separate_train,
+)
 from evaluated import count_equations_that_hold
 from msgspec.structs import replace
 from worked import ROOT, path_of
-
-from planmethod.errors import ProblemError
-from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.gears.model import GearProblem, Train
-from planmethod.gears.motion import solve_motion
-from planmethod.gears.sheet_texts import train_facts as train_given
-from planmethod.kinds import load
-from planmethod.note import document
-from planmethod.note.document import Document, numbers_of
-from planmethod.note.formula import inlined
-from planmethod.note.narrate.statement import given_facts, reported_quantities
-from planmethod.note.narrate.steps import calculation
-from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import LANGUAGES, Language, get_language
-from planmethod.note.writers.terminal import plain_document
-from planmethod.plans.legend import MOTION_KINDS, QuantityKind
-from planmethod.plans.model import RATES
-from planmethod.problem.load_records import SizeTable
-from planmethod.problem.machine_records import FlywheelMethod
-from planmethod.project.model import PartName, Project
-from planmethod.project.notes import NoteOptions, note_files
-from planmethod.project.numbers import numbers_workbook
-from planmethod.project.report import note_document
-from planmethod.project.report.conclusion import conclusion
-from planmethod.project.report.context import Report
-from planmethod.project.report.figures import LETTER, WIDTH, FittedView
-from planmethod.project.report.flywheel import flywheel_chapter
-from planmethod.project.report.gears import train_chapter
-from planmethod.project.settle import settle
-from planmethod.project.sheets import part_drawings, sheet_list
-from planmethod.project.train import in_mesh, meshed, warn_of_separate_train
-from planmethod.render.ink.drawing import Text
-from planmethod.solved.cycle import cycle
-from planmethod.solved.forces.friction import friction_of
-from planmethod.solved.machine.drawing import drawing_of
-from planmethod.solved.machine.flywheel import flywheel_of
 
 TEMPLATE = ROOT / "planmethod/problem/templates/project.toml"
 

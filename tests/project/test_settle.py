@@ -8,26 +8,33 @@ from pathlib import Path
 import numpy as np
 import pytest
 import worked
+from doors import (
+    MAX_SIDE,
+    TURN_SMALL as SMALL,
+    Drawing,
+    ModelProblem as Problem,
+    PartName,
+    PlanKind,
+    ProblemError,
+    Project,
+    ProjectTask,
+    SizeTable,
+    Solution,
+    Text,
+    crank_cycle_of,
+    external,
+    hodograph,
+    kinds_load as load,
+    loaded_positions,
+    next_scale,
+    numbered_set,
+    part_drawings,
+    problem_loads as loads,
+    project_record,
+    settle,
+    with_decisions,
+)
 from msgspec.structs import replace
-
-from planmethod.construct.scale import next_scale
-from planmethod.errors import ProblemError
-from planmethod.kinds import load
-from planmethod.plans.model import PlanKind
-from planmethod.problem import loads
-from planmethod.problem.cycle_records import ProjectTask
-from planmethod.problem.load_records import SizeTable
-from planmethod.problem.model import Problem
-from planmethod.project.decided import loaded_positions
-from planmethod.project.model import PartName, Project
-from planmethod.project.record import project_record
-from planmethod.project.settle import settle, with_decisions
-from planmethod.project.sheets import numbered_set, part_drawings
-from planmethod.render.ink.drawing import Drawing, Text
-from planmethod.render.sheets.turn import MAX_SIDE, SMALL, hodograph
-from planmethod.solved.forces.loads import external
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.cycle import crank_cycle_of
 
 FILES = Path(__file__).parents[1] / "data" / "projects"
 

@@ -9,20 +9,30 @@ from unittest.mock import patch
 
 import pytest
 from cases import each, some
+from doors import (
+    Chapter,
+    DocumentItem as Item,
+    DocumentStep as Step,
+    Drawing,
+    Formula,
+    Paragraph,
+    Part,
+    PartName,
+    Project,
+    Table,
+    TableCell,
+    TablePart,
+    Text,
+    get_language,
+    inlined,
+    kinds_load as load,
+    note_document,
+    part_drawings,
+    settle,
+)
 from msgspec import Struct
 from test_report import FILES, TEMPLATE
 from worked import PROBLEMS, ROOT
-
-from planmethod.kinds import load
-from planmethod.note.document import Chapter, Formula, Item, Paragraph, Part, Step, Table
-from planmethod.note.formula import inlined
-from planmethod.note.wording import get_language
-from planmethod.project.model import PartName, Project
-from planmethod.project.report import note_document
-from planmethod.project.settle import settle
-from planmethod.project.sheets import part_drawings
-from planmethod.render.ink.drawing import Drawing, Text
-from planmethod.render.layout.tables import TableCell, TablePart
 
 CAM = """
 [cam] # the file of the shaper has none

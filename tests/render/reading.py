@@ -17,8 +17,7 @@ from itertools import accumulate
 from math import cos, hypot, pi, radians, sin, tau
 from typing import Any
 
-from planmethod.render.ink.drawing import Item, Text
-from planmethod.render.ink.lettering import in_use
+from doors import DrawingItem as Item, Text, in_use
 
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK = "{http://www.w3.org/1999/xlink}"

@@ -8,27 +8,34 @@ from math import isclose, pi, tau
 
 import pytest
 from cases import each
-from shapely import LineString, Point, Polygon
-
-from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
-from planmethod.render.ink.style import PENS, arc_spans, stroke_lines
-from planmethod.render.symbols import GROUND, SIZES
-from planmethod.render.symbols.axes import (
+from doors import (
+    PENS,
+    ROLLER,
+    SIZES,
+    SYMBOLS_GROUND as GROUND,
+    Arc,
+    Disc,
+    DrawingItem as Item,
+    Ink,
+    Pen,
+    Stroke,
+    arc_spans,
     axis_line,
+    bell_profile,
+    cam,
+    carrier_profile,
     centre_lines,
     kinked_line,
-    pitch_circle,
-    wavy_line,
-)
-from planmethod.render.symbols.cams import ROLLER, cam, rest_on_cam
-from planmethod.render.symbols.gears import (
-    bell_profile,
-    carrier_profile,
     mesh_front,
+    pitch_circle,
     rack_front,
+    rest_on_cam,
     ring_profile,
+    stroke_lines,
+    wavy_line,
     wheel_profile,
 )
+from shapely import LineString, Point, Polygon
 
 
 def pieces(items: list[Item]) -> list[LineString]:

@@ -10,19 +10,25 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 from cases import each
+from doors import (
+    AXIS,
+    DIAGRAM_CURVE as CURVE,
+    BlockOptions,
+    BlockSpec,
+    BlockStyle,
+    DrawingItem as Item,
+    Sizes,
+    SizeTable,
+    Solution,
+    Stroke,
+    Text,
+    flywheel_of,
+    get_language,
+    ink_bounds,
+    maker_of,
+    run_up_of,
+)
 from worked import problem_of
-
-from planmethod.note.wording import get_language
-from planmethod.problem.load_records import SizeTable
-from planmethod.render.ink.drawing import Item, Stroke, Text
-from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.pictures.diagram import AXIS, CURVE
-from planmethod.render.sheets.blocks import maker_of
-from planmethod.render.sheets.composer import Sizes
-from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle
-from planmethod.solved.machine.flywheel import flywheel_of
-from planmethod.solved.machine.runup import run_up_of
-from planmethod.solved.solution import Solution
 
 EN = get_language("en")
 TURN = tuple(98.918918918919 + 30.0 * k for k in range(12))

@@ -25,17 +25,32 @@ import numpy as np
 import pytest
 from browser import browsing
 from cases import each
+from doors import (
+    BACKENDS,
+    PENS,
+    Arc,
+    Disc,
+    Drawing,
+    DrawingItem as Item,
+    Fill,
+    Ink,
+    Options,
+    OutputError,
+    Pen,
+    PlanMethodError,
+    Stroke,
+    Text,
+    arc_curves,
+    arc_spans,
+    in_use,
+    kinematics_sheets,
+    render,
+    stroke_lines,
+    sweep,
+)
 from PIL import Image
 from reading import SVG, Page, Path, Run, read_dxf, read_pdf, read_svg, turned_box
 from worked import drawn_sheets, problem_of
-
-from planmethod.errors import OutputError, PlanMethodError
-from planmethod.render.backends import BACKENDS, Options, render
-from planmethod.render.backends.curves import arc_curves
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Item, Pen, Stroke, Text
-from planmethod.render.ink.lettering import in_use
-from planmethod.render.ink.style import PENS, arc_spans, stroke_lines, sweep
-from planmethod.render.sheets.kinematics import kinematics_sheets
 
 NEAR = 0.01  # mm
 TEXT = Options(dxf_text="text")

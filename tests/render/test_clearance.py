@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import pytest
+from doors import (
+    LayoutError,
+    SheetSettings,
+    analyse,
+    inspect,
+    kinematics_sheets,
+    problem_load as load,
+    structure_sheet,
+)
 from msgspec.structs import replace
 from worked import path_of
-
-from planmethod.errors import LayoutError
-from planmethod.mechanism.structure import analyse
-from planmethod.problem import load
-from planmethod.problem.common import SheetSettings
-from planmethod.render.control.sheet import inspect
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.structure import structure_sheet
 
 
 @pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3", "levers/six-link"])

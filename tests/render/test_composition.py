@@ -9,32 +9,48 @@ from pathlib import Path
 
 import pytest
 from cases import some
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from doors import (
+    BLOCKS,
+    FRAME_FORMATS as FORMATS,
+    MOTION,
+    SHIPPED,
+    WORDING_LANGUAGES as LANGUAGES,
+    Block,
+    BlockOptions,
+    BlockSpec,
+    BlockStyle,
+    Column,
+    Composition,
+    CompositionError,
+    Drawing,
+    DrawingArea,
+    ExitCode,
+    Furniture,
+    LayoutError,
+    Scales,
+    Solution,
+    Text,
+    TrialPaper,
+    View,
+    about,
+    block_heading as heading,
+    composition,
+    entries,
+    get_language,
+    ink_bounds,
+    kinematics_sheets,
+    lint,
+    pages_of,
+    problem_loads as loads,
+    read_composition,
+    reader,
+    sheets_blocks as kinds,
+    shipped,
+    shipped_text,
+)
+from hypothesis import given, settings, strategies as st
 from msgspec.structs import replace
 from worked import ROOT, SIX, drawn_sheets, path_of, problem_of
-
-from planmethod.errors import CompositionError, ExitCode, LayoutError
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.plans.model import MOTION
-from planmethod.problem import loads
-from planmethod.problem.model import Scales
-from planmethod.render.control.texts import lint
-from planmethod.render.frame.frame import FORMATS
-from planmethod.render.frame.furniture import DrawingArea, Furniture
-from planmethod.render.ink.drawing import Drawing, Text, View
-from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.layout.block import Block, Column, heading
-from planmethod.render.sheets import blocks as kinds
-from planmethod.render.sheets.blocks import BLOCKS
-from planmethod.render.sheets.composer import TrialPaper
-from planmethod.render.sheets.composition import entries, reader
-from planmethod.render.sheets.composition.reader import composition, read_composition, shipped
-from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle, Composition
-from planmethod.render.sheets.pages import pages_of
-from planmethod.solved.solution import Solution
 
 FAULTY = sorted((Path(__file__).parent / "faulty_layouts").glob("*.toml"))
 TURN = [30.0 * k for k in range(12)]

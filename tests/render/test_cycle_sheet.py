@@ -10,29 +10,41 @@ import numpy as np
 import pytest
 from cases import each, some
 from click.testing import CliRunner
+from doors import (
+    AXIS,
+    DIAGRAM_CURVE as CURVE,
+    HODOGRAPH,
+    POLAR_POLE as POLE,
+    Arc,
+    Cycle,
+    Disc,
+    Drawing,
+    Fill,
+    LayoutError,
+    ModelProblem as Problem,
+    PlanMethodError,
+    ProblemError,
+    Severity,
+    Solution,
+    Stroke,
+    Text,
+    View,
+    cli,
+    cycle_balance_columns,
+    drawn_forces,
+    get_language,
+    inspect,
+    kinematics_sheets,
+    paper_of,
+    polar_groups,
+    shipped,
+    statics_of,
+)
 from loaded import loaded_problem
 from msgspec.structs import replace
 from worked import drawn_sheets, path_of, problem_of
 
 from planmethod import loads
-from planmethod.cli import cli
-from planmethod.errors import LayoutError, PlanMethodError, ProblemError
-from planmethod.note.wording import get_language
-from planmethod.problem.model import Problem
-from planmethod.render.control.remarks import Severity
-from planmethod.render.control.sheet import inspect
-from planmethod.render.forces.hodograph import polar_groups
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Stroke, Text, View
-from planmethod.render.pictures.diagram import AXIS, CURVE
-from planmethod.render.pictures.polar import HODOGRAPH, POLE
-from planmethod.render.sheets.composition.reader import shipped
-from planmethod.render.sheets.controlled import paper_of
-from planmethod.render.sheets.cycletable import cycle_balance_columns
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.cycle import Cycle
-from planmethod.solved.errors.forces import drawn_forces
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
 
 RU = get_language("ru")
 

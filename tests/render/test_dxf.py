@@ -19,31 +19,46 @@ import numpy as np
 import pytest
 from cases import each, thinned
 from click.testing import CliRunner, Result
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    ENLARGED,
+    LAYERS,
+    LINE_TYPES,
+    PENS,
+    Arc,
+    Bounds,
+    Disc,
+    Drawing,
+    Fill,
+    Ink,
+    Options,
+    Pen,
+    PlanKind,
+    Solution,
+    Stroke,
+    Text,
+    VectorKind,
+    analyse,
+    arrowhead,
+    cli,
+    composition,
+    drawn_edges,
+    force_reading,
+    in_use,
+    kinematics_sheets,
+    layer_of,
+    render,
+    revolute,
+    structure_sheet,
+    sweep,
+    turn_arrow,
+    typeset,
+    vector_arrow,
+)
 from msgspec.structs import replace
 from PIL import Image
-from reading import Path as Painted
-from reading import Run, read_dxf
+from reading import Path as Painted, Run, read_dxf
 from worked import PROBLEMS, ROOT, SIX, drawn_sheets, every_file, path_of, problem_of, solved_while
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.mechanism.structure import analyse
-from planmethod.plans.model import PlanKind, VectorKind
-from planmethod.render.backends import Options, render
-from planmethod.render.backends.dxf import LINE_TYPES
-from planmethod.render.backends.layers import LAYERS, layer_of
-from planmethod.render.forces.polygon import drawn_edges
-from planmethod.render.ink.drawing import Arc, Bounds, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
-from planmethod.render.ink.lettering import in_use
-from planmethod.render.ink.style import PENS, sweep
-from planmethod.render.ink.typeset import typeset
-from planmethod.render.pictures.detail_views import ENLARGED
-from planmethod.render.sheets.composition.reader import composition
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.structure import structure_sheet
-from planmethod.render.symbols import arrowhead, revolute, turn_arrow, vector_arrow
-from planmethod.solved.forces.reading import force_reading
-from planmethod.solved.solution import Solution
 
 NEAR = 0.01  # mm
 FILES = {str(path.relative_to(PROBLEMS).with_suffix("")): path for path in every_file()}

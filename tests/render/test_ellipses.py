@@ -7,29 +7,30 @@ from math import exp
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
-from test_sheets import MANY
-from worked import SIX, problem_of
-
-from planmethod.construct.drafting import PROFILES
-from planmethod.construct.steps import PointName
-from planmethod.note.wording import get_language
-from planmethod.plans.model import MOTION, PlanKind
-from planmethod.render.ink.drawing import Pen, Stroke, Text
-from planmethod.render.ink.typeset import text_corners
-from planmethod.render.pictures.ellipses import (
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    MOTION,
     SIGMAS,
     TAG,
+    Pen,
+    PlanKind,
+    PointName,
+    Solution,
+    Stroke,
+    Text,
+    drafting_of,
     ellipse,
     ellipse_inscription,
     error_ellipses,
+    get_language,
     half_axes,
+    plan_picture,
+    scheme_picture,
+    text_corners,
 )
-from planmethod.render.pictures.planview import plan_picture
-from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.solution import Solution
+from hypothesis import example, given, settings, strategies as st
+from test_sheets import MANY
+from worked import SIX, problem_of
 
 RU = get_language("ru")
 

@@ -9,21 +9,24 @@ from collections.abc import Iterator
 
 import pytest
 from cases import thinned
+from doors import (
+    SHIPPED,
+    SPECIMENS,
+    WORDING_LANGUAGES as LANGUAGES,
+    Drawing,
+    ModelProblem as Problem,
+    Severity,
+    Text,
+    analyse,
+    get_language,
+    inspect,
+    kinematics_sheets,
+    problem_loads as parsed,
+    problem_template as template,
+    structure_sheet,
+)
 from msgspec.structs import replace
 from worked import PROBLEMS, problem_of
-
-from planmethod.mechanism.structure import analyse
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.problem import loads as parsed
-from planmethod.problem import template
-from planmethod.problem.model import Problem
-from planmethod.render.control.remarks import Severity
-from planmethod.render.control.sheet import inspect
-from planmethod.render.ink.drawing import Drawing, Text
-from planmethod.render.sheets.compositions import SHIPPED
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.specimen import SPECIMENS
-from planmethod.render.sheets.structure import structure_sheet
 
 CYRILLIC = re.compile("[\u0400-\u04ff]")
 

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    RATIOS,
+    Disc,
+    Flywheel,
+    FlywheelDrawing,
+    MachineNarrator,
+    Text,
+    construction_picture,
+    get_language,
+)
 from msgspec.structs import replace
 from worked import problem_of
-
-from planmethod.construct.drafting import PROFILES
-from planmethod.note.narrate.machine import MachineNarrator
-from planmethod.note.wording import get_language
-from planmethod.render.ink.drawing import Disc, Text
-from planmethod.render.pictures.flywheel import construction_picture
-from planmethod.solved.detail_views import RATIOS
-from planmethod.solved.machine.drawing import FlywheelDrawing
-from planmethod.solved.machine.flywheel import Flywheel
 
 
 @pytest.mark.parametrize("lang", ["ru", "en"])

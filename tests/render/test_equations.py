@@ -3,30 +3,32 @@ from __future__ import annotations
 from itertools import pairwise
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
-from reading import texts
-
-from planmethod.construct.steps import PointName
-from planmethod.note.narrate.equations import equation_of
-from planmethod.note.narrate.letters import direction_text
-from planmethod.plans.model import (
+from doors import (
+    PART_OF,
     Direction,
+    DrawingItem as Item,
+    EquationBlock,
     KnownParts,
+    Lines,
+    PointName,
     Relation,
+    Stroke,
+    Text,
     Vector,
     VectorEquation,
     VectorKind,
+    direction_text,
+    equation_block as made,
+    equations_equation_of as equation_of,
+    formula_block,
+    in_use,
+    lint,
     perpendicular_to,
     towards,
+    typeset,
 )
-from planmethod.render.control.texts import lint
-from planmethod.render.ink.drawing import Item, Stroke, Text
-from planmethod.render.ink.lettering import in_use
-from planmethod.render.ink.typeset import PART_OF, typeset
-from planmethod.render.layout.block import Lines
-from planmethod.render.layout.equations import EquationBlock, formula_block
-from planmethod.render.layout.equations import equation_block as made
+from hypothesis import given, settings, strategies as st
+from reading import texts
 
 
 def equation_block(

@@ -8,22 +8,26 @@ from itertools import product
 
 import pytest
 from cases import some, thinned
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    FRAME_FORMATS as FORMATS,
+    TAG,
+    Drafting,
+    Drawing,
+    LayoutError,
+    Solution,
+    Stroke,
+    Views,
+    drafting_of,
+    get_language,
+    kinematics_sheets,
+    reported_links,
+    reported_points,
+    result_columns,
+)
 from msgspec.structs import replace
 from test_sheets import MANY, format_of, marks, texts
 from worked import SIX, problem_of
-
-from planmethod.construct.drafting import PROFILES
-from planmethod.errors import LayoutError
-from planmethod.note.narrate.statement import reported_links, reported_points
-from planmethod.note.wording import get_language
-from planmethod.render.frame.frame import FORMATS
-from planmethod.render.ink.drawing import Drawing, Stroke
-from planmethod.render.pictures.ellipses import TAG
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.results import result_columns
-from planmethod.solved.errors.motion import Drafting, drafting_of
-from planmethod.solved.scaling import Views
-from planmethod.solved.solution import Solution
 
 PAPERS = ("A3", "A1")
 RU = get_language("ru")

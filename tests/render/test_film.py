@@ -10,15 +10,9 @@ import numpy as np
 import pytest
 from cases import each
 from click.testing import CliRunner
+from doors import Disc, ExitCode, Solution, Text, cli, make_animation, problem_loads as loads
 from PIL import Image
 from worked import path_of, problem_of
-
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
-from planmethod.problem import loads
-from planmethod.render.ink.drawing import Disc, Text
-from planmethod.render.live.animation import make_animation
-from planmethod.solved.solution import Solution
 
 SVG = "{http://www.w3.org/2000/svg}"
 

@@ -8,26 +8,37 @@ import numpy as np
 import pytest
 from cases import each, thinned
 from click.testing import CliRunner
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    NEAREST_POLE,
+    TALLEST,
+    Arc,
+    BlockOptions,
+    BlockSpec,
+    BlockStyle,
+    Disc,
+    Drawing,
+    ExitCode,
+    Fill,
+    Flywheel,
+    FlywheelMethod,
+    MachineNarrator,
+    Pen,
+    Sizes,
+    Solution,
+    Stroke,
+    Text,
+    cli,
+    construction_picture,
+    drawing_of,
+    get_language,
+    kinds_load as load,
+    kinematics_sheets,
+    machine_narrator,
+    maker_of,
+)
 from msgspec.structs import replace
 from worked import ROOT, drawn_sheets, path_of, problem_of
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.errors import ExitCode
-from planmethod.kinds import load
-from planmethod.note.narrate.machine import MachineNarrator
-from planmethod.note.tables.machine import machine_narrator
-from planmethod.note.wording import get_language
-from planmethod.problem.machine_records import FlywheelMethod
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Pen, Stroke, Text
-from planmethod.render.pictures.flywheel import construction_picture
-from planmethod.render.sheets.blocks import maker_of
-from planmethod.render.sheets.composer import Sizes
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle
-from planmethod.solved.machine.drawing import NEAREST_POLE, TALLEST, drawing_of
-from planmethod.solved.machine.flywheel import Flywheel
-from planmethod.solved.solution import Solution
 
 WANTED = json.loads((ROOT / "tests/data/flywheel.json").read_text("utf-8"))
 FILES = ("press/flywheel", "machines/compressor", "machines/engine")

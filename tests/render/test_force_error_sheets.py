@@ -10,6 +10,47 @@ from itertools import product
 import numpy as np
 import pytest
 from cases import thinned
+from doors import (
+    DASH,
+    DRAFTING_PROFILES as PROFILES,
+    START,
+    TAG,
+    BlockOptions,
+    BlockSpec,
+    BlockStyle,
+    Disc,
+    Drawing,
+    DrawnForces,
+    Errors,
+    ForceReading,
+    Pen,
+    Severity,
+    Solution,
+    Stroke,
+    angle_column,
+    angle_label,
+    balance_columns,
+    composition,
+    drafting_of,
+    drawn_edges,
+    drawn_forces,
+    exact_balance_columns,
+    find_overlap_shifts,
+    get_language,
+    guided_at,
+    inspect,
+    is_couple,
+    kinematics_sheets,
+    moment_column,
+    moment_label,
+    reactions_block,
+    size_columns,
+    size_label,
+    solution_record as record,
+    statics_of,
+    vertex_ellipses,
+    wording,
+)
 from loaded import loaded_problem
 from test_ellipses import middle, spread
 from test_error_sheets import number, rounded
@@ -18,39 +59,6 @@ from texts import result_tables
 from worked import drawn_sheets, path_of, problem_of
 
 from planmethod import loads
-from planmethod.construct.drafting import PROFILES
-from planmethod.note.compared import DASH
-from planmethod.note.records.solution import record
-from planmethod.note.wording import get_language, wording
-from planmethod.render.control.remarks import Severity
-from planmethod.render.control.sheet import inspect
-from planmethod.render.forces.ellipses import vertex_ellipses
-from planmethod.render.forces.polygon import START, drawn_edges, find_overlap_shifts
-from planmethod.render.ink.drawing import Disc, Drawing, Pen, Stroke
-from planmethod.render.pictures.ellipses import TAG
-from planmethod.render.sheets.composition.reader import composition
-from planmethod.render.sheets.guides import guided_at, is_couple
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle
-from planmethod.render.sheets.reactionerrors import (
-    angle_column,
-    balance_columns,
-    moment_column,
-    size_columns,
-)
-from planmethod.render.sheets.reactions import exact_balance_columns, reactions_block
-from planmethod.solved.errors.forces import (
-    DrawnForces,
-    angle_label,
-    drawn_forces,
-    moment_label,
-    size_label,
-)
-from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.errors.spread import Errors
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
 
 RU = get_language("ru")
 

@@ -12,33 +12,52 @@ from math import degrees
 
 import pytest
 from click.testing import CliRunner
+from doors import (
+    ARM,
+    FORCE,
+    MOMENT,
+    PLAN_BOX,
+    Acting,
+    Bounds,
+    Drawing,
+    DrawingItem as Item,
+    Equation,
+    ExitCode,
+    Fill,
+    ForceArm,
+    ForceReading,
+    LeverReading,
+    ModelProblem as Problem,
+    ProblemError,
+    Severity,
+    Solution,
+    Stroke,
+    Term,
+    Text,
+    View,
+    arm_items,
+    arrows_distance as distance,
+    both_balances,
+    cli,
+    compared_balances,
+    composition,
+    drawn_edges,
+    equation_block,
+    force_unknowns,
+    format_column,
+    get_language,
+    inspect,
+    kinematics_sheets,
+    place_force_arrows,
+    reaction_symbol,
+    significant,
+    statement,
+)
 from lettered import lever_lines, load_lines, moment_lines
 from msgspec.structs import replace
 from worked import drawn_sheets, path_of, problem_of
 
 from planmethod import loads
-from planmethod.cli import cli
-from planmethod.errors import ExitCode, ProblemError
-from planmethod.note.document import Equation, Term
-from planmethod.note.narrate.forces.lever import both_balances, compared_balances
-from planmethod.note.narrate.forces.statement import force_unknowns, statement
-from planmethod.note.numbers import format_column, significant
-from planmethod.note.wording import get_language
-from planmethod.plans.forces.polygons import reaction_symbol
-from planmethod.problem.model import FORCE, MOMENT, Problem
-from planmethod.render.control.remarks import Severity
-from planmethod.render.control.sheet import inspect
-from planmethod.render.forces.arms import ARM, ForceArm, arm_items
-from planmethod.render.forces.arrows import Acting, distance, place_force_arrows
-from planmethod.render.forces.polygon import drawn_edges
-from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Stroke, Text, View
-from planmethod.render.layout.equations import equation_block
-from planmethod.render.sheets.composition.reader import composition
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.forces.lever import LeverReading
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.forces.statics import PLAN_BOX
-from planmethod.solved.solution import Solution
 
 RU = get_language("ru")
 

@@ -6,30 +6,40 @@ from itertools import pairwise
 
 import pytest
 from cases import each, thinned
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from doors import (
+    ALIASES,
+    CUT,
+    FORM_1,
+    FORM_2,
+    FORM_2A,
+    FORMS,
+    FRAME_FORMATS as FORMATS,
+    LANGUAGES_LANGUAGES as LANGUAGES,
+    MARGIN_NOTE,
+    SHARED,
+    TITLE_BLOCK,
+    DrawingItem as Item,
+    Form,
+    Furniture,
+    LayoutError,
+    OutlineLettering,
+    Pen,
+    Stroke,
+    Text,
+    fit_text,
+    ink_bounds,
+    keys,
+    lint,
+    merged,
+    overlap,
+    sheet_frame,
+    title_block,
+    using,
+)
+from hypothesis import given, settings, strategies as st
 from msgspec.structs import replace
 from reading import texts
 from worked import ROOT
-
-from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES
-from planmethod.problem import keys
-from planmethod.problem.common import TITLE_BLOCK
-from planmethod.render.control.texts import lint
-from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
-from planmethod.render.frame.frame import (
-    FORMATS,
-    MARGIN_NOTE,
-    sheet_frame,
-    title_block,
-)
-from planmethod.render.frame.furniture import FORMS, Furniture
-from planmethod.render.frame.titleblock import ALIASES, SHARED, merged
-from planmethod.render.ink.drawing import Item, Pen, Stroke, Text
-from planmethod.render.ink.extent import ink_bounds, overlap
-from planmethod.render.ink.lettering import OutlineLettering, using
-from planmethod.render.layout.block import CUT, fit_text
 
 FIELDS = {
     "designation": "ТММ.КП.12.03.00.000",

@@ -7,25 +7,26 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each
-from worked import path_of
-
-from planmethod.errors import ProblemError
-from planmethod.note.records.solution import record
-from planmethod.note.records.spreadsheet import csv_columns
-from planmethod.note.tables.forces import forces_columns
-from planmethod.note.tables.friction import friction_narrator
-from planmethod.note.wording import get_language
-from planmethod.problem import load, loads
-from planmethod.render.forces.friction import (
+from doors import (
     CIRCLE,
     CONE,
     MIN_RADIUS,
+    Arc,
+    ProblemError,
+    Solution,
+    Stroke,
+    csv_columns,
+    forces_columns,
+    friction_narrator,
     friction_picture,
+    get_language,
     is_enlarged,
+    problem_load as load,
+    problem_loads as loads,
+    rubbed_reading,
+    solution_record as record,
 )
-from planmethod.render.ink.drawing import Arc, Stroke
-from planmethod.solved.forces.friction import rubbed_reading
-from planmethod.solved.solution import Solution
+from worked import path_of
 
 TEXT = path_of("machines/rubbing-crank").read_text("utf-8")
 SAY = get_language("ru").notation

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import pytest
+from doors import (
+    PlanKind,
+    PointName,
+    SchemeView,
+    Solution,
+    Stroke,
+    get_language,
+    statement_given_facts as given_facts,
+)
 
 from planmethod import loads
-from planmethod.construct.steps import PointName
-from planmethod.note.narrate.statement import given_facts
-from planmethod.note.wording import get_language
-from planmethod.plans.model import PlanKind
-from planmethod.render.ink.drawing import Stroke
-from planmethod.render.pictures.schemeview import SchemeView
-from planmethod.solved.solution import Solution
 
 MECHANISM = """
 title = "A slider beside its guide"

@@ -5,20 +5,23 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from cases import each
+from doors import (
+    DIAGRAM_CURVE as CURVE,
+    CycleTask,
+    DrawingItem as Item,
+    Solution,
+    Stroke,
+    diagrams_of,
+    get_language,
+    graph_groups,
+    graph_picture,
+    kinematics_sheets,
+    lint,
+    values_over,
+)
 from msgspec.structs import replace
 from reading import texts
 from worked import drawn_sheets, problem_of
-
-from planmethod.note.wording import get_language
-from planmethod.problem.cycle_records import CycleTask
-from planmethod.render.control.texts import lint
-from planmethod.render.ink.drawing import Item, Stroke
-from planmethod.render.pictures.diagram import CURVE
-from planmethod.render.sheets.graphs import graph_groups, graph_picture
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.diagrams import diagrams_of
-from planmethod.solved.turn.series import values_over
 
 ASKED = ("x_E", "y_E", "v_qx_D", "v_qy_D", "u_31", "u_41", "phi_3", "omega_3", "a_D")
 

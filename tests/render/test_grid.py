@@ -4,13 +4,8 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
-from hypothesis import given
-from hypothesis import strategies as st
-
-from planmethod.render.ink.extent import overlap
-from planmethod.render.layout.block import Spacer
-from planmethod.render.layout.cuttings import Leaf, Unit, box_of
-from planmethod.render.layout.grid import on_grid
+from doors import CuttingsUnit as Unit, Leaf, Spacer, box_of, on_grid, overlap
+from hypothesis import given, strategies as st
 
 
 def unit(left: float, low: float, right: float, high: float, share: float) -> Unit:

@@ -7,24 +7,35 @@ from functools import cache
 from importlib.resources import files
 
 import pytest
+from doors import (
+    DIMENSION,
+    MAX_DISTANCE,
+    POINT,
+    Disc,
+    Drawing,
+    DrawingItem as Item,
+    Fill,
+    ForceReading,
+    ModelProblem as Problem,
+    PlanKind,
+    Severity,
+    Solution,
+    Stroke,
+    View,
+    composition,
+    drawn_length,
+    force_unknowns,
+    get_language,
+    inner_picture,
+    inspect,
+    kinematics_sheets,
+    statement,
+)
 from lettered import computed, place_lines
 from test_forces_sheet import arrows, couples, shown, turned, views
 from worked import path_of
 
 from planmethod import loads
-from planmethod.note.narrate.forces.statement import force_unknowns, statement
-from planmethod.note.wording import get_language
-from planmethod.plans.model import PlanKind
-from planmethod.problem.model import Problem
-from planmethod.render.control.remarks import Severity
-from planmethod.render.control.sheet import inspect
-from planmethod.render.forces.cut import inner_picture
-from planmethod.render.forces.guides import DIMENSION, MAX_DISTANCE, POINT, drawn_length
-from planmethod.render.ink.drawing import Disc, Drawing, Fill, Item, Stroke, View
-from planmethod.render.sheets.composition.reader import composition
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.solution import Solution
 
 RU = get_language("ru")
 

@@ -5,29 +5,37 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from doors import (
+    LABELS_SERIES as SERIES,
+    UNDER_LABEL,
+    Arc,
+    Bounds,
+    DrawingItem as Item,
+    Fill,
+    Floats,
+    LabelsLabel as Label,
+    LabelStyle,
+    Pen,
+    Placed,
+    Stroke,
+    Text,
+    crossing,
+    inside,
+    lettering,
+    lint,
+    paper,
+    place_labels,
+    revolute,
+    segment_label,
+    slider,
+    typeset,
+    using,
+)
+from hypothesis import given, settings, strategies as st
 from msgspec.structs import replace
 from numpy.typing import NDArray
 from shapely import LineString, box
 from worked import forget_cached
-
-from planmethod.render.control.texts import lint
-from planmethod.render.ink.drawing import Arc, Bounds, Fill, Item, Pen, Stroke, Text
-from planmethod.render.ink.lettering import lettering, using
-from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import (
-    SERIES,
-    UNDER_LABEL,
-    Label,
-    LabelStyle,
-    Placed,
-    paper,
-    place_labels,
-    segment_label,
-)
-from planmethod.render.labels.candidates import Floats, crossing, inside
-from planmethod.render.symbols import revolute, slider
 
 BOUNDS = (0.0, 0.0, 200.0, 150.0)
 

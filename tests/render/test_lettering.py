@@ -11,18 +11,19 @@ from typing import Any
 
 import pytest
 from cases import thinned
-from shapely import LineString, MultiPolygon, Polygon, union_all
-
-from planmethod.errors import LayoutError
-from planmethod.render.ink.lettering import (
+from doors import (
     FONTS,
+    PROPORTIONS_TYPES as TYPES,
     STYLES,
+    LayoutError,
     in_use,
     lettering,
+    line_step,
+    typeset,
     using,
 )
-from planmethod.render.ink.lettering.proportions import TYPES
-from planmethod.render.ink.typeset import line_step, typeset
+from shapely import LineString, MultiPolygon, Polygon, union_all
+
 from scripts.skeleton import letters, parsed, skeleton
 
 RUSSIAN = "".join(map(chr, range(0x410, 0x450))) + "Ёё"

@@ -6,16 +6,20 @@ import re
 from pathlib import Path
 
 import pytest
-
-from planmethod.note.wording import get_language
-from planmethod.render.control.texts import GRID, lint
-from planmethod.render.ink.drawing import Stroke, Text
-from planmethod.render.ink.lettering import STYLES, in_use, lettering, using
-from planmethod.render.sheets.specimen.lettering import (
+from doors import (
     ALPHABETS,
-    HEIGHT,
+    GRID,
+    LETTERING_HEIGHT as HEIGHT,
+    STYLES,
+    Stroke,
+    Text,
+    get_language,
+    in_use,
+    lettering,
+    lettering_measured as measured,
     lettering_sheet,
-    measured,
+    lint,
+    using,
 )
 
 RU = get_language("ru")

@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from doors import (
+    PLACE,
+    TIMES,
+    ForceReading,
+    LeverNarrator,
+    LeverReading,
+    PlanKind,
+    Solution,
+    Text,
+    get_language,
+    kinematics_sheets,
+    lettered,
+    next_scale,
+    settle,
+    statics_of,
+)
 from lettered import lever_lines
 from worked import path_of, problem_of
 
 from planmethod import loads
-from planmethod.construct.scale import next_scale
-from planmethod.note.narrate.forces.common import lettered
-from planmethod.note.narrate.forces.lever import LeverNarrator
-from planmethod.note.wording import get_language
-from planmethod.plans.model import PlanKind
-from planmethod.project.settle import settle
-from planmethod.render.ink.drawing import Text
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.forces.lever import LeverReading
-from planmethod.solved.forces.leverscale import PLACE, TIMES
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
 
 RU = get_language("ru")
 SHIPPED = ("levers/six-link", "levers/task12", "press/press", "levers/task-66")

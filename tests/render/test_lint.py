@@ -1,14 +1,23 @@
 from __future__ import annotations
 
 import pytest
-
-from planmethod.render.control.remarks import REMARKS
-from planmethod.render.control.texts import lint
-from planmethod.render.frame.frame import MARGIN_NOTE, STAMP
-from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
-from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import UNDER_LABEL
-from planmethod.render.layout.block import CUT
+from doors import (
+    CUT,
+    MARGIN_NOTE,
+    REMARKS,
+    STAMP,
+    UNDER_LABEL,
+    Arc,
+    Disc,
+    DrawingItem as Item,
+    Fill,
+    Ink,
+    Pen,
+    Stroke,
+    Text,
+    lint,
+    typeset,
+)
 
 INNER = (20.0, 5.0, 200.0, 150.0)
 AT = 50 + 50j

@@ -14,19 +14,21 @@ import pytest
 from browser import PROGRAM, Page, browsing
 from cases import each, some
 from click.testing import CliRunner
+from doors import (
+    ExitCode,
+    Flywheel,
+    LiveScene,
+    ModelProblem as Problem,
+    Sweep,
+    cli,
+    get_language,
+    number,
+    page_live_page as live_page,
+    problem_loads as loads,
+)
 from worked import PROBLEMS, ROOT, path_of, problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.cli import cli
-from planmethod.errors import ExitCode
-from planmethod.note.wording import get_language
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
-from planmethod.render.live.page import live_page
-from planmethod.render.live.scene import LiveScene
-from planmethod.solved.machine.flywheel import Flywheel
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.turn.numbering import number
 
 AGREE = 1e-12
 """Tolerance, relative to the largest value of a row."""

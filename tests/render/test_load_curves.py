@@ -6,19 +6,26 @@ import itertools
 
 import numpy as np
 import pytest
+from doors import (
+    AXIS,
+    DIAGRAM_CURVE as CURVE,
+    Arc,
+    BlockOptions,
+    BlockStyle,
+    DrawingItem as Item,
+    Interpolation,
+    ModelProblem as Problem,
+    Over,
+    SizeTable,
+    Solution,
+    Stroke,
+    composition,
+    get_language,
+    kinds_load as load,
+    load_curves,
+)
 from msgspec.structs import replace
 from worked import ROOT, problem_of
-
-from planmethod.kinds import load
-from planmethod.note.wording import get_language
-from planmethod.problem.load_records import Interpolation, Over, SizeTable
-from planmethod.problem.model import Problem
-from planmethod.render.ink.drawing import Arc, Item, Stroke
-from planmethod.render.pictures.diagram import AXIS, CURVE
-from planmethod.render.sheets.composition.reader import composition
-from planmethod.render.sheets.loads import load_curves
-from planmethod.render.sheets.model import BlockOptions, BlockStyle
-from planmethod.solved.solution import Solution
 
 LAYOUT = composition("forces")
 (ENTRY,) = (entry for entry in LAYOUT.blocks if entry.kind == "load-curves")

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import pytest
+from doors import (
+    MOTION_KINDS,
+    Drawing,
+    Solution,
+    Text,
+    kinematics_sheets,
+    read_names,
+    reported_quantities,
+)
 from worked import drawn_sheets, problem_of
 
 from benchmarks.generator import random_problem
 from planmethod import loads
-from planmethod.note.narrate.statement import reported_quantities
-from planmethod.plans.legend import MOTION_KINDS
-from planmethod.render.ink.drawing import Drawing, Text
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.measured import read_names
-from planmethod.solved.solution import Solution
 
 THREE = [20.0, 140.0, 260.0]
 

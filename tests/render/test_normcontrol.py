@@ -7,43 +7,50 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from msgspec.structs import replace
-from worked import ROOT, drawn_sheets, every_file, problem_of
-
-from planmethod.mechanism.structure import analyse
-from planmethod.note.wording import LANGUAGES, UnknownLanguageError, get_language
-from planmethod.problem import variant_names
-from planmethod.render.control.remarks import REMARKS, Finding, Severity, obstacle_text, unit_text
-from planmethod.render.control.sheet import inspect, unused_paper
-from planmethod.render.control.unused import CELL, largest_empty
-from planmethod.render.frame.frame import FORMATS, STAMP, sheet_frame
-from planmethod.render.frame.furniture import Furniture
-from planmethod.render.ink.drawing import (
+from doors import (
+    CELL,
+    CUT,
+    FRAME_FORMATS as FORMATS,
+    PENS,
+    REMARKS,
+    STAMP,
     VIEW_KINDS,
+    WORDING_LANGUAGES as LANGUAGES,
     Arc,
+    CheckedSheet,
     Disc,
     Drawing,
+    DrawingItem as Item,
     Fill,
+    Finding,
+    Furniture,
     Ink,
-    Item,
     Pen,
+    Severity,
     Span,
     Stroke,
     Text,
+    UnknownLanguageError,
     View,
-)
-from planmethod.render.ink.style import PENS
-from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import CUT
-from planmethod.render.sheets.control_report import control_text
-from planmethod.render.sheets.controlled import (
-    CheckedSheet,
+    analyse,
+    control_text,
     controlled_kinematics,
     controlled_structure,
+    get_language,
+    inspect,
+    kinematics_sheets,
+    largest_empty,
+    obstacle_text,
+    sheet_frame,
+    slider,
+    structure_sheet,
+    typeset,
+    unit_text,
+    unused_paper,
+    variant_names,
 )
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.structure import structure_sheet
-from planmethod.render.symbols import slider
+from msgspec.structs import replace
+from worked import ROOT, drawn_sheets, every_file, problem_of
 
 A4 = FORMATS["A4"]
 BOX = (40.0, 100.0, 160.0, 220.0)

@@ -7,9 +7,7 @@ import os
 from pathlib import Path
 
 import pytest
-
-from planmethod.errors import ExitCode, OutputError
-from planmethod.render.backends.output import write
+from doors import ExitCode, OutputError, output_write as write
 
 
 def names(folder: Path) -> list[str]:

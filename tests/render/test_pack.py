@@ -5,13 +5,20 @@ from __future__ import annotations
 from itertools import combinations, pairwise
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
-
-from planmethod.render.ink.drawing import Bounds
-from planmethod.render.layout.block import Alternatives, Spacer
-from planmethod.render.layout.cuttings import CLEAR, GAP, Arrange, Group, LayoutItem
-from planmethod.render.layout.pack import EDGE, largest_empty_fraction, pack
+from doors import (
+    CLEAR,
+    EDGE,
+    GAP,
+    Alternatives,
+    Arrange,
+    Bounds,
+    Group,
+    LayoutItem,
+    Spacer,
+    largest_empty_fraction,
+    pack,
+)
+from hypothesis import given, settings, strategies as st
 
 INNER: Bounds = (20.0, 5.0, 589.0, 415.0)  # A2
 STAMP: Bounds = (404.0, 5.0, 589.0, 60.0)

@@ -5,12 +5,25 @@ from __future__ import annotations
 import re
 
 import pytest
+from doors import (
+    BACKENDS,
+    PAGED,
+    Arc,
+    Disc,
+    Drawing,
+    Fill,
+    Ink,
+    Options,
+    OutputError,
+    Pen,
+    PlanMethodError,
+    Stroke,
+    Text,
+    render,
+    render_pages,
+)
 from msgspec.structs import replace
 from reading import read_pdf
-
-from planmethod.errors import OutputError, PlanMethodError
-from planmethod.render.backends import BACKENDS, PAGED, Options, render, render_pages
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
 
 ITEMS = (
     Stroke((10 + 10j, 60 + 10j), Pen.THIN),

@@ -7,24 +7,37 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from doors import (
+    MAX_LABELS,
+    POSITIONS_PRIMES as PRIMES,
+    STROKE,
+    TRAJECTORY,
+    UNDER_LABEL,
+    Arc,
+    Disc,
+    DrawingItem as Item,
+    Fill,
+    Paths,
+    Pen,
+    Picture,
+    PlanKind,
+    Positions,
+    Solution,
+    Stroke,
+    Text,
+    Thinned,
+    Views,
+    clearest_position,
+    crank_cycle_of,
+    densest,
+    kinematics_sheets,
+    lint,
+    positions_written as written,
+    problem_loads as loads,
+    series_picture,
+    writings_of,
+)
 from worked import DEAD, SIX, drawn_sheets, problem_of
-
-from planmethod.plans.model import PlanKind
-from planmethod.problem import loads
-from planmethod.render.control.texts import lint, writings_of
-from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke, Text
-from planmethod.render.labels import UNDER_LABEL
-from planmethod.render.layout.block import Picture
-from planmethod.render.pictures.extremes import STROKE
-from planmethod.render.pictures.paths import TRAJECTORY, Paths
-from planmethod.render.pictures.positions import PRIMES, Positions, Thinned, written
-from planmethod.render.pictures.seriesview import series_picture
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.label_density import MAX_LABELS, densest
-from planmethod.solved.representative_position import clearest_position
-from planmethod.solved.scaling import Views
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.cycle import crank_cycle_of
 
 ALL_ROUND = [30.0 * k for k in range(12)]
 SOME = [150.0 + 10.0 * k for k in range(12)]  # the six-link mechanism does not go all round

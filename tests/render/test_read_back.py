@@ -7,23 +7,27 @@ import re
 import numpy as np
 import pytest
 from cases import thinned
+from doors import (
+    ARM,
+    Drawing,
+    ForceReading,
+    PlanKind,
+    Solution,
+    Stroke,
+    View,
+    calculation,
+    drawn_edges,
+    get_language,
+    kinematics_sheets,
+    plain_text,
+    pose,
+    render,
+)
 from lettered import closing_lines, lever_lines, moment_lines
 from reading import Path, read_svg
 from worked import PROBLEMS, SIX, problem_of, solved_while
 
 from benchmarks.sheets import positions_of
-from planmethod.note.narrate.steps import calculation
-from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import get_language
-from planmethod.plans.model import PlanKind
-from planmethod.render.backends import render
-from planmethod.render.forces.arms import ARM
-from planmethod.render.forces.polygon import drawn_edges
-from planmethod.render.ink.drawing import Drawing, Stroke, View
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.posed import pose
 
 LAID_OFF = re.compile(r"\(([^() ]+)\) = [^;]*?([\d.]+) мм")
 READ = re.compile(r"μ_?[va]·\(([^()]+)\) = [\d./]+·([\d.]+)")

@@ -6,19 +6,25 @@ from collections.abc import Sequence
 
 import pytest
 from cases import each, sampled, thinned
+from doors import (
+    AROUND_PLAN,
+    DRAFTING_PROFILES as PROFILES,
+    FACTS,
+    FULL,
+    MOTION,
+    RATES,
+    Solution,
+    clear_position,
+    kind_of,
+    kinematics_sheet_scales as sheet_scales,
+    kinematics_sheets,
+    problem_loads as loads,
+)
 from msgspec.structs import replace
 from scales import uneven_scales
 from worked import PROBLEMS, problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.construct.drafting import PROFILES
-from planmethod.kinds import kind_of
-from planmethod.plans.model import FACTS, MOTION, RATES
-from planmethod.problem import loads
-from planmethod.render.sheets.kinematics import kinematics_sheets, sheet_scales
-from planmethod.solved.representative_position import clear_position
-from planmethod.solved.scaling import AROUND_PLAN, FULL
-from planmethod.solved.solution import Solution
 
 TURN = [30.0 * k for k in range(12)]
 

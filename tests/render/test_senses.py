@@ -2,14 +2,8 @@ from __future__ import annotations
 
 import pytest
 from cases import each
+from doors import Arc, Solution, View, Views, misleading, scheme_picture, writings_of
 from worked import problem_of
-
-from planmethod.render.control.misleading import misleading
-from planmethod.render.control.texts import writings_of
-from planmethod.render.ink.drawing import Arc, View
-from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.solved.scaling import Views
-from planmethod.solved.solution import Solution
 
 NAMES = [
     "levers/task-33", "levers/task-37", "levers/task-43", "levers/task-49", "levers/task-57",

@@ -8,23 +8,27 @@ from itertools import chain
 
 import numpy as np
 import pytest
+from doors import (
+    Drawing,
+    DrawingItem as Item,
+    ForceReading,
+    LeverReading,
+    SelectorValues,
+    Severity,
+    Solution,
+    Stroke,
+    View,
+    composition,
+    get_language,
+    inspect,
+    kinematics_sheets,
+    parse_selector,
+    statics_of,
+)
 from lettered import computed, lever_lines, load_lines, moment_lines
 from loaded import with_resultant
 from test_forces_sheet import arrows, couples, shown, views, within
 from worked import drawn_sheets, problem_of
-
-from planmethod.note.wording import get_language
-from planmethod.problem.selector import parse_selector
-from planmethod.render.control.remarks import Severity
-from planmethod.render.control.sheet import inspect
-from planmethod.render.ink.drawing import Drawing, Item, Stroke, View
-from planmethod.render.sheets.composition.reader import composition
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.forces.lever import LeverReading
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.selectors.values import SelectorValues
-from planmethod.solved.solution import Solution
 
 RU = get_language("ru")
 

@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 import pytest
+from doors import (
+    LINES,
+    NAMING,
+    Fill,
+    Ink,
+    ModelLabel as Label,
+    ModelProblem as Problem,
+    Solution,
+    Text,
+    cis,
+    far_candidates,
+    kinematics_sheets,
+    parts_of,
+    problem_loads as loads,
+    scheme_picture,
+    typeset,
+)
 from worked import problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.plans.draft import cis
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
-from planmethod.render.ink.drawing import Fill, Ink, Text
-from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels.candidates import far_candidates
-from planmethod.render.labels.model import NAMING, Label
-from planmethod.render.live.parts import LINES, parts_of
-from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.solution import Solution
 
 
 def slotted() -> Problem:

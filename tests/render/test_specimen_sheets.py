@@ -6,26 +6,37 @@ import re
 from itertools import pairwise
 
 import pytest
-
-from planmethod.errors import LayoutError
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.render.control.sheet import inspect
-from planmethod.render.ink.drawing import Arc, Drawing, Fill, Pen, Stroke, Text
-from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.ink.style import ARROW, PENS, stroke_lines
-from planmethod.render.sheets.specimen import SPECIMENS
-from planmethod.render.sheets.specimen.cells import SymbolCell, drawn_cell
-from planmethod.render.sheets.specimen.lines import (
-    SAMPLE,
-    TYPES,
+from doors import (
+    ARROW,
+    LINES_SAMPLE as SAMPLE,
+    LINES_TYPES as TYPES,
+    PENS,
+    SIZES,
+    SPECIMENS,
+    SYMBOLS_GROUND as GROUND,
+    SYMBOLS_HEIGHT as HEIGHT,
+    SYMBOLS_WIDTH as WIDTH,
+    WORDING_LANGUAGES as LANGUAGES,
+    Arc,
+    Drawing,
+    Fill,
+    LayoutError,
     LineType,
+    Pen,
+    Stroke,
+    SymbolCell,
+    Text,
+    drawn_cell,
+    get_language,
+    ink_bounds,
+    inspect,
+    lines_measured as measured,
     lines_sheet,
-    measured,
     rule_cells,
     sample,
+    stroke_lines,
+    symbol_cells,
 )
-from planmethod.render.sheets.specimen.symbols import HEIGHT, WIDTH, symbol_cells
-from planmethod.render.symbols import GROUND, SIZES
 
 RU = get_language("ru")
 

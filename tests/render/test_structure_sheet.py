@@ -11,36 +11,46 @@ from pathlib import Path
 
 import pytest
 from cases import thinned
-
-from planmethod.errors import LayoutError
-from planmethod.mechanism.model import Mechanism, Prismatic, Revolute
-from planmethod.mechanism.structure import Structure, analyse
-from planmethod.note.narrate.letters import pair_letters
-from planmethod.note.narrate.structure import group_caption, mobility_formulas
-from planmethod.note.wording import get_language
-from planmethod.problem import load
-from planmethod.problem.model import Drive, Problem
-from planmethod.render.control.texts import lint
-from planmethod.render.frame.frame import STAMP, Format, paper_format
-from planmethod.render.ink.drawing import Arc, Drawing, Pen, Stroke, Text
-from planmethod.render.layout.block import Picture
-from planmethod.render.pictures.chains import (
+from doors import (
+    SIZES,
+    STAMP,
+    Arc,
+    Bar,
+    Drawing,
+    Drive,
+    FrameFormat as Format,
     JointEnd,
+    LayoutError,
+    Mechanism,
+    Mobile,
+    ModelProblem as Problem,
+    Pen,
+    Picture,
+    Prismatic,
+    Revolute,
+    SchemeGraph,
+    Stroke,
+    Structure,
+    Text,
+    analyse,
     driver_chain,
+    driver_picture,
+    embed,
+    frame_paper_format as paper_format,
+    get_language,
+    group_caption,
     group_chain,
+    group_picture,
+    lint,
     mechanism_chain,
+    mechanism_picture,
+    mobility_formulas,
+    pair_letters,
+    problem_load as load,
+    self_aligning,
+    structure_sheet,
     textbook_places,
 )
-from planmethod.render.pictures.embedding import Bar, SchemeGraph, embed
-from planmethod.render.pictures.structural import (
-    Mobile,
-    driver_picture,
-    group_picture,
-    mechanism_picture,
-)
-from planmethod.render.sheets.structure import structure_sheet
-from planmethod.render.symbols import SIZES
-from planmethod.solved.aligned.schemes import self_aligning
 
 RU = get_language("ru")
 

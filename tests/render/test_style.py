@@ -8,13 +8,14 @@ from math import pi, tau
 
 import pytest
 from cases import each
-
-from planmethod.render.ink.drawing import Arc, Pen, Stroke
-from planmethod.render.ink.style import (
+from doors import (
     HEIGHTS,
     PENS,
+    Arc,
     Dashes,
+    Pen,
     S,
+    Stroke,
     arc_spans,
     closes,
     dash_spans,

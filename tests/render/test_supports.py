@@ -8,18 +8,29 @@ from itertools import combinations, pairwise
 
 import pytest
 from cases import each
+from doors import (
+    PENS,
+    SIZES,
+    SYMBOLS_GROUND as GROUND,
+    Arc,
+    AssemblyError,
+    DrawingItem as Item,
+    Fill,
+    Ink,
+    Pen,
+    Scheme,
+    Solution,
+    Stroke,
+    fixed_pivots,
+    free_sides,
+    place_supports,
+    scheme_picture,
+    slider,
+    support_half_width,
+)
 from shapely import LineString, union_all
 from shapely.geometry.base import BaseGeometry
 from worked import SIX, problem_of
-
-from planmethod.errors import AssemblyError
-from planmethod.render.ink.drawing import Arc, Fill, Ink, Item, Pen, Stroke
-from planmethod.render.ink.style import PENS
-from planmethod.render.pictures.scheme import Scheme
-from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.render.pictures.supports import free_sides, place_supports
-from planmethod.render.symbols import GROUND, SIZES, fixed_pivots, slider, support_half_width
-from planmethod.solved.solution import Solution
 
 UNREACHED = {("levers/six-link", 40.0), ("levers/six-link", 75.0)}
 """Positions in which a mechanism cannot be assembled."""

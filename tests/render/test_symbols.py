@@ -5,15 +5,24 @@ from itertools import pairwise
 from math import isclose, pi, tau
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from doors import (
+    ARROW,
+    PENS,
+    SIZES,
+    Arc,
+    Disc,
+    DrawingItem as Item,
+    Fill,
+    Ink,
+    Pen,
+    Stroke,
+    arc_points,
+    stroke_lines,
+    sweep,
+    symbols,
+)
+from hypothesis import given, strategies as st
 from shapely import LineString, Point, Polygon
-
-from planmethod.render import symbols
-from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
-from planmethod.render.ink.extent import arc_points
-from planmethod.render.ink.style import ARROW, PENS, stroke_lines, sweep
-from planmethod.render.symbols import SIZES
 
 angles = st.floats(-180, 180)
 

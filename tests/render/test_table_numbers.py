@@ -11,21 +11,29 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 import pytest
+from doors import (
+    MOTION_KINDS,
+    Block,
+    BlockOptions,
+    BlockSpec,
+    BlockStyle,
+    Column,
+    Quantity,
+    Row,
+    Sizes,
+    Solution,
+    TableCell,
+    TablePart,
+    drawn_forces,
+    flywheel_of,
+    get_language,
+    maker_of,
+    run_up_of,
+    size_label,
+    statics_of,
+    transfers_of,
+)
 from worked import problem_of
-
-from planmethod.note.wording import get_language
-from planmethod.plans.legend import MOTION_KINDS, Quantity
-from planmethod.render.layout.block import Block, Column, Row
-from planmethod.render.layout.tables import TableCell, TablePart
-from planmethod.render.sheets.blocks import maker_of
-from planmethod.render.sheets.composer import Sizes
-from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle
-from planmethod.solved.errors.forces import drawn_forces, size_label
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.machine.flywheel import flywheel_of
-from planmethod.solved.machine.runup import run_up_of
-from planmethod.solved.solution import Solution
-from planmethod.solved.transfers import transfers_of
 
 EN = get_language("en")
 THREE = (20.0, 140.0, 260.0)

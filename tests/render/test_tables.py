@@ -1,17 +1,29 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from doors import (
+    Arc,
+    Column,
+    DrawingItem as Item,
+    Fill,
+    LayoutError,
+    Pen,
+    Picture,
+    Row,
+    Spacer,
+    Stroke,
+    TableCell,
+    TableColumn,
+    Text,
+    block_heading as heading,
+    in_use,
+    lint,
+    paragraph,
+    table_block,
+    typeset,
+)
+from hypothesis import given, settings, strategies as st
 from reading import texts
-
-from planmethod.errors import LayoutError
-from planmethod.render.control.texts import lint
-from planmethod.render.ink.drawing import Arc, Fill, Item, Pen, Stroke, Text
-from planmethod.render.ink.lettering import in_use
-from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Column, Picture, Row, Spacer, heading, paragraph
-from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 
 COLUMNS = (
     TableColumn("№", ("1", "2")),

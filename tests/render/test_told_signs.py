@@ -7,17 +7,22 @@ from math import radians
 import numpy as np
 import pytest
 from cases import each
+from doors import (
+    RATES,
+    Locus,
+    Pen,
+    PlanKind,
+    Solution,
+    Stroke,
+    VectorKind,
+    construction_items,
+    extreme_construction,
+    get_language,
+    plan_picture,
+    plan_spans,
+    result_columns,
+)
 from worked import SIX, drawn_sheets, problem_of
-
-from planmethod.note.wording import get_language
-from planmethod.plans.model import RATES, PlanKind, VectorKind
-from planmethod.render.ink.drawing import Pen, Stroke
-from planmethod.render.pictures.extremes import construction_items
-from planmethod.render.pictures.planview import plan_picture
-from planmethod.render.sheets.results import result_columns
-from planmethod.render.sheets.views import plan_spans
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.construction import Locus, extreme_construction
 
 # Results ------------------------------------------------------------------------------------------
 

@@ -5,21 +5,24 @@ from __future__ import annotations
 from cmath import phase
 
 import pytest
-from msgspec.structs import replace
-from worked import SIX, drawn_sheets, problem_of
-
-from planmethod.construct.steps import IntersectCircles, IntersectLineCircle, PointName
-from planmethod.plans.model import PlanKind
-from planmethod.render.ink.drawing import Arc, Item, Stroke
-from planmethod.render.pictures.planview import plan_places
-from planmethod.render.pictures.traces import (
+from doors import (
     CORNER,
     TRACE,
+    Arc,
+    DrawingItem as Item,
+    IntersectCircles,
+    IntersectLineCircle,
+    PlanKind,
+    PointName,
+    Solution,
+    Stroke,
+    plan_places,
     plan_traces,
     scheme_traces,
     shown_traces,
 )
-from planmethod.solved.solution import Solution
+from msgspec.structs import replace
+from worked import SIX, drawn_sheets, problem_of
 
 PLANS = (PlanKind.VELOCITY, PlanKind.ACCELERATION)
 

@@ -7,29 +7,38 @@ from functools import cache
 import numpy as np
 import pytest
 from cases import some
+from doors import (
+    AXIS,
+    DRAFTING_PROFILES as PROFILES,
+    EXTREME,
+    PAPER_FORMATS as FORMATS,
+    POINT_TAG,
+    VIEW_KINDS,
+    CycleTask,
+    Diagrams,
+    Differentiation,
+    Disc,
+    LayoutError,
+    PoleDistances,
+    Sampled,
+    Solution,
+    Stroke,
+    composition,
+    crank_cycle_of,
+    cycle_record,
+    diagrams_of,
+    evaluate_evaluate as evaluate,
+    extreme_construction,
+    get_language,
+    kinematic_picture,
+    kinematics_sheets,
+    lint,
+    numbering,
+    sigmas,
+)
 from msgspec.structs import replace
 from texts import cycle_protocol
 from worked import SIX, drawn_sheets, problem_of, solved_while
-
-from planmethod.construct.drafting import PROFILES, Sampled
-from planmethod.construct.evaluate import evaluate
-from planmethod.errors import LayoutError
-from planmethod.note.records.solution import cycle_record
-from planmethod.note.wording import get_language
-from planmethod.paper import FORMATS
-from planmethod.problem.cycle_records import CycleTask, Differentiation, PoleDistances
-from planmethod.render.control.texts import lint
-from planmethod.render.ink.drawing import VIEW_KINDS, Disc, Stroke
-from planmethod.render.pictures.diagram import AXIS
-from planmethod.render.pictures.extremes import EXTREME
-from planmethod.render.pictures.kinematic import POINT_TAG, kinematic_picture
-from planmethod.render.sheets.composition.reader import composition
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn import numbering
-from planmethod.solved.turn.construction import extreme_construction
-from planmethod.solved.turn.cycle import crank_cycle_of
-from planmethod.solved.turn.diagrams import Diagrams, diagrams_of, sigmas
 
 RU = get_language("ru")
 

@@ -4,21 +4,21 @@ import cmath
 from math import radians
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-
-from planmethod.errors import LayoutError
-from planmethod.note.formula import escape
-from planmethod.render.ink.drawing import Pen, Stroke, Text
-from planmethod.render.ink.lettering import in_use
-from planmethod.render.ink.typeset import (
+from doors import (
     PART_OF,
+    LayoutError,
+    Pen,
+    Stroke,
+    Text,
+    escape,
+    in_use,
     index_height,
     smaller_heights,
     split_words,
     typeset,
     vector_markup,
 )
+from hypothesis import given, strategies as st
 
 
 def runs(markup: str, height: float = 5.0) -> list[tuple[str, float]]:

@@ -6,10 +6,8 @@ from io import BytesIO
 
 import numpy as np
 import pytest
+from doors import Drawing, DrawingView, Stroke
 from PIL import Image
-
-from planmethod.render.backends.view import DrawingView
-from planmethod.render.ink.drawing import Drawing, Stroke
 
 
 def drawing() -> Drawing:

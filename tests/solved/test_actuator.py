@@ -9,6 +9,25 @@ import numpy as np
 import pytest
 from actuated import actuated_problem
 from cases import each, sampled, some
+from doors import (
+    FRAME,
+    CamDrive,
+    Friction,
+    FrictionTask,
+    ModelProblem as Problem,
+    ProblemError,
+    Solution,
+    Statics,
+    cut_picture,
+    cycle,
+    driven_by,
+    force_reading,
+    get_language,
+    lever_picture,
+    pose,
+    problem_loads as loads,
+    settle,
+)
 from full_system import (
     Acting,
     Answer,
@@ -21,26 +40,8 @@ from full_system import (
     solve_all,
 )
 from msgspec.structs import replace
-from newton import Motion
-from newton import solve as newton
+from newton import Motion, solve as newton
 from texts import protocol
-
-from planmethod.errors import ProblemError
-from planmethod.mechanism.model import FRAME
-from planmethod.note.tables.forces import driven_by
-from planmethod.note.wording import get_language
-from planmethod.problem import loads
-from planmethod.problem.load_records import FrictionTask
-from planmethod.problem.model import CamDrive, Problem
-from planmethod.project.settle import settle
-from planmethod.render.forces.cut import cut_picture
-from planmethod.render.forces.leverpicture import lever_picture
-from planmethod.solved.cycle import cycle
-from planmethod.solved.forces.friction import Friction
-from planmethod.solved.forces.reading import force_reading
-from planmethod.solved.forces.statics import Statics
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.posed import pose
 
 SEEDS = range(46000, 46000 + some(240, few=24))
 LIMIT = 1e-9

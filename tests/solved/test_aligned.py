@@ -11,6 +11,26 @@ from itertools import combinations, product
 
 import pytest
 from cases import each, sampled, some
+from doors import (
+    FRAME,
+    Drive,
+    HigherPair,
+    Mechanism,
+    ModelProblem as Problem,
+    Prismatic,
+    Revolute,
+    SelfAligning,
+    Solution,
+    aligned_lines,
+    aligned_record,
+    analyse,
+    constraint_rank,
+    get_language,
+    poses,
+    problem_loads as loads,
+    self_aligning,
+    structure_sheet,
+)
 from mechanisms import TRIAD
 from msgspec.structs import replace
 from newton import solve as newton
@@ -18,17 +38,6 @@ from spatial import Rank, rank_of
 from worked import PROBLEMS, problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
-from planmethod.mechanism.structure import analyse
-from planmethod.note.narrate.structure import aligned_lines
-from planmethod.note.records.aligned import aligned_record
-from planmethod.note.wording import get_language
-from planmethod.problem import loads
-from planmethod.problem.model import Drive, Problem
-from planmethod.render.sheets.structure import structure_sheet
-from planmethod.solved.aligned.poses import poses
-from planmethod.solved.aligned.schemes import SelfAligning, constraint_rank, self_aligning
-from planmethod.solved.solution import Solution
 
 LEVERS = ("levers/task-13", "levers/task-33", "levers/task-49", "levers/crosshead")
 NAMES = ("linkages/ex1", "linkages/ex3", "levers/six-link", "levers/task12", "press/press",

@@ -6,13 +6,19 @@ import re
 
 import numpy as np
 import pytest
+from doors import (
+    AssemblyError,
+    AssemblyRelation,
+    ExitCode,
+    ModelProblem as Problem,
+    ProblemError,
+    Rule,
+    Solution,
+    StructureError,
+    problem_loads as loads,
+)
 from msgspec.structs import replace
 from worked import problem_of
-
-from planmethod.errors import AssemblyError, ExitCode, ProblemError, StructureError
-from planmethod.problem import loads
-from planmethod.problem.model import AssemblyRelation, Problem, Rule
-from planmethod.solved.solution import Solution
 
 FOUR_BAR = """
 title = "Четырёхзвенник"

@@ -8,15 +8,17 @@ import numpy as np
 import pytest
 from cases import each
 from click.testing import CliRunner
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    Balancing,
+    ProblemError,
+    Solution,
+    balancing_record,
+    cli,
+    problem_load as load,
+    problem_loads as loads,
+)
 from worked import path_of
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.errors import ProblemError
-from planmethod.note.records.balancing import balancing_record
-from planmethod.problem import load, loads
-from planmethod.solved.machine.balancing import Balancing
-from planmethod.solved.solution import Solution
 
 BAR = path_of("machines/balanced-fourbar").read_text("utf-8")
 CRANK = path_of("machines/balanced-crank").read_text("utf-8")

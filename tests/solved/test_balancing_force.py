@@ -8,23 +8,25 @@ import math
 import numpy as np
 import pytest
 from cases import each
+from doors import (
+    BalancingForceTask,
+    ForceValues,
+    LeverReading,
+    ModelProblem as Problem,
+    PositionError,
+    ProblemError,
+    Questions,
+    Selector,
+    Solution,
+    Statics,
+    force_reading,
+    problem_loads as loads,
+    solution_record as record,
+    statics_of,
+)
 from mechanisms import SLIDER
 from msgspec.structs import replace
 from worked import path_of
-
-from planmethod.check.questions import Questions
-from planmethod.errors import ProblemError
-from planmethod.note.records.solution import record
-from planmethod.problem import loads
-from planmethod.problem.load_records import BalancingForceTask
-from planmethod.problem.model import Problem
-from planmethod.problem.selector import Selector
-from planmethod.solved.failures import PositionError
-from planmethod.solved.forces.lever import LeverReading
-from planmethod.solved.forces.reading import force_reading
-from planmethod.solved.forces.statics import Statics, statics_of
-from planmethod.solved.selectors.forces import ForceValues
-from planmethod.solved.solution import Solution
 
 STONE = path_of("press/press-stone").read_text("utf-8")
 

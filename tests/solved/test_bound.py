@@ -6,13 +6,15 @@ import cmath
 import math
 
 import pytest
-
-from planmethod.problem import loads
-from planmethod.solved.accuracy import examine
-from planmethod.solved.quantities import natural_size
-from planmethod.solved.selfcheck import motion_doubts
-from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import BOUNDED_KINDS, error_bound
+from doors import (
+    BOUNDED_KINDS,
+    Solution,
+    accuracy_examine as examine,
+    error_bound,
+    motion_doubts,
+    natural_size,
+    problem_loads as loads,
+)
 
 TEXT = """
 title = "x"

@@ -7,16 +7,18 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from doors import (
+    LINK_LIMIT,
+    PointName,
+    Solution,
+    Sweep,
+    analyse,
+    build_build as build,
+    choose_modes,
+    triad_of,
+)
 
 from benchmarks.scenes import chain
-from planmethod.construct.steps import PointName
-from planmethod.mechanism.groups import triad_of
-from planmethod.mechanism.structure import analyse
-from planmethod.plans.build import build
-from planmethod.problem.keys import LINK_LIMIT
-from planmethod.solved.assembly_modes import choose_modes
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.solution import Solution
 
 
 def lines_of(act: Callable[[], object]) -> int:

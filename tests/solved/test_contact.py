@@ -9,17 +9,21 @@ from functools import cache
 import numpy as np
 import pytest
 from cases import each, sampled, some
+from doors import (
+    ModelProblem as Problem,
+    Solution,
+    Statics,
+    contact_distance as distance,
+    edge_forces,
+    problem_loads as loads,
+    transverse_component,
+)
 from full_system import cross, loads_of, pose_of, slide_between, solve_all
 from loaded import loaded_text
 from newton import solve as newton
 from worked import path_of
 
 from benchmarks.generator import Pose, random_problem
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
-from planmethod.solved.forces.contact import distance, edge_forces, transverse_component
-from planmethod.solved.forces.statics import Statics
-from planmethod.solved.solution import Solution
 
 SEEDS = range(some(120, few=40))
 LIMIT = 1e-9

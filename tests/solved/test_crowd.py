@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import pytest
+from doors import (
+    MAX_LABELS,
+    SIDE,
+    PlanKind,
+    Solution,
+    densest,
+    is_too_dense,
+    problem_load as load,
+)
 from worked import path_of
-
-from planmethod.plans.model import PlanKind
-from planmethod.problem import load
-from planmethod.solved.label_density import MAX_LABELS, SIDE, densest, is_too_dense
-from planmethod.solved.solution import Solution
 
 ALL_ROUND = [30.0 * k for k in range(12)]
 

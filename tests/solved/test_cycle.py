@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from doors import (
+    Complexes,
+    Cycle,
+    DriverPath,
+    PlanMethodError,
+    ReadingReals as Reals,
+    Solution,
+    statics_of,
+    without_corners,
+)
 from loaded import loaded_problem
 from worked import path_of, problem_of
 
 from planmethod import loads
-from planmethod.errors import PlanMethodError
-from planmethod.solved.cycle import Cycle
-from planmethod.solved.driver_path import DriverPath, without_corners
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.reading import Complexes, Reals
-from planmethod.solved.solution import Solution
 
 TURN = [30.0 * k for k in range(12)]
 RESISTANCE = "force = 2000 # Н\nangle = -90"

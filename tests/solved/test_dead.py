@@ -8,14 +8,17 @@ import math
 import numpy as np
 import pytest
 from cases import each
-
-from planmethod.errors import AssemblyError, ProblemError
-from planmethod.problem import loads
-from planmethod.solved.many.gaps import GappedSweep
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.selfcheck import verify, warnings
-from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import error_bound
+from doors import (
+    AssemblyError,
+    GappedSweep,
+    ProblemError,
+    Solution,
+    Sweep,
+    error_bound,
+    problem_loads as loads,
+    verify,
+    warnings,
+)
 
 PARALLELOGRAM = """
 [frame]

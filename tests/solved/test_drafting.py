@@ -10,31 +10,36 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from msgspec.structs import replace
-from worked import PROBLEMS, SIX, problem_of
-
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.drafting import (
-    PROFILES,
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    DRAWS,
+    MAX_MARGIN_SIGMA,
+    SPREAD_SHORT as SHORT,
+    Builder,
     Counted,
+    Drafting,
+    DrawnKind,
+    Float64,
+    PlanKind,
     Profile,
+    Program,
     Propagated,
     Sampled,
+    Scales,
+    Solution,
+    UnknownItemError,
+    as_dual,
     causes_of,
+    drafting_of,
+    drawn_forces,
+    evaluate_evaluate as evaluate,
+    problem_load as load,
+    problem_loads as loads,
+    root_of,
+    statics_of,
 )
-from planmethod.construct.dual import as_dual
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.program import Builder, Program
-from planmethod.plans.model import PlanKind
-from planmethod.problem import load, loads
-from planmethod.problem.model import Scales
-from planmethod.solved.errors.drawing import DrawnKind
-from planmethod.solved.errors.forces import drawn_forces
-from planmethod.solved.errors.motion import Drafting, drafting_of
-from planmethod.solved.errors.spread import DRAWS, MAX_MARGIN_SIGMA, SHORT, UnknownItemError
-from planmethod.solved.errors.widths import root_of
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
+from msgspec.structs import replace
+from worked import PROBLEMS, SIX, problem_of
 
 ROOT = Path(__file__).parents[2]
 DOCS = (ROOT / "docs" / "drafting-errors.md").read_text("utf-8")

@@ -10,14 +10,17 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from cases import each, some
+from doors import (
+    Flywheel,
+    ProblemError,
+    Solution,
+    flywheel_of,
+    number,
+    problem_loads as loads,
+    problem_template as template,
+    statics_of,
+)
 from worked import ROOT, path_of
-
-from planmethod.errors import ProblemError
-from planmethod.problem import loads, template
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.machine.flywheel import Flywheel, flywheel_of
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.numbering import number
 
 Reals = npt.NDArray[np.float64]
 Rows = list[tuple[float, float]]

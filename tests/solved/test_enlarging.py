@@ -6,27 +6,28 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from worked import problem_of
-
-from planmethod.note.narrate.formulas import detail_view_letter
-from planmethod.note.narrate.steps import calculation
-from planmethod.note.wording import get_language
-from planmethod.plans.model import PlanKind
-from planmethod.problem.names import fold
-from planmethod.render.ink.drawing import Arc, Text
-from planmethod.render.pictures.detail_views import ENLARGED
-from planmethod.render.pictures.planview import detail_pictures, vector_label
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.detail_views import (
+from doors import (
+    DETAIL_VIEWS_SHORT as SHORT,
+    DETAIL_VIEWS_SMALL as SMALL,
+    ENLARGED,
     NEGLIGIBLE_LENGTH,
     RATIOS,
-    SHORT,
     SHOWN,
-    SMALL,
+    Arc,
+    PlanKind,
+    Solution,
+    Text,
+    calculation,
+    detail_pictures,
+    detail_view_letter,
+    fold,
+    get_language,
+    kinematics_sheets,
     min_enlarged,
+    sizes,
+    vector_label,
 )
-from planmethod.solved.scaling import sizes
-from planmethod.solved.solution import Solution
+from worked import problem_of
 
 NAMES = (
     "linkages/ex1", "linkages/2.1.7", "levers/task-33", "levers/task-37", "levers/task-43",

@@ -13,23 +13,28 @@ import numpy as np
 import pytest
 from cases import each
 from click.testing import CliRunner
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    AuditVerdict,
+    Flywheel,
+    FlywheelDrawing,
+    FlywheelMethod,
+    MachineNarrator,
+    ProblemError,
+    Quadrature,
+    ReductionNarrator,
+    audit,
+    chain,
+    cli,
+    get_language,
+    kinds,
+    machine_record,
+    problem_load as load,
+    problem_loads as loads,
+    split,
+)
 from msgspec.structs import replace
 from worked import ROOT, path_of
-
-from planmethod import kinds
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.errors import ProblemError
-from planmethod.note.audit.audit import AuditVerdict, audit
-from planmethod.note.audit.machine import chain
-from planmethod.note.narrate.machine import MachineNarrator
-from planmethod.note.narrate.reduction import ReductionNarrator
-from planmethod.note.records.machine import machine_record
-from planmethod.note.wording import get_language
-from planmethod.problem import load, loads
-from planmethod.problem.machine_records import FlywheelMethod, Quadrature
-from planmethod.solved.machine.drawing import FlywheelDrawing, split
-from planmethod.solved.machine.flywheel import Flywheel
 
 PRESS = path_of("press/flywheel").read_text("utf-8").partition("[stamp]")[0]
 STONE = (

@@ -12,24 +12,33 @@ import numpy as np
 import pytest
 from cases import each, sampled, some
 from click.testing import CliRunner, Result
+from doors import (
+    DOWN,
+    SCALE,
+    UNIT_ROUNDOFF,
+    UNIT_SCALES,
+    Cause,
+    Doubt,
+    DoubtWarning,
+    ModelProblem as Problem,
+    Name,
+    PlanMethodError,
+    PositionError,
+    Precise,
+    Solution,
+    Statics,
+    cli,
+    evaluate_evaluate as evaluate,
+    impossible_steps,
+    positions_examine as examine,
+    problem_loads as loads,
+    statics_of,
+    verify,
+    warnings,
+)
 from loaded import loaded_problem
 
 import planmethod
-from planmethod.cli import cli
-from planmethod.construct.condition import UNIT_ROUNDOFF
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.multiprecision import Precise
-from planmethod.construct.steps import Name
-from planmethod.errors import DoubtWarning, PlanMethodError
-from planmethod.plans.forces.board import SCALE
-from planmethod.plans.forces.loads import DOWN
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
-from planmethod.solved.failures import Cause, Doubt, PositionError
-from planmethod.solved.forces.statics import Statics, statics_of
-from planmethod.solved.many.positions import examine, impossible_steps
-from planmethod.solved.selfcheck import verify, warnings
-from planmethod.solved.solution import UNIT_SCALES, Solution
 
 ROD = """
 [frame]

@@ -7,30 +7,33 @@ from math import exp
 
 import numpy as np
 import pytest
+from doors import (
+    BALANCE,
+    DIFFERENCE,
+    DRAFTING_PROFILES as PROFILES,
+    LEVER,
+    Complexes,
+    DrawnKind,
+    Dual,
+    PointName,
+    Sampled,
+    Solution,
+    Statics,
+    all_errors,
+    angle,
+    angle_label,
+    drafting_of,
+    drawn_forces,
+    evaluate_evaluate as evaluate,
+    moment_label,
+    size_label,
+    statics_of,
+)
 from loaded import loaded_problem
 from msgspec.structs import replace
 from worked import path_of, problem_of
 
 from planmethod import loads
-from planmethod.construct.drafting import PROFILES, Sampled
-from planmethod.construct.dual import Dual, angle
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.steps import PointName
-from planmethod.solved.errors.drawing import DrawnKind
-from planmethod.solved.errors.forces import (
-    BALANCE,
-    DIFFERENCE,
-    LEVER,
-    all_errors,
-    angle_label,
-    drawn_forces,
-    moment_label,
-    size_label,
-)
-from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.forces.statics import Statics, statics_of
-from planmethod.solved.reading import Complexes
-from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
 NEAR_DEAD = (230.0, 240.0, 250.0)

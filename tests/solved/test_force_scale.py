@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from doors import (
+    COMMON_BOX,
+    ForceReading,
+    Solution,
+    problem_loads as loads,
+    solution_record as record,
+    statics_of,
+)
 from msgspec.structs import replace
 from worked import path_of, problem_of
-
-from planmethod.note.records.solution import record
-from planmethod.problem import loads
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.forces.statics import COMMON_BOX, statics_of
-from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
 

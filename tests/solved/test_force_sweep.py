@@ -12,21 +12,27 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from cases import each, sampled, some
+from doors import (
+    BLOCKS_BLOCK as BLOCK,
+    CHUNK,
+    FEW,
+    AssemblyError,
+    GappedSweep,
+    ModelProblem as Problem,
+    ProblemError,
+    Solution,
+    Statics,
+    Sweep,
+    UnknownQuantityError,
+    problem_load as load,
+    problem_loads as loads,
+    sweep_variants,
+)
 from loaded import loaded_problem
 from msgspec.structs import replace
 from worked import DEAD, every_file, path_of
 
 from benchmarks.generator import KINDS
-from planmethod.compiled import FEW
-from planmethod.compiled.blocks import BLOCK
-from planmethod.errors import AssemblyError, ProblemError
-from planmethod.problem import load, loads
-from planmethod.problem.model import Problem
-from planmethod.solved.forces.statics import Statics
-from planmethod.solved.many.gaps import CHUNK, GappedSweep
-from planmethod.solved.many.sweep import Sweep, sweep_variants
-from planmethod.solved.quantities import UnknownQuantityError
-from planmethod.solved.solution import Solution
 
 Array = npt.NDArray[Any]
 

@@ -10,21 +10,23 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from cases import each, sampled, some
+from doors import (
+    FRAME,
+    Friction,
+    FrictionTask,
+    ModelProblem as Problem,
+    PairFriction,
+    ProblemError,
+    Solution,
+    cycle_efficiency,
+    friction_of,
+    problem_loads as loads,
+)
 from full_system import Acting, Joint, cross, loads_of, pose_of, slide_between
 from loaded import loaded_problem
 from msgspec.structs import replace
-from newton import Motion
-from newton import solve as newton
+from newton import Motion, solve as newton
 from worked import problem_of
-
-from planmethod.errors import ProblemError
-from planmethod.mechanism.model import FRAME
-from planmethod.problem import loads
-from planmethod.problem.load_records import FrictionTask, PairFriction
-from planmethod.problem.model import Problem
-from planmethod.solved.efficiency import cycle_efficiency
-from planmethod.solved.forces.friction import Friction, friction_of
-from planmethod.solved.solution import Solution
 
 Values = npt.NDArray[np.float64]
 

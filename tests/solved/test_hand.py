@@ -12,13 +12,19 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each, sampled, some
+from doors import (
+    MOTION,
+    Compute,
+    Name,
+    NumberName,
+    PlanKind,
+    PointName,
+    Solution,
+    problem_loads as loads,
+)
 from worked import SIX, exact_values, problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.construct.steps import Compute, Name, NumberName, PointName
-from planmethod.plans.model import MOTION, PlanKind
-from planmethod.problem import loads
-from planmethod.solved.solution import Solution
 
 
 @cache

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    Solution,
+    Statics,
+    drawn_forces,
+    size_label,
+    statics_of,
+)
 from worked import problem_of
-
-from planmethod.construct.drafting import PROFILES
-from planmethod.solved.errors.forces import drawn_forces, size_label
-from planmethod.solved.forces.statics import Statics, statics_of
-from planmethod.solved.solution import Solution
 
 TWELVE = {
     "levers/task12": [5.0 + 30.0 * k for k in range(12)],

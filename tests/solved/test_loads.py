@@ -11,14 +11,16 @@ import mechanisms
 import numpy as np
 import numpy.typing as npt
 import pytest
+from doors import (
+    Applied,
+    LoadKind,
+    ModelProblem as Problem,
+    ProblemError,
+    Solution,
+    applied,
+    problem_loads as loads,
+)
 from worked import problem_of
-
-from planmethod.errors import ProblemError
-from planmethod.plans.forces.loads import Applied, LoadKind
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
-from planmethod.solved.forces.loads import applied
-from planmethod.solved.solution import Solution
 
 CRANK = """
 [frame]

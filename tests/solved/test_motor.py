@@ -8,15 +8,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from doors import (
+    RATED_KW,
+    Flywheel,
+    ModelProblem as Problem,
+    Solution,
+    cli,
+    kinds_load as load,
+    kinds_loads as loads,
+    machine_power,
+    statics_of,
+)
 from worked import ROOT
-
-from planmethod.cli import cli
-from planmethod.kinds import load, loads
-from planmethod.problem.model import Problem
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.machine.flywheel import Flywheel
-from planmethod.solved.machine.motor import RATED_KW, machine_power
-from planmethod.solved.solution import Solution
 
 SHAPER = ROOT / "tests/data/projects/shaper.toml"
 

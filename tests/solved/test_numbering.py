@@ -8,29 +8,33 @@ from math import radians
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from doors import (
+    ANYWHERE,
+    DRAFTING_PROFILES as PROFILES,
+    CycleMotion,
+    Drawing,
+    Flywheel,
+    MachineNarrator,
+    ModelProblem as Problem,
+    ProblemError,
+    Solution,
+    Text,
+    angle_with_positions,
+    cli,
+    crank_cycle_of,
+    cycle,
+    cycle_record,
+    diagrams_of,
+    drawing_of,
+    get_language,
+    kinds_loads as loads,
+    kinematics_sheets,
+    numbered_positions,
+    strokes_of,
+    unlikely,
+)
 from msgspec.structs import replace
 from worked import ROOT
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.errors import ProblemError
-from planmethod.kinds import loads
-from planmethod.note.narrate.machine import MachineNarrator
-from planmethod.note.narrate.statement import angle_with_positions
-from planmethod.note.records.solution import cycle_record
-from planmethod.note.wording import get_language
-from planmethod.problem.model import ANYWHERE, Problem
-from planmethod.problem.plausibility import unlikely
-from planmethod.render.ink.drawing import Drawing, Text
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.course.motion import CycleMotion
-from planmethod.solved.cycle import cycle
-from planmethod.solved.machine.drawing import drawing_of
-from planmethod.solved.machine.flywheel import Flywheel
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.cycle import crank_cycle_of
-from planmethod.solved.turn.diagrams import diagrams_of
-from planmethod.solved.turn.numbering import numbered_positions, strokes_of
 
 FILES = ROOT / "tests/data/turn"
 SHAPER, ENGINE, CRUSHER, EPSILON = (

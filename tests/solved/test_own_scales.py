@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from doors import (
+    DEAD,
+    RATES,
+    PlanKind,
+    Scales,
+    Solution,
+    drafting_of,
+    kinematics_sheets,
+    median,
+    sizes,
+)
 from msgspec.structs import replace
 from worked import problem_of
-
-from planmethod.plans.model import RATES, PlanKind
-from planmethod.problem.model import Scales
-from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.scaling import DEAD, median, sizes
-from planmethod.solved.solution import Solution
 
 
 @pytest.mark.parametrize("name", ["levers/task-16", "levers/task-49", "levers/task-13"])

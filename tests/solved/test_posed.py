@@ -8,11 +8,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-from planmethod.errors import AssemblyError, ProblemError
-from planmethod.kinds import load, loads
-from planmethod.solved.reading import Complexes, Reals
-from planmethod.solved.solution import Solution
+from doors import (
+    AssemblyError,
+    Complexes,
+    ProblemError,
+    ReadingReals as Reals,
+    Solution,
+    kinds_load as load,
+    kinds_loads as loads,
+)
 
 FILE = """
 [frame]

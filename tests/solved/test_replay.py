@@ -9,14 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from worked import PROBLEMS, every_file, problem_of
-
-from benchmarks.generator import random_problem
-from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.program import Program
-from planmethod.construct.rewrite import rewritten, substituted
-from planmethod.construct.ruler import RulerArithmetic
-from planmethod.construct.steps import (
+from doors import (
     Carry,
     Compute,
     Measure,
@@ -25,12 +18,21 @@ from planmethod.construct.steps import (
     Name,
     NumberName,
     PointName,
-    Step,
+    Program,
+    RulerArithmetic,
+    Solution,
+    StepsStep as Step,
+    Trace,
+    evaluate_evaluate as evaluate,
     operands,
+    problem_loads as loads,
+    rewritten,
+    statics_of,
+    substituted,
 )
-from planmethod.problem import loads
-from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.solution import Solution
+from worked import PROBLEMS, every_file, problem_of
+
+from benchmarks.generator import random_problem
 
 READINGS = (Measure, MeasureAlong, MeasureArm)
 RANDOM = [f"random-{seed}" for seed in range(0, 60, 6)]

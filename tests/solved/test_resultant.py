@@ -8,22 +8,27 @@ from functools import cache
 import numpy as np
 import pytest
 from cases import each, some
+from doors import (
+    Complexes,
+    GivenLoad,
+    Hindrance,
+    LoadKind,
+    NumberName,
+    PlanKind,
+    PointName,
+    ReadingReals as Reals,
+    Shift,
+    Solution,
+    Statics,
+    drawn_forces,
+    problem_loads as loads,
+    size_label,
+)
 from full_system import cross
 from loaded import loaded_problem, with_resultant
 from mechanisms import CRANK, SLIDER
 from newton import solve as newton
 from worked import problem_of
-
-from planmethod.construct.steps import NumberName, PointName
-from planmethod.plans.forces.board import GivenLoad
-from planmethod.plans.forces.loads import LoadKind, Shift
-from planmethod.plans.model import PlanKind
-from planmethod.problem import loads
-from planmethod.solved.errors.forces import drawn_forces, size_label
-from planmethod.solved.forces.resultants import Hindrance
-from planmethod.solved.forces.statics import Statics
-from planmethod.solved.reading import Complexes, Reals
-from planmethod.solved.solution import Solution
 
 SEEDS = range(some(200, few=25))
 LIMIT = 1e-9

@@ -5,11 +5,8 @@ from __future__ import annotations
 import re
 
 import pytest
+from doors import ProblemError, Solution, problem_loads as loads
 from worked import path_of
-
-from planmethod.errors import ProblemError
-from planmethod.problem import loads
-from planmethod.solved.solution import Solution
 
 
 def test_a_rule_cannot_compare_with_a_point_of_a_later_group() -> None:

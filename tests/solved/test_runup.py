@@ -10,15 +10,19 @@ import numpy as np
 import pytest
 from cases import each
 from click.testing import CliRunner
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    NEAR,
+    Flywheel,
+    ProblemError,
+    RunUp,
+    StalledError,
+    cli,
+    machine_record,
+    problem_load as load,
+    problem_loads as loads,
+)
 from worked import path_of
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.errors import ProblemError
-from planmethod.note.records.machine import machine_record
-from planmethod.problem import load, loads
-from planmethod.solved.machine.flywheel import Flywheel
-from planmethod.solved.machine.runup import NEAR, RunUp, StalledError
 
 PRESS = path_of("press/flywheel").read_text("utf-8").partition("[variants")[0]
 

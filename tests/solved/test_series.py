@@ -5,15 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from cases import each
+from doors import (
+    CrankCycle,
+    Solution,
+    UnknownQuantityError,
+    graph_quantities,
+    kinds_load as load,
+    quantities_over,
+    usual_labels,
+    values_over,
+)
 from msgspec.structs import replace
 from worked import path_of
-
-from planmethod.kinds import load
-from planmethod.problem.graphs import graph_quantities
-from planmethod.solved.quantities import UnknownQuantityError
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.cycle import CrankCycle
-from planmethod.solved.turn.series import quantities_over, usual_labels, values_over
 
 FILES = ("linkages/ex3", "linkages/ex1", "levers/six-link", "levers/task-22")
 RATES = ((20.0, 0.0), (-5.0, 13.0))

@@ -10,6 +10,19 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from cases import each, sampled, some
+from doors import (
+    FRAME,
+    Applied,
+    Couple,
+    Dynamics,
+    Fixed,
+    Load,
+    LoadKind,
+    ModelProblem as Problem,
+    Solution,
+    Statics,
+    applied,
+)
 from full_system import (
     Acting,
     Answer,
@@ -24,18 +37,10 @@ from full_system import (
 from loaded import loaded_problem
 from moved import Move
 from msgspec.structs import replace
-from newton import Motion
-from newton import solve as newton
+from newton import Motion, solve as newton
 from worked import problem_of
 
 from benchmarks.generator import KINDS
-from planmethod.mechanism.model import FRAME
-from planmethod.plans.forces.loads import Applied, LoadKind
-from planmethod.problem.load_records import Couple, Dynamics, Fixed, Load
-from planmethod.problem.model import Problem
-from planmethod.solved.forces.loads import applied
-from planmethod.solved.forces.statics import Statics
-from planmethod.solved.solution import Solution
 
 SEEDS = range(some(200, few=25))
 LIMIT = 1e-9

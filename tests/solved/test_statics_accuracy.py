@@ -11,26 +11,33 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each, some
+from doors import (
+    CONDITIONING_SCALES as KINEMATIC_SCALES,
+    DOWN,
+    MULTIPLE,
+    SCALE,
+    UNIT_ROUNDOFF,
+    UNIT_SCALES,
+    Arithmetic,
+    ArithmeticNumber as Number,
+    AssemblyError,
+    Float64,
+    Name,
+    PointName,
+    Precise,
+    Program,
+    Slide,
+    Solution,
+    Statics,
+    evaluate_evaluate as evaluate,
+    measured_reach,
+    problem_loads as loads,
+)
 from full_system import Acting, Answer, Pose, cross, slide_between, solve_all
 from loaded import loaded_problem, with_resultant
 from worked import problem_of
 
 from benchmarks import hard_problems as texts
-from planmethod.construct.arithmetic import Arithmetic, Float64, Number
-from planmethod.construct.condition import UNIT_ROUNDOFF, measured_reach
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.multiprecision import Precise
-from planmethod.construct.program import Program
-from planmethod.construct.steps import Name, PointName
-from planmethod.errors import AssemblyError
-from planmethod.plans.forces.board import SCALE
-from planmethod.plans.forces.loads import DOWN
-from planmethod.problem import loads
-from planmethod.problem.model import Slide
-from planmethod.solved.forces.statics import Statics
-from planmethod.solved.solution import UNIT_SCALES, Solution
-from planmethod.solved.trust.conditioning import MULTIPLE
-from planmethod.solved.trust.conditioning import SCALES as KINEMATIC_SCALES
 
 WORKED = ("levers/six-link", "levers/task12", "press/press")
 SEEDS = range(0, some(200, few=80), 10)

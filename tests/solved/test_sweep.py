@@ -11,19 +11,23 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from cases import each, sampled, some
+from doors import (
+    BLOCKS_BLOCK as BLOCK,
+    FEW,
+    AssemblyError,
+    ModelProblem as Problem,
+    Solution,
+    Sweep,
+    SweepError,
+    SweepRow,
+    UnknownQuantityError,
+    problem_load as load,
+    problem_loads as loads,
+    sweep_variants,
+)
 from worked import DEAD, every_file, path_of
 
 from benchmarks.generator import random_problem
-from planmethod.compiled import FEW
-from planmethod.compiled.blocks import BLOCK
-from planmethod.errors import AssemblyError
-from planmethod.problem import load, loads
-from planmethod.problem.model import Problem
-from planmethod.solved.many.rows import SweepRow
-from planmethod.solved.many.sweep import Sweep, sweep_variants
-from planmethod.solved.many.varied import SweepError
-from planmethod.solved.quantities import UnknownQuantityError
-from planmethod.solved.solution import Solution
 
 FILES = [path.stem for path in every_file()]
 SEEDS = range(some(60, few=20))

@@ -5,19 +5,21 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from cases import each
+from doors import (
+    Float64,
+    ModelProblem as Problem,
+    PointName,
+    Solution,
+    Sweep,
+    drafting_of,
+    kinds_load as load,
+    problem_loads as loads,
+    transfers_of,
+)
 from msgspec.structs import replace
 from worked import path_of
 
 from benchmarks.generator import random_problem
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.steps import PointName
-from planmethod.kinds import load
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
-from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.solution import Solution
-from planmethod.solved.transfers import transfers_of
 
 FILES = ("linkages/ex1", "linkages/ex3", "levers/six-link", "levers/task-22", "press/press")
 RATES = ((20.0, 0.0), (-7.0, 0.0), (5.0, 11.0), (-5.0, 13.0))

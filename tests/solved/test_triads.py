@@ -13,31 +13,37 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each, sampled, some
+from doors import (
+    FRAME,
+    Assembled,
+    AssemblyError,
+    Float64,
+    ModelProblem as Problem,
+    PointName,
+    PositionError,
+    Precise,
+    ProblemError,
+    Single,
+    Solution,
+    Statics,
+    Sweep,
+    add_group,
+    analyse,
+    assemblies,
+    begin_positions,
+    choose_modes,
+    drive_data,
+    env_of,
+    problem_loads as loads,
+    solve_pose,
+    triad_of,
+    verify,
+)
 from full_system import Answer, cross, loads_of, pose_of, slide_between, solve_all
 from loaded import loaded_problem
 from mechanisms import TRIAD
 from msgspec.structs import replace
-from newton import Motion
-from newton import solve as newton
-
-from planmethod.construct.arithmetic import Float64, Single
-from planmethod.construct.multiprecision import Precise
-from planmethod.construct.steps import PointName
-from planmethod.construct.triad_pose import solve_pose
-from planmethod.errors import AssemblyError, ProblemError
-from planmethod.mechanism.groups import triad_of
-from planmethod.mechanism.model import FRAME
-from planmethod.mechanism.structure import analyse
-from planmethod.plans.build import add_group, begin_positions
-from planmethod.problem import loads
-from planmethod.problem.model import Problem
-from planmethod.solved.assemblies import Assembled, assemblies, env_of
-from planmethod.solved.assembly_modes import choose_modes, drive_data
-from planmethod.solved.failures import PositionError
-from planmethod.solved.forces.statics import Statics
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.selfcheck import verify
-from planmethod.solved.solution import Solution
+from newton import Motion, solve as newton
 
 SEEDS = range(some(200, few=25))
 LIMIT = 1e-9

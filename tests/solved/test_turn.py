@@ -9,22 +9,31 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each
+from doors import (
+    CONSTRUCTION_PRIMES as PRIMES,
+    DRAFTING_PROFILES as PROFILES,
+    CrankCycle,
+    Flywheel,
+    LayoutError,
+    PointName,
+    PositionError,
+    ProblemError,
+    Sampled,
+    Solution,
+    analogue_records,
+    counting,
+    crank_cycle_of,
+    cycle_record,
+    evaluate_evaluate as evaluate,
+    extreme_construction,
+    number,
+    numbered_positions,
+    problem_load as load,
+    problem_loads as loads,
+    smooth,
+    verify,
+)
 from worked import ROOT
-
-from planmethod.construct.drafting import PROFILES, Sampled
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.steps import PointName
-from planmethod.errors import LayoutError, ProblemError
-from planmethod.note.records.solution import analogue_records, cycle_record
-from planmethod.problem import load, loads
-from planmethod.solved.failures import PositionError
-from planmethod.solved.machine.flywheel import Flywheel
-from planmethod.solved.selfcheck import verify
-from planmethod.solved.solution import Solution
-from planmethod.solved.turn.construction import PRIMES, extreme_construction
-from planmethod.solved.turn.cycle import CrankCycle, crank_cycle_of
-from planmethod.solved.turn.diagrams import smooth
-from planmethod.solved.turn.numbering import counting, number, numbered_positions
 
 PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
 FOUR_BAR = """title = "Шарнирный четырёхзвенник"

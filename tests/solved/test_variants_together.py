@@ -11,24 +11,28 @@ import msgspec
 import numpy as np
 from cases import each, sampled, some, thinned
 from click.testing import CliRunner
-
-from planmethod.check.batch import compute_keys
-from planmethod.check.exchange.keyrecord import key_record
-from planmethod.check.key import key_of_task
-from planmethod.check.marks import DEFAULT
-from planmethod.check.task import Task
-from planmethod.cli import cli as main
-from planmethod.construct.drafting import PROFILES
-from planmethod.kinds import load_each
-from planmethod.note.columnar import to_builtins
-from planmethod.note.records.npz import solved_arrays, swept_arrays
-from planmethod.note.records.solution import batch_records, record_in_columns
-from planmethod.problem import loads, variant_names
-from planmethod.problem.model import Problem
-from planmethod.solved.forces.statics import loads_on
-from planmethod.solved.many.gaps import GappedSweep
-from planmethod.solved.many.variants import in_batches
-from planmethod.solved.solution import Solution
+from doors import (
+    DEFAULT,
+    DRAFTING_PROFILES as PROFILES,
+    GappedSweep,
+    ModelProblem as Problem,
+    Solution,
+    Task,
+    batch_records,
+    cli as main,
+    compute_keys,
+    in_batches,
+    key_of_task,
+    key_record,
+    load_each,
+    loads_on,
+    problem_loads as loads,
+    record_in_columns,
+    solved_arrays,
+    swept_arrays,
+    to_builtins,
+    variant_names,
+)
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
 MORE = ("cycle", "machine", "dynamics", "loads", "balancing", "variants", "project", "gears")

@@ -8,18 +8,22 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import some, thinned
+from doors import (
+    ModelProblem as Problem,
+    Parameters,
+    PlanMethodError,
+    Sweep,
+    SweepError,
+    kinds_load as load,
+    kinds_loads as loads,
+    pose,
+    toml_of,
+    without_variants,
+)
 from msgspec.structs import replace
 from worked import every_file, path_of
 
 from benchmarks.generator import random_problem
-from planmethod.errors import PlanMethodError
-from planmethod.kinds import load, loads
-from planmethod.problem.model import Problem
-from planmethod.problem.parameters import Parameters
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.many.varied import SweepError
-from planmethod.solved.turn.posed import pose
-from planmethod.varying.candidates import toml_of, without_variants
 
 SHIPPED = [*every_file()]
 SEEDS = range(7000, 7000 + some(60, few=2))

@@ -7,12 +7,9 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from doors import WIDEST, FlywheelTask, WheelShape, cli, size_of, too_wide
 from msgspec.structs import replace
 from worked import path_of
-
-from planmethod.cli import cli
-from planmethod.problem.machine_records import FlywheelTask, WheelShape
-from planmethod.solved.machine.sizes import WIDEST, size_of, too_wide
 
 INERTIA, OMEGA = 0.273, 314.0
 SLOW = FlywheelTask(speed=30.0)

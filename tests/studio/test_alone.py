@@ -21,24 +21,23 @@ from typing import Any
 import pytest
 from browser import PROGRAM, Page, browsing
 from click.testing import CliRunner
-from worked import PROBLEMS, ROOT
-
-from planmethod.cli import cli
-from planmethod.commands.studio_jobs import act
-from planmethod.errors import OutputError
-from planmethod.render.sheets.compositions import SHIPPED
-from planmethod.studio.requests import WORKS
-from planmethod.studio.serverless import start_studio
-from planmethod.studio.static_export import (
+from doors import (
     CORE,
     LOADED,
     OFFICIAL,
     PACKED,
+    SHIPPED,
     VERSION,
+    WORKS,
+    OutputError,
     Runtime,
+    act,
+    cli,
     runtime_of,
+    start_studio,
     write_studio,
 )
+from worked import PROBLEMS, ROOT
 
 EX3 = PROBLEMS / "linkages/ex3.toml"
 PYODIDE = os.environ.get("PLANMETHOD_PYODIDE")
@@ -79,9 +78,8 @@ def answered(do: str, lang: str = "ru", **more: Any) -> tuple[Any, dict[str, Any
 def test_its_answers_are_those_of_the_server(tmp_path: Path) -> None:
     pytest.importorskip("starlette", reason="the studio's extra is not installed")
     pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
+    from doors import settings_of
     from visiting import enter, visiting
-
-    from planmethod.commands.studio import settings_of
 
     alone = start_studio(act)
     with visiting(settings_of(None, False, None, 2), act, tmp_path / "s") as client:

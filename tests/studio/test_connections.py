@@ -15,9 +15,8 @@ import pytest
 pytest.importorskip("uvicorn", reason="the studio's extra is not installed")
 
 import uvicorn
+from doors import connections
 from waiting import wait_until
-
-from planmethod.studio import connections
 
 LARGE = 32 << 20
 

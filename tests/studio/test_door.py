@@ -23,6 +23,7 @@ pytest.importorskip("uvicorn", reason="the studio's extra is not installed")
 pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
 
 from browser import PROGRAM, Page, browsing
+from doors import LOCAL_LIMITS, PUBLIC_LIMITS, Desk, StudioSettings
 from msgspec.structs import replace
 from starlette.applications import Starlette
 from starlette.routing import Route
@@ -31,10 +32,6 @@ from studying import come_in, studio
 from visiting import HOME, enter, visiting
 from waiting import wait_until
 from worked import ROOT
-
-from planmethod.studio.limits import LOCAL_LIMITS, PUBLIC_LIMITS
-from planmethod.studio.server import StudioSettings
-from planmethod.studio.sessions import Desk
 
 TOKEN = "what-was-printed"
 FEW = 30

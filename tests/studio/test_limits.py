@@ -20,11 +20,18 @@ from waiting import PATIENCE, wait_until
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
 pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
 
+from doors import (
+    LOCAL_LIMITS,
+    MB,
+    PUBLIC_LIMITS,
+    Bucket,
+    Desk,
+    Sessions,
+    StudioLimits,
+    StudioSession,
+    StudioSettings,
+)
 from starlette.testclient import TestClient
-
-from planmethod.studio.limits import LOCAL_LIMITS, MB, PUBLIC_LIMITS, Bucket, StudioLimits
-from planmethod.studio.server import StudioSettings
-from planmethod.studio.sessions import Desk, Sessions, StudioSession
 
 LIMITS = replace(
     PUBLIC_LIMITS, seconds=PATIENCE, slow_seconds=PATIENCE, trusted_seconds=PATIENCE,

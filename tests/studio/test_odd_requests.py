@@ -18,19 +18,23 @@ from cases import thinned
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
 pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
 
+from doors import (
+    ACTS,
+    LOCAL_LIMITS,
+    ArgumentError,
+    Desk,
+    StudioRequest,
+    StudioSettings,
+    act,
+    build_job,
+    request_of,
+)
 from msgspec.structs import fields, replace
 from starlette.applications import Starlette
 from starlette.routing import Route
 from starlette.testclient import TestClient
 from visiting import enter, visiting
 from worked import PROBLEMS
-
-from planmethod.commands.studio_jobs import act
-from planmethod.errors import ArgumentError
-from planmethod.studio.limits import LOCAL_LIMITS
-from planmethod.studio.requests import ACTS, StudioRequest, build_job, request_of
-from planmethod.studio.server import StudioSettings
-from planmethod.studio.sessions import Desk
 
 PARTS = (
     "%00", "a%00.toml", "a" * 300, f"{'a' * 300}.toml", f"{'a' * 300}.csv", "9" * 300, "9" * 5000,

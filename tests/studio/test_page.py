@@ -12,11 +12,10 @@ from pathlib import Path
 
 import pytest
 from browser import PROGRAM, Page, browsing
+from doors import Solution
 from studying import DRAWN, at, begin, click, come_in, fetched, studio, take, text, works
 from waiting import wait_until
 from worked import PROBLEMS, path_of, problem_of
-
-from planmethod.solved.solution import Solution
 
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
 pytest.importorskip("uvicorn", reason="the studio's extra is not installed")

@@ -7,10 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-
-from planmethod.studio import workers
-from planmethod.studio.limits import StudioLimits
-from planmethod.studio.workers import Pace, StudioQueue
+from doors import Pace, StudioLimits, StudioQueue, workers
 
 QUICK, USUAL, SLOW = Pace.QUICK, Pace.USUAL, Pace.SLOW
 

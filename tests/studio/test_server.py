@@ -19,16 +19,20 @@ from worked import PROBLEMS, ROOT
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
 pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
 
+from doors import (
+    LACKING,
+    Fault,
+    ProblemError,
+    act,
+    cli,
+    get_language,
+    kind_of,
+    kinds_load as load,
+    place_of,
+    settings_of,
+    tasks,
+)
 from starlette.testclient import TestClient
-
-from planmethod.cli import cli
-from planmethod.commands.studio import settings_of
-from planmethod.commands.studio_jobs import LACKING, act
-from planmethod.errors import Fault, ProblemError
-from planmethod.kinds import kind_of, load
-from planmethod.note.wording import get_language
-from planmethod.problem.tasks import tasks
-from planmethod.studio.places import place_of
 
 EX3 = (PROBLEMS / "linkages/ex3.toml").read_text("utf-8")
 FAULTY = sorted((ROOT / "tests/problem/faulty").glob("*.toml"))

@@ -6,10 +6,8 @@ import contextlib
 from collections.abc import Iterator
 from pathlib import Path
 
+from doors import Act, StudioSettings, application
 from starlette.testclient import TestClient
-
-from planmethod.studio.server import StudioSettings, application
-from planmethod.studio.workers import Act
 
 HOME = "http://127.0.0.1:8765"
 

@@ -13,22 +13,32 @@ import numpy as np
 import pytest
 from cases import each, some
 from click.testing import CliRunner, Result
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    SYNTHESIS_KINDS as KINDS,
+    WORDING_LANGUAGES as LANGUAGES,
+    Drawn,
+    NumberName,
+    PointName,
+    ProblemProblem as Problem,
+    Synthesis,
+    SynthesisNarrator,
+    checks,
+    cli,
+    get_language,
+    inlined,
+    inspect,
+    options_of,
+    point_name,
+    problem_loads as loads,
+    result_kind,
+    scaled,
+    synthesis_sheet,
+    synthesize,
+    verification_problem_text as problem_text,
+)
 from jets import adjudicate
 from worked import ROOT
-
-from planmethod.cli import cli
-from planmethod.construct.drafting import PROFILES
-from planmethod.construct.steps import NumberName, PointName, result_kind
-from planmethod.note.formula import inlined
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.problem import Problem, loads
-from planmethod.render.control.sheet import inspect
-from planmethod.synthesis import KINDS, options_of, synthesize
-from planmethod.synthesis.drawing import Drawn
-from planmethod.synthesis.model import Synthesis, scaled
-from planmethod.synthesis.sheet import synthesis_sheet
-from planmethod.synthesis.text import SynthesisNarrator, point_name
-from planmethod.synthesis.verification import checks, problem_text
 
 ROWS = ((0.0, 0.0, 0.0), (0.1, 0.05, 20.0), (0.25, 0.05, 50.0))
 PAIRS = ((40.0, 60.0), (65.0, 75.0), (90.0, 95.0))

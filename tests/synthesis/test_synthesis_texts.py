@@ -12,28 +12,32 @@ from typing import Any
 
 import pytest
 from cases import each, some
-from test_synthesis import ASKED, made
-
-from planmethod.construct import steps
-from planmethod.construct.drafting import PROFILES
-from planmethod.note.document import Document
-from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.note.writers.terminal import plain_document
-from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
-from planmethod.render.symbols.hatching import GROUND
-from planmethod.synthesis.drawing import Drawn
-from planmethod.synthesis.model import Synthesis, place
-from planmethod.synthesis.sheet import synthesis_sheet
-from planmethod.synthesis.text import (
+from doors import (
+    DRAFTING_PROFILES as PROFILES,
+    HATCHING_GROUND as GROUND,
+    WORDING_LANGUAGES as LANGUAGES,
+    Arc,
+    Document,
+    Drawing,
+    Drawn,
+    Stroke,
+    Synthesis,
     SynthesisNarrator,
+    Text,
     check_rows,
+    checks,
+    get_language,
+    place,
+    plain_document,
+    plain_text,
     point_name,
     set_angle,
     size_rows,
+    steps,
     synthesis_document,
+    synthesis_sheet,
 )
-from planmethod.synthesis.verification import checks
+from test_synthesis import ASKED, made
 
 BOARD = PROFILES["board"]
 

@@ -16,22 +16,30 @@ from random import Random
 import pytest
 from cases import sampled
 from click.testing import CliRunner, Result
+from doors import (
+    DEFAULT,
+    Calculation,
+    CandidateEvaluator,
+    ModelProblem as Problem,
+    Rejection,
+    RejectionReason,
+    Solution,
+    Task,
+    ValueSampler,
+    VariantCandidates,
+    VariantChoice,
+    choice_choose as choose,
+    cli,
+    default_keys,
+    free_scales,
+    key_of_task,
+    kind_of,
+    load_each,
+    overrides,
+    variant_names,
+    with_followers,
+)
 from worked import PROBLEMS, path_of
-
-from planmethod.check.calculation import Calculation
-from planmethod.check.key import key_of_task
-from planmethod.check.marks import DEFAULT
-from planmethod.check.task import Task
-from planmethod.cli import cli
-from planmethod.kinds import kind_of, load_each
-from planmethod.problem import variant_names
-from planmethod.problem.model import Problem
-from planmethod.solved.solution import Solution
-from planmethod.varying.candidates import VariantCandidates
-from planmethod.varying.choice import VariantChoice, choose
-from planmethod.varying.evaluation import CandidateEvaluator, free_scales
-from planmethod.varying.parameters import ValueSampler, default_keys, overrides, with_followers
-from planmethod.varying.screening import Rejection, RejectionReason
 
 EX3 = path_of("linkages/ex3")
 SIX_LINK = path_of("levers/six-link")

@@ -12,8 +12,16 @@ from typing import assert_never
 
 from planmethod.note import document
 from planmethod.note.document import Document, Equation, Node, Table
-from planmethod.note.formula import Fraction, Index, Letters, Overline, Root, inline, parse
-from planmethod.note.formula import Node as Sign
+from planmethod.note.formula import (
+    Fraction,
+    Index,
+    Letters,
+    Node as Sign,
+    Overline,
+    Root,
+    inline,
+    parse,
+)
 from planmethod.note.wording import MessageTable, get_language
 
 STYLE = """

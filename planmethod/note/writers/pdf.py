@@ -27,8 +27,16 @@ from reportlab.platypus import (
 
 from planmethod.note import document
 from planmethod.note.document import Document, Node, Table
-from planmethod.note.formula import Fraction, Index, Letters, Overline, Root, inline, parse
-from planmethod.note.formula import Node as Sign
+from planmethod.note.formula import (
+    Fraction,
+    Index,
+    Letters,
+    Node as Sign,
+    Overline,
+    Root,
+    inline,
+    parse,
+)
 from planmethod.note.plaintext import plain_text
 from planmethod.note.writers.html import clean
 from planmethod.note.writers.tokens import Token, tokens_of

@@ -22,8 +22,7 @@ from docx.shared import Mm, Pt
 from planmethod.errors import PlanMethodError
 from planmethod.note import document
 from planmethod.note.document import Document, Figure, Node, Table
-from planmethod.note.formula import Node as Sign
-from planmethod.note.formula import Rich, parse
+from planmethod.note.formula import Node as Sign, Rich, parse
 from planmethod.note.wording import Language
 from planmethod.note.writers import omml
 from planmethod.note.writers.html import clean

@@ -17,8 +17,7 @@ from planmethod.note.document import (
     TitlePage,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.narrate.forces.common import QUARTERS
-from planmethod.note.narrate.forces.common import lettered as lettered_forces
+from planmethod.note.narrate.forces.common import QUARTERS, lettered as lettered_forces
 from planmethod.note.narrate.forces.friction import FrictionNarrator
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.letters import mark

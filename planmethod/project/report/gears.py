@@ -18,8 +18,7 @@ from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_vi
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.gears.involute.text import cutting, quality, table
-from planmethod.gears.involute.text import given_facts as given_of_meshing
+from planmethod.gears.involute.text import cutting, given_facts as given_of_meshing, quality, table
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
 from planmethod.gears.requested_quantities import parse

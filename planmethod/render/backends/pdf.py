@@ -11,8 +11,7 @@ from typing import Any
 from reportlab import rl_config
 from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfbase.ttfonts import TTFont
-from reportlab.pdfgen.canvas import FILL_NON_ZERO
-from reportlab.pdfgen.canvas import Canvas as Pages
+from reportlab.pdfgen.canvas import FILL_NON_ZERO, Canvas as Pages
 
 from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.curves import arc_curves

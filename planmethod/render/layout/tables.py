@@ -21,8 +21,7 @@ from planmethod.errors import LayoutError
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.typeset import Inscription, smaller_heights, typeset
-from planmethod.render.layout.block import Column as Stack
-from planmethod.render.layout.block import Line
+from planmethod.render.layout.block import Column as Stack, Line
 from planmethod.render.symbols import turn_sign
 
 UnitsAt: TypeAlias = Literal["below", "none"]

@@ -7,15 +7,17 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from doors import (
+    WORDING_LANGUAGES as LANGUAGES,
+    QuizPart,
+    Variants,
+    cli,
+    get_language,
+    gift,
+    question_of,
+)
 from msgspec.structs import replace
 from worked import path_of
-
-from planmethod.check.exchange.gift import gift
-from planmethod.check.exchange.quiz import QuizPart
-from planmethod.check.exchange.variant import question_of
-from planmethod.check.group import Variants
-from planmethod.cli import cli
-from planmethod.note.wording import LANGUAGES, get_language
 
 _QUESTION = re.compile(
     r"^::((?:\\.|[^\\])*?)::\[plain\]((?:\\.|[^\\])*?) \{#\n(.*?)^\}$", re.S | re.M

@@ -13,25 +13,30 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
+from doors import (
+    DEFAULT,
+    WORDING_LANGUAGES as LANGUAGES,
+    KeyEntry,
+    QuizPart,
+    Text,
+    Variants,
+    assigned,
+    cli,
+    escaped,
+    get_language,
+    integer_points,
+    key_of_task,
+    key_record,
+    kind_of,
+    markup,
+    moodle_xml,
+    question_of,
+    task_of_problem,
+    variant_names,
+)
 from embedded import Gap, Question, gaps_of, read_quiz
 from msgspec.structs import replace
 from worked import path_of
-
-from planmethod.check.exchange.cloze import escaped, moodle_xml
-from planmethod.check.exchange.keyrecord import key_record
-from planmethod.check.exchange.quiz import QuizPart, integer_points
-from planmethod.check.exchange.variant import question_of
-from planmethod.check.group import Variants, task_of_problem
-from planmethod.check.key import key_of_task
-from planmethod.check.marks import DEFAULT
-from planmethod.check.model import KeyEntry
-from planmethod.cli import cli
-from planmethod.kinds import kind_of
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.note.writers.html import markup
-from planmethod.problem import variant_names
-from planmethod.render.ink.drawing import Text
-from planmethod.render.sketch import assigned
 
 RU = get_language("ru")
 FINE = 2e-3

@@ -11,16 +11,23 @@ from zipfile import ZipFile
 
 import pytest
 from click.testing import CliRunner, Result
+from doors import (
+    WORDING_LANGUAGES as LANGUAGES,
+    GradedSubmission,
+    Sense,
+    Submission,
+    SubmissionsSubmissionError as SubmissionError,
+    Variants,
+    cli,
+    feedback_zip,
+    gaps_of,
+    get_language,
+    gradebook_csv,
+    is_export,
+    read_columns,
+    read_responses,
+)
 from worked import path_of
-
-from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
-from planmethod.check.exchange.quiz import gaps_of
-from planmethod.check.exchange.responses import is_export, read_columns, read_responses
-from planmethod.check.group import Variants
-from planmethod.check.model import GradedSubmission, Sense, Submission
-from planmethod.check.submissions import SubmissionError
-from planmethod.cli import cli
-from planmethod.note.wording import LANGUAGES, get_language
 
 EX3 = path_of("linkages/ex3-variants")
 MOODLE = {

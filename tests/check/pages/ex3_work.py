@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from functools import cache
 
-from msgspec.structs import replace
-from worked import problem_of
-
-from planmethod.check.model import (
+from doors import (
+    FACTS,
     Diagnosis,
+    Float64,
     GradedAnswer,
     GradedSubmission,
     KeyEntry,
+    NumberName,
+    PlanKind,
+    Reading,
     Sense,
+    Solution,
     Submission,
     Verdict,
     WrittenAnswer,
+    evaluate_evaluate as evaluate,
+    substituted,
 )
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import evaluate
-from planmethod.construct.rewrite import substituted
-from planmethod.construct.steps import NumberName
-from planmethod.plans.model import FACTS, PlanKind
-from planmethod.solved.reading import Reading
-from planmethod.solved.solution import Solution
+from msgspec.structs import replace
+from worked import problem_of
 
 SCALES = {"mu_l": 0.002, "mu_v": 0.05, "mu_a": 1.0}
 WITHOUT_CORIOLIS = NumberName("ak_B3/2")

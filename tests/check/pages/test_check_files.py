@@ -8,23 +8,23 @@ from pathlib import Path
 
 import ex3_work
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from worked import path_of, problem_of
-
-from planmethod.check.key import Key
-from planmethod.check.marks import Settings
-from planmethod.check.model import GradedSubmission
-from planmethod.check.pages.files import (
+from doors import (
+    GradedSubmission,
+    Key,
+    OverridesError,
+    PlanMethodError,
+    Settings,
     anonymous,
+    apply_overrides,
     file_names,
     hidden_name,
+    read_overrides,
     run_record,
     settings_rows,
     write_all,
 )
-from planmethod.check.pages.overrides import OverridesError, apply_overrides, read_overrides
-from planmethod.errors import PlanMethodError
+from hypothesis import given, strategies as st
+from worked import path_of, problem_of
 
 HEAD = "student;id;points;remark\n"
 

@@ -12,17 +12,21 @@ from pathlib import Path
 import ex3_work
 import openpyxl
 import pytest
+from doors import (
+    DEFAULT,
+    TERMINAL_WIDTH as WIDTH,
+    WORDING_LANGUAGES as LANGUAGES,
+    Key,
+    MessageTable,
+    get_language,
+    key_of_problem,
+    key_pdf,
+    key_xlsx,
+    kinds_loads as loads,
+)
 from msgspec.structs import replace
 from texts import key_text
 from worked import ROOT, problem_of
-
-from planmethod.check.group import key_of_problem
-from planmethod.check.key import Key
-from planmethod.check.marks import DEFAULT
-from planmethod.check.pages.keypage import key_pdf, key_xlsx
-from planmethod.kinds import loads
-from planmethod.note.wording import LANGUAGES, MessageTable, get_language
-from planmethod.note.writers.terminal import WIDTH
 
 RU = get_language("ru")
 

@@ -10,13 +10,23 @@ from zipfile import ZipFile
 import ex3_work
 import openpyxl
 import pytest
+from doors import (
+    LISTING_COLUMNS as COLUMNS,
+    WORDING_LANGUAGES as LANGUAGES,
+    Diagnosis,
+    GradedAnswer,
+    Verdict,
+    WrittenAnswer,
+    add_sheet,
+    csv_bytes,
+    get_language,
+    listing_record as record,
+    new_workbook,
+    results_xlsx,
+    safe,
+    saved,
+)
 from msgspec.structs import replace
-
-from planmethod.check.model import Diagnosis, GradedAnswer, Verdict, WrittenAnswer
-from planmethod.check.pages.listing import COLUMNS, csv_bytes, record, safe
-from planmethod.check.pages.results import results_xlsx
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 
 ANSWER = ("id", "verdict", "from", "value", "exact", "tolerance", "mm", "exact_mm", "points")
 

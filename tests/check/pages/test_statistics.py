@@ -10,14 +10,20 @@ import ex3_work
 import numpy as np
 import openpyxl
 import pytest
+from doors import (
+    WORDING_LANGUAGES as LANGUAGES,
+    Fill,
+    GradedAnswer,
+    GradedSubmission,
+    Submission,
+    Verdict,
+    bars,
+    get_language,
+    group_html,
+    results_xlsx,
+    statistics_of,
+)
 from msgspec.structs import replace
-
-from planmethod.check.model import GradedAnswer, GradedSubmission, Submission, Verdict
-from planmethod.check.pages.grouppage import bars, group_html
-from planmethod.check.pages.results import results_xlsx
-from planmethod.check.pages.statistics import statistics_of
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.render.ink.drawing import Fill
 
 SCALE = ("5", "4", "3", "2")
 

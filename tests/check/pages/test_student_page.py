@@ -14,31 +14,29 @@ from pathlib import Path
 import ex3_work
 import numpy as np
 import pytest
-from msgspec.structs import replace
-from PIL import Image
-
-from planmethod.check.model import (
+from doors import (
+    WORDING_LANGUAGES as LANGUAGES,
+    AnswerFormatter,
     Diagnosis,
+    Figure,
     GradedAnswer,
     GradedSubmission,
+    Page,
+    Remarks,
     Sense,
     Unread,
     Verdict,
     WrittenAnswer,
-)
-from planmethod.check.pages.answer_format import AnswerFormatter
-from planmethod.check.pages.overlay import overlays
-from planmethod.check.pages.remarks import Remarks
-from planmethod.check.pages.student import (
-    Page,
+    get_language,
+    markup,
+    overlays,
     student_document,
     student_html,
     student_page,
     student_pdf,
 )
-from planmethod.note.document import Figure
-from planmethod.note.wording import LANGUAGES, get_language
-from planmethod.note.writers.html import markup
+from msgspec.structs import replace
+from PIL import Image
 
 RU = get_language("ru")
 CODES = [

@@ -3,9 +3,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-
-from planmethod.check.model import Sense, Submission, Unread
-from planmethod.check.submissions import SubmissionError, read_works
+from doors import (
+    Sense,
+    Submission,
+    SubmissionsSubmissionError as SubmissionError,
+    Unread,
+    read_works,
+)
 
 LONG = """student;variant;what;value;unit;mm;sense
 s01;;mu_v;0,05;;;

@@ -6,13 +6,8 @@ import re
 from pathlib import Path
 
 import pytest
+from doors import Cell, NotReadError, read_head, read_scaled, read_sense, read_unit, read_works
 from worked import ROOT
-
-from planmethod.check.submissions import read_works
-from planmethod.check.submissions.answer import NotReadError, read_scaled
-from planmethod.check.submissions.cells import Cell, read_sense
-from planmethod.check.submissions.table import read_head
-from planmethod.problem.units import read_unit
 
 TEXT = (ROOT / "docs" / "works.md").read_text("utf-8")
 EXAMPLES = re.findall(r"(?ms)^```(json|toml|csv)\n(.*?)^```$", TEXT)

@@ -10,11 +10,10 @@ from pathlib import Path
 
 import pytest
 from cases import some
+from doors import SubmissionsSubmissionError as SubmissionError, read_works
 from test_works_csv import LONG, WIDE
 from test_works_student import GOOD
 from test_works_xlsx import ROWS, saved
-
-from planmethod.check.submissions import SubmissionError, read_works
 
 TOML = b'student = 7\nscales.mu_v = 0.05\n[[answers]]\nwhat = "v B3"\nvalue = 2.275\n'
 BOOK = saved(ROWS, lambda sheet: sheet.merge_cells("A4:A6"))

@@ -1,11 +1,15 @@
 from __future__ import annotations
 
 import pytest
-
-from planmethod.check.model import Sense, WrittenAnswer
-from planmethod.check.submissions.cells import read_sense
-from planmethod.check.submissions.units import Number, ratio, read_number
-from planmethod.problem.units import read_unit
+from doors import (
+    Sense,
+    UnitsNumber as Number,
+    WrittenAnswer,
+    ratio,
+    read_number,
+    read_sense,
+    read_unit,
+)
 
 NUMBERS = [
     ("2.275", 2.275, 0.001, ""),

@@ -5,10 +5,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
-from planmethod.check.model import Sense, Submission, Unread
-from planmethod.check.submissions import SubmissionError, read_works
-from planmethod.errors import ExitCode
+from doors import (
+    ExitCode,
+    Sense,
+    Submission,
+    SubmissionsSubmissionError as SubmissionError,
+    Unread,
+    read_works,
+)
 
 GOOD: dict[str, Any] = {
     "schema": 1,

@@ -10,9 +10,13 @@ from typing import Any
 
 import openpyxl
 import pytest
-
-from planmethod.check.model import Sense, Submission, Unread
-from planmethod.check.submissions import SubmissionError, read_works
+from doors import (
+    Sense,
+    Submission,
+    SubmissionsSubmissionError as SubmissionError,
+    Unread,
+    read_works,
+)
 
 ROWS: list[list[Any]] = [
     ["Группа 321", None, None, None, None],
