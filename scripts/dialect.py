@@ -70,9 +70,11 @@ def list_definitions() -> Iterator[tuple[Path, int, str]]:
                     yield path, one.lineno, one.arg
             if isinstance(node, ast.ClassDef | ast.Module):
                 for item in node.body:
-                    targets = item.targets if isinstance(item, ast.Assign) else ()
-                    if isinstance(item, ast.AnnAssign):
-                        targets = (item.target,)
+                    targets: list[ast.expr] = []
+                    if isinstance(item, ast.Assign):
+                        targets = item.targets
+                    elif isinstance(item, ast.AnnAssign):
+                        targets = [item.target]
                     for target in targets:
                         if isinstance(target, ast.Name):
                             yield path, item.lineno, target.id
