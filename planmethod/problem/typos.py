@@ -118,6 +118,8 @@ def _repaired(code: str) -> str:
         code = re.sub(pattern, put, code).strip()
     try:
         return code if tomllib.loads(code) else ""
+    except RecursionError:  # the parser of the file has not come to these brackets
+        return ""
     except tomllib.TOMLDecodeError:
         pass
     key, _, value = (part.strip() for part in code.partition("="))

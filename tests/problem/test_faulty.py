@@ -140,6 +140,13 @@ def test_a_list_of_numbers_may_be_longer_than_a_line() -> None:
         assert len(loads(many, name="many").drive.positions) == 9000
 
 
+@pytest.mark.parametrize("depth", [10, 400, 3000])
+def test_brackets_below_an_open_list_are_a_fault_of_the_file(depth: int) -> None:
+    # The parser of the file stops at "x"; the hint's parser is given the line with the brackets.
+    with pytest.raises(ProblemError, match=r"line 2, column 1: this is not TOML"):
+        loads("phi = [\nx = " + "[" * depth, name="deep")
+
+
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
