@@ -92,7 +92,7 @@ METHODS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way
 class Constructed(Struct, frozen=True):
     """J_f by construction without drafting errors, minus the exact one, %.
 
-    ``off`` has a number for each of `WAYS`; ``count`` is None for the whole curves.
+    ``off`` has a number for each of `METHODS`; ``count`` is None for the whole curves.
     """
 
     count: int | None

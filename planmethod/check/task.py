@@ -58,7 +58,7 @@ class QuantityAliases:
 
 
 def find_aliases(questions: Questions) -> dict[str, Selector]:
-    """Return the quantities of a problem by how they may be written, each form as `plain` has it.
+    """Return the quantities of a problem by how they may be written, each form `normalize`d.
 
     A form that two quantities share names neither.
     """

@@ -104,8 +104,8 @@ def drawing_files(
 ) -> dict[str, bytes]:
     """Return the files of sheets by their names.
 
-    A format with pages has one file for all sheets, ``stem.pdf``; of the others each sheet has its
-    own, ``stem.svg``, ``stem-2.svg``...
+    A format with pages has one file for all sheets, ``basename.pdf``; of the others each sheet
+    has its own, ``basename.svg``, ``basename-2.svg``...
     """
     from planmethod.render.backends import PAGED, render, render_pages
     from planmethod.render.backends.canvas import Options

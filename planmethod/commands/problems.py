@@ -340,7 +340,7 @@ def run_steps(
 
 
 BatchAction: TypeAlias = Callable[[Sequence[LoadedProblem]], dict[int, Any]]
-"""Batch worker: acts on several problems at once; see `each`."""
+"""Batch worker: acts on several problems at once; see `for_each_problem`."""
 
 
 def _in_chunks(

@@ -256,7 +256,7 @@ def _compile(text: str, folder: Path, name: str) -> Path:
 
 
 def _trim_cache(newest: Path) -> None:
-    """Remove the least recently used libraries, down to `KEPT` bytes."""
+    """Remove the least recently used libraries, down to `MAX_CACHE_BYTES`."""
     found = []
     for path in newest.parent.glob("*.so"):
         try:

@@ -162,7 +162,7 @@ class Runner:
     def bound(
         self, columns: Sequence[Array], out: Array, failed: npt.NDArray[np.int16] | None = None
     ) -> Callable[[], None]:
-        """Return a call that does `run` again and again in the same arrays, which it `takes`."""
+        """Return a call that does `run` again and again in the same arrays, which it `accepts`."""
         assert self._native is not None
         return self._native.bound(columns, out, failed)
 

@@ -44,7 +44,7 @@ def sense_of(value: float) -> int:
 
 
 def percent_text(percent: float | None, decimals: int = 1, limit: float = inf) -> str:
-    """Return per cent as plain text; a dash for None, and for `most` or more.
+    """Return per cent as plain text; a dash for None, and for `limit` or more.
 
     >>> percent_text(-0.04), percent_text(None), percent_text(-1.255, 2), percent_text(240.0)
     ('0.0', '—', '-1.25', '240.0')
@@ -132,5 +132,5 @@ class ComparedNumber(Struct, frozen=True):
         return significant(self.off, 2)
 
     def percent_text(self, decimals: int = 1, limit: float = inf) -> str:
-        """Return Δ in per cent; a dash where it is undefined, and from `most` on."""
+        """Return Δ in per cent; a dash where it is undefined, and from `limit` on."""
         return percent_text(self.percent, decimals, limit)

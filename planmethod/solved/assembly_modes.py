@@ -140,7 +140,7 @@ ModeSearch = Generator[ReadingRequest, Reading, dict[tuple[str, ...], AssemblyMo
 
 
 def choose_modes(problem: Problem, structure: Structure) -> dict[tuple[str, ...], AssemblyMode]:
-    """Return the assembly mode of every group that has two: see `choosing`."""
+    """Return the assembly mode of every group that has two: see `search_modes`."""
     choice, settled = search_modes(problem, structure), _IncrementalReader()
     try:
         wanted = next(choice)

@@ -351,7 +351,7 @@ class Solution(Memoizing):
     def scales(self) -> dict[PlanKind, Scale]:
         """Scales of the plans: given, the file's, or those of the series that fill the views.
 
-        One for all plans of a kind. If the file requests individual ones (`own_scale`), one of
+        One for all plans of a kind. If the file requests individual ones (`plan_scale`), one of
         these.
         """
         if self._scales is not None:

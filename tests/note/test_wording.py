@@ -261,7 +261,7 @@ def code() -> tuple[list[tuple[str, str, list[MessageTable]]], set[object]]:
 
 
 def test_every_key_that_the_code_names_is_a_sentence() -> None:
-    """A sentence is an attribute, ``words.note.lay_off``; a table is ``words.note["plans"]``."""
+    """A sentence is an attribute, ``language.note.lay_off``; a table ``language.note["plans"]``."""
     found, _ = code()
     assert len(found) > 600
     wrong = [

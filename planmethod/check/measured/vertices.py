@@ -48,7 +48,7 @@ class Vertices(Struct):
     longer : list of (int, int)
         The same of lines that go straight on from one another.
     by_letter : dict of str to int
-        Vertex by its letter, as `plain` has it.
+        Vertex by its letter, as `normalize` has it.
     unlabelled : dict of str to list of int
         Vertices without a letter that have this one next to them: where a line ends that does not
         meet the others.

@@ -888,7 +888,7 @@ def reported_links(solution: Solution) -> list[str]:
 def reported_quantities(solution: Solution, *kinds: QuantityKind) -> list[Quantity]:
     """Return the quantities of the motion that a sheet reports, kind by kind.
 
-    Points and links are those of `asked_points` and `asked_links`.
+    Points and links are those of `reported_points` and `reported_links`.
     """
     still = {*solution.points} - {*reported_points(solution)}
     driven = {*solution.links} - {*reported_links(solution)}

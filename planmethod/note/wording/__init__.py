@@ -45,7 +45,7 @@ class Language:
     lang : str
         Its name, that of its folder.
     note : MessageTable
-        Protocol and tables; with the data of `say`.
+        Protocol and tables; with the data of `notation`.
     forces, friction : MessageTable
         The force analysis, without friction and with it.
     sheets, structure, frame : MessageTable

@@ -27,7 +27,7 @@ def arc_curves(
         The circle, mm.
     start, turn
         Where the arc starts and how far it goes counter-clockwise, radians.
-    within
+    tolerance
         Largest distance allowed, mm. The curve of a quarter circle leaves the circle by 2.7e-4 of
         the radius; this falls with the sixth power of the angle.
     """

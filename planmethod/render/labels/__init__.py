@@ -1,12 +1,13 @@
 """Placing of labels (размещение надписей): labels overlap neither each other nor lines.
 
-``model``       labels to be placed, and labels with their places
-``candidates``  the candidate places of a label
-``paper``       their costs from items already drawn
-``others``      their costs from labels already placed
-``ladder``      columns for the labels of points that are close together
-``place``       greedy placement, hardest labels first, then local repair
-``spare``       labels that are left out for lack of space
+``model``          labels to be placed, and labels with their places
+``candidates``     the candidate places of a label
+``paper``          their costs from items already drawn
+``placed_labels``  their costs from labels already placed
+``label_column``   columns for the labels of points that are close together
+``merged_labels``  one label for points in one place
+``place``          greedy placement, hardest labels first, then local repair
+``spare``          labels that are left out for lack of space
 """
 
 from planmethod.render.labels.model import (

@@ -72,7 +72,7 @@ class PlacedLabels:
         return np.asarray(self.pair_costs(candidates, rows, there).sum(axis=1))
 
     def overlap_costs(self, choice: OverlapCosts, rows: Numbers, there: Numbers) -> Floats:
-        """Return the result of `each` for some places, cached for labels that have not moved."""
+        """Return `pair_costs` of some places, cached for labels that have not moved."""
         old = choice.stamps[there] != self._stamps[there]
         away = np.zeros(0, dtype=np.intp)
         if len(rows) == 1 and old.any():  # for a single place only labels near it are checked

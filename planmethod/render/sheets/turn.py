@@ -44,7 +44,7 @@ MAX_SIDE = 150.0
 """Largest side of a hodograph of a project at the scale of its plans, mm."""
 
 SMALL = 0.6
-"""Share of `MOST` below which it is drawn larger than the plans, at a scale of its own."""
+"""Share of `MAX_SIDE` below which it is drawn larger than the plans, at a scale of its own."""
 
 _NARROW = 0.05  # width over length below which a hodograph counts as a straight line
 
@@ -179,7 +179,7 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
     """Return the hodograph of velocities or accelerations that fills a square, its side in mm.
 
     In a project it has the scale of the plans, as a plan of all positions about one pole, unless it
-    would be larger than `MOST` or much smaller: then it fills a square of that side, whatever
+    would be larger than `MAX_SIDE` or much smaller: then it fills a square of that side, whatever
     ``side`` is.
     """
     point, curve, ends = _hodograph_of(solution, kind)

@@ -122,7 +122,7 @@ class SelfAligning(Struct, frozen=True):
     schemes : tuple of mapping of str to str
         Class of every pair by its key, the best scheme first: fewest changes, then least mobility
         (that of the plane where there is such a scheme), then those that are regular in all
-        positions; at most `MOST`.
+        positions; at most `MAX_SCHEMES`.
     rank : int
         Of the spatial constraint matrix of the first scheme, all links and pairs at once.
     local : tuple of int

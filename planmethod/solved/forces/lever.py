@@ -91,8 +91,6 @@ class LeverReading:
     Parameters
     ----------
     reading : ForceReading
-    common : bool
-        At the scale of all velocity plans, even where this position's is drawn smaller.
 
     Attributes
     ----------

@@ -206,7 +206,7 @@ class Statics(Memoizing):
 
     Attributes
     ----------
-    kept : tuple of UnshiftedInertia
+    unshifted : tuple of UnshiftedInertia
         Links that keep the couple of inertia although the file asks for the single resultant.
     """
 

@@ -83,7 +83,7 @@ class Case(Struct, frozen=True, eq=False):
         return (*self.follower_names, *self.results.draft.branches, *loads)
 
     def at(self, positions: Array) -> list[Array]:
-        """Return the columns of `given` in some positions: cam, branches and loads."""
+        """Return the columns of `inputs` in some positions: cam, branches and loads."""
         motion = driven(self.problem.drive, positions) if self.follower_names else ()
         columns = [np.asarray(one) for one in motion]
         columns += [one.branch(positions) for one in self.results.draft.branches.values()]
