@@ -55,7 +55,8 @@ REFERENCE = {
 """Texts of the reference of keys, which are not messages."""
 
 SAYS = {
-    "say", "translated", "Fault", "_fail", "_fault", "_load_fault", "expected", "beyond",
+    "translate", "look_up_translation", "Fault", "_fail", "_fault", "_load_fault", "expected",
+    "exceeds",
     "UsageError",
 }  # fmt: skip
 """Calls whose texts a reader sees, beside errors that are raised and ``faults.add``."""

@@ -233,7 +233,7 @@ def _nodes(page: KeyPage) -> Iterator[Node]:
 def _columns(page: KeyPage) -> Iterator[list[str]]:
     """Yield the columns of a group's table: variants, and each answer."""
     rows = page.rows()
-    yield [page.texts.rows[0], *(page.lead(row) for row in rows)]
+    yield [page.texts["rows"][0], *(page.lead(row) for row in rows)]
     for entry in page.columns():
         cells = (page.cell(row.entries.get(entry.label)) for row in rows)
         yield [page.head(entry), *("; ".join(filter(None, cell)) for cell in cells)]
@@ -245,7 +245,8 @@ def key_xlsx(keys: Sequence[Key], language: Language) -> bytes:
     quantity, value, unit, segment, mm, sense, points, note = page.texts["columns"]
     exact, _, tolerance = value.partition(" ± ")
     header = [
-        *page.texts.rows, quantity, exact, f"± {tolerance}", unit, segment, mm, sense, points, note,
+        *page.texts["rows"], quantity, exact, f"± {tolerance}", unit, segment, mm, sense, points,
+        note,
     ]  # fmt: skip
     rows = []
     for row in page.rows():
