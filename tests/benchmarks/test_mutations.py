@@ -18,7 +18,7 @@ def test_every_mutation_changes_one_place_of_an_existing_file_and_names_existing
         if count != 1:
             stale.append(f"{mutation['name']}: its text occurs {count} times in {mutation['file']}")
         if mutation["old"] == mutation["new"]:
-            stale.append(f"{mutation['name']}: nothing is changed")
+            stale.append(f"{mutation['name']}: its new text is the old one")
         stale += [
             f"{mutation['name']}: no {test}"
             for test in mutation["tests"]

@@ -111,7 +111,7 @@ def test_a_segment_represents_its_velocity_at_its_own_multiple_of_the_scale(
 ) -> None:
     """Length times scale over magnification is the size of the vector, in SI.
 
-    Every plan is at the common scale, or if the file asks for it at its ``own``.
+    Plans have the common scale, or with ``own`` each its own one.
     """
     problem = problem_of(name)
     problem = replace(problem, scales=replace(problem.scales, own=own))
