@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 from msgspec import Struct
@@ -214,19 +215,32 @@ def _find_arc_place(
             if distance(centre, line) < radius + _MATTERS
             and max(abs(end - centre) for end in line) > radius - _MATTERS
         ]
-        for middle in range(0, 360, 15):
-            turns = [middle + _SWEEP * (k / 8 - 0.5) for k in range(9)]
-            places = [centre + radius * cis(turn) for turn in turns]
-            gaps: list[float] = []
-            for place in places:
-                gaps.append(min((distance(place, line) for line in near), default=5.0))
-                white = sum(min(gap, _MATTERS) for gap in gaps) + _MATTERS * (9 - len(gaps))
-                worth = white / 9 + 0.5 * min(*gaps, 3.0) - 0.1 * radius
-                if worth <= best[0]:  # whatever white the places have that are left
-                    break
+        middles = range(0, 360, 15)
+        turns = [middle + _SWEEP * (k / 8 - 0.5) for middle in middles for k in range(9)]
+        gaps = _gaps([centre + radius * cis(turn) for turn in turns], near)
+        for k, middle in enumerate(middles):
+            own = gaps[9 * k : 9 * (k + 1)]
+            white = sum(min(gap, _MATTERS) for gap in own)
+            worth = white / 9 + 0.5 * min(*own, 3.0) - 0.1 * radius
             if worth > best[0] + 1e-9:
                 best = (worth, radius, float(middle))
     return best[0], centre, best[1], best[2]
+
+
+def _gaps(places: Sequence[complex], lines: Sequence[Segment]) -> list[float]:
+    """Return how far each place is from the nearest of the lines, mm: as `distance`, at once."""
+    if not lines:
+        return [5.0] * len(places)
+    ends: NDArray[np.complex128] = np.array(lines)
+    start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
+    length = np.hypot(along.real, along.imag)
+    off = np.array(places)[:, None] - start
+    inner = off.real * along.real + off.imag * along.imag
+    part = np.clip(inner / np.where(length < 1e-9, inf, length) ** 2, 0.0, 1.0)
+    nearest: list[float] = (
+        np.hypot(off.real - along.real * part, off.imag - along.imag * part).min(axis=1).tolist()
+    )
+    return nearest
 
 
 def lines_of(items: Iterable[Item]) -> Iterable[Segment]:
