@@ -23,7 +23,6 @@ from reportlab.pdfbase.ttfonts import TTFont
 from reportlab.platypus import (
     CondPageBreak,
     Flowable,
-    Frame,
     FrameBreak,
     LongTable,
     PageBreak,
@@ -43,7 +42,7 @@ from planmethod.note.writers.html import clean
 from planmethod.note.writers.linebreak import lines_of, width_em
 from planmethod.note.writers.pdf import marked, parts_of
 from planmethod.note.writers.pdfformula import Fonts, FormulaLines, FormulaSetter
-from planmethod.note.writers.pdfpages import Floating, FloatingPages
+from planmethod.note.writers.pdfpages import Floating, FloatingPages, LaidFrame, LaidParagraph
 from planmethod.note.writers.sentences import (
     JOINER,
     keeps_with_next,
@@ -130,15 +129,16 @@ def pdf_note(
     """
     written = document.resolve_references(written)
     built = partial(_built, written, language, author, forms)
-    made, ends = built({})
-    low = [k for k, end in enumerate(ends) if end.is_nearly_empty]
-    if not low:
+    made, ends = built({}, lambda ends: not any(end.is_nearly_empty for end in ends))
+    if made:
         return made
-    closer, found = built(dict.fromkeys(low, TIGHT))
-    saved = {k: TIGHT for k in low if found[k].count < ends[k].count}
-    if len(saved) == len(low):
-        return closer
-    return built(saved)[0] if saved else made
+    low = [k for k, end in enumerate(ends) if end.is_nearly_empty]
+
+    def saved(found: Sequence[End]) -> list[int]:
+        return [k for k in low if found[k].count < ends[k].count]
+
+    closer, found = built(dict.fromkeys(low, TIGHT), lambda found: saved(found) == low)
+    return closer or built(dict.fromkeys(saved(found), TIGHT), lambda _: True)[0]
 
 
 def _built(
@@ -147,17 +147,19 @@ def _built(
     author: str,
     forms: PageForms | None,
     tight: Mapping[int, float],
+    is_final: Callable[[Sequence[End]], bool],
 ) -> tuple[bytes, list[End]]:
     """Return a file, and how each section between page breaks ends.
 
     ``tight``: of which sections pictures are smaller, to which share of their size; formulas and
-    lines of the contents are closer there.
+    lines of the contents are closer there. The file is empty unless the ends are final: drawing
+    takes longer than laying out.
     """
     file = BytesIO()
-    pages = _Pages(file, _title(written), author or "planmethod", written, forms)
+    pages = _Pages(file, _title(written), author or "planmethod", written, forms, is_final)
     foot = BOTTOM if forms is None else forms.heights[1] * mm + ABOVE
     pages.multiBuild(list(_Setter(language, tight, foot).story(written)))
-    return file.getvalue(), pages.ends
+    return file.getvalue() if pages.is_drawn else b"", pages.ends
 
 
 def _title(written: Document) -> str:
@@ -180,6 +182,7 @@ class _Pages(FloatingPages):
         author: str,
         written: Document,
         forms: PageForms | None,
+        is_final: Callable[[Sequence[End]], bool],
     ) -> None:
         fonts = note_fonts()
         super().__init__(
@@ -195,7 +198,7 @@ class _Pages(FloatingPages):
         first = next((n for n in written.nodes if isinstance(n, document.TitlePage)), None)
         foot = "" if first is None else plain_text(f"{first.place} {first.year}").strip()
         middle = LEFT + (A4[0] - LEFT - RIGHT) / 2
-        self._forms, self._pages = forms, 0
+        self._forms, self._pages, self._is_final = forms, 0, is_final
 
         def close_page(canvas: Any, _: Any) -> None:
             number = canvas.getPageNumber()
@@ -204,6 +207,8 @@ class _Pages(FloatingPages):
             canvas.drawCentredString(middle, BOTTOM / 2, text)
 
         def put_frame(canvas: Any, at: Any) -> None:
+            if not self.is_drawn:
+                return
             canvas.saveState()
             canvas.scale(mm, mm)
             is_first = at.pageTemplate.id == "first"
@@ -220,9 +225,16 @@ class _Pages(FloatingPages):
         self.addPageTemplates(templates)
 
     def _allSatisfied(self) -> bool:  # noqa: N802
-        """Return whether the contents, and the number of pages in a frame, are right."""
+        """Return whether the contents, and the number of pages in a frame, are right.
+
+        The run after the first in which they are draws the pages, if those are final.
+        """
         told, self._pages = self._pages, self.page
-        return bool(super()._allSatisfied()) and (self._forms is None or told == self.page)
+        right = bool(super()._allSatisfied()) and (self._forms is None or told == self.page)
+        if not right or self.is_drawn or not self._is_final(self.ends):
+            return right
+        self.is_drawn = True
+        return False
 
     def beforeDocument(self) -> None:  # noqa: N802
         """Forget how the sections of the last run ended."""
@@ -254,7 +266,9 @@ class _Pages(FloatingPages):
 def _template(name: str, bottom: float, on_page: Callable[[Any, Any], None]) -> PageTemplate:
     """Return pages whose text ends at ``bottom`` points from the lower edge."""
     width, height = A4
-    text = Frame(LEFT, bottom, width - LEFT - RIGHT, height - TOP - bottom, 0, 0, 0, 0, id="text")
+    text = LaidFrame(
+        LEFT, bottom, width - LEFT - RIGHT, height - TOP - bottom, 0, 0, 0, 0, id="text"
+    )
     return PageTemplate(name, [text], onPage=on_page)
 
 
@@ -270,7 +284,7 @@ class End(Struct, frozen=True):
         return self.count > 1 and self.filled < NEARLY_EMPTY
 
 
-class _Heading(Paragraph):  # type: ignore[misc]
+class _Heading(LaidParagraph):
     """A heading that the contents list."""
 
     def __init__(self, shown: str, outline: str, style: ParagraphStyle, level: int, number: int):
@@ -373,7 +387,7 @@ class _Setter:
         return found
 
     def _text(self, rich: Rich, style: ParagraphStyle) -> Paragraph:
-        return Paragraph(self._markup(rich, style.fontSize), style)
+        return LaidParagraph(self._markup(rich, style.fontSize), style)
 
     def story(self, written: Document) -> Iterator[Flowable]:
         """Yield the flowables of a document."""

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from reportlab.platypus import BaseDocTemplate, CondPageBreak, Flowable, KeepTogether, PageBreak
+from reportlab.platypus import (
+    BaseDocTemplate,
+    CondPageBreak,
+    Flowable,
+    Frame,
+    KeepTogether,
+    PageBreak,
+    Paragraph,
+)
 
 MAX_PASSED = 12
 """Largest number of paragraphs and formulas moved before content that does not fit."""
@@ -30,12 +38,52 @@ class Floating(KeepTogether):  # type: ignore[misc]
     """The picture that may be smaller: ``at_most`` is the share of its size that it is shown in."""
 
 
+class LaidParagraph(Paragraph):  # type: ignore[misc]
+    """A paragraph whose lines are broken once for a width: pages try it several times."""
+
+    _broken: float | None = None
+
+    def wrap(self, width: float, height: float) -> tuple[float, float]:
+        """Return the space that the lines take, points."""
+        if width != self._broken:
+            super().wrap(width, height)
+            self._broken = width
+        return self.width, self.height
+
+    def split(self, width: float, height: float) -> list[Flowable]:
+        """Return the part that fits, and the rest; reportlab changes words of the whole then."""
+        parts = list(super().split(width, height))
+        self._broken = None
+        return parts
+
+
+class LaidFrame(Frame):  # type: ignore[misc]
+    """The part of a page that has the text; it is drawn when all pages are laid out."""
+
+    def add(self, flowable: Flowable, canvas: Any, trySplit: int = 0) -> int:  # noqa: N803
+        """Put a flowable at the current place; return whether it fits."""
+        if canvas._doctemplate.is_drawn:
+            return int(super().add(flowable, canvas, trySplit))
+        flowable.drawOn = _leave_undrawn
+        try:
+            return int(super().add(flowable, canvas, trySplit))
+        finally:
+            del flowable.drawOn
+
+
+def _leave_undrawn(*_: Any, **__: Any) -> None:
+    """Stand for the drawing of a flowable."""
+
+
 class FloatingPages(BaseDocTemplate):  # type: ignore[misc]
     """Pages without gaps: content that does not fit waits, the text after it goes before.
 
     It waits at most until the next heading. A picture that cannot wait is made smaller, if it
     fits then.
     """
+
+    is_drawn = False
+    """Whether a run over the pages draws them; else they are laid out."""
 
     def filterFlowables(self, flowables: list[Any]) -> None:  # noqa: N802
         """Put the text after a picture or table before it where that does not fit."""
