@@ -49,8 +49,9 @@ def pytest_configure(config: pytest.Config) -> None:
     is_thin = not is_whole(config)
     settings.load_profile("thorough" if thorough else "thinned" if is_thin else "planmethod")
     cases.take(everything=thorough, is_thin=is_thin)
-    # As in the commands: the tests share large data, and the search for cycles in it takes 5 %.
-    gc.set_threshold(100_000)
+    # The tests share large data, and the search for cycles in it takes 5 %; documents of Word are
+    # cycles, and a hundred megabytes of them wait for it.
+    gc.set_threshold(30_000, 5, 5)
 
 
 def _end_in_order() -> None:

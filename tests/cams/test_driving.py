@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import tomllib
+from collections.abc import Iterator
 from math import cos, pi, radians, sin
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from browser import PROGRAM, browsing
+from browser import PROGRAM, Page, browsing
 from cases import each
 from click.testing import CliRunner
 from doors import (
@@ -385,18 +386,24 @@ def test_a_project_of_a_follower_is_rejected(tmp_path: Path) -> None:
     assert run.exit_code == 3 and "course project is that of a crank" in run.output
 
 
-@pytest.mark.skipif(PROGRAM is None, reason="chromium is not installed")
+@pytest.fixture
+def page(tmp_path: Path) -> Iterator[Page]:
+    if PROGRAM is None:
+        pytest.skip("chromium is not installed")
+    with browsing(tmp_path / "browser") as browser:
+        yield browser
+
+
 @each("name", ["slider", "clockwise", "rocker", "opposite"])
-def test_the_page_moves_by_the_law(name: str, tmp_path: Path) -> None:
+def test_the_page_moves_by_the_law(name: str, page: Page, tmp_path: Path) -> None:
     problem = problem_of(made()[name])
-    file = tmp_path / "live.html"
+    file = tmp_path / f"{name}.html"
     file.write_text(live_page(problem, "ru"), "utf-8")
     angles = [0.0, 11.5, 60.0, 90.0, 119.75, 120.0, 150.0, 171.25, 249.5, 300.0]
-    with browsing(tmp_path) as page:
-        page.open(file, width=900, height=700)
-        shown = page.ask(f"{json.dumps(angles)}.map(x => at(x))")
-        rows = page.ask("D.rows")
-        assert not page.said
+    page.open(file, width=900, height=700)
+    shown = page.ask(f"{json.dumps(angles)}.map(x => at(x))")
+    rows = page.ask("D.rows")
+    assert not page.said
     table = Sweep(problem).table(np.array(angles))
     for number, row in enumerate(rows):
         if row in table:

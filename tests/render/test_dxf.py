@@ -9,7 +9,9 @@ import subprocess
 import sys
 from cmath import rect
 from collections import Counter
+from functools import cache
 from io import BytesIO, StringIO
+from itertools import product
 from math import pi, tau
 from pathlib import Path
 from typing import Any
@@ -17,7 +19,7 @@ from typing import Any
 import ezdxf
 import numpy as np
 import pytest
-from cases import each, thinned
+from cases import thinned
 from click.testing import CliRunner, Result
 from doors import (
     DRAFTING_PROFILES as PROFILES,
@@ -69,6 +71,13 @@ STROKES = Options()
 def read(data: bytes) -> Any:
     library: Any = ezdxf
     return library.read(StringIO(data.decode("utf-8")))
+
+
+@cache
+def read_sheet(name: str) -> Any:
+    """Return the file of a sheet, read once; its letters are strokes."""
+    (drawing,) = drawn_sheets(name)
+    return read(render(drawing, "dxf"))
 
 
 def space_of(*items: Any) -> Any:
@@ -163,7 +172,7 @@ def test_lines_and_letters_of_a_sheet_are_where_they_were_put(name: str) -> None
 def test_circles_and_arcs_of_a_sheet_are_where_they_were_put(name: str) -> None:
     (drawing,) = drawn_sheets(name)
     found = []
-    for entity in read(render(drawing, "dxf")).modelspace():
+    for entity in read_sheet(name).modelspace():
         parts = entity.virtual_entities() if entity.dxftype() == "INSERT" else [entity]
         found += [part for part in parts if part.dxftype() in {"CIRCLE", "ARC"}]
     for item in drawing.items:
@@ -202,10 +211,11 @@ def test_a_segment_of_a_plan_is_one_line_as_long_as_in_the_table(
     sheets, solution = solved_while(
         lambda: kinematics_sheets(problem_of(name), profile=cad), monkeypatch
     )
+    spaces = [read(render(drawing, "dxf")).modelspace() for drawing in sheets]
     lines = [
         (point(line.dxf.start), point(line.dxf.end))
-        for drawing in sheets
-        for line in read(render(drawing, "dxf")).modelspace().query('LINE[layer=="PLAN_VECTORS"]')
+        for space in spaces
+        for line in space.query('LINE[layer=="PLAN_VECTORS"]')
     ]
     exact = [
         segment.exact[0]
@@ -216,11 +226,8 @@ def test_a_segment_of_a_plan_is_one_line_as_long_as_in_the_table(
     # Enlarged views come after the plans, with parts of the segments that are in their circles.
     views = [
         abs(b - a)
-        for drawing in sheets
-        for a, b in (
-            (point(line.dxf.start), point(line.dxf.end))
-            for line in read(render(drawing, "dxf")).modelspace().query("LINE")
-        )
+        for drawing, space in zip(sheets, spaces, strict=True)
+        for a, b in ((point(line.dxf.start), point(line.dxf.end)) for line in space.query("LINE"))
         for arc in drawing.items
         if isinstance(arc, Arc) and arc.tag.startswith(ENLARGED) and arc.tag[-1].isdigit()
         if max(abs(p - arc.centre) for p in (a, b)) < arc.radius + 0.1
@@ -263,8 +270,7 @@ def test_a_force_of_a_plan_is_one_line_as_long_as_the_force_over_its_scale(
 
 
 def test_pb_of_the_third_example_is_64_mm() -> None:
-    (drawing,) = drawn_sheets("linkages/ex3")
-    space = read(render(drawing, "dxf")).modelspace()
+    space = read_sheet("linkages/ex3").modelspace()
     line = space.query('LINE[layer=="PLAN_VECTORS"]')[0]
     assert abs(point(line.dxf.end) - point(line.dxf.start)) == pytest.approx(64.0, abs=1e-9)
 
@@ -305,20 +311,26 @@ def test_layers_have_the_pens_and_line_types_the_dashes() -> None:
         assert (pattern[2:3] == (dashes.dot,)) == bool(dashes.dot)
 
 
-@each("pen", Pen)
-@each("tag", ["", "table", "stamp", "link 3", "guide", "similar"])
-def test_a_line_looks_as_its_pen_on_every_layer(pen: Pen, tag: str) -> None:
-    data = render(Drawing(50.0, 50.0, items=[Stroke((1 + 1j, 40 + 30j), pen, tag=tag)]), "dxf")
+def test_a_line_looks_as_its_pen_on_every_layer() -> None:
+    tags = ("", "table", "stamp", "link 3", "guide", "similar")
+    strokes = [
+        Stroke((complex(1, k), complex(40, k)), pen, tag=tag)
+        for k, (pen, tag) in enumerate(product(Pen, tags), 1)
+    ]
+    data = render(Drawing(50.0, 100.0, items=[*strokes]), "dxf")
     document = read(data)
-    (line,) = document.modelspace()
-    layer = document.layers.get(layer_of(tag, pen))
-    assert line.dxf.layer == layer.dxf.name
-    linetype = line.dxf.get("linetype", layer.dxf.linetype)
-    assert linetype == LINE_TYPES.get(pen, "Continuous")
-    (path,) = read_dxf(data).items
-    assert isinstance(path, Painted)
-    assert path.width == PENS[pen].width
-    assert path.grey == pytest.approx(PENS[pen].grey, abs=0.01)
+    for stroke, line, path in zip(
+        strokes, document.modelspace(), read_dxf(data).items, strict=True
+    ):
+        case = (stroke.pen, stroke.tag)
+        assert near(point(line.dxf.start), stroke.points[0]), case
+        layer = document.layers.get(layer_of(stroke.tag, stroke.pen))
+        assert line.dxf.layer == layer.dxf.name, case
+        linetype = line.dxf.get("linetype", layer.dxf.linetype)
+        assert linetype == LINE_TYPES.get(stroke.pen, "Continuous"), case
+        assert isinstance(path, Painted), case
+        assert path.width == PENS[stroke.pen].width, case
+        assert path.grey == pytest.approx(PENS[stroke.pen].grey, abs=0.01), case
 
 
 def test_joints_and_arrowheads_are_blocks() -> None:

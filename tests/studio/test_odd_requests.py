@@ -13,7 +13,7 @@ from typing import Any
 
 import odd_acts
 import pytest
-from cases import thinned
+from cases import sampled, thinned
 
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
 pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
@@ -115,7 +115,7 @@ def test_every_address_is_answered(client: TestClient) -> None:
         for name in re.findall(r"\{(\w+)(?::path)?\}", pattern)
     ]
     others = thinned([*product(PARTS, METHODS, places)], 11)
-    for part, method, place in (*product(PARTS, ("GET",), places), *others):
+    for part, method, place in sampled([*product(PARTS, ("GET",), places), *others], 3):
         address = place[0].format(**usual | {place[1]: part})
         body = b"{}" if method in ("POST", "PUT") else None
         heads = {"content-type": "application/json"}
@@ -142,7 +142,7 @@ def test_every_body_is_answered(client: TestClient) -> None:
 
 def test_every_field_is_answered_for_any_value(client: TestClient) -> None:
     names = [one.name for one in fields(StudioRequest)]
-    for number, (field, value) in enumerate(thinned([*product(names, VALUES)], 3)):
+    for number, (field, value) in enumerate(sampled(thinned([*product(names, VALUES)], 3), 3)):
         do = ACTS[number % len(ACTS)]
         body = f'{{"what": "tables", "file": "x.toml", "{field}": {value}}}'.encode()
         heads = {"content-type": "application/json"}
