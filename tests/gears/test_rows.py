@@ -198,6 +198,8 @@ def test_the_planetary_stage_of_a_longer_train_is_compared(rest: str, tmp_path: 
     )
     assert found.file_set.ratio == Fraction(39, 5)
     assert found.module_m == (Fraction(4, 1000) if rest else None)
+    if not rest:
+        return
     designed(tmp_path, text)
     run("solve", str(tmp_path / "train.toml"))
     run("sheet", str(tmp_path / "train.toml"), "--format", "svg", "-o", str(tmp_path))

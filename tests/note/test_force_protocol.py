@@ -143,7 +143,7 @@ def test_worked_mechanisms_are_readable(name: str, lang: str) -> None:
     assert_readable(protocol(worked(name), lang=lang))
 
 
-@each("seed, lang", sampled([*product(SEEDS, LANGUAGES)], 3))
+@each("seed, lang", sampled([*product(SEEDS, LANGUAGES)], 7))
 def test_any_loaded_mechanism_is_readable(seed: int, lang: str) -> None:
     text = protocol(random_loaded(seed), lang=lang)
     assert_readable(text)

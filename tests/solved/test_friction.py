@@ -189,13 +189,13 @@ SEEDS = range(some(200, few=40))
 
 def test_random_mechanisms_against_all_links_at_once() -> None:
     taken = 0
-    for seed in SEEDS:
+    for seed in (seeds := sampled(SEEDS, 2)):
         problem, motion, found = random_friction(seed)
         if found.jammed[0]:
             continue
         taken += 1
         assert compared(problem, motion, found) < 1e-7, seed
-    assert taken > 0.8 * len(SEEDS)
+    assert taken > 0.8 * len(seeds)
 
 
 @each("seed", sampled(SEEDS, 3))
