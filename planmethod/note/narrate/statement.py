@@ -731,11 +731,11 @@ def _slide_line_facts(slide: Slide, text: StatedNumbers) -> Iterator[GivenFact]:
             slides = note.given_slides_on.format(slider=slide.slider, host=slide.host, line=line)
             yield GivenFact(slides, data)
         else:
-            yield GivenFact(f"∠({_own_axis_name(slide.host, text)}, {line}) = {text}", data)
+            yield GivenFact(f"∠({_own_axis_name(slide.host, text)}, {line}) = {told}", data)
     elif angle % 180 == 90:
         yield GivenFact(f"{line} ⊥ {_line(*host.axis)}", data)
     elif angle % 180:
-        yield GivenFact(f"∠({_line(*host.axis)}, {line}) = {text}", data)
+        yield GivenFact(f"∠({_line(*host.axis)}, {line}) = {told}", data)
     elif slide.offset or slide.through not in host.axis:
         yield GivenFact(f"{line} ∥ {_line(*host.axis)}", data)
     else:
