@@ -134,10 +134,10 @@ def pdf_note(
         return made
     low = [k for k, end in enumerate(ends) if end.is_nearly_empty]
 
-    def saved(found: Sequence[End]) -> list[int]:
-        return [k for k in low if found[k].count < ends[k].count]
+    def saved(tighter: Sequence[End]) -> list[int]:
+        return [k for k in low if tighter[k].count < ends[k].count]
 
-    closer, found = built(dict.fromkeys(low, TIGHT), lambda found: saved(found) == low)
+    closer, found = built(dict.fromkeys(low, TIGHT), lambda tighter: saved(tighter) == low)
     return closer or built(dict.fromkeys(saved(found), TIGHT), lambda _: True)[0]
 
 
