@@ -79,14 +79,14 @@ def doors() -> Iterator[tuple[str, Callable[[Any], object]]]:
     yield "document(lang)", lambda b: planmethod.document(solution, lang=b)
     yield "document(position)", lambda b: planmethod.document(solution, position=b)
     for name in (
-        "moved", "filling", "drawn_at", "alone_at", "has_common", "place", "exact", "read_off",
+        "with_positions", "filling", "drawn_at", "variant_at", "has_common", "place", "exact", "read_off",
         "segments", "quantities", "read_on", "read_at",
     ):  # fmt: skip
         yield name, getattr(solution, name)
     for name in ("points", "links", "legend"):
         yield name, getattr(solution, name).__getitem__
     yield "length", lambda b: solution.length(b, "A", "B")
-    for name in ("own_scale", "knots_of"):
+    for name in ("plan_scale", "detail_views_at"):
         yield f"{name}(kind)", behind(getattr(solution, name), 0)
         yield f"{name}(index)", partial(getattr(solution, name), kind)
     yield "spreads", lambda b: drafting.spreads[b]

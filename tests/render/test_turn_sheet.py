@@ -178,5 +178,5 @@ def test_chosen_plans_are_the_requested_ones() -> None:
     assert len(shown()) > 2  # as many as fit
     assert shown(positions=(2, 8)) == [2, 8]
     assert shown(positions=(0, 4, 5, 9)) == [0, 4, 5, 9]
-    with pytest.raises(LayoutError, match="the last is 11"):
+    with pytest.raises(LayoutError, match="the last of 12 positions is 11"):
         shown(positions=(3, 12))
