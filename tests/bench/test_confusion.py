@@ -20,6 +20,8 @@ from doors import (
 from msgspec.structs import replace
 from worked import path_of, problem_of
 
+from planmethod.bench.checking import first_items
+
 
 def computed(name: str) -> Calculation:
     kind = kind_of(path_of(name))
@@ -97,3 +99,15 @@ def test_families_are_counted_apart() -> None:
     task = computed("gears/gears-ex1")
     rows = confusion.computed_detection(task, 1)
     assert all(isinstance(row, Detected) and row.family == "gears" for row in rows)
+
+
+def test_a_computed_answer_is_known_to_its_last_digit() -> None:
+    task = computed("point/k11-02")
+    values = task.sheet(first_items(task)[0].position).exact
+    digits = [
+        len(f"{round(abs(answer.value) / answer.step)}")
+        for work in confusion.compute_submissions(task, values, 20, 1)
+        for answer in work.answers
+        if answer.step and answer.value
+    ]
+    assert {*digits} == {3, 4}

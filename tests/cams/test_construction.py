@@ -23,6 +23,8 @@ from doors import (
 )
 from msgspec.structs import replace
 
+from planmethod.cams.construction import motion_in_division
+
 BUILT = {path.stem: construct(CamDesign(load(path))) for path in SHIPPED}
 
 
@@ -134,3 +136,19 @@ def test_sigma_is_that_of_random_sheets(name: str) -> None:
     for of in asked:
         spread = float(np.nanstd(drawn[NumberName(of)]))
         assert sigma[of] == pytest.approx(spread, rel=0.1), of
+
+
+ROLLERS = {name: built for name, built in BUILT.items() if built.design.geometry.roller}
+
+
+@pytest.mark.parametrize("built", ROLLERS.values(), ids=ROLLERS)
+def test_a_roller_touches_the_profile_on_the_side_of_the_cam(built: CamConstruction) -> None:
+    """By the chords the normal is some degrees off; on the other side it were two radii."""
+    geometry, per_mm = built.design.geometry, built.scales.profile
+    for node in built.nodes:
+        moved = motion_in_division(built.design.problem, node)
+        (exact,) = geometry.points(np.array([node.phi]), np.array([moved]).T).actual / per_mm
+        drawn = number(built, f"A_{{{node.number}}}")
+        assert abs(drawn - exact) < 0.3 * geometry.roller / per_mm, node
+        centre = number(built, f"B_{{{node.number}}}")
+        assert abs(drawn - centre) == pytest.approx(geometry.roller / per_mm)

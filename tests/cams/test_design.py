@@ -14,6 +14,8 @@ from cases import some
 from click.testing import CliRunner
 from doors import CamDesign, CamPhase, cams_reader_load as load, cli
 
+from planmethod.errors import ProblemError
+
 WANTED: dict[str, Any] = {
     "follower": "translating",
     "contact": "roller",
@@ -228,3 +230,14 @@ def test_pressure_angles_that_no_cam_keeps_are_reported(tmp_path: Path) -> None:
     done = CliRunner().invoke(cli, ["solve", str(path), "--lang", "en"])
     assert done.exit_code == 3
     assert "no place of the axis keeps the allowed pressure angles" in done.output
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_the_line_of_the_follower_passes_within_the_least_radius(
+    sense: int, tmp_path: Path
+) -> None:
+    sizes = WANTED | {"r_min": 0.03}
+    load(written(tmp_path, sizes | {"offset": 0.029 * sense}))
+    with pytest.raises(ProblemError) as error:
+        load(written(tmp_path, sizes | {"offset": 0.03 * sense}))
+    assert [fault.path for fault in error.value.faults] == ["cam.offset"]

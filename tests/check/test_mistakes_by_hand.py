@@ -236,3 +236,12 @@ def test_a_slip_gives_the_number_that_was_written(
              and one.place == where]  # fmt: skip
     assert found
     assert min(abs(one / given - 1.0) for one in found) < near, (code, found)
+
+
+def test_a_slip_is_that_of_the_result_in_which_it_was_made() -> None:
+    task = task_of("linkages/ex1")
+    explained = task.explanations(task.sheet(0))
+    change = next(one.change for one in every("linkages/ex1") if one.change is not None)
+    for item in ("1", "2", "1"):
+        made = explained.of_slip(change, "v C", item)
+        assert made is not None and made.first_answers == (item,)

@@ -246,3 +246,17 @@ def _changed(picture: Path, size: int) -> int:
     """Return the size of a file once it is another one."""
     wait_until(lambda: picture.exists() and picture.stat().st_size != size)
     return picture.stat().st_size
+
+
+def test_the_code_of_many_sketches_is_that_of_the_first_fault(tmp_path: Path) -> None:
+    faulty, open_ = tmp_path / "faulty.toml", tmp_path / "open.toml"
+    faulty.write_text(without(EX3, "DE"), encoding="utf-8")
+    open_.write_text(FOUR_BAR.format(rod=0.1, rocker=0.25, phi=90, rule="above D"), "utf-8")
+
+    def code(*files: Path) -> int:
+        arguments = ["sketch", *map(str, files), "-o", str(tmp_path)]
+        return CliRunner().invoke(cli, arguments).exit_code
+
+    codes = code(faulty), code(open_)
+    assert codes == (ExitCode.PROBLEM, ExitCode.ASSEMBLY)
+    assert (code(faulty, open_), code(open_, faulty)) == codes

@@ -243,3 +243,8 @@ def test_every_leg_starts_from_links_known_before_its_group(mech: Mechanism, see
 
 def _inner_pairs(group: AssurGroup) -> int:
     return sum(sum(x in group.links for x in links_of(joint)) - 1 for joint in group.inner)
+
+
+def test_links_of_a_group_keep_the_order_of_the_file() -> None:
+    turned = Mechanism(EX3.links[::-1], EX3.revolutes, EX3.prismatics, EX3.driver)
+    assert [group.links for group in analyse(turned).groups] == [("3", "2"), ("5", "4")]

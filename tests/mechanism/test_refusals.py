@@ -81,6 +81,12 @@ REFUSED = {
         "an Assur group, because its links do not turn and one pair repeats the constraints "
         "of the others on the angles. Make one of the pairs revolute.",
     ),
+    "two slides on the frame": (
+        mechanism("A:01 B:12", "2/0@C 2/0@D"),
+        "The frame and link 2 form a contour of 2 prismatic pairs only (PPP): it is not an Assur "
+        "group, because its links do not turn and one pair repeats the constraints of the "
+        "others on the angles. Make one of the pairs revolute.",
+    ),
     "PPP dyad": (
         mechanism("A:01 B:14 D:45 E:05", "2/4@C 3/2@C 3/4@C"),
         "Links 2, 3, 4 form a contour of 3 prismatic pairs only (PPP): it is not an Assur "

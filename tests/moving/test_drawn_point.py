@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,9 @@ from doors import (
 )
 from ezdxf.filemanagement import readfile
 from worked import PROBLEMS
+
+from planmethod.kinds import kind_of
+from planmethod.render.ink.drawing import Text
 
 FILES = sorted((PROBLEMS / "point").glob("*.toml"))
 K11 = PROBLEMS / "point" / "k11-01.toml"
@@ -240,3 +244,20 @@ def test_printed_values_are_audited(tmp_path: Path) -> None:
     assert run.exit_code == ExitCode.DONE, run.output
     assert "| v |  | 5 | 5.0000 | 5.0000 |" in run.output
     assert "| rho |  | 3 | 10.417 |" in run.output
+
+
+def test_sheets_of_a_set_are_numbered_after_those_before_them() -> None:
+    kind = kind_of(K11)
+    assert kind is not None
+    (sheet,) = kind.drawings(load(K11), fields={}, profile=BOARD, before=2, total=5)
+    (alone,) = kind.drawings(load(K11), fields={}, profile=BOARD)
+    texts = Counter(item.text for item in sheet.items if isinstance(item, Text))
+    texts.subtract(Counter(item.text for item in alone.items if isinstance(item, Text)))
+    assert texts["3"] == 1, +texts
+
+
+def test_what_the_drawing_does_not_give_is_not_in_its_table() -> None:
+    """The radius of curvature of the rolling point is larger than any that is drawn."""
+    (sheet,) = drawings(of(LAWS["rolling"], "t = 0"), profile=BOARD)
+    texts = [item.text for item in sheet.items if isinstance(item, Text)]
+    assert texts.count("2,084") == 1  # in the table of the moment alone

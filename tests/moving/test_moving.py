@@ -348,3 +348,11 @@ def test_a_faulty_point_leaves_the_others_to_be_solved(tmp_path: Any) -> None:
     assert run.exit_code == ExitCode.PROBLEM
     assert '"k11-01"' in run.output
     assert "character 2: expected an operator before 't'" in run.output
+
+
+def test_one_moment_by_a_formula_makes_all_of_a_list_inexact() -> None:
+    def blur(t: str) -> list[bool]:
+        return [one > 0.0 for one in loads(f'[point]\ns = "t"\nt = {t}', name="p").blur]
+
+    assert blur("[0.25, 0.5]") == [False, False]
+    assert blur('[0.25, "1/2"]') == blur('{ from = 0.0, to = "1", count = 2 }') == [True, True]

@@ -17,6 +17,8 @@ from doors import Document, Table, TablePart, cli, get_language
 from msgspec import Struct
 from worked import PROBLEMS
 
+from planmethod.note.compared import percent_text
+
 NONE = "—"
 
 
@@ -213,6 +215,11 @@ def test_a_written_number_stands_for_a_range() -> None:
     whole = written("390", -1)
     assert whole is not None and (whole.low, whole.high) == pytest.approx((-395.0, -385.0))
     assert written(NONE) is None
+
+
+def test_per_cent_of_neither_sense_is_written_from_the_limit_on() -> None:
+    sizes = (199.9, -199.9, 200.0, -200.0, None)
+    assert [percent_text(one, limit=200.0) for one in sizes] == ["199.9", "-199.9", *[NONE] * 3]
 
 
 @each("path", sampled(SAID, 3))

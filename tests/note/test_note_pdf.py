@@ -31,6 +31,8 @@ from doors import (
 )
 from noted import SYSTEM, note
 
+from planmethod.note.writers.pdfformula import ASCENT, DESCENT
+
 RU = get_language("ru")
 
 
@@ -59,6 +61,9 @@ def test_fractions_are_built_up_and_terms_underlined() -> None:
     setter = FormulaSetter(note_fonts(), 14.0)
     line, built = setter.set(parse("ab")), setter.set(parse(r"\frac{a}{b}"))
     assert built.ascent + built.descent > 1.5 * (line.ascent + line.descent)
+    ((_, rule), _), (above, below) = built.lines[0], built.letters
+    apart = (above.y - DESCENT * 14.0 - rule, rule - below.y - ASCENT * 14.0)
+    assert apart[0] > 1.0 and apart[1] == pytest.approx(apart[0])  # neither touches the line
     assert len(built.lines) == 1 and len(setter.set(parse(r"\sqrt{\bar{a}}")).lines) == 2
     system = setter.equations(SYSTEM)
     assert len(system.lines) == 6 + 6 + 1  # bars above, lines below, the brace

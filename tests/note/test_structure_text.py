@@ -76,6 +76,21 @@ def test_the_numbers_of_pairs_have_one_notation(
     assert f"6n − {spatial} = 6·5 − 5·7" in text and f"{lower} = 7" in text.replace("\u00a0", " ")
 
 
+@pytest.mark.parametrize(
+    ("notation", "pairs"),
+    [("p5 p4", "p₅ = 3, p₄ = 2, p₃ = 2"), ("p1 p2", "p₁ = 3, p₂ = 2, p₃ = 2")],
+)
+def test_pairs_of_the_scheme_are_counted_by_class_or_by_mobility(notation: str, pairs: str) -> None:
+    """Six links have 5·3 + 4·2 + 3·2 = 29 constraints of 30."""
+    problem, words = problem_of("levers/six-link"), get_language("ru")
+    structure = analyse(problem.mechanism)
+    aligned = self_aligning(problem, structure)
+    text = plain_document(
+        structure_document(problem.mechanism, structure, words, notation, aligned), words
+    )
+    assert f"Без избыточных связей: {pairs}" in " ".join(text.split())
+
+
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("name", [*SIX, "levers/task-13", "levers/task-33", "levers/task-49"])
 def test_schemes_without_redundant_constraints_are_described(name: str, lang: str) -> None:

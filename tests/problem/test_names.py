@@ -3,6 +3,7 @@ from __future__ import annotations
 import pytest
 from doors import (
     LOOKALIKES,
+    angle_lines,
     describe_lookalikes,
     fold,
     is_label,
@@ -90,3 +91,8 @@ def test_paths_are_safe_to_print() -> None:
     assert segment("") == '""'
     assert segment('a"\n') == '"a\\u0022\\u000a"'
     assert len(segment("a" * 1000)) < 70
+
+
+@pytest.mark.parametrize("letters", ["AABC", "ABCC", "AB", "ABCDE"])
+def test_an_angle_has_two_lines_of_two_points_each(letters: str) -> None:
+    assert angle_lines(letters) is None

@@ -971,3 +971,37 @@ def test_the_differences_of_the_conclusion_are_those_of_the_chapters(name: str) 
         (r"100 % = ([\d,]+) %", r"рычага Жуковского составляет ([\d,]+) %"),
     ):
         assert re.findall(chapter, told_of(name))[:1] == re.findall(end, told)
+
+
+SWINGING = """
+[frame]
+A = [0, 0]
+D = [0.5, 0]
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C"]
+BC = 0.25
+[links.3]
+points = ["C", "D"]
+CD = 0.2
+[driver]
+link = "1"
+phi = 20
+omega = 10
+[cycle]
+count = 12
+[assembly]
+C = "left of BD"
+"""
+
+
+def test_the_range_of_a_crank_that_makes_no_full_turn_goes_from_its_lower_end(
+    tmp_path: Path,
+) -> None:
+    """At the ends BD = BC + CD = 0.45 m: cos φ = (0.5² + 0.1² − 0.45²)/(2·0.5·0.1) = 0.575."""
+    path, words = tmp_path / "swinging.toml", get_language("en")
+    path.write_text(SWINGING, "utf-8")
+    text = plain_document(note_document(settle(load(path), path), words), words)
+    assert "can be assembled for φ₁ from −54.9° to 54.9°" in " ".join(text.split())

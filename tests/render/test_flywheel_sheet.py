@@ -68,6 +68,22 @@ def test_the_points_are_at_their_scaled_coordinates() -> None:
         assert np.min(np.abs((points - left).real - 20.0 * k)) < 0.02, work
 
 
+def test_the_tangents_touch_the_energy_mass_curve_at_its_ends() -> None:
+    """The upper one leaves the whole curve below itself, the lower one above."""
+    drawn = sheet("press/flywheel")
+    points = [item.centre for item in drawn.items if isinstance(item, Disc) and "point" in item.tag]
+    lines = [item.points for item in drawn.items
+             if isinstance(item, Stroke) and item.tag == "diagram tangent"]  # fmt: skip
+    (view,) = (view for view in drawn.views if view.kind == "flywheel")
+    (span,) = (span for span in view.spans if span.name == "KL")
+    curve = [z for z in points if z.real > span.end.real]
+    upper, lower = sorted(lines, key=lambda line: -line[0].imag)
+    for (cut, beyond), sense in ((upper, 1), (lower, -1)):
+        way = (beyond - cut) / abs(beyond - cut)
+        off = [sense * ((z - cut) * way.conjugate()).imag for z in curve]
+        assert max(off) == pytest.approx(0.0, abs=0.05)
+
+
 OF_TANGENTS = ("касательн", "tangent", "энергомасс", "energy-mass", "KL", "ψ")
 
 

@@ -24,6 +24,8 @@ from doors import (
 from hypothesis import given, strategies as st
 from shapely import LineString, Point, Polygon
 
+from planmethod.render.symbols.cams import ROLLER, cam, rest_on_cam
+
 angles = st.floats(-180, 180)
 
 
@@ -345,3 +347,17 @@ def test_the_frame_gives_way_to_links_and_not_to_its_own_lines() -> None:
 def shape(item: Item) -> LineString:
     assert isinstance(item, Stroke)
     return LineString([(p.real, p.imag) for p in item.points])
+
+
+@given(st.floats(0.0, tau), st.floats(4.0, 12.0), st.floats(0.5, 8.0), angles)
+def test_a_roller_that_rests_on_a_cam_touches_it(
+    nose: float, base: float, lift: float, way: float
+) -> None:
+    """The outline between its 120 corners is 0.01 mm beside the cam."""
+    up = cmath.exp(1j * way)
+    at = rest_on_cam(1 + 2j, up, base=base, lift=lift, nose=nose)
+    (outline,) = cam(1 + 2j, base=base, lift=lift, nose=nose)
+    assert isinstance(outline, Stroke)
+    disc = Polygon([(z.real, z.imag) for z in outline.points])
+    assert disc.distance(Point(at.real, at.imag)) == pytest.approx(ROLLER, abs=0.1)
+    assert abs(cmath.phase((at - 1 - 2j) / up)) < 1e-9

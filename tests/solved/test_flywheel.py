@@ -347,6 +347,7 @@ def test_the_record_has_the_agreed_keys() -> None:
     assert near(fly["by_points"]["trapezoid_12"], 2.17314631679979)
     assert near(fly["mertsalov"], 2.71521994113647)
     assert near(record["omega_max"]["phi_deg"], 98.918918918919 + 30 * 5.62302483340308, 1e-8)
+    assert near(record["omega_max"]["position"], 5.62302483340308, 1e-8)
     assert near(record["KL_mm"], 62.3654411241664)
     assert {key: round(record["flywheel"][key], 8) for key in ("D", "m", "b")} == {
         "D": 0.45822529,

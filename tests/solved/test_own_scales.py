@@ -18,6 +18,8 @@ from doors import (
 from msgspec.structs import replace
 from worked import problem_of
 
+from planmethod.solved.scaling import typical
+
 
 @pytest.mark.parametrize("name", ["levers/task-16", "levers/task-49", "levers/task-13"])
 def test_plans_of_several_positions_have_one_scale(name: str) -> None:
@@ -73,3 +75,8 @@ def test_a_plan_in_a_dead_position_has_a_scale_of_its_own() -> None:
     own = [solution.plan_scale(kind, i) != solution.scales[kind] for i in range(3)]
     assert own == dead.tolist()
     assert solution.has_common(kind)
+
+
+def test_plans_that_are_points_do_not_count_in_the_typical_size() -> None:
+    assert typical(np.array([0.0, 3.0, 0.0, 1.0, 0.0])) == 2.0
+    assert typical(np.zeros(3)) == 0.0

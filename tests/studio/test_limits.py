@@ -357,6 +357,22 @@ def test_for_one_session_more_than_there_may_be_the_oldest_idle_one_ends(tmp_pat
     assert len(sessions) <= 4
 
 
+def test_of_idle_sessions_the_one_that_was_used_least_lately_ends(tmp_path: Path) -> None:
+    now = [0.0]
+    limits = replace(LIMITS, sessions=3, entries=1000.0)
+    sessions = Sessions(tmp_path, limits, clock=lambda: now[0])
+    there: list[StudioSession] = []
+    for _ in range(3):
+        now[0] += 1
+        one = sessions.enter("a", trusted=False)
+        assert one is not None
+        there.append(one)
+    now[0] += 1
+    assert sessions.of(there[0].key) is there[0]  # its page asks for something
+    assert sessions.enter("a", trusted=False) is not None
+    assert [sessions.of(one.key) is one for one in there] == [True, False, True]
+
+
 def test_old_computations_go(tmp_path: Path) -> None:
     session = Sessions(tmp_path, LIMITS).enter("a", trusted=False)
     assert session is not None

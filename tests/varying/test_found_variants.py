@@ -41,6 +41,11 @@ from doors import (
 )
 from worked import PROBLEMS, path_of
 
+from planmethod.gears.motion import solve_motion
+from planmethod.gears.reader import load
+from planmethod.varying.parameters import parse_vary
+from planmethod.varying.teeth import coaxial_rows
+
 EX3 = path_of("linkages/ex3")
 SIX_LINK = path_of("levers/six-link")
 TRAIN = PROBLEMS / "gears/gears-ex1.toml"
@@ -429,3 +434,36 @@ def test_the_problem_file_is_not_written_over(tmp_path: Path) -> None:
     assert run(path, "-o", path, "--lang", "en").exit_code == 2
     assert path.read_bytes() == EX3.read_bytes()
     assert run(path, "-o", tmp_path / "t.xlsx", "--lang", "en").exit_code == 2
+
+
+def test_values_about_zero_are_a_dozen_or_so_round_ones() -> None:
+    for end, step in ((8, 1), (39, 1), (40, 5), (79, 5), (80, 10)):
+        table = {"driver": {"s": 1.0}}
+        (one,) = parse_vary(table, f"driver.s=-{end}..{end}", 0.1)
+        assert one.values == tuple(range(-(end // step) * step, end + 1, step))
+
+
+TWO_SUNS = """
+[gears]
+wheels = { 1 = 20, 2 = 20, "2'" = 18, 3 = 60, 4 = 22 }
+meshes = [
+  { of = [2, 3], kind = "internal", carrier = "H" },
+  { of = [1, 2], kind = "external", carrier = "H" },
+  { of = ["2'", 4], kind = "external", carrier = "H" },
+]
+fixed = [3]
+n = { 1 = 100 }
+"""
+
+
+def test_equations_of_wheels_on_one_planet_are_solved_for_each_other(tmp_path: Path) -> None:
+    """z3 - z2 = z1 + z2 = z4 + z2': each is solved for a wheel that no other one has."""
+    path = tmp_path / "two-suns.toml"
+    path.write_text(TWO_SUNS, "utf-8")
+    motion = solve_motion(load(path))
+    sizes = {**motion.axes.sizes, "": 1}
+    rows = coaxial_rows(motion, [*motion.axes.sizes])
+    assert len(rows) == 2
+    for main, row in rows:
+        assert [other[main] for _, other in rows].count(0) == len(rows) - 1 and row[main] == 1
+        assert sum(factor * sizes[label] for label, factor in row.items()) == 0
