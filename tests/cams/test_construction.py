@@ -23,7 +23,7 @@ from doors import (
 )
 from msgspec.structs import replace
 
-from planmethod.cams.construction import motion_in_division
+from planmethod.cams.divisions import motion_in_division
 
 BUILT = {path.stem: construct(CamDesign(load(path))) for path in SHIPPED}
 

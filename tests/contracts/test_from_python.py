@@ -79,8 +79,8 @@ def doors() -> Iterator[tuple[str, Callable[[Any], object]]]:
     yield "document(lang)", lambda b: planmethod.document(solution, lang=b)
     yield "document(position)", lambda b: planmethod.document(solution, position=b)
     for name in (
-        "with_positions", "filling", "drawn_at", "variant_at", "has_common", "place", "exact", "read_off",
-        "segments", "quantities", "read_on", "read_at",
+        "with_positions", "filling", "drawn_at", "variant_at", "has_common", "place", "exact",
+        "read_off", "segments", "quantities", "read_on", "read_at",
     ):  # fmt: skip
         yield name, getattr(solution, name)
     for name in ("points", "links", "legend"):

@@ -440,3 +440,15 @@ def test_letters_of_points_with_numbers() -> None:
 def test_embedding_of_one_node() -> None:
     net = SchemeGraph(("A",), frozenset("A"), {"B": ("A", "A", 0.5)}, (Bar("1", "A", "B"),))
     assert embed(net) == {"A": 0j, "B": 0j}
+
+
+@pytest.mark.parametrize("name", WORKED)
+def test_the_scheme_wishes_the_driver_first_and_each_group_behind_the_one_before(name: str) -> None:
+    problem, structure = _case(name)
+    chain = mechanism_chain(problem.mechanism, structure)
+    found = []
+    for links in ((problem.mechanism.driver,), *(group.links for group in structure.groups)):
+        own = [pin.node for pin in chain.pins if pin.links and {*pin.links} <= {*links}]
+        found.append({chain.graph.wish[node] for node in own})
+    places = [place for (place,) in filter(None, found)]
+    assert len(places) > 1 and places == sorted({*places})

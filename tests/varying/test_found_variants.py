@@ -9,6 +9,7 @@ import re
 import tomllib
 from collections import Counter
 from collections.abc import Iterator
+from fractions import Fraction
 from itertools import permutations
 from pathlib import Path
 from random import Random
@@ -461,9 +462,9 @@ def test_equations_of_wheels_on_one_planet_are_solved_for_each_other(tmp_path: P
     path = tmp_path / "two-suns.toml"
     path.write_text(TWO_SUNS, "utf-8")
     motion = solve_motion(load(path))
-    sizes = {**motion.axes.sizes, "": 1}
+    sizes = {**motion.axes.sizes, "": Fraction(1)}
     rows = coaxial_rows(motion, [*motion.axes.sizes])
     assert len(rows) == 2
     for main, row in rows:
-        assert [other[main] for _, other in rows].count(0) == len(rows) - 1 and row[main] == 1
+        assert sum(main in other and other[main] != 0 for _, other in rows) == row[main] == 1
         assert sum(factor * sizes[label] for label, factor in row.items()) == 0
