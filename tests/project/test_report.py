@@ -3,6 +3,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+import zipfile
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
@@ -67,7 +68,10 @@ from doors import (
 )
 from evaluated import count_equations_that_hold
 from msgspec.structs import replace
-from worked import ROOT, path_of
+from worked import ROOT, path_of, problem_of
+
+from planmethod.project.report.results import compared
+from planmethod.solved.solution import Solution
 
 TEMPLATE = ROOT / "planmethod/problem/templates/project.toml"
 
@@ -1005,3 +1009,20 @@ def test_the_range_of_a_crank_that_makes_no_full_turn_goes_from_its_lower_end(
     path.write_text(SWINGING, "utf-8")
     text = plain_document(note_document(settle(load(path), path), words), words)
     assert "can be assembled for φ₁ from −54.9° to 54.9°" in " ".join(text.split())
+
+
+def test_a_note_has_the_title_of_its_language() -> None:
+    project = project_of("homework")
+    title = project.problem.stamp_in["en"]["title"]
+    files = note_files(replace(project, language="en"), "note", NoteOptions(), ["docx"])
+    with zipfile.ZipFile(BytesIO(files["note.docx"])) as archive:
+        text = archive.read("word/document.xml").decode()
+    assert title in text and project.problem.title not in text
+
+
+def test_a_slider_at_rest_has_no_row_among_the_compared_velocities() -> None:
+    """A hundred-thousandth of a degree beside φ = 180° its velocity is 2·10⁻⁷ of the largest; that of the pin is the largest."""
+    problem = problem_of("linkages/ex1")
+    solution = Solution(replace(problem, drive=replace(problem.drive, positions=(180.00001,))))
+    found = {str(of.label): one for of, one in compared(solution, 0, QuantityKind.VELOCITY)}
+    assert "v_B" in found and "v_C" not in found, [*found]

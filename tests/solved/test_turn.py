@@ -35,6 +35,8 @@ from doors import (
 )
 from worked import ROOT
 
+from planmethod.solved.turn.diagrams import diagrams_of
+
 PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
 FOUR_BAR = """title = "Шарнирный четырёхзвенник"
 [frame]
@@ -77,6 +79,13 @@ def test_the_press_has_the_extremes_of_its_slotted_link() -> None:
     assert told["stroke"] == pytest.approx(0.96 * tan(radians(theta / 2)), abs=1e-14)
     assert told["pressure_angle"]["max_deg"] == pytest.approx(theta / 2, abs=1e-11)
     assert told["range_deg"] is None and "reasons" not in told
+
+
+def test_the_scale_of_the_crank_angle_is_inscribed_in_degrees() -> None:
+    text = PRESS + "\n[cycle]\nzero = 'extreme'\n"
+    diagrams = diagrams_of(Solution(loads(text, name="press")))
+    (scale,) = (one for one in diagrams.scales if one.symbol == "mu_φ")
+    assert (scale.unit, scale.per_mm) == ("deg", pytest.approx(degrees(diagrams.mu_phi), rel=1e-3))
 
 
 def test_the_diagrams_of_the_press_are_those_of_their_definitions() -> None:
