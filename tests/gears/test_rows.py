@@ -148,6 +148,9 @@ def test_a_carrier_of_wheels_with_teeth_has_a_radius_too(tmp_path: Path) -> None
     motion = solved(tmp_path, text + "module = 4\n")
     sums = [sentence(c, get_language("en")) for c in conditions(motion)]
     assert "Coaxiality (axis 2): r_1 + r_2 = r_H = 120 mm" in sums
+    solved(tmp_path, text.replace("0.12", "0.12000006") + "module = 4\n")
+    with pytest.raises(ProblemError, match="not coaxial"):
+        solved(tmp_path, text.replace("0.12", "0.12006") + "module = 4\n")
     for rest, said in (("module = 5\n", "is 0.15 m from it"), ("", "needs the module")):
         with pytest.raises(ProblemError, match=said):
             solved(tmp_path, text + rest)

@@ -1021,7 +1021,7 @@ def test_a_note_has_the_title_of_its_language() -> None:
 
 
 def test_a_slider_at_rest_has_no_row_among_the_compared_velocities() -> None:
-    """A hundred-thousandth of a degree beside φ = 180° its velocity is 2·10⁻⁷ of the largest; that of the pin is the largest."""
+    """10⁻⁵ of a degree beside φ = 180° its velocity is about 10⁻⁷ of that of the pin."""
     problem = problem_of("linkages/ex1")
     solution = Solution(replace(problem, drive=replace(problem.drive, positions=(180.00001,))))
     found = {str(of.label): one for of, one in compared(solution, 0, QuantityKind.VELOCITY)}
