@@ -85,7 +85,8 @@ def test_the_scale_of_the_crank_angle_is_inscribed_in_degrees() -> None:
     text = PRESS + "\n[cycle]\nzero = 'extreme'\n"
     diagrams = diagrams_of(Solution(loads(text, name="press")))
     (scale,) = (one for one in diagrams.scales if one.symbol == "mu_φ")
-    assert (scale.unit, scale.per_mm) == ("deg", pytest.approx(degrees(diagrams.mu_phi), rel=1e-3))
+    assert scale.unit == "deg"
+    assert scale.per_mm == pytest.approx(degrees(diagrams.mu_phi), rel=1e-3)
 
 
 def test_the_diagrams_of_the_press_are_those_of_their_definitions() -> None:
