@@ -10,7 +10,7 @@ from __future__ import annotations
 from planmethod import kinds
 from planmethod.arguments import UnknownNameError
 from planmethod.bench import checking, confusion, forces, report, speed
-from planmethod.bench.checking import Detected, detection, tasks_of
+from planmethod.bench.checking import Detected, detection, first_items, tasks_of
 from planmethod.bench.cycle import constructed
 from planmethod.bench.report import machine_section, speed_section
 from planmethod.bench.speed import Timing, crank_angles
@@ -20,7 +20,7 @@ from planmethod.cams.construction import (
     construct as cams_construction_construct,
 )
 from planmethod.cams.design import CamDesign
-from planmethod.cams.divisions import nodes_of
+from planmethod.cams.divisions import motion_in_division, nodes_of
 from planmethod.cams.driving import follower_drive
 from planmethod.cams.figures import CamFigures
 from planmethod.cams.geometry import CamGeometry
@@ -371,7 +371,7 @@ from planmethod.note.audit.audit import (
 )
 from planmethod.note.audit.machine import chain
 from planmethod.note.columnar import ColumnarRecords, list_of, record_of, to_builtins
-from planmethod.note.compared import DASH
+from planmethod.note.compared import DASH, percent_text
 from planmethod.note.document import (
     Caption,
     Chapter,
@@ -483,7 +483,7 @@ from planmethod.note.writers import omml
 from planmethod.note.writers.html import html_document, markup
 from planmethod.note.writers.linebreak import lines_of
 from planmethod.note.writers.markdown import latex, markdown_document
-from planmethod.note.writers.pdfformula import FormulaSetter
+from planmethod.note.writers.pdfformula import ASCENT, DESCENT, FormulaSetter
 from planmethod.note.writers.pdfnote import note_fonts, pdf_note
 from planmethod.note.writers.sentences import pieces, sole_formula, units_of, with_stops
 from planmethod.note.writers.terminal import (
@@ -620,6 +620,7 @@ from planmethod.problem.model import (
 )
 from planmethod.problem.names import (
     LOOKALIKES,
+    angle_lines,
     describe_lookalikes,
     fold,
     is_label,
@@ -666,6 +667,7 @@ from planmethod.project.report.context import Report
 from planmethod.project.report.figures import LETTER, WIDTH as FIGURES_WIDTH, FittedView
 from planmethod.project.report.flywheel import flywheel_chapter
 from planmethod.project.report.gears import train_chapter
+from planmethod.project.report.results import compared
 from planmethod.project.settle import settle, with_decisions
 from planmethod.project.sheets import numbered_set, part_drawings, sheet_list
 from planmethod.project.train import in_mesh, meshed, warn_of_separate_train
@@ -1026,7 +1028,7 @@ from planmethod.solved.partial_mechanism import largest_part
 from planmethod.solved.quantities import UnknownQuantityError, natural_size, quantities_of
 from planmethod.solved.reading import Complexes, Reading, Reals as ReadingReals
 from planmethod.solved.representative_position import clear_position, clearest_position
-from planmethod.solved.scaling import AROUND_PLAN, DEAD, FULL, Views, median, sizes
+from planmethod.solved.scaling import AROUND_PLAN, DEAD, FULL, Views, median, sizes, typical
 from planmethod.solved.selectors.forces import ForceValues
 from planmethod.solved.selectors.steps import NoValue, NoValueError
 from planmethod.solved.selectors.values import SelectorValues
@@ -1095,6 +1097,8 @@ from planmethod.varying.parameters import (
     ValueSampler,
     default_keys,
     overrides,
+    parse_vary,
     with_followers,
 )
 from planmethod.varying.screening import Rejection, RejectionReason
+from planmethod.varying.teeth import coaxial_rows

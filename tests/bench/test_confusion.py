@@ -14,13 +14,12 @@ from doors import (
     cli,
     confusion,
     detection,
+    first_items,
     kind_of,
     tasks_of,
 )
 from msgspec.structs import replace
 from worked import path_of, problem_of
-
-from planmethod.bench.checking import first_items
 
 
 def computed(name: str) -> Calculation:

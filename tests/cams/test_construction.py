@@ -19,11 +19,10 @@ from doors import (
     cams_reader_load as load,
     evaluate_evaluate as evaluate,
     get_language,
+    motion_in_division,
     text_given_facts as given_facts,
 )
 from msgspec.structs import replace
-
-from planmethod.cams.divisions import motion_in_division
 
 BUILT = {path.stem: construct(CamDesign(load(path))) for path in SHIPPED}
 

@@ -12,9 +12,7 @@ import pytest
 from cams import LAWS, broken, designed, least_translating, random_cam, written
 from cases import some
 from click.testing import CliRunner
-from doors import CamDesign, CamPhase, cams_reader_load as load, cli
-
-from planmethod.errors import ProblemError
+from doors import CamDesign, CamPhase, ProblemError, cams_reader_load as load, cli
 
 WANTED: dict[str, Any] = {
     "follower": "translating",

@@ -21,10 +21,12 @@ from doors import (
     ExitCode,
     Scale,
     Stroke,
+    Text,
     Undefined,
     cli,
     drawn_interval,
     inspect,
+    kind_of,
     move,
     moving_construction_construct as construct,
     moving_reader_load as load,
@@ -35,9 +37,6 @@ from doors import (
 )
 from ezdxf.filemanagement import readfile
 from worked import PROBLEMS
-
-from planmethod.kinds import kind_of
-from planmethod.render.ink.drawing import Text
 
 FILES = sorted((PROBLEMS / "point").glob("*.toml"))
 K11 = PROBLEMS / "point" / "k11-01.toml"

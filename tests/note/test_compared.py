@@ -13,11 +13,9 @@ from unittest.mock import patch
 import pytest
 from cases import each, sampled, some
 from click.testing import CliRunner
-from doors import Document, Table, TablePart, cli, get_language
+from doors import Document, Table, TablePart, cli, get_language, percent_text
 from msgspec import Struct
 from worked import PROBLEMS
-
-from planmethod.note.compared import percent_text
 
 NONE = "—"
 

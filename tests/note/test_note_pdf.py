@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 from doors import (
+    ASCENT,
+    DESCENT,
     Chapter,
     Contents,
     Document,
@@ -30,8 +32,6 @@ from doors import (
     plain_document,
 )
 from noted import SYSTEM, note
-
-from planmethod.note.writers.pdfformula import ASCENT, DESCENT
 
 RU = get_language("ru")
 

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from doors import Solution, letter, mark, problem_loads as loads, solution_record as record
+from doors import (
+    PlanKind,
+    Solution,
+    letter,
+    mark,
+    problem_loads as loads,
+    solution_record as record,
+)
 from worked import path_of
-
-from planmethod.plans.model import PlanKind
 
 
 def test_points_have_small_letters_and_their_indices() -> None:

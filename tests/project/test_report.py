@@ -35,9 +35,11 @@ from doors import (
     QuantityKind,
     Report,
     SizeTable,
+    Solution,
     Text,
     Train,
     calculation,
+    compared,
     conclusion,
     cycle,
     document,
@@ -69,9 +71,6 @@ from doors import (
 from evaluated import count_equations_that_hold
 from msgspec.structs import replace
 from worked import ROOT, path_of, problem_of
-
-from planmethod.project.report.results import compared
-from planmethod.solved.solution import Solution
 
 TEMPLATE = ROOT / "planmethod/problem/templates/project.toml"
 
@@ -1021,7 +1020,7 @@ def test_a_note_has_the_title_of_its_language() -> None:
 
 
 def test_a_slider_at_rest_has_no_row_among_the_compared_velocities() -> None:
-    """10⁻⁵ of a degree beside φ = 180° its velocity is about 10⁻⁷ of that of the pin."""
+    """At φ = 180.00001° its velocity is 2·10⁻⁷ of the largest, which is that of the pin."""
     problem = problem_of("linkages/ex1")
     solution = Solution(replace(problem, drive=replace(problem.drive, positions=(180.00001,))))
     found = {str(of.label): one for of, one in compared(solution, 0, QuantityKind.VELOCITY)}

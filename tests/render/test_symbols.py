@@ -8,6 +8,7 @@ import pytest
 from doors import (
     ARROW,
     PENS,
+    ROLLER,
     SIZES,
     Arc,
     Disc,
@@ -17,14 +18,14 @@ from doors import (
     Pen,
     Stroke,
     arc_points,
+    cam,
+    rest_on_cam,
     stroke_lines,
     sweep,
     symbols,
 )
 from hypothesis import given, strategies as st
 from shapely import LineString, Point, Polygon
-
-from planmethod.render.symbols.cams import ROLLER, cam, rest_on_cam
 
 angles = st.floats(-180, 180)
 

@@ -14,11 +14,10 @@ from doors import (
     kinematics_sheets,
     median,
     sizes,
+    typical,
 )
 from msgspec.structs import replace
 from worked import problem_of
-
-from planmethod.solved.scaling import typical
 
 
 @pytest.mark.parametrize("name", ["levers/task-16", "levers/task-49", "levers/task-13"])

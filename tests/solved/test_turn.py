@@ -24,6 +24,7 @@ from doors import (
     counting,
     crank_cycle_of,
     cycle_record,
+    diagrams_of,
     evaluate_evaluate as evaluate,
     extreme_construction,
     number,
@@ -34,8 +35,6 @@ from doors import (
     verify,
 )
 from worked import ROOT
-
-from planmethod.solved.turn.diagrams import diagrams_of
 
 PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
 FOUR_BAR = """title = "Шарнирный четырёхзвенник"

@@ -31,21 +31,20 @@ from doors import (
     VariantChoice,
     choice_choose as choose,
     cli,
+    coaxial_rows,
     default_keys,
     free_scales,
+    gears_reader_load as load,
     key_of_task,
     kind_of,
     load_each,
     overrides,
+    parse_vary,
+    solve_motion,
     variant_names,
     with_followers,
 )
 from worked import PROBLEMS, path_of
-
-from planmethod.gears.motion import solve_motion
-from planmethod.gears.reader import load
-from planmethod.varying.parameters import parse_vary
-from planmethod.varying.teeth import coaxial_rows
 
 EX3 = path_of("linkages/ex3")
 SIX_LINK = path_of("levers/six-link")
