@@ -113,7 +113,7 @@ def _of_one(problem: Problem) -> list[ReadSpeed]:
     ]  # fmt: skip
     for ruler in (0.1, 0.5, 1.0):
         drawn = statics_of(Solution(problem, positions=[position], ruler=ruler))
-        reading = clock(lambda s=drawn: s.read(s.solution.hand, s.per_mm))  # type: ignore[misc]
+        reading = clock(lambda s=drawn: s.read(s.solution.ruler_arithmetic, s.per_mm))  # type: ignore[misc]
         found.append(
             ReadSpeed(f"the hand, ruler {ruler:g} mm", name, 1, reading.median, _hand_error(drawn))
         )

@@ -243,7 +243,7 @@ def single_readings(problem: Problem) -> list[ReadSpeed]:
                 f"the hand, ruler {ruler:g} mm",
                 name,
                 1,
-                clock(lambda s=drawn: s.read(s.hand, s.per_mm)).median,  # type: ignore[misc]
+                clock(lambda s=drawn: s.read(s.ruler_arithmetic, s.per_mm)).median,  # type: ignore[misc]
                 _hand_error(drawn),
             )
         )

@@ -292,7 +292,7 @@ def _page(drawing: Any, lang: str) -> dict[str, Any]:
             "scale": plain_text(view.scale) if view.scale else "",
             "unit": units.get(re.sub(r"[^A-Za-z]", "", view.scale), ""),
             "spans": [
-                {"name": plain_text(span.name), "share": span.share,
+                {"name": plain_text(span.name), "share": span.magnification,
                  "ends": [span.start.real, span.start.imag, span.end.real, span.end.imag]}
                 for span in view.spans
             ],
