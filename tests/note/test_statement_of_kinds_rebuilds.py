@@ -203,7 +203,7 @@ def assert_printed(facts: Sequence[GivenFact], say: Notation) -> None:
 def assert_rebuilt(kind: Any, path: Path, variant: str | None, written: Path) -> None:
     problem = kind.load(path, variant)
     for words in (RU, EN):
-        facts = kind.given(problem, words)
+        facts = kind.given_facts(problem, words)
         table = table_of(facts)
         if kind.table == "gears" and problem.train.ask:
             table["gears"]["ask"] = [*problem.train.ask]

@@ -180,7 +180,7 @@ def test_doubtful_forces_are_reported_where_the_motion_is_certain() -> None:
 
 def test_a_program_in_python_is_warned_too() -> None:
     solution = Solution(loads(rod(1e-12), name="rod"))
-    with pytest.warns(DoubtWarning, match="reactions and what balances"):
+    with pytest.warns(DoubtWarning, match="reactions and the balancing force or moment"):
         assert planmethod.statics(solution) is statics_of(solution)
 
 
@@ -216,7 +216,7 @@ def test_forces_spoilt_by_rounding_are_rejected_on_every_access() -> None:
 def test_every_command_reports_doubts_and_rejects_spoilt_forces(
     command: str, tmp_path: Path
 ) -> None:
-    for gap, code, said in ((1e-12, 0, "are good to about"), (1e-16, 4, "rounding spoils its")):
+    for gap, code, said in ((1e-12, 0, "are accurate to about"), (1e-16, 4, "rounding spoils its")):
         result = run(tmp_path, rod(gap), command)
         assert result.exit_code == code, result.output
         assert said in result.stderr
