@@ -174,12 +174,12 @@ def test_a_set_that_cannot_be_assembled_is_no_variant(tmp_path: Path) -> None:
         (
             "[gears]\nwheels = { 1 = 20, 2 = 40 }\nmeshes = [{ of = [1, 2] }]\n"
             "n = { 1 = 1 }\ndesign = { }",
-            "none of the planetary schemes",
+            "is not one of the planetary schemes",
         ),
         (
             RING.replace("fixed = [3]", "fixed = [1]").replace("n = { 1", "n = { 3")
             + "design = { U = 1.2 }",
-            "none of the planetary schemes",
+            "is not one of the planetary schemes",
         ),
     ],
 )
