@@ -271,7 +271,7 @@ def test_an_address_opens_a_task_and_keeps_text_typed_since(page: Page, address:
     page.wait("!!globalThis.studio")
     assert page.ask("studio.text()") == "# typed\n"
     page.ask("location.hash = '#task=no-such-task'")
-    page.wait("document.querySelector('#said').textContent.includes('no task no-such-task')")
+    page.wait("document.querySelector('#said').textContent.includes('The task no-such-task, or')")
     assert page.ask("studio.text()") == "# typed\n"
 
 
