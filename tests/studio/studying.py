@@ -77,7 +77,9 @@ def at(page: Page, words: str, replaced: str) -> None:
 
 def begin(page: Page, address: str, width: int = 1360, lang: str = "ru") -> None:
     come_in(page, address, width=width, height=900 if width > 600 else 740)
-    page.ask("localStorage.clear(); void indexedDB.deleteDatabase('planmethod')")
+    page.open("about:blank")  # a page that has the database open would hold back its deletion
+    page.call("Storage.clearDataForOrigin", origin=address.rstrip("/"),
+              storageTypes="local_storage,indexeddb")  # fmt: skip
     page.open(f"{address}?lang={lang}", width=width, height=900 if width > 600 else 740)
     page.said.clear()
     page.wait("document.querySelectorAll('#tasks li').length > 3")
