@@ -202,7 +202,7 @@ class CamNarrator(StepNarrator):
     def _format(self, value: float) -> Rich:
         return self.language.notation.short(value + 0.0, 4)
 
-    def lay_off(self, step: steps.LayOffLength) -> list[Rich]:
+    def lay_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe the mean ordinate of a part."""
         if not step.out.startswith("m_"):
             return []

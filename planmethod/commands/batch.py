@@ -242,9 +242,9 @@ def batch(
     )
     manifest = Manifest(out)
 
-    def steps(todo: list[LoadedProblem]) -> Iterator[Callable[[], None]]:
+    def steps(items: list[LoadedProblem]) -> Iterator[Callable[[], None]]:
         twice = [
-            name for name, count in Counter(basename(t.problem) for t in todo).items() if count > 1
+            name for name, count in Counter(basename(t.problem) for t in items).items() if count > 1
         ]
         if twice:
             raise UsageError(
@@ -253,7 +253,7 @@ def batch(
                 twice[0],
             )
         orders = []
-        for one in todo:
+        for one in items:
             order = ordered(replace(one, problem=settled.over(one.problem)))
             orders.append((order, _hash(order)))
         if all(manifest.has(order, key) for order, key in orders):

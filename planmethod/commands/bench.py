@@ -50,11 +50,11 @@ def bench(
                 "bench needs mpmath: pip install mpmath; --only drafting, "
                 "cycle, machine and checking do not"
             ) from None
-    todo: list[LoadedProblem] = []
+    items: list[LoadedProblem] = []
     kinds = wanted == ["checking"]  # trains and points are checked, too
-    finish(for_each_problem(problems, variant, all_variants, todo.append, kinds=kinds))
-    loaded = [one.linkage for one in todo if one.kind is None]
-    computed = [(one.kind, one.problem) for one in todo if one.kind is not None]
+    finish(for_each_problem(problems, variant, all_variants, items.append, kinds=kinds))
+    loaded = [one.linkage for one in items if one.kind is None]
+    computed = [(one.kind, one.problem) for one in items if one.kind is not None]
     from planmethod.bench import report
 
     for name in wanted:

@@ -581,11 +581,11 @@ def key_question(
     return KeyQuestion(key, question_of(task, item.kind, get_language(lang)))
 
 
-def keys_ahead(todo: Sequence[LoadedProblem], settings: Settings) -> dict[int, KeyQuestion]:
+def keys_ahead(items: Sequence[LoadedProblem], settings: Settings) -> dict[int, KeyQuestion]:
     """Return the keys of linkages with the same questions, by their numbers."""
     from planmethod.check.batch import compute_keys
 
-    keys = of_linkages(todo, lambda problems: compute_keys(problems, settings))
+    keys = of_linkages(items, lambda problems: compute_keys(problems, settings))
     return {k: KeyQuestion(key, None) for k, key in keys.items()}
 
 

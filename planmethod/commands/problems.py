@@ -231,21 +231,21 @@ def for_each_problem(
         Of the first error.
     """
 
-    def steps(todo: list[LoadedProblem]) -> Iterator[Callable[[], T | None]]:
+    def steps(items: list[LoadedProblem]) -> Iterator[Callable[[], T | None]]:
         # Problems of the same name write the same files: the last one wins, as in one process.
-        if jobs == 1 or len({basename(one.problem) for one in todo}) < max(2, len(todo)):
-            if len(todo) > AT_ONCE:
+        if jobs == 1 or len({basename(one.problem) for one in items}) < max(2, len(items)):
+            if len(items) > AT_ONCE:
                 gc.freeze()  # problems live to the end: do not scan them
-            for start in range(0, len(todo), AT_ONCE):
-                block = todo[start : start + AT_ONCE]
+            for start in range(0, len(items), AT_ONCE):
+                block = items[start : start + AT_ONCE]
                 with gc_paused():  # results of a block live to its end
                     found = act_on_many(block) if act_on_many is not None and len(block) > 1 else {}
                 for k, one in enumerate(block):
                     yield partial(found.pop, k) if k in found else partial(act, one)
-                if len(todo) > AT_ONCE:
+                if len(items) > AT_ONCE:
                     gc.collect()  # solutions have cycles: a block of them is 100 MB
         else:
-            yield from _in_chunks(act, act_on_many, todo, jobs)
+            yield from _in_chunks(act, act_on_many, items, jobs)
 
     return run_steps(
         paths, variant, all_variants, steps, kinds=kinds, on_result=on_result, drawn=drawn
@@ -253,13 +253,13 @@ def for_each_problem(
 
 
 def of_linkages(
-    todo: Sequence[LoadedProblem], build: Callable[[list[Problem]], Mapping[int, T]]
+    items: Sequence[LoadedProblem], build: Callable[[list[Problem]], Mapping[int, T]]
 ) -> dict[int, T]:
     """Return the results of the linkages among problems, made together, by index."""
-    linkages = [k for k, one in enumerate(todo) if one.kind is None]
+    linkages = [k for k, one in enumerate(items) if one.kind is None]
     if not linkages:
         return {}
-    return {linkages[k]: one for k, one in build([todo[k].linkage for k in linkages]).items()}
+    return {linkages[k]: one for k, one in build([items[k].linkage for k in linkages]).items()}
 
 
 @contextmanager
@@ -296,23 +296,23 @@ def run_steps(
     from planmethod.kinds import kind_of
 
     codes: list[ExitCode] = []
-    todo: list[LoadedProblem] = []
+    items: list[LoadedProblem] = []
     for path in paths:
         try:
             kind = kind_of(path) if kinds else None
             if kind is None:
                 found = load(path, variant, all_variants, drawn=drawn)
-                todo += [LoadedProblem(path, None, problem) for problem in found]
+                items += [LoadedProblem(path, None, problem) for problem in found]
             else:
                 others = _load_other(kind, path, variant, all_variants)
-                todo += [LoadedProblem(path, kind, one) for one in others]
+                items += [LoadedProblem(path, kind, one) for one in others]
         except PlanMethodError as error:
             codes.append(error.exit_code)
             fail(error)
     done = 0
     try:
-        for one, step in zip(todo, with_progress(steps(todo), len(todo)), strict=True):
-            problem, is_one = one.problem, len(paths) + len(todo) == 2
+        for one, step in zip(items, with_progress(steps(items), len(items)), strict=True):
+            problem, is_one = one.problem, len(paths) + len(items) == 2
             names = () if is_one else names_of(one.path, problem.name, problem.variant)
             try:
                 with of_file(one.path, problem.name):
@@ -326,9 +326,9 @@ def run_steps(
                 raise click.UsageError(named(error.message, names), error.ctx) from error
             done += 1
     except KeyboardInterrupt:
-        if len(todo) > 1:
+        if len(items) > 1:
             text = translate(
-                "Stopped: {} of {} problems are done; every file is whole.", done, len(todo)
+                "Stopped: {} of {} problems are done; every file is whole.", done, len(items)
             )
             click.echo(f"\n{text}", err=True)
             sys.exit(130)
@@ -346,7 +346,7 @@ BatchAction: TypeAlias = Callable[[Sequence[LoadedProblem]], dict[int, Any]]
 def _in_chunks(
     act: Callable[[LoadedProblem], T],
     act_on_many: BatchAction | None,
-    todo: list[LoadedProblem],
+    items: list[LoadedProblem],
     jobs: int,
 ) -> Iterator[Callable[[], T | None]]:
     """Yield a callable for the result of every problem; chunks of them go to several processes.
@@ -355,7 +355,7 @@ def _in_chunks(
     """
     from planmethod.commands.processes import in_processes, split_into_chunks
 
-    parts = split_into_chunks(todo, jobs, AT_ONCE if act_on_many is not None else AT_ONCE_DRAWN)
+    parts = split_into_chunks(items, jobs, AT_ONCE if act_on_many is not None else AT_ONCE_DRAWN)
     act_on = partial(_act_on_chunk, act=act, act_on_many=act_on_many)
     for part, outcome in zip(parts, in_processes(act_on, parts, jobs), strict=True):
         if outcome is not None:

@@ -332,7 +332,7 @@ def _convert_batch(options: SolveOptions, batch: Batch) -> Iterator[Any]:
     return batch_tables(batch)
 
 
-def _solve_together(todo: Sequence[LoadedProblem], options: SolveOptions) -> dict[int, Any]:
+def _solve_together(items: Sequence[LoadedProblem], options: SolveOptions) -> dict[int, Any]:
     """Return the output of linkages that are solved together, by index."""
 
     def solved(problems: list[Problem]) -> dict[int, Any]:
@@ -347,7 +347,7 @@ def _solve_together(todo: Sequence[LoadedProblem], options: SolveOptions) -> dic
         return found
 
     hand = ("board", options.ruler) if options.csv else options.profile_and_ruler
-    return of_linkages(todo, solved)
+    return of_linkages(items, solved)
 
 
 def _computed(

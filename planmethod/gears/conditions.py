@@ -44,7 +44,7 @@ class Condition(Struct, frozen=True):
     """
 
     name: str
-    is_met: bool
+    is_satisfied: bool
     facts: Mapping[str, str] = field(default_factory=dict)
     phrase_key: str = ""
 
@@ -67,9 +67,11 @@ def sentence(condition: Condition, language: Language) -> str:
 def judgement(condition: Condition, language: Language) -> str:
     """Return a condition in words, with the verdict unless the words imply it."""
     text = sentence(condition, language)
-    if condition.is_met and condition.name == "satellites":
+    if condition.is_satisfied and condition.name == "satellites":
         return text
-    return str(language.gears["holds"]["yes" if condition.is_met else "no"]).format(sentence=text)
+    return str(language.gears["holds"]["yes" if condition.is_satisfied else "no"]).format(
+        sentence=text
+    )
 
 
 # Coaxiality --------------------------------------------------------------------------------------

@@ -91,15 +91,15 @@ def read_labels(faults: Faults, path: str, value: object, limit: int) -> tuple[s
     return tuple(dict.fromkeys(label for label in found if label is not None))
 
 
-def find_carriers(value: object, bodies: object = None) -> frozenset[str]:
-    """Return the labels of carriers without a mesh, from ``meshes`` and ``bodies``."""
+def find_carriers(meshes: object, body_groups: object = None) -> frozenset[str]:
+    """Return the labels of carriers without a mesh, from ``meshes`` and ``bodies`` of a file."""
     silent = Faults()
-    tables = [one for one in value if isinstance(one, dict)] if isinstance(value, list) else []
+    tables = [one for one in meshes if isinstance(one, dict)] if isinstance(meshes, list) else []
     wheels = [x for one in tables if isinstance(one.get("of"), list) for x in one["of"]]
     both = ([one.get("carrier") for one in tables], wheels)
     told = [{read_label(silent, "", x) for x in labels} for labels in both]
     carriers, meshing = told
-    for group in bodies if isinstance(bodies, list) else ():
+    for group in body_groups if isinstance(body_groups, list) else ():
         own = {read_label(silent, "", x) for x in group} if isinstance(group, list) else set()
         carriers |= own if own & carriers else set()
     return frozenset(label for label in carriers - meshing if label is not None)

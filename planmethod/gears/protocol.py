@@ -93,7 +93,7 @@ class DiagramNarrator(StepNarrator):
         self._bodies = {line: drawn.label(body) for body, line in drawn.lines.items()}
         self._ends = {spot.end: spot for spot in drawn.spots}
 
-    def lay_off(self, step: steps.LayOffLength) -> list[Rich]:
+    def lay_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a velocity, or the place of a point on the axis of contact points."""
         spot = self._ends.get(step.out)
         if spot is not None and spot.plotted == step.length:

@@ -52,7 +52,7 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
         "conditions": [
             {
                 "name": one.name,
-                "holds": one.is_met,
+                "holds": one.is_satisfied,
                 "text": sentence(one, get_language(lang)),
             }
             for one in conditions(motion)

@@ -162,7 +162,7 @@ class PointNarrator(StepNarrator):
         made = self.step[result]
         return isinstance(made, steps.Compute) and made.powers[0][0] == length
 
-    def lay_off(self, step: steps.LayOffLength) -> list[Rich]:
+    def lay_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a vector, or a side of the wheel: its length, origin and direction."""
         texts, made, letters = self.texts, self.step[step.length], self.built.letters
         assert isinstance(made, steps.Compute)

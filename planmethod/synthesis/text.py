@@ -248,7 +248,7 @@ class SynthesisNarrator(BoardNarrator):
         x, y = (input_text(value + 0.0, self.texts, 5) for value in (at.real, at.imag))
         return [self.synthesis_texts.point.format(point=point_name(step.out), x=x, y=y)]
 
-    def lay_off(self, step: steps.LayOffLength) -> list[Rich]:
+    def lay_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a length that is laid off."""
         naming = self.naming
         length = f"{naming.segment(step.origin, step.out)} = {naming.length(step.length)}"

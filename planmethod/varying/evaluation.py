@@ -274,7 +274,7 @@ def _failing(problem: KindProblem) -> Iterator[Place]:
     """Yield the conditions of teeth that a train does not meet, with the wheel of each."""
     if isinstance(problem, GearProblem):
         for one in conditions(solve_motion(problem)):
-            if not one.is_met:
+            if not one.is_satisfied:
                 yield one.name, one.facts.get("wheel") or one.facts.get("carrier", "")
 
 

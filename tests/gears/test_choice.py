@@ -134,7 +134,7 @@ def test_the_file_of_a_set_is_solved_to_its_ratio(
     path.write_text(problem_text(chosen, 2, "ru"), encoding="utf-8")
     motion = solve_motion(load(path))
     assert answer(motion, scheme.ratio_name).exact == chosen.sets[1].ratio
-    assert all(one.is_met for one in conditions(motion))
+    assert all(one.is_satisfied for one in conditions(motion))
 
 
 def run(*args: str) -> Any:

@@ -155,8 +155,8 @@ def test_assembly_and_neighbourhood_are_printed_with_true_numbers(
         (assembly,) = found(motion, "assembly")
         (apart,) = found(motion, "neighbourhood")
         (most,) = found(motion, "satellites")
-        assert assembly.is_met == (whole % count == 0)
-        assert apart.is_met == is_apart(wheels, count)
+        assert assembly.is_satisfied == (whole % count == 0)
+        assert apart.is_satisfied == is_apart(wheels, count)
         for lang in LANGUAGES:
             words = get_language(lang)
             said = sentence(assembly, words).replace(",", ".").replace(". k", ", k")
@@ -171,7 +171,7 @@ def test_assembly_and_neighbourhood_are_printed_with_true_numbers(
             assert right == pytest.approx((rim + 2) / (wheels["1"] + wheels["2"]), abs=6e-5)
             assert re.search(rf"k = {count}\b", said)
             if count > 1:  # the printed inequality is the one that is checked
-                assert (left > right) == apart.is_met
+                assert (left > right) == apart.is_satisfied
             assert re.search(rf" {held[-1]}\b", sentence(most, words))
 
 
@@ -204,7 +204,7 @@ def test_interference_is_judged_by_the_printed_numbers(tmp_path: Path) -> None:
         numbers = re.search(r"z_3 − z_1 = (\d+), at least (\d+) needed", said)
         assert numbers is not None, said
         assert int(numbers[1]) == ring - 40
-        assert one.is_met == holds == (int(numbers[1]) >= int(numbers[2]))
+        assert one.is_satisfied == holds == (int(numbers[1]) >= int(numbers[2]))
 
 
 def ring_apart(z: tuple[int, int], x: tuple[float, float]) -> tuple[float, float]:
@@ -249,16 +249,16 @@ def test_inner_meshes_are_judged_by_the_reach_of_the_rings_tips(tmp_path: Path) 
         short, tips = ring_apart((z, ring), x)
         (one,) = found(solved(tmp_path, text), "interference")
         if number % 2:
-            assert one.is_met == (short >= 0 and ring - z >= 8), (z, ring)
+            assert one.is_satisfied == (short >= 0 and ring - z >= 8), (z, ring)
             assert (
                 bool(_mesh_properly(MeshKind.INTERNAL, np.array([z]), np.array([ring])))
-                == one.is_met
+                == one.is_satisfied
             )
         else:
-            assert one.is_met == (short >= 0 and tips >= 0), (z, ring, x)
+            assert one.is_satisfied == (short >= 0 and tips >= 0), (z, ring, x)
             shown = (one.facts[x].replace("−", "-").replace("∞", "inf") for x in ("beyond", "tips"))
             assert [*map(float, shown)] == pytest.approx([short, tips], abs=6e-4)
-        judged.add((number % 2, one.is_met))
+        judged.add((number % 2, one.is_satisfied))
     assert len(judged) == 4
 
 
@@ -269,7 +269,7 @@ def test_no_standard_ring_fits_a_wheel_of_few_teeth(
     """√(r_a² − r_b²) − a_w·sin α of the ring is negative for every ring."""
     text = told({"1": wheel, "3": ring}, [mesh("1", "3", "internal")], "n = { 1 = 1 }")
     (one,) = found(solved(tmp_path, text), "interference")
-    assert not one.is_met
+    assert not one.is_satisfied
     said = judgement(one, get_language("en"))
     assert f"z_1 = {wheel}" in said
     assert said.endswith("not met")

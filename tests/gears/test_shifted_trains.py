@@ -108,7 +108,7 @@ def test_the_axes_of_shifted_wheels_are_at_their_centre_distances(tmp_path: Path
             assert answer(motion, name).value == pytest.approx(MODULE * value, rel=1e-9)
         assert height(motion) == pytest.approx(due, abs=1e-4)
         (one,) = [c for c in conditions(motion) if c.name == "coaxiality"]
-        assert one.is_met
+        assert one.is_satisfied
         picture = draw(motion)
         assert picture is not None
         per = 1 / float(picture.mu_l) / 1000 * MODULE
@@ -140,9 +140,9 @@ def test_shifts_are_counted_before_a_train_is_called_not_coaxial(
     assert answer(motion, "a_w_1_2").value == pytest.approx(41.995598, abs=1e-5)
     (one,) = [c for c in conditions(motion) if c.name == "coaxiality"]
     said = judgement(one, get_language("en"))
-    assert one.is_met == ("x" in ring)
+    assert one.is_satisfied == ("x" in ring)
     assert "a_w1-2 = 41.996" in said
-    assert one.is_met or "0.224 mm apart; one with x_3 = 0.086" in said
+    assert one.is_satisfied or "0.224 mm apart; one with x_3 = 0.086" in said
 
 
 def test_a_sheet_of_shifted_wheels_is_drawn(tmp_path: Path) -> None:

@@ -210,13 +210,13 @@ def test_ordinary_and_planetary_trains_are_distinguished(tmp_path: Path) -> None
 def test_assembly_and_neighbourhood_of_planet_gears(tmp_path: Path) -> None:
     """(20 + 100)/k is whole, and sin(180/k) > 42/60 only up to three."""
     motion = solved(tmp_path, SET + "satellites = 4\nn = { 1 = 1 }\n")
-    judged = {one.name: one.is_met for one in conditions(motion)}
+    judged = {one.name: one.is_satisfied for one in conditions(motion)}
     assert judged["assembly"]
     assert not judged["neighbourhood"] or max_planets(motion, "H") == 4
     assert max_planets(motion, "H") == 4  # 0.7071 > 0.7
     assert answer(motion, "k_H").exact == 4
     five = solved(tmp_path, SET + "satellites = { H = 7 }\nn = { 1 = 1 }\n")
-    assert not any(one.is_met for one in conditions(five) if one.name == "assembly")
+    assert not any(one.is_satisfied for one in conditions(five) if one.name == "assembly")
 
 
 def test_undercutting_is_reported_and_a_shift_avoids_it(tmp_path: Path) -> None:

@@ -65,7 +65,7 @@ class MotionNarrator:
         others = self.names.further_letters(point)
         return self.texts.meet_coincide.format(points=", ".join(others)) if others else ""
 
-    def lay_off(self, step: LayOffLength) -> list[str]:
+    def lay_off_length(self, step: LayOffLength) -> list[str]:
         """Describe the laying off of a vector from its known data."""
         names, texts = self.names, self.texts
         vector, point = names.vector(step.origin, step.out), names.point(step.out)

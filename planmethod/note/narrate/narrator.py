@@ -60,7 +60,7 @@ class StepNarrator:
             case steps.Join() | steps.Parallel() | steps.Perpendicular() | steps.AtAngle():
                 return self.line(step)
             case steps.LayOffLength():
-                return self.lay_off(step)
+                return self.lay_off_length(step)
             case steps.IntersectLines():
                 return self.meet(step)
             case steps.IntersectLineCircle():
@@ -92,7 +92,7 @@ class StepNarrator:
         """Describe a line: most are described by the points found on them."""
         return []
 
-    def lay_off(self, step: steps.LayOffLength) -> list[Rich]:
+    def lay_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a length that is laid off."""
         return []
 

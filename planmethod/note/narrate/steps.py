@@ -45,7 +45,7 @@ class PositionNarrator:
         x, y = (input_text(value, self.texts, 5) for value in (place.real, place.imag))
         return self.texts.draw_guide_at.format(x=x, y=y, angle=angle, guide=guide)
 
-    def lay_off(self, step: steps.LayOffLength) -> list[str]:
+    def lay_off_length(self, step: steps.LayOffLength) -> list[str]:
         """Describe a length laid off on the drawing."""
         out, origin, along, length = step.out, step.origin, step.line, step.length
         names, texts = self.names, self.texts
@@ -256,10 +256,10 @@ class Narrator(BoardNarrator):
             return self._unreadable(step)
         return super().narrate(step)
 
-    def lay_off(self, step: steps.LayOffLength) -> list[str]:
+    def lay_off_length(self, step: steps.LayOffLength) -> list[str]:
         """Describe a vector of a plan, or a length of the drawing."""
         on_plan = step.out in self.names.letters
-        return self.motion.lay_off(step) if on_plan else self.drawing.lay_off(step)
+        return self.motion.lay_off_length(step) if on_plan else self.drawing.lay_off_length(step)
 
     def similar(self, step: steps.Similar) -> list[str]:
         """Describe a point of a plan found by similarity."""

@@ -45,7 +45,7 @@ from planmethod.note.writers.pdfformula import Fonts, FormulaLines, FormulaSette
 from planmethod.note.writers.pdfpages import Floating, FloatingPages, LaidFrame, LaidParagraph
 from planmethod.note.writers.sentences import (
     JOINER,
-    keeps_with_next,
+    introduces_next_node,
     pieces,
     sole_formula,
     tied,
@@ -396,7 +396,7 @@ class _Setter:
         fresh = True  # an empty page needs no break
         numbered = list(document.numbers_of(written))
         for (node, number), after in zip_longest(numbered, written.nodes[1:]):
-            self._leads = keeps_with_next(node, after)
+            self._leads = introduces_next_node(node, after)
             for flowable in self._flowables(node, number):
                 is_break = isinstance(flowable, PageBreak)
                 if not (is_break and fresh):

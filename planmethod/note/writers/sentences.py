@@ -146,7 +146,7 @@ def with_stops(parts: Sequence[SentencePart]) -> Iterator[SentencePart]:
         yield SentencePart((*piece.nodes, *_some(stop)), True)
 
 
-def keeps_with_next(node: document.Node, after: document.Node | None) -> bool:
+def introduces_next_node(node: document.Node, after: document.Node | None) -> bool:
     """Return whether the text of a node introduces the next node, and must stay with it."""
     match node:
         case document.Paragraph(text) | document.Item(text):

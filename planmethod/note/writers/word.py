@@ -28,7 +28,7 @@ from planmethod.note.writers import omml
 from planmethod.note.writers.html import clean
 from planmethod.note.writers.linebreak import lines_of
 from planmethod.note.writers.sentences import (
-    keeps_with_next,
+    introduces_next_node,
     pieces,
     sole_formula,
     units_of,
@@ -176,7 +176,7 @@ class _Writer:
         numbered = list(document.numbers_of(written))
         told = zip_longest(numbered, written.nodes[1:])
         for (node, number), after in flowing(told, self._flow, self._height):
-            self._leads = keeps_with_next(node, after)
+            self._leads = introduces_next_node(node, after)
             if not isinstance(node, document.TitlePage):
                 self._with_pages()
             self._node(node, number)

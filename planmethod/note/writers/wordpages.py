@@ -11,7 +11,7 @@ from planmethod.note.document import Figure, Node
 from planmethod.note.formula import Rich
 from planmethod.note.plaintext import plain_text
 from planmethod.note.writers.html import clean
-from planmethod.note.writers.sentences import keeps_with_next
+from planmethod.note.writers.sentences import introduces_next_node
 from planmethod.note.writers.wordstyles import INDENT, MM_PER_POINT, SIZE
 
 NumberedNode: TypeAlias = tuple[tuple[Node, str], Node | None]
@@ -50,7 +50,7 @@ def flowing(
         if isinstance(node, Figure) and isinstance(after, _FLOWS) and not flow.has(height(node)):
             waiting, page, passed = one, flow.page, 0
             continue
-        passed, led = passed + 1, keeps_with_next(node, after)
+        passed, led = passed + 1, introduces_next_node(node, after)
         yield one
     if waiting:
         yield waiting

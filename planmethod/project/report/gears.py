@@ -372,7 +372,7 @@ def failed_quality(problem: MeshingProblem, report: Report) -> list[Rich]:
 
 def failed_conditions(problem: GearProblem, report: Report) -> list[Rich]:
     """Return the conditions of the numbers of teeth that do not hold."""
-    judged = (one for one in conditions(solve_motion(problem)) if not one.is_met)
+    judged = (one for one in conditions(solve_motion(problem)) if not one.is_satisfied)
     told = (indexed(sentence(one, report.language)) for one in judged)
     return [f"{text[:1].lower()}{text[1:]}" for text in told]
 

@@ -249,7 +249,7 @@ class PlanChapter:
             kept.clear()
 
     def _explain_lay_off(self, step: steps.LayOffLength) -> Iterator[Node]:
-        *formulas, sentence = self.narrator.motion.lay_off(step)
+        *formulas, sentence = self.narrator.motion.lay_off_length(step)
         vector = self.names.vector(step.origin, step.out)
         if formulas and vector is not None:
             kinds: MessageTable = self.texts["kinds"][self.kind.value]
