@@ -31,7 +31,7 @@ from doors import (
     problem_load as load,
     settle,
 )
-from worked import ROOT, path_of
+from worked import NOT_CLOSED, ROOT, path_of
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
 VARIANTS = str(path_of("levers/task12-variants"))
@@ -51,28 +51,6 @@ phi = 0
 omega = 1
 """
 
-NOT_CLOSED = """
-title = "Не собирается"
-[frame]
-A = [0.0, 0.0]
-D = [0.4, 0.0]
-[links.1]
-points = ["A", "B"]
-AB = 0.1
-[links.2]
-points = ["B", "C"]
-BC = 0.2
-[links.3]
-points = ["D", "C"]
-DC = 0.05
-[driver]
-link = "1"
-phi = 60
-omega = 10
-[assembly]
-C = "above D"
-"""
-
 
 @pytest.fixture(autouse=True)
 def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -89,7 +67,7 @@ def faulty(tmp_path: Path) -> str:
 @pytest.fixture
 def open_chain(tmp_path: Path) -> str:
     path = tmp_path / "apart.toml"
-    path.write_text(NOT_CLOSED, "utf-8")
+    path.write_text('title = "Не собирается"' + NOT_CLOSED, "utf-8")
     return str(path)
 
 

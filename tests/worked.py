@@ -175,3 +175,25 @@ omega = 10
 C = "above B"
 """
 """At 180 degrees the connecting rod and the rocker are in one line."""
+
+NOT_CLOSED = """
+[frame]
+A = [0.0, 0.0]
+D = [0.4, 0.0]
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C"]
+BC = 0.2
+[links.3]
+points = ["D", "C"]
+DC = 0.05
+[driver]
+link = "1"
+phi = 60
+omega = 10
+[assembly]
+C = "above D"
+"""
+"""A four-bar linkage whose links are too short to assemble."""

@@ -10,7 +10,7 @@ import pytest
 from cases import each
 from click.testing import CliRunner, Result
 from doors import ExitCode, cli
-from worked import path_of
+from worked import NOT_CLOSED, path_of
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
 VARIANTS = str(path_of("levers/task12-variants"))
@@ -32,28 +32,6 @@ omega = 1
 GROUP = """student;variant;quantity;value;unit
 Ivanov;А;v D;0.74;m/s
 Petrov;Щ;v D;1;m/s
-"""
-
-OPEN = """
-title = "Does not close"
-[frame]
-A = [0.0, 0.0]
-D = [0.4, 0.0]
-[links.1]
-points = ["A", "B"]
-AB = 0.1
-[links.2]
-points = ["B", "C"]
-BC = 0.2
-[links.3]
-points = ["D", "C"]
-DC = 0.05
-[driver]
-link = "1"
-phi = 60
-omega = 10
-[assembly]
-C = "above D"
 """
 
 DONE, FINDINGS, USAGE, PROBLEM, ASSEMBLY = list(ExitCode)[:5]
@@ -175,7 +153,7 @@ CASES: dict[str, dict[ExitCode, list[tuple[str, ...]]]] = {
 def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("faulty.toml").write_text(FAULTY, "utf-8")
-    Path("open.toml").write_text(OPEN, "utf-8")
+    Path("open.toml").write_text(NOT_CLOSED, "utf-8")
     Path("group.csv").write_text(GROUP, "utf-8")
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 from doors import cli, named
-from worked import PROBLEMS, path_of
+from worked import NOT_CLOSED, PROBLEMS, path_of
 
 EX1 = str(path_of("linkages/ex1"))
 APART = "Cannot place C at phi = 60 deg"
@@ -17,29 +17,11 @@ APART = "Cannot place C at phi = 60 deg"
 def apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     """A file whose variants cannot be assembled."""
     monkeypatch.chdir(tmp_path)
-    Path("apart.toml").write_text(NOT_CLOSED, "utf-8")
+    Path("apart.toml").write_text(NOT_CLOSED + VARIANTS, "utf-8")
     return "apart.toml"
 
 
-NOT_CLOSED = """
-[frame]
-A = [0.0, 0.0]
-D = [0.4, 0.0]
-[links.1]
-points = ["A", "B"]
-AB = 0.1
-[links.2]
-points = ["B", "C"]
-BC = 0.2
-[links.3]
-points = ["D", "C"]
-DC = 0.05
-[driver]
-link = "1"
-phi = 60
-omega = 10
-[assembly]
-C = "above D"
+VARIANTS = """
 [variants.X]
 links.2.BC = 0.21
 [variants.Y]
