@@ -2,8 +2,8 @@
 
 A definition counts if every word of its name is one of `WORDS`, or a small word: its module must be
 open to guess what it is. A sentence counts if it has one of `PATTERNS`, turns of speech for which
-plain English has a noun and a verb. The ceilings are in ``budget.toml`` beside this file; whoever
-lowers a count lowers its ceiling (`tests.test_dialect`).
+plain English has a noun and a verb. The ceilings are in ``budget.toml`` beside this file. If a
+count falls, its ceiling must follow (`tests.test_dialect`).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What the tests need of the package, in one place: who moves a module changes a line of this one.
+"""What the tests need of the package, in one place: if a module moves, its line here changes.
 
-A name that two modules have is known here under the name of its module, too, and has its own name
-again in a test: ``from doors import cams_solve as solve``. The public interface is imported from
+A name that two modules have is known here under the name of its module, and has its own name again
+in a test: ``from doors import gears_reader_load as load``. The public interface is imported from
 ``planmethod`` itself.
 """
 

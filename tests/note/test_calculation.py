@@ -19,8 +19,8 @@ from doors import (
 )
 from lettered import computed, force_lines
 from loaded import loaded_problem
+from protocols import LANGUAGES, drawn, worked
 from texts import protocol
-from told import LANGUAGES, drawn, worked
 from worked import PROBLEMS, SIX, every_file
 
 NAMES = [path.relative_to(PROBLEMS).with_suffix("") for path in every_file()]

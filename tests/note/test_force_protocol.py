@@ -21,8 +21,8 @@ from doors import (
 from lettered import closing_lines, lever_lines, moment_lines
 from loaded import loaded_problem
 from msgspec.structs import replace
+from protocols import LANGUAGES, assert_readable, flat, told, worked
 from texts import protocol
-from told import LANGUAGES, assert_readable, flat, told, worked
 from worked import path_of
 
 from benchmarks.hard_problems import rocker

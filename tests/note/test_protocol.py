@@ -18,8 +18,8 @@ from doors import (
     result_kind,
     wording,
 )
+from protocols import LANGUAGES, assert_readable, drawn, flat, told, worked
 from texts import protocol
-from told import LANGUAGES, assert_readable, drawn, flat, told, worked
 from worked import SIX, path_of
 
 SEEDS = range(some(60, few=12))

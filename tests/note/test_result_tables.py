@@ -18,8 +18,8 @@ from doors import (
     trimmed,
     width,
 )
+from protocols import LANGUAGES, assert_readable, drawn, worked
 from texts import result_tables
-from told import LANGUAGES, assert_readable, drawn, worked
 from worked import SIX, problem_of
 
 

@@ -24,8 +24,8 @@ from doors import (
     sigma_text,
     wording,
 )
+from protocols import LANGUAGES, assert_readable, drawn, flat, worked
 from texts import result_tables
-from told import LANGUAGES, assert_readable, drawn, flat, worked
 from worked import SIX, problem_of
 
 NEAR_DEAD = [230.0, 240.0, 250.0]

@@ -20,8 +20,8 @@ from doors import (
     structure_document,
     structure_record,
 )
+from protocols import LANGUAGES, assert_readable, drawn, worked
 from texts import protocol, result_tables, structure_text
-from told import LANGUAGES, assert_readable, drawn, worked
 from worked import ROOT, SIX, problem_of
 
 

@@ -36,7 +36,7 @@ from doors import (
 )
 from noted import SYSTEM, nodes, note
 from PIL import Image
-from told import worked
+from protocols import worked
 from worked import SIX
 
 RU = get_language("ru")
