@@ -77,9 +77,16 @@ def at(page: Page, words: str, replaced: str) -> None:
 
 def begin(page: Page, address: str, width: int = 1360, lang: str = "ru") -> None:
     come_in(page, address, width=width, height=900 if width > 600 else 740)
-    page.open("about:blank")  # a page that has the database open would hold back its deletion
-    page.call("Storage.clearDataForOrigin", origin=address.rstrip("/"),
-              storageTypes="local_storage,indexeddb")  # fmt: skip
+    page.ask(
+        "localStorage.clear(); globalThis.cleared = false;"
+        "{ const asked = indexedDB.open('planmethod', 1);"
+        " asked.onupgradeneeded = () => asked.result.createObjectStore('works');"
+        " asked.onsuccess = () => {"
+        " const act = asked.result.transaction('works', 'readwrite');"
+        " act.objectStore('works').clear();"
+        " act.oncomplete = () => { asked.result.close(); cleared = true; }; }; }"
+    )
+    page.wait("cleared")  # a deletion of the whole database may wait for minutes
     page.open(f"{address}?lang={lang}", width=width, height=900 if width > 600 else 740)
     page.said.clear()
     page.wait("document.querySelectorAll('#tasks li').length > 3")

@@ -665,7 +665,8 @@ def test_a_pane_names_results_that_a_kind_of_problem_does_not_have(
         page.wait(f"document.querySelector('#{view} .told').textContent.startsWith({words!r})")
         assert not page.ask(f"!!document.querySelector('#{view} iframe, #{view} button')")
     click(page, "[data-what=note]")
-    page.wait("document.querySelector('#files .told').textContent.startsWith('Note and project')")
+    lacking = "Only a linkage has a note"
+    page.wait(f"document.querySelector('#files .told').textContent.startsWith({lacking!r})")
     assert page.said == []
 
 
