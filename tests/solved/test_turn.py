@@ -13,6 +13,7 @@ from doors import (
     CONSTRUCTION_PRIMES as PRIMES,
     DRAFTING_PROFILES as PROFILES,
     CrankCycle,
+    Differentiation,
     Flywheel,
     LayoutError,
     PointName,
@@ -31,9 +32,11 @@ from doors import (
     numbered_positions,
     problem_load as load,
     problem_loads as loads,
+    sigmas,
     smooth,
     verify,
 )
+from msgspec.structs import replace
 from worked import ROOT
 
 PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
@@ -119,6 +122,16 @@ def test_the_diagrams_of_the_press_are_those_of_their_definitions() -> None:
     )
     assert diagrams["mu_v"] == pytest.approx(mu * 13.6135681655558 / (2 * pi / 180 * one))
     assert (mu, diagrams["mu_v"], diagrams["mu_a"]) == (0.002, 0.04, 0.4)
+
+
+def test_the_errors_of_the_diagrams_are_found_once_for_all_trial_scales() -> None:
+    solution = Solution(loads(PRESS, name="press"))
+    coarser = {kind: replace(mu, per_mm=2 * mu.per_mm) for kind, mu in solution.scales.items()}
+    found = [
+        sigmas(diagrams_of(one), Differentiation.CHORDS)
+        for one in (solution, solution.drawn_at(coarser))
+    ]
+    assert found[0] is found[1]
 
 
 def test_a_smooth_curve_goes_through_its_values_and_has_no_corner() -> None:

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from planmethod.construct.ruler import RulerArithmetic
 from planmethod.note.document import (
     Caption,
     Chapter,
@@ -31,7 +30,13 @@ from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.cycle import crank_cycle_of
-from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations, diagrams_of, sigmas
+from planmethod.solved.turn.diagrams import (
+    Deviation,
+    Diagrams,
+    deviations_by_hand,
+    diagrams_of,
+    sigmas,
+)
 from planmethod.solved.turn.series import quantities_over, values_over
 
 Columns = list[tuple[str, str, tuple[str, ...]]]
@@ -119,8 +124,7 @@ def deviation_columns(
 ) -> Columns:
     """Return the errors of v and a by several methods: drawn exactly, and with the ruler."""
     texts, notation = language.cycle, language.notation
-    hand = RulerArithmetic(ruler=diagrams.cycle.solution.profile.ruler)
-    exactly, ruled = deviations(diagrams, methods), deviations(diagrams, methods, hand)
+    exactly, ruled = deviations_by_hand(diagrams, tuple(methods))
     rows: list[tuple[str, str, Deviation | None, Deviation]] = [
         (texts["ways"][way.value], letter, exactly[way, letter], ruled[way, letter])
         for way in methods

@@ -68,7 +68,7 @@ def place_labels(
     return list(_placed(tuple(labels), tuple(obstacles), bounds, in_use(), breaking=breaking))
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=128)  # more than the pictures of a project's sheet
 def _placed(
     labels: tuple[Label, ...],
     obstacles: tuple[Item, ...],

@@ -100,7 +100,7 @@ def _places(graph: Graph, trace: Trace, number: int) -> Complexes:
 
 def _curves(diagrams: Diagrams, graph: Graph, trace: Trace, number: int) -> list[Curve]:
     """Return the curve drawn through the found points, and the exact one."""
-    x, exact = diagrams.x(diagrams.fine), diagrams.exact(diagrams.fine)[number]
+    x, exact = diagrams.x(diagrams.fine), diagrams.exact_curves[number]
     if not number:
         return [Curve("", _parts(x, exact))]
     found = _places(graph, trace, number)

@@ -182,7 +182,7 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
     would be larger than `MAX_SIDE` or much smaller: then it fills a square of that side, whatever
     ``side`` is.
     """
-    point, curve, ends = _hodograph_of(solution, kind)
+    point, curve, ends = _hodograph_of(solution.origin, kind)
     there = np.concatenate([[0j], curve[np.isfinite(curve)], ends[np.isfinite(ends)]])
     size = (float(np.ptp(there.real)), float(np.ptp(there.imag)))
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT

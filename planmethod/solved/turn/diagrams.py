@@ -23,6 +23,7 @@ from msgspec import Struct
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
+from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import Scale, angle_scale, choose_scale, rounded
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
@@ -198,6 +199,11 @@ class Diagrams(Memoizing):
         return self.path(fractions) / self.mu_s, one * by, two * by * self.mu_phi * a
 
     @cached_property
+    def exact_curves(self) -> tuple[Reals, Reals, Reals]:
+        """The exact ordinates of s, v and a through which the curves are drawn, mm."""
+        return self.exact(self.fine)
+
+    @cached_property
     def fractions(self) -> Reals:
         """Shares of the way of the positions, the first one again at the end.
 
@@ -369,7 +375,7 @@ class Diagrams(Memoizing):
 
 def _graph(diagrams: Diagrams, method: Differentiation) -> Graph:
     board = DiagramBoard()
-    exact = diagrams.exact(diagrams.fine)
+    exact = diagrams.exact_curves
     lows, highs = ([float(f(one)) for one in exact] for f in (np.nanmin, np.nanmax))
     down = [0.0]
     for low, high in zip(lows, highs[1:], strict=False):
@@ -432,6 +438,16 @@ def deviations(
     return found
 
 
+@memoized
+def deviations_by_hand(
+    diagrams: Diagrams, methods: tuple[Differentiation, ...]
+) -> tuple[dict[tuple[Differentiation, str], Deviation], ...]:
+    """Return the errors of v and a by some methods: drawn exactly, and read with the ruler."""
+    hand = RulerArithmetic(ruler=diagrams.cycle.solution.profile.ruler)
+    return deviations(diagrams, methods), deviations(diagrams, methods, hand)
+
+
+@memoized
 def sigmas(diagrams: Diagrams, method: Differentiation) -> tuple[Reals, Reals]:
     """Return one sigma of the drafting error of every ordinate of v and a, mm, ndarrays (n,).
 
