@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from string import Formatter
@@ -202,11 +202,13 @@ def table_of(node: ast.AST, known: Mapping[str, list[MessageTable]]) -> list[Mes
     return known.get(ast.unparse(node)) if isinstance(node, (ast.Name, ast.Attribute)) else None
 
 
-def bound(scope: ast.AST, known: Mapping[str, list[MessageTable]]) -> dict[str, list[MessageTable]]:
+def bound(
+    nodes: Sequence[ast.AST], known: Mapping[str, list[MessageTable]]
+) -> dict[str, list[MessageTable]]:
     """Return the tables that names of a function, or attributes of ``self``, may be."""
     found = dict(known)
     other: set[str] = set()
-    for node in ast.walk(scope):
+    for node in nodes:
         pairs: list[tuple[ast.AST, ast.AST]] = []
         match node:
             case ast.arg(name, ast.Name("MessageTable")):
@@ -227,23 +229,30 @@ def bound(scope: ast.AST, known: Mapping[str, list[MessageTable]]) -> dict[str, 
     return {name: words for name, words in found.items() if name not in other}
 
 
-def keys_read(module: str, tree: ast.Module) -> Iterator[tuple[str, str, list[MessageTable]]]:
+def keys_read(
+    module: str, nodes: Sequence[ast.AST]
+) -> Iterator[tuple[str, str, list[MessageTable]]]:
     """Yield where a sentence of words is named in a module, its key, the tables it may be of."""
-    classes = [node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)]
-    of_self = {
-        scope: {n: w for n, w in bound(one, {}).items() if n.startswith("self.")}
-        for one in classes
-        for scope in one.body
-    }
-    for scope in ast.walk(tree):
+    of_self: dict[ast.AST, dict[str, list[MessageTable]]] = {}
+    for one in nodes:
+        if isinstance(one, ast.ClassDef):
+            every = bound([*ast.walk(one)], {})
+            own = {name: words for name, words in every.items() if name.startswith("self.")}
+            of_self |= dict.fromkeys(one.body, own)
+    for scope in nodes:
         if not isinstance(scope, ast.FunctionDef):
             continue
-        known = bound(scope, of_self.get(scope, {}))
-        for node in ast.walk(scope):
+        inside = [*ast.walk(scope)]
+        known = bound(inside, of_self.get(scope, {}))
+        for node in inside:
             if isinstance(node, ast.Attribute) and node.attr not in NO_KEYS:
                 words = table_of(node.value, known)
                 if words is not None:
                     yield f"{module}:{node.lineno}", node.attr, words
+
+
+USES_WORDS = re.compile("words|language|wording|texts|MessageTable")
+"""What stands in every module that has a table of words: see `table_of` and `bound`."""
 
 
 @cache
@@ -254,10 +263,10 @@ def code() -> tuple[list[tuple[str, str, list[MessageTable]]], set[object]]:
     for path in sorted(HOME.rglob("*.py")):
         if "wording" not in path.parts:
             text = path.read_text("utf-8")
-            tree = ast.parse(text)
-            if re.search("[Ww]ord|said|language", text):  # else it uses no tables of words
-                keys += keys_read(path.relative_to(HOME).as_posix(), tree)
-            for node in ast.walk(tree):
+            nodes = [*ast.walk(ast.parse(text))]
+            if USES_WORDS.search(text):
+                keys += keys_read(path.relative_to(HOME).as_posix(), nodes)
+            for node in nodes:
                 if isinstance(node, ast.Constant):
                     texts.add(node.value)
                 elif isinstance(node, ast.Attribute):
