@@ -53,8 +53,8 @@ PRESS = tuple(98.918918918919 + phi for phi in TURN)
 SHEETS = (
     ("levers/task12", TURN),
     ("levers/six-link", tuple(140.0 + 5.0 * k for k in range(9))),
-    ("press/press", PRESS),
     ("press/press-stone", PRESS),
+    ("press/press", PRESS),
 )
 
 
