@@ -564,6 +564,7 @@ from planmethod.problem.families import (
     template as families_template,
 )
 from planmethod.problem.fields import Faults
+from planmethod.problem.flat_tables import read_flat
 from planmethod.problem.formula import (
     DEPTH_LIMIT as FORMULA_DEPTH_LIMIT,
     EXPONENT_LIMIT,

@@ -383,11 +383,11 @@ class CamDesign(Struct, frozen=True, dict=True):
         self, phi: float, rho: float, outer: bool, is_cut: Callable[[Reals], Flags]
     ) -> Undercut:
         """Return an undercut with its range of angles."""
-        offsets = np.linspace(0.0, np.pi, 20001)
+        offsets = np.linspace(0.0, np.pi, 20001)[1:]  # at phi itself the curvature may jump
 
         def reach(direction: int) -> float:
             cut = is_cut(self.geometry.at(phi + direction * offsets).curvature)
-            return float(offsets[np.argmin(cut)]) if cut[1] else 0.0
+            return float(offsets[np.argmin(cut)]) if cut[0] else 0.0
 
         at = self.geometry.at(np.array([phi]))
         point = complex((at.outer if outer else at.actual)[0])

@@ -148,5 +148,5 @@ def _groups(mechanism: Mechanism) -> tuple[AssurGroup, ...]:
         if links:  # otherwise a point that a known link carries to later groups
             links.sort(key=order.__getitem__)
             groups.append(make_group(joints_of, links, known))
-            known.update((link, len(known) + i) for i, link in enumerate(links))
+            known |= {link: len(known) + i for i, link in enumerate(links)}
     return tuple(groups)

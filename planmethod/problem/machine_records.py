@@ -309,7 +309,7 @@ class CounterweightTask(Struct, frozen=True):
         float | None,
         NumberKey(
             "with partial, share of the reciprocating mass that the crank balances",
-            "a share from 0 to 1", low=0.0, high=1.0,
+            "a share", low=0.0, high=1.0,
             hint="1/2 takes half of the force along the slide, and puts as much across it.",
             absent="the first harmonic of the force that turns with the crank",
         ),
