@@ -338,6 +338,7 @@ from planmethod.moving.construction import (
     construct as moving_construction_construct,
     read_hodograph,
 )
+from planmethod.moving.figures import PointFigures
 from planmethod.moving.interval import drawn_interval
 from planmethod.moving.model import PointProblem, read_formula
 from planmethod.moving.motion import (
