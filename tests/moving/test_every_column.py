@@ -42,8 +42,7 @@ def rolling(
         return own - 1j * radius if not track else abs(track) * own / abs(own)
 
     own = {"C": centre, "P": touch, "turn": phi}
-    arm = lambda t: r * turned(phi(t) + radians(angle))  # noqa: E731
-    return keys, lambda t: centre(t) + arm(t), own
+    return keys, lambda t: centre(t) + r * turned(phi(t) + radians(angle)), own
 
 
 LINE = rolling(0.5, 0.3, 20, 0.0, lambda t: t - 2 * t * t)

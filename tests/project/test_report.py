@@ -64,6 +64,7 @@ from doors import (
     sheet_list,
     solve_motion,
     statement_given_facts as given_facts,
+    statics_of,
     train_chapter,
     train_facts as train_given,
     warn_of_separate_train,
@@ -282,6 +283,70 @@ def test_the_strokes_in_the_conclusion_make_one_turn_and_k_v_is_working_over_idl
         strokes = project_of("shaper").strokes
         assert strokes is not None
         assert working == pytest.approx(strokes.working_deg, abs=0.006)
+
+
+def conclusion_of(name: str) -> str:
+    """Return the numbered items of the conclusion in English, in one line."""
+    items = [n for n in note_of(name, "en").nodes if isinstance(n, document.Item)]
+    start = max(k for k, item in enumerate(items) if item.label == "1)")
+    own = items[start:]
+    assert [item.label for item in own] == [f"{k})" for k in range(1, len(own) + 1)]
+    said = " ".join(inlined(item.text) for item in own)
+    return said.replace("\u00a0", " ").replace("−", "-")
+
+
+def largest_share(solution: Solution, *kinds: QuantityKind) -> tuple[str, float, float]:
+    """Return the quantity that is read worst, its error in per cent and in sigmas."""
+    found = []
+    for of, one in compared(solution, 0, *kinds):
+        assert one.exact == pytest.approx(float(solution.exact(of)[0]))
+        assert one.read == pytest.approx(float(solution.read_off(of.label)[0]))
+        off = one.read - one.exact
+        found.append((abs(off / one.exact) * 100.0, of.symbol, abs(off) / (one.sigma or np.inf)))
+    share, symbol, sigmas = max(found)
+    return symbol, share, sigmas
+
+
+@pytest.mark.parametrize("name", ["homework", "forces", "slider"])
+def test_the_conclusion_names_the_worst_readings_with_their_shares_and_sigmas(name: str) -> None:
+    said, solution = conclusion_of(name), project_of(name).loaded
+    found = re.search(
+        r"calculation is ([\d.]+) % for the velocities \((\S+)\) and ([\d.]+) % for the "
+        r"accelerations \((\S+)\), that is ([\d.]+) and ([\d.]+) standard", said
+    )  # fmt: skip
+    assert found is not None
+    velocity, acceleration = (
+        largest_share(solution, *(kind for kind in MOTION_KINDS if kind.plan is plan))
+        for plan in RATES
+    )
+    for (symbol, share, sigmas), (text, letters, many) in zip(
+        (velocity, acceleration),
+        ((found[1], found[2], found[5]), (found[3], found[4], found[6])),
+        strict=True,
+    ):
+        assert letters == inlined(symbol)
+        assert float(text) == pytest.approx(share, abs=0.051)
+        assert float(many) == pytest.approx(sigmas, abs=0.051)
+    later = float(found[3]) > float(found[1])
+    assert ("are found less accurately than the velocities" in said) == later
+
+
+@pytest.mark.parametrize("name", ["forces", "shaper"])
+def test_the_conclusion_has_the_largest_reaction_and_the_balance_of_the_plans(name: str) -> None:
+    said, project = conclusion_of(name), project_of(name)
+    found = re.search(
+        r"the largest reaction is (\S+) = ([\d.]+) N and the balancing (moment|force) is "
+        r"(\S+) = ([\d.]+) (N·m|N)\.", said
+    )  # fmt: skip
+    assert found is not None
+    statics = statics_of(project.loaded)
+    sizes = [abs(complex(one.force[0])) for one in statics.reactions]
+    assert float(found[2]) == pytest.approx(max(sizes), rel=0.03)
+    assert found[4][0] == {"moment": "M", "force": "F"}[found[3]]
+    assert found[6] == {"moment": "N·m", "force": "N"}[found[3]]
+    lever = re.search(r"differ by ([\d.]+) %, the expected standard deviation being ([\d.]+)", said)
+    assert lever is not None
+    assert ("noticeable" in said) == (10.0 < float(lever[1]) < 3.0 * float(lever[2]))
 
 
 @pytest.mark.parametrize("name", FILES)
