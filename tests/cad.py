@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
-from doors import RATES, PlanKind, Sheet, Trace, normalize, plan_letters, point
+from doors import RATES, PlanKind, Sheet, Trace, normalize, plan_letters, single_point
 from ezdxf.enums import TextEntityAlignment
 
 ORIGINS = {PlanKind.VELOCITY: 100 + 150j, PlanKind.ACCELERATION: 300 + 150j}
@@ -47,13 +47,13 @@ def draw(
     if in_block:
         space.add_blockref("PLAN", (10 * per_unit, 0), dxfattribs={"rotation": 0.0})
         space = document.blocks.new("PLAN")
-    value = (trace or sheet.trace).value
+    value = (trace or sheet.exact_trace).value
     problem = sheet.questions.solution.problem
     for kind in RATES:
         layer = (layers or {PlanKind.VELOCITY: "velocity"}).get(kind, kind.value)
         plan, origin = sheet.questions.construction.plan(kind), ORIGINS[kind]
         assert plan.pole is not None
-        pole = point(value[plan.pole])
+        pole = single_point(value[plan.pole])
         letters = {
             name: [one for one in own if normalize(one) not in without]
             for name, own in plan_letters(problem, plan).items()
@@ -64,7 +64,7 @@ def draw(
         ends = sorted({end for pair in vectors for end in pair})
 
         def at(name: str, pole: complex = pole, origin: complex = origin) -> complex:
-            return (origin + (point(value[name]) - pole) * turn) * per_unit  # type: ignore[index]
+            return (origin + (single_point(value[name]) - pole) * turn) * per_unit  # type: ignore[index]
 
         for tail, head in sorted(vectors):
             said = f"{normalize(letters[tail][0])}-{normalize(letters[head][0])}" if (

@@ -115,7 +115,7 @@ from planmethod.check.pages.student import (
 )
 from planmethod.check.questions import Questions, Sign
 from planmethod.check.routes import try_powers
-from planmethod.check.sheet import Sheet, point
+from planmethod.check.sheet import Sheet, single_point
 from planmethod.check.simulation import as_written, planted, simulate_submissions
 from planmethod.check.slips import Slip, slips
 from planmethod.check.submissions import SubmissionError as SubmissionsSubmissionError, read_works

@@ -219,7 +219,7 @@ def codes_of_variant(
     """Return P2 where a mistake gives the answers of another variant: its angle of the crank."""
     mine = next(values for one, values in predictions if one == change)
     for _, sheet in task.theirs(task.sheet(items[0].position)):
-        theirs = [sheet.exact[item.question.id] for item in items]
+        theirs = [sheet.exact_answers[item.question.id] for item in items]
         if np.allclose(np.abs(theirs), np.abs(mine), rtol=SAME_TOLERANCE):
             return {"P2"}
     return set()

@@ -35,7 +35,7 @@ from planmethod.check.marks import DEFAULT
 from planmethod.check.mistakes.model import Change, MistakeContext, times
 from planmethod.check.model import GradedSubmission, Sense, Submission, WrittenAnswer
 from planmethod.check.questions import Sign
-from planmethod.check.routes import Role, find_routes, roles_of
+from planmethod.check.routes import QuantityKey, find_routes, quantity_keys_of
 from planmethod.check.simulation import as_written, simulate_submissions
 from planmethod.check.task import Task, TaskItem
 from planmethod.kind import ProblemKind
@@ -185,8 +185,12 @@ def by_routes(task: Task, count: int) -> Inherited:
     items = first_items(task)
     key, sheet = key_of_task(task, items), task.sheet(items[0].position)
     exact = {item.id: abs(entry.exact) for item, entry in zip(items, key.entries, strict=True)}
-    of = {item.id: [*roles_of(sheet, item.question.selector)] for item in items if exact[item.id]}
-    told: dict[Role, str] = {role: name for name, roles in of.items() for role in roles}
+    of = {
+        item.id: [*quantity_keys_of(sheet, item.question.selector)]
+        for item in items
+        if exact[item.id]
+    }
+    told: dict[QuantityKey, str] = {role: name for name, roles in of.items() for role in roles}
     works = simulate_submissions(task, None, count, SEED)
     for name, roles in of.items():
         for route in (way for role in roles for way in find_routes(sheet, role, told)):
@@ -245,7 +249,7 @@ def check_computed(task: Calculation, count: int) -> FaultlessStats:
     """Check computed submissions without a mistake."""
     found = FaultlessStats(called(task), "computed")
     for work in compute_submissions(
-        task, task.sheet(first_items(task)[0].position).exact, count, SEED
+        task, task.sheet(first_items(task)[0].position).exact_answers, count, SEED
     ):
         checked = check(task, work)
         faulted = sum(answer.points < answer.of for answer in checked.answers)
@@ -265,7 +269,7 @@ def computed_detection(task: Calculation, count: int) -> list[Detected]:
     ids = [item.question.id for item in items]
     made = [(e.code, [e.values[name] for name in ids]) for e in task.named(sheet)]
     for name in ids:
-        wrong = {**sheet.exact, name: sheet.exact[name] * PLACE}
+        wrong = {**sheet.exact_answers, name: sheet.exact_answers[name] * PLACE}
         made.append(("S4", [wrong[one] for one in ids]))
     for number, (code, values) in enumerate(made):
         if not np.isfinite(values).all() or not any(map(shows, key.entries, values)):
@@ -285,7 +289,7 @@ def computed_detection(task: Calculation, count: int) -> list[Detected]:
         if theirs is None:
             continue
         row = found.setdefault("P2", Detected(called(task), "P2", family_of(task)))
-        for work in compute_submissions(task, theirs.exact, count, SEED):
+        for work in compute_submissions(task, theirs.exact_answers, count, SEED):
             count_submission(row, check(task, work), {"P2"})
     return list(found.values())
 
@@ -298,9 +302,9 @@ def computed_inherited(task: Calculation, count: int) -> Inherited:
     names = {item.question.selector.names[0]: item for item in items}
     for number, (wrong, item) in enumerate(names.items()):
         for factor in FACTORS:
-            own = {name: sheet.exact[one.question.id] for name, one in names.items()}
+            own = {name: sheet.exact_answers[one.question.id] for name, one in names.items()}
             own[wrong] *= factor
-            values = {**sheet.exact, item.question.id: own[wrong]}
+            values = {**sheet.exact_answers, item.question.id: own[wrong]}
             follow = set()
             for name, one in names.items():
                 for value, by in task.figures.derive_values(name, own):

@@ -106,7 +106,7 @@ class _Rows:
         for number, own in enumerate(_scalars(trace, count)):
             sheet = self.sheets[number]
             sheet.row = errors, number
-            sheet.keyed = sheet.read_as(own)
+            sheet.answer_key_sheet = sheet.read_as(own)
 
     def named(self, of: Collection[int] | None = None) -> list[list[MistakeEffect]]:
         """Return what every mistake with a name gives on every sheet, in order.
@@ -118,10 +118,10 @@ class _Rows:
         told: list[list[MistakeEffect | None]] = []
         for number, sheet in enumerate(self.sheets):
             wanted = of is None or number in of
-            found = list(changes(MistakeContext(sheet.keyed))) if wanted else []
+            found = list(changes(MistakeContext(sheet.answer_key_sheet))) if wanted else []
             told.append([None] * len(found))
             for place, change in enumerate(found):
-                key = (change.code, change.place, *change.steps.items(), *change.data)
+                key = (change.code, change.mistake_at, *change.steps.items(), *change.data)
                 alike.setdefault(key, []).append((number, place, change))
         for members in alike.values():
             shown = self._effects([(number, change) for number, _, change in members])
@@ -145,7 +145,7 @@ class _Rows:
         ids = [question.id for question in asked]
         for there, row in zip(sound.tolist(), table.tolist(), strict=True):
             values = dict(zip(ids, row, strict=True))
-            yield (first.code, first.place, values) if there else None
+            yield (first.code, first.mistake_at, values) if there else None
 
 
 class _BatchErrors(Errors):

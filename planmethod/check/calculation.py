@@ -62,17 +62,17 @@ class CalculationSheet(Sheet):
         self._readings: dict[str, tuple[float, float]] = {}
 
     @cached_property
-    def trace(self) -> Trace:
+    def exact_trace(self) -> Trace:
         """Nothing is constructed."""
         return _EMPTY_TRACE
 
     @cached_property
-    def keyed(self) -> Sheet:
+    def answer_key_sheet(self) -> Sheet:
         """The sheet itself: it is computed."""
         return self
 
     @cached_property
-    def exact(self) -> dict[str, float]:
+    def exact_answers(self) -> dict[str, float]:
         """Exact answers by the id of the question."""
         return {question.id: float(question.evaluate(_EMPTY_TRACE)) for question in self.requested}
 
@@ -257,7 +257,7 @@ class Calculation(Task):
             values = {}
             for question in sheet.requested:
                 value = take(question.selector.names[0], sheet.position)
-                values[question.id] = sheet.exact[question.id] if value is None else value
+                values[question.id] = sheet.exact_answers[question.id] if value is None else value
             found.append(Explanation(code, where, values, _EMPTY_TRACE, sheet))
         return found
 
@@ -272,7 +272,7 @@ class Calculation(Task):
 
     def _copied(self, sheet: CalculationSheet) -> Iterator[Explanation]:
         for variant, theirs in self.theirs(sheet):
-            yield Explanation("P2", variant, theirs.exact, _EMPTY_TRACE, sheet)
+            yield Explanation("P2", variant, theirs.exact_answers, _EMPTY_TRACE, sheet)
 
     # Judging ---------------------------------------------------------------------------------
 
@@ -295,7 +295,7 @@ class Calculation(Task):
         for one in left:
             # No factor gives zero.
             for code, factor in _slips(one.item.question.unit) if one.value else ():
-                given = {**sheet.exact, one.item.question.id: one.limit.exact * factor}
+                given = {**sheet.exact_answers, one.item.question.id: one.limit.exact * factor}
                 tried.append(Explanation(code, "", given, _EMPTY_TRACE, sheet))
         while left:
             scored = [
@@ -311,8 +311,8 @@ class Calculation(Task):
             taken = [one for one in left if _predicts(chosen[0], one)]
             alike = [e for e in chosen if all(_predicts(e, one) for one in taken)]
             alike = [e for e in alike if e.code != "sign"] or alike  # its cause says more
-            if len({e.place for e in alike}) > 1:
-                alike = [replace(e, place="") for e in alike]
+            if len({e.mistake_at for e in alike}) > 1:
+                alike = [replace(e, mistake_at="") for e in alike]
             fits = [ExplanationFit(e, 0.0, 0.0, most) for e in alike]
             diagnoses.append(propagate_mistake(self, sheet, taken, fits))
             left = [one for one in left if one not in taken]

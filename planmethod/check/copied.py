@@ -58,21 +58,21 @@ def detect_copied_variant(
     count, named = 0, task.named(sheet)
     for variant, theirs in task.theirs(sheet):
         count += 1
-        apart = [one for one in examined if _distinguishes_variants(one, theirs.exact)]
-        hits = [one for one in apart if _matches(one, theirs.exact)]
+        apart = [one for one in examined if _distinguishes_variants(one, theirs.exact_answers)]
+        hits = [one for one in apart if _matches(one, theirs.exact_answers)]
         if len(hits) < max(MIN_OFF_ANSWERS, MIN_MATCH_FRACTION * len(apart)):
             continue
         rivals = (e for e in named if not (e.code == "P1" and e.change and e.change.data))
         if any(all(_matches(one, rival.values) for one in hits) for rival in rivals):
             continue  # a mistake in their own variant fits too; another angle is the other variant
         free = [one for one in hits if not (one.follows and one.parents)]
-        chance = math.fsum(math.log(min(1.0, _chance(one, theirs.exact))) for one in free)
-        off = math.fsum(_off(one, theirs.exact) for one in hits) / len(hits)
+        chance = math.fsum(math.log(min(1.0, _chance(one, theirs.exact_answers))) for one in free)
+        off = math.fsum(_off(one, theirs.exact_answers) for one in hits) / len(hits)
         if best is None or (chance, off) < best[:2]:
             best = chance, off, variant, theirs
     if best is None or best[0] + math.log(count) > math.log(BY_CHANCE):
         return None
-    return Explanation("P2", best[2], best[3].exact, best[3].trace, best[3])
+    return Explanation("P2", best[2], best[3].exact_answers, best[3].exact_trace, best[3])
 
 
 def _tolerance(one: ExaminedAnswer, value: float) -> float:

@@ -113,7 +113,7 @@ def _or_driver(diagnosis: Diagnosis, named: Sequence[Explanation], facts: list[F
 def _explains(sheet: Sheet, wrong: list[ExaminedAnswer], explanation: Explanation) -> bool:
     """Return whether a mistake changes a wrong answer at all, its number or its sense."""
     for one in wrong:
-        given, right = (e[one.item.question.id] for e in (explanation.values, sheet.exact))
+        given, right = (e[one.item.question.id] for e in (explanation.values, sheet.exact_answers))
         turned = one.sense_right is False and given * right <= 0
         vector = one.sense_right is False and one.item.question.sign is not Sign.TURN
         if turned or vector or abs(abs(given) - abs(right)) > one.limit.tolerance() / 2:
@@ -265,7 +265,9 @@ def _fits_of_variants(
             collect_student_values(theirs, there, values=True),
             tolerance_share,
         )
-        made = Explanation("P2", variant, theirs.exact, theirs.trace, theirs, prior=COPIED)
+        made = Explanation(
+            "P2", variant, theirs.exact_answers, theirs.exact_trace, theirs, prior=COPIED
+        )
         yield explained.evaluate(made, facts_of(theirs, there, task.settings.k), own)
 
 
@@ -339,7 +341,7 @@ def _diagnose_pair(
     repoint(examined)
     values = values_of(examined, made)
     return [
-        Diagnosis(codes, len(codes) == 1, (root.item.id,), mistake.place, values)
+        Diagnosis(codes, len(codes) == 1, (root.item.id,), mistake.mistake_at, values)
         for codes, mistake, root in told
     ]
 
@@ -358,7 +360,7 @@ def _unexplained(
 
 def _unnamed(sheet: Sheet, fact: Fact) -> float:
     """Return the cost of a wrong number of unknown cause."""
-    size = max(abs(fact.value), abs(sheet.exact[fact.id]), fact.min_sigma)
+    size = max(abs(fact.value), abs(sheet.exact_answers[fact.id]), fact.min_sigma)
     return 2 * math.log(size * WIDE) + ONE_MISTAKE - 2 * math.log(UNNAMED)
 
 
@@ -428,7 +430,7 @@ def _diagnose_single(sheet: Sheet, one: ExaminedAnswer, *, many: bool, lone: boo
     elif many and not one.slip:
         codes = {}
     named = tuple(codes)
-    where = near[0].place if named == ("slip",) and near else ""
+    where = near[0].mistake_at if named == ("slip",) and near else ""
     read = bool(named) and named[0] in SEGMENT_CODES.values()
     own = one.value_from_mm is not None or (one.local is not None and not read)
     sure = len(named) == 1 and (lone or own)

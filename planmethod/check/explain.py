@@ -110,7 +110,7 @@ class Explanation(Struct, frozen=True, eq=False):
     ----------
     code : str
         Empty for a wrong number of unknown cause.
-    place : str
+    mistake_at : str
     values : mapping of str to float
         Every answer.
     trace : Trace
@@ -132,7 +132,7 @@ class Explanation(Struct, frozen=True, eq=False):
     """
 
     code: str
-    place: str
+    mistake_at: str
     values: Mapping[str, float]
     trace: Trace
     sheet: Sheet
@@ -213,7 +213,7 @@ class Explanations:
             return None
         return Explanation(
             change.code,
-            change.place,
+            change.mistake_at,
             values,
             trace,
             sheet,
@@ -239,7 +239,7 @@ class Explanations:
 
     def of_slip(self, change: Change, question: str, item: str) -> Explanation | None:
         """Return the predictions of a mistake in one number; they are cached."""
-        key = (change.code, change.place, item, *change.steps.values(), change.prior)
+        key = (change.code, change.mistake_at, item, *change.steps.values(), change.prior)
         if key not in self._slips:
             if len(self._slips) >= MAX_CACHED_SLIPS:
                 self._slips.clear()
@@ -269,7 +269,7 @@ class Explanations:
         given = self._table[:, chosen]
         signed = np.array([fact.signed for fact in facts])
         values = np.array([fact.value for fact in facts])
-        right = np.abs(np.array([self.sheet.exact[fact.id] for fact in facts]))
+        right = np.abs(np.array([self.sheet.exact_answers[fact.id] for fact in facts]))
         own = np.array([fact.min_sigma**2 + fact.step**2 / 12 for fact in facts])
         share = np.where(right == 0, 1.0, np.abs(given) / np.where(right == 0, 1.0, right))
         variance = self._sigmas[chosen] ** 2 * np.maximum(share, MIN_ERROR_FRACTION) ** 2
@@ -326,7 +326,7 @@ class Explanations:
                 given = explanation.values[fact.id]
                 sigma = sigma if explanation.sigma is None else explanation.sigma
             elif not closely:
-                right = abs(sheet.exact[fact.id])
+                right = abs(sheet.exact_answers[fact.id])
                 sigma *= max(abs(given) / right, MIN_ERROR_FRACTION) if right else 1.0
             count += 1
             if not math.isfinite(given):
@@ -339,7 +339,7 @@ class Explanations:
         score += ONE_MISTAKE - 2 * math.log(explanation.prior)
         if explanation.free:
             free = next(fact for fact in facts if fact.id == explanation.free)
-            usual = abs(sheet.exact[free.id])
+            usual = abs(sheet.exact_answers[free.id])
             score += 2 * math.log(max(abs(free.value), usual, free.min_sigma) * WIDE)
         for fact in facts:
             right_way = None if fact.sense is None else fact.sense(explanation.trace)

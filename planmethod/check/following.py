@@ -11,7 +11,7 @@ from planmethod.check.explain import Explanation, ExplanationFit
 from planmethod.check.grading import ExaminedAnswer, distance, usable
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import RATES, Sign
-from planmethod.check.sheet import Sheet, point
+from planmethod.check.sheet import Sheet, single_point
 from planmethod.check.slips import completed
 from planmethod.check.task import Task
 from planmethod.construct.steps import Name, PointName, operands, result_kind
@@ -53,7 +53,7 @@ def propagate_mistake(
         sure = False
     roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
     told, places = values_of(examined, best), _places(best)
-    return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.place, told, places)
+    return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.mistake_at, told, places)
 
 
 def _with_student_value(explanation: Explanation, root: ExaminedAnswer) -> Explanation:
@@ -82,7 +82,7 @@ def _places(explanation: Explanation) -> dict[str, complex]:
     """Return the points of the velocity and acceleration plans of an explanation, m/s and m/s²."""
     sheet = explanation.sheet
     return {
-        name: point(explanation.trace.value[name]) * sheet.scales[FACTS[plan.kind].scale]
+        name: single_point(explanation.trace.value[name]) * sheet.scales[FACTS[plan.kind].scale]
         for plan in sheet.plans
         for name in plan.letters
         if name in explanation.trace.value
@@ -134,7 +134,10 @@ def _last_point(sheet: Sheet, name: Name) -> int:
 
 def idle(sheet: Sheet, one: ExaminedAnswer, explanation: Explanation) -> bool:
     """Return whether an explanation leaves an answer as it is, its size and its sense."""
-    given, exact = explanation.values[one.item.question.id], sheet.exact[one.item.question.id]
+    given, exact = (
+        explanation.values[one.item.question.id],
+        sheet.exact_answers[one.item.question.id],
+    )
     sign = one.item.question.sign
     told = one.signed if sign is Sign.TURN else sign is Sign.STRICT
     turned = told and given * exact < 0

@@ -18,7 +18,7 @@ from msgspec import Struct, field
 from planmethod.check.explain import Fact
 from planmethod.check.model import PencilTrace, Verdict, WrittenAnswer
 from planmethod.check.questions import RATES, Sign
-from planmethod.check.sheet import Sheet, StudentValues, is_right, scalar
+from planmethod.check.sheet import Sheet, StudentValues, is_right, single_float
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.construct.evaluate import Trace
@@ -196,7 +196,7 @@ def _value_from_mm(sheet: Sheet, item: TaskItem, mm: float) -> float | None:
     plan = question.plan
     if plan is None or question.selector.kind in RATES or question.unit != FACTS[plan].unit:
         length = sheet.length(question)
-        return abs(sheet.exact[question.id]) * mm / length if length else None
+        return abs(sheet.exact_answers[question.id]) * mm / length if length else None
     return mm * sheet.scales[question.scale]
 
 
@@ -466,4 +466,4 @@ def _directed(sheet: Sheet, one: ExaminedAnswer, degrees: float, trace: Trace) -
 def _is_sense_right(sheet: Sheet, one: ExaminedAnswer, trace: Trace) -> bool | None:
     if one.written.sense is not None:
         return is_right(sheet, one.item.question, one.written.sense, trace)
-    return scalar(one.item.question.evaluate(trace)) * one.value > 0
+    return single_float(one.item.question.evaluate(trace)) * one.value > 0

@@ -13,7 +13,7 @@ from planmethod.check.letters import worded
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import KeyEntry
 from planmethod.check.questions import Question, Sign
-from planmethod.check.sheet import Sheet, scalar, sense_of
+from planmethod.check.sheet import Sheet, sense_of, single_float
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.plans.model import FACTS, RATES, PlanKind
@@ -72,7 +72,7 @@ def key_of_task(
     for position in dict.fromkeys(item.position for item in chosen):
         here = [item for item in chosen if item.position == position]
         drawn = task.sheet(position)
-        sheet = drawn.keyed
+        sheet = drawn.answer_key_sheet
         scales = {**sheet.scales, **scales}
         limits = {
             item.id: limit_of(sheet, item.question, task.settings, item.fixed) for item in here
@@ -110,7 +110,7 @@ def key_of_task(
 
 
 def _named(task: Task, sheet: Sheet) -> Iterator[MistakeEffect]:
-    return ((one.code, one.place, one.values) for one in task.named(sheet))
+    return ((one.code, one.mistake_at, one.values) for one in task.named(sheet))
 
 
 SEGMENT_CODES = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}
@@ -129,8 +129,8 @@ def _confusable_segments(
     own = segment_of(task, item)
     for segment in task.solution.construction.segments:
         if segment.kind is question.plan and segment.name != own and own:
-            drawn = sheet.trace.value.get(segment.length)
-            if drawn is not None and abs(abs(scalar(drawn)) - length) <= slack:
+            drawn = sheet.exact_trace.value.get(segment.length)
+            if drawn is not None and abs(abs(single_float(drawn)) - length) <= slack:
                 yield code, f"{item.label or item.name}: {segment.name}"
 
 

@@ -311,7 +311,7 @@ class Diagnosis(Struct, frozen=True):
     sure : bool
     roots : tuple of str
         Answers where it begins.
-    place : str
+    mistake_at : str
         Link, point or pair that the mistake was made at, as plain text: "3", "B3/2".
     values : mapping of str to float
         What the mistake gives for each answer, SI.
@@ -323,7 +323,7 @@ class Diagnosis(Struct, frozen=True):
     codes: tuple[str, ...]
     sure: bool
     roots: tuple[str, ...]
-    place: str = ""
+    mistake_at: str = ""
     values: Mapping[str, float] = field(default_factory=dict)
     places: Mapping[str, complex] = field(default_factory=dict)
 

@@ -37,7 +37,7 @@ not follow from accelerations.
 
 Answer = TypeVar("Answer")
 
-Role = tuple[str, str, tuple[str, ...]]
+QuantityKey = tuple[str, str, tuple[str, ...]]
 """Kind, link, arm; empty arm for a quantity of a link."""
 
 
@@ -49,17 +49,19 @@ def follow_routes(sheet: Sheet, examined: list[ExaminedAnswer], floor: float) ->
     floor : float
         Least share of a computed number that it may be off.
     """
-    roles = {id(one): list(roles_of(sheet, one.item.question.selector)) for one in examined}
-    told: dict[Role, ExaminedAnswer] = {}
+    keys_of_answers = {
+        id(one): list(quantity_keys_of(sheet, one.item.question.selector)) for one in examined
+    }
+    told: dict[QuantityKey, ExaminedAnswer] = {}
     for one in examined:
-        for role in roles[id(one)]:
+        for quantity_key in keys_of_answers[id(one)]:
             if one.limit.exact and one.value and not one.limit.zero:
-                told.setdefault(role, one)
+                told.setdefault(quantity_key, one)
     for one in examined:
         if not one.limit.exact or one.follows or (one.right and not one.contradicts):
             continue
-        for role in roles[id(one)]:
-            for powers in find_routes(sheet, role, told):
+        for quantity_key in keys_of_answers[id(one)]:
+            for powers in find_routes(sheet, quantity_key, told):
                 if one.routed or _would_circle(one, powers, examined):
                     continue
                 try_powers(one, powers, floor)
@@ -102,10 +104,10 @@ def _would_circle(
 
 
 def find_routes(
-    sheet: Sheet, role: Role, answers: Mapping[Role, Answer]
+    sheet: Sheet, quantity_key: QuantityKey, answers: Mapping[QuantityKey, Answer]
 ) -> Iterator[list[tuple[Answer, int]]]:
     """Yield the answers with their powers by which a quantity can be computed."""
-    kind, link, arm = role
+    kind, link, arm = quantity_key
     routes = ROUTES.get(kind, ())
     if kind == "a" and _all_normal(sheet, link):
         routes += ROUTES["a=an"]
@@ -135,7 +137,7 @@ def _all_normal(sheet: Sheet, link: str) -> bool:
     )
 
 
-def roles_of(sheet: Sheet, selector: Selector) -> Iterator[Role]:
+def quantity_keys_of(sheet: Sheet, selector: Selector) -> Iterator[QuantityKey]:
     """Yield what a quantity is on its links."""
     kind, names = selector.kind, selector.names
     if selector.over is not None or not names:

@@ -42,7 +42,7 @@ ZERO_LENGTH_MM = 1e-6
 KINDS = {Sign.SIZE: DrawnKind.LENGTH, Sign.ANGLE: DrawnKind.DIRECTION}
 
 
-def scalar(value: Number) -> float:
+def single_float(value: Number) -> float:
     """Return the one number of an array."""
     return value if type(value) is float else float(np.reshape(value, -1)[0].real)
 
@@ -51,7 +51,7 @@ StudentValues: TypeAlias = Mapping[NumberName, tuple[float, bool]]
 """A student's own numbers, by the program's numbers that they replace; whether each is signed."""
 
 
-def point(value: Number) -> complex:
+def single_point(value: Number) -> complex:
     """Return the one point of an array."""
     return complex(np.reshape(value, -1)[0])
 
@@ -147,12 +147,12 @@ class Sheet:
     # Exact -----------------------------------------------------------------------------------
 
     @cached_property
-    def trace(self) -> Trace:
+    def exact_trace(self) -> Trace:
         """Exact reading, mm."""
         return self.read(self.program)
 
     @cached_property
-    def keyed(self) -> Sheet:
+    def answer_key_sheet(self) -> Sheet:
         """The sheet as the key has it: read by columns, to the last bit as among other variants."""
         found = evaluate(self.program, self.data, Float64())
         return self.read_as(Trace(_numbers(found.value), _numbers(found.margin)))
@@ -160,29 +160,33 @@ class Sheet:
     def read_as(self, trace: Trace) -> Sheet:
         """Return the sheet with another exact reading."""
         other = copy.copy(self)
-        vars(other).pop("exact", None)
-        other.trace = trace
+        vars(other).pop("exact_answers", None)
+        other.exact_trace = trace
         return other
 
     @cached_property
-    def exact(self) -> dict[str, float]:
+    def exact_answers(self) -> dict[str, float]:
         """Exact answers with their signs, by the id of the question."""
-        return self.evaluate_answers(self.trace)
+        return self.evaluate_answers(self.exact_trace)
 
     def evaluate_answers(self, trace: Trace) -> dict[str, float]:
         """Return the answers that a reading gives."""
-        return {question.id: scalar(question.evaluate(trace)) for question in self.requested}
+        return {question.id: single_float(question.evaluate(trace)) for question in self.requested}
 
     def length(self, question: Question) -> float | None:
         """Return the length of the segment of a question, mm."""
-        return None if question.length is None else abs(scalar(self.trace.value[question.length]))
+        return (
+            None
+            if question.length is None
+            else abs(single_float(self.exact_trace.value[question.length]))
+        )
 
     def vector(self, question: Question, trace: Trace | None = None) -> complex | None:
         """Return the segment of a question as drawn on the plan, mm."""
         if question.ends is None:
             return None
-        value = (trace or self.trace).value
-        tail, head = (point(value[end]) for end in question.ends)
+        value = (trace or self.exact_trace).value
+        tail, head = (single_point(value[end]) for end in question.ends)
         return (head - tail) * question.direction_sign
 
     # Errors ----------------------------------------------------------------------------------
@@ -228,7 +232,7 @@ class Sheet:
         def substitute(name: Name, value: Number) -> Number:
             if name not in values:
                 return value
-            local[name] = scalar(value)
+            local[name] = single_float(value)
             number, signed = values[NumberName(name)]
             if not signed and local[name] < 0:
                 number = -abs(number)
@@ -342,7 +346,7 @@ MIN_COMPONENT = 0.26
 def sense_of(sheet: Sheet, question: Question) -> Sense | None:
     """Return the main sense of a quantity; None where it has none."""
     if question.sign is Sign.TURN and _turns(question):
-        value = sheet.exact[question.id]
+        value = sheet.exact_answers[question.id]
         return None if not value else Sense.CCW if value > 0 else Sense.CW
     vector = sheet.vector(question)
     if vector is None or not abs(vector) > 0:
@@ -358,7 +362,7 @@ def is_right(
     A vector at an angle points in both directions of its components.
     """
     if question.sign is Sign.TURN and _turns(question):
-        value = scalar(question.evaluate(trace or sheet.trace))
+        value = single_float(question.evaluate(trace or sheet.exact_trace))
         return None if not sense.turns or not value else (value > 0) is (sense is Sense.CCW)
     vector = sheet.vector(question, trace)
     if sense.turns or vector is None or not abs(vector) > 0:

@@ -158,7 +158,7 @@ def _in_one_number(scene: MistakeContext, item: TaskItem) -> Iterator[Change]:
     """Yield a decimal place lost, millimetres for metres, another segment of the plan read."""
     question, sheet = item.question, scene.sheet
     step = scene.compute(question.name)
-    if step is None or not scene.exact(step.out):
+    if step is None or not scene.exact_value(step.out):
         return
     yield Change("S4", item.id, {step.out: times(step, 10.0)})
     yield Change("S2", item.id, {step.out: times(step, 1000.0)})
@@ -169,6 +169,6 @@ def _in_one_number(scene: MistakeContext, item: TaskItem) -> Iterator[Change]:
         other = NumberName(segment.length)
         if segment.kind is not plan or other == length or other not in sheet.order:
             continue
-        if sheet.order[other] < sheet.order[step.out] and scene.exact(other):
+        if sheet.order[other] < sheet.order[step.out] and scene.exact_value(other):
             made = read_in_place(sheet, step, length, other)
             yield Change(SEGMENT_CODES[plan], item.id, {step.out: (made,)})

@@ -15,7 +15,7 @@ from planmethod.check.grading import ExaminedAnswer
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.model import Change, times
 from planmethod.check.questions import Question, Sign
-from planmethod.check.sheet import Sheet, point, scalar
+from planmethod.check.sheet import Sheet, single_float, single_point
 from planmethod.construct.steps import Compute, NumberName, Step
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 
@@ -42,7 +42,7 @@ class Slip(NamedTuple):
 
     Attributes
     ----------
-    code, place : str
+    code, mistake_at : str
     value : float
         The number then, SI.
     prior : float
@@ -54,7 +54,7 @@ class Slip(NamedTuple):
     """
 
     code: str
-    place: str
+    mistake_at: str
     value: float
     prior: float
     of: float = 0.0
@@ -71,7 +71,7 @@ class Slip(NamedTuple):
         earlier = read is not None and sheet.order.get(read, last) < last  # so it can be read
         if read is not None and earlier and (question.length, 1) in step.powers:
             steps = (read_in_place(sheet, step, question.length, read),)
-        return Change(self.code, self.place, {step.out: steps}, prior=self.prior)
+        return Change(self.code, self.mistake_at, {step.out: steps}, prior=self.prior)
 
 
 def read_in_place(
@@ -81,7 +81,7 @@ def read_in_place(
     powers = tuple((misread if name == right else name, power) for name, power in step.powers)
     turn = 1.0
     for name in (right, misread):
-        if name is not None and scalar(sheet.trace.value[name]) < 0:
+        if name is not None and single_float(sheet.exact_trace.value[name]) < 0:
             turn = -turn
     return replace(step, factor=step.factor * turn, powers=powers)
 
@@ -135,7 +135,7 @@ def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]
         return
     letter, operation = OPERATIONS[kind]
     (first, power), *arm = step.powers
-    right = math.prod(abs(scalar(sheet.trace.value[n])) ** p for n, p in arm)
+    right = math.prod(abs(single_float(sheet.exact_trace.value[n])) ** p for n, p in arm)
     if power != 1 or not right or (kind == "v" and not first.startswith("omega")):
         return
     length = right if operation == "·" else 1.0 / right
@@ -205,9 +205,9 @@ def _segments(sheet: Sheet, one: ExaminedAnswer, base: float, tolerance: float) 
 def _listed(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, NumberName | None]]:
     """Yield the segments of a plan that are measured: letters, length, what it is called."""
     for segment in sheet.questions.construction.segments:
-        if segment.kind is question.plan and segment.length in sheet.trace.value:
+        if segment.kind is question.plan and segment.length in sheet.exact_trace.value:
             read = NumberName(segment.length)
-            yield segment.name, abs(scalar(sheet.trace.value[read])), read
+            yield segment.name, abs(single_float(sheet.exact_trace.value[read])), read
 
 
 def _wholes(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, NumberName | None]]:
@@ -217,16 +217,20 @@ def _wholes(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, Numb
     part, head = question.ends
     for plan in sheet.plans:
         for vector in plan.vectors if plan.kind is question.plan else ():
-            if vector.head == part and vector.tail in sheet.trace.value:
-                ends = (sheet.trace.value[end] for end in (vector.tail, head))
-                yield f"{vector.tail}-{head}", abs(point(next(ends)) - point(next(ends))), None
+            if vector.head == part and vector.tail in sheet.exact_trace.value:
+                ends = (sheet.exact_trace.value[end] for end in (vector.tail, head))
+                yield (
+                    f"{vector.tail}-{head}",
+                    abs(single_point(next(ends)) - single_point(next(ends))),
+                    None,
+                )
 
 
 def explain_by_value(
     sheet: Sheet,
     one: ExaminedAnswer,
     code: str,
-    place: str,
+    mistake_at: str,
     value: float,
     prior: float,
     *,
@@ -236,9 +240,9 @@ def explain_by_value(
     question = one.item.question
     return Explanation(
         code,
-        place,
-        {**sheet.exact, question.id: value},
-        sheet.trace,
+        mistake_at,
+        {**sheet.exact_answers, question.id: value},
+        sheet.exact_trace,
         sheet,
         first_answers=(one.item.id,),
         free=question.id if free else "",

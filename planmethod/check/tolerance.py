@@ -72,7 +72,7 @@ def limit_of(
     fixed : float or None
         Fraction of the answer that the task itself permits; it overrides all else.
     """
-    exact, sigma = sheet.exact[question.id], sheet.sigma(question)
+    exact, sigma = sheet.exact_answers[question.id], sheet.sigma(question)
     length, size = sheet.length(question), abs(exact)
     per_mm = 1.0 if question.is_mm else sheet.scales.get(question.scale, 0.0)
     if question.selector.kind in RATES:  # a zero one counts as that of a long link

@@ -171,7 +171,7 @@ class CandidateEvaluator:
         named = {}
         for position in dict.fromkeys(item.position for item in task.list_items()):
             explained = task.named(task.sheet(position))
-            named[position] = [(one.code, one.place, one.values) for one in explained]
+            named[position] = [(one.code, one.mistake_at, one.values) for one in explained]
         return self._accept(task, limits, named)
 
     def _limits(self, task: Task, *, strictly: bool = True) -> dict[str, Tolerance] | Rejection:
@@ -224,7 +224,7 @@ class CandidateEvaluator:
             else:
                 task = Task(Solution(cast("Problem", main)), self.settings)
             items = task.list_items()
-            exact = [task.sheet(item.position).exact[item.question.id] for item in items]
+            exact = [task.sheet(item.position).exact_answers[item.question.id] for item in items]
             made = self._evaluate_task(task, strictly=False)
         except PlanMethodError:
             return
@@ -256,7 +256,7 @@ def free_scales(problem: Problem) -> Problem:
 def _sheet(task: Task, item: TaskItem) -> Sheet:
     """Return the sheet of an answer: among other variants as it was read with them."""
     sheet = task.sheet(item.position)
-    return sheet if sheet.row is None else sheet.keyed
+    return sheet if sheet.row is None else sheet.answer_key_sheet
 
 
 def _scales_of(task: Task) -> dict[str, float]:

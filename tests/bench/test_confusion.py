@@ -102,7 +102,7 @@ def test_families_are_counted_apart() -> None:
 
 def test_a_computed_answer_is_known_to_its_last_digit() -> None:
     task = computed("point/k11-02")
-    values = task.sheet(first_items(task)[0].position).exact
+    values = task.sheet(first_items(task)[0].position).exact_answers
     digits = [
         len(f"{round(abs(answer.value) / answer.step)}")
         for work in confusion.compute_submissions(task, values, 20, 1)

@@ -56,7 +56,7 @@ def explanations(task: Task) -> list[Explanation]:
 def exact(task: Task) -> Mapping[str, float]:
     """Return the exact answers of a task."""
     task.usual()
-    return task.sheet(0).exact
+    return task.sheet(0).exact_answers
 
 
 def verdicts(checked: GradedSubmission) -> dict[str, Verdict]:

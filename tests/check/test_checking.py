@@ -60,7 +60,7 @@ def test_a_planted_mistake_is_named_or_owned_to_be_doubtful(name: str) -> None:
         if any(explanation.code in diagnosis.codes for diagnosis in found.diagnosis):
             named += 1
         elif codes:
-            misnamed.append((explanation.code, explanation.place, codes))
+            misnamed.append((explanation.code, explanation.mistake_at, codes))
         for diagnosis in found.diagnosis:
             assert diagnosis.sure is False or len(diagnosis.codes) == 1
             for root in diagnosis.roots:
@@ -271,7 +271,7 @@ def test_a_slip_in_one_number_does_not_affect_values_measured_beside_it() -> Non
 def test_mistakes_that_give_the_same_sheet_are_named_together() -> None:
     """Link 4 of the press barely turns: the other assembly and a misread sense look the same."""
     task = task_of("press/press")
-    (other,) = (e for e in explanations(task) if e.code == "P1" and e.place == "B")
+    (other,) = (e for e in explanations(task) if e.code == "P1" and e.mistake_at == "B")
     (diagnosis,) = check(task, work_of(task, other.values)).diagnosis
     assert set(diagnosis.codes) == {"P1", "sign"}
     assert not diagnosis.sure
@@ -279,7 +279,7 @@ def test_mistakes_that_give_the_same_sheet_are_named_together() -> None:
 
 def test_another_assembly_of_a_triad_is_named_each_of_three() -> None:
     task = task_of("linkages/triad")
-    others = [e for e in explanations(task) if e.code == "P1" and e.place == "3"]
+    others = [e for e in explanations(task) if e.code == "P1" and e.mistake_at == "3"]
     # Found elsewhere: v_B, omega_3, a_B, epsilon_3 of one of the others.
     known = {"v_B": 0.211776, "omega_3": -0.559066, "a_B": 8.30696, "epsilon_3": 23.33842}
     assert [e for e in others if all(
@@ -390,6 +390,6 @@ def test_the_numbers_of_another_variant_earn_no_points() -> None:
     task = Task(tasks["А"].solution, other_variants=lambda: tasks.values())
     found = check(task, work_of(task, exact(tasks["Б"])))
     assert [d.codes for d in found.diagnosis] == [("P2",)]
-    assert found.diagnosis[0].place == "Б"
+    assert found.diagnosis[0].mistake_at == "Б"
     assert {Verdict.INHERITED} & set(verdicts(found).values()) == set()
     assert found.points < 0.3 * found.of

@@ -108,7 +108,7 @@ def test_the_key_lists_mistakes_that_the_bench_does_not_plant() -> None:
             continue  # of one number: the key speaks of the plans
         values = [explanation.values[item.question.id] for item in ex3().declared]
         shown = any(map(checking.shows, key.entries, values))
-        assert shown or change.place in key.hidden[change.code], change
+        assert shown or change.mistake_at in key.hidden[change.code], change
 
 
 # The group of thirty -------------------------------------------------------------------------

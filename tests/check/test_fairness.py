@@ -85,7 +85,9 @@ def test_a_copied_variant_is_named_and_earns_only_answers_right_for_ones_own(nam
         task = group.task(mine)
         (work,) = simulate_submissions(group.task(theirs), None, 1, 7)
         found = check(task, replace(work, variant=mine))
-        assert [(d.codes, d.sure, d.place) for d in found.diagnosis] == [(("P2",), True, theirs)]
+        assert [(d.codes, d.sure, d.mistake_at) for d in found.diagnosis] == [
+            (("P2",), True, theirs)
+        ]
         over += found.points > found.of / 2
         for answer in found.answers:
             assert answer.verdict is not Verdict.INHERITED

@@ -85,7 +85,7 @@ def named(task: Task, text: str) -> str:
 
 def right(item: TaskItem, task: Task) -> dict[str, str]:
     """Return the right answer as somebody would write it."""
-    exact = task.sheet(item.position).exact[item.question.id]
+    exact = task.sheet(item.position).exact_answers[item.question.id]
     size = abs(exact) if item.question.sign in (Sign.SIZE, Sign.TURN) else exact
     sense = "" if item.question.sign is not Sign.TURN else "ccw" if exact > 0 else "cw"
     return {"id": item.id, "value": f"{size:.4g}", "sense": sense}

@@ -48,7 +48,7 @@ def test_every_mistake_that_can_be_made_is_tried(name: str) -> None:
 def test_the_plan_is_linear_in_the_coriolis_acceleration() -> None:
     """Reversed, none, half, right: b₃ of the acceleration plan moves in equal steps."""
     none, half, back = (by_code("linkages/ex3", code)[0] for code in ("A1", "A3", "A2"))
-    right = complex(task_of("linkages/ex3").sheet(0).trace.value[PointName("a:B3")])
+    right = complex(task_of("linkages/ex3").sheet(0).exact_trace.value[PointName("a:B3")])
     step = right - place(half, "a:B3")
     assert abs(step) > 10
     assert place(none, "a:B3") == pytest.approx(right - 2 * step)
@@ -57,7 +57,7 @@ def test_the_plan_is_linear_in_the_coriolis_acceleration() -> None:
 
 def test_an_outward_normal_component_leaves_the_tangential_one_of_a_slotted_link() -> None:
     """N1 at ex3's link 3: a_B3 and its tangential part keep their sizes (CHECKING, N1)."""
-    (wrong,) = (e for e in by_code("linkages/ex3", "N1") if e.place == "B3C")
+    (wrong,) = (e for e in by_code("linkages/ex3", "N1") if e.mistake_at == "B3C")
     right = exact(task_of("linkages/ex3"))
     for name in ("a_B3", "epsilon_3", "at_B3_C"):
         assert abs(wrong.values[name]) == pytest.approx(abs(right[name]))
@@ -87,11 +87,11 @@ def test_a_point_divided_from_the_wrong_end_on_both_plans_is_one_mistake() -> No
     both = next(
         e
         for e in by_code("levers/six-link", "V3")
-        if e.place == "H2" and e.change and len(e.change.steps) == 2
+        if e.mistake_at == "H2" and e.change and len(e.change.steps) == 2
     )
     values = {name: abs(both.values[name]) for name in ("v_H2", "v_H", "a_H2")}
     (found,) = checked("levers/six-link", **values).diagnosis
-    assert (found.codes, found.sure, found.place) == (("V3",), True, "H2")
+    assert (found.codes, found.sure, found.mistake_at) == (("V3",), True, "H2")
 
 
 def test_the_whole_is_recognized_in_place_of_its_part_and_a_small_product_from_zero() -> None:
@@ -118,7 +118,7 @@ def test_weights_forgotten_change_forces_alone() -> None:
         for name, value in right.items():
             if not name.startswith("F_") and name not in ("balance", "lever"):
                 assert wrong.values[name] == value, name
-    whole = [e for e in by_code("levers/task12", "F3") if not e.place]
+    whole = [e for e in by_code("levers/task12", "F3") if not e.mistake_at]
     # Only F_45 balances G5 = 294 N: without the weight, its 1991 N change by 294 N.
     change = abs(whole[0].values["F_4_3"] - right["F_4_3"])
     assert change == pytest.approx(30 * 9.8)
@@ -131,7 +131,7 @@ def test_own_numbers_put_in_are_the_program_with_them_substituted(name: str) -> 
     task.usual()
     sheet = task.sheet(0)
     names = [q.name for q in sheet.requested if q.name is not None and q.name != "0"][::3]
-    right = {name: float(np.reshape(sheet.trace.value[name], -1)[0]) for name in names}
+    right = {name: float(np.reshape(sheet.exact_trace.value[name], -1)[0]) for name in names}
     own: Mapping[NumberName, tuple[float, bool]] = {
         name: (value * 1.1, True) for name, value in right.items()
     }

@@ -24,7 +24,7 @@ def sizes(name: str, code: str, key: str, where: str | None = None) -> list[floa
     return [
         abs(one.values[key])
         for one in every(name)
-        if one.code == code and where in (None, one.place)
+        if one.code == code and where in (None, one.mistake_at)
     ]
 
 
@@ -233,7 +233,7 @@ def test_a_slip_gives_the_number_that_was_written(
 ) -> None:
     raw = f"{value:g}"
     found = [abs(one.value) for one in slips_of(key, value, mm, raw) if one.code == code
-             and one.place == where]  # fmt: skip
+             and one.mistake_at == where]  # fmt: skip
     assert found
     assert min(abs(one / given - 1.0) for one in found) < near, (code, found)
 

@@ -229,12 +229,12 @@ def test_a_mistake_that_a_variant_distinguishes_is_off_by_more_than_a_pencil(
         key, (sheet,) = key_of_task(task), {task.sheet(item.position) for item in task.list_items()}
         seen, made = set(), set()
         for mistake in task.named(sheet):
-            made.add((mistake.code, mistake.place))
+            made.add((mistake.code, mistake.mistake_at))
             for entry, item in zip(key.entries, task.list_items(), strict=True):
                 value = mistake.values[item.question.id]
                 off = abs(abs(value) - abs(entry.exact)) > max(entry.tolerance, 2.5 * entry.sigma)
                 if off or (entry.asks_sense and value * entry.exact < 0):
-                    seen.add((mistake.code, mistake.place))
+                    seen.add((mistake.code, mistake.mistake_at))
         assert made - set(one.indistinct) <= seen
         assert len(made - set(one.indistinct)) >= found.family > 25
 

@@ -34,7 +34,7 @@ from planmethod.check.measured.vertices import (
 )
 from planmethod.check.model import Submission, Unread, WrittenAnswer
 from planmethod.check.questions import Sign
-from planmethod.check.sheet import Sheet, point
+from planmethod.check.sheet import Sheet, single_point
 from planmethod.check.submissions.cells import Cell, mark_unreadable
 from planmethod.check.submissions.faults import SubmissionError
 from planmethod.check.submissions.gather import SubmissionDraft, scale_name
@@ -283,8 +283,8 @@ def _lettered(
             draft.remark(Unread.OPEN, f"{name}: {_format_point(vertices.places[vertex])}", where)
     if pole is not None and pole not in at and len(marks) == 1:  # a point without a letter
         at[pole] = [v for v, place in enumerate(vertices.places) if abs(place - marks[0]) < SNAP_MM]
-        vertices.lone = [vertex for vertex in vertices.lone if vertex not in at[pole]]
-    for vertex in vertices.lone:
+        vertices.unlettered = [vertex for vertex in vertices.unlettered if vertex not in at[pole]]
+    for vertex in vertices.unlettered:
         draft.remark(Unread.VERTEX, _format_point(vertices.places[vertex]), where)
     doubtful = frozenset(known[name] for name in vertices.ambiguous)
     return DetectedPlan(
@@ -357,12 +357,12 @@ def _letters(sheet: Sheet, kind: PlanKind, point_name: PointName) -> str:
 def _rotations(plan: DetectedPlan, sheet: Sheet) -> list[float]:
     """Return by how many degrees the vectors of a plan are turned."""
     turns: list[float] = []
-    value = sheet.trace.value
+    value = sheet.exact_trace.value
     for tail, head in dict.fromkeys((v.tail, v.head) for v in _vectors(sheet, plan.kind)):
         drawn = plan.vector(tail, head)
         if drawn is None or tail not in value or head not in value:
             continue
-        exact = point(value[head]) - point(value[tail])
+        exact = single_point(value[head]) - single_point(value[tail])
         if min(abs(drawn), abs(exact)) > MIN_LENGTH_MM:
             turns.append(math.degrees(phase(drawn / exact)))
     return turns

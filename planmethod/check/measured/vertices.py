@@ -52,7 +52,7 @@ class Vertices(Struct):
     unlabelled : dict of str to list of int
         Vertices without a letter that have this one next to them: where a line ends that does not
         meet the others.
-    lone : list of int
+    unlettered : list of int
         Vertices without a nearby letter.
     inner : set of int
         Vertices from which a line goes straight on.
@@ -65,7 +65,7 @@ class Vertices(Struct):
     longer: list[tuple[int, int]] = field(default_factory=list)
     by_letter: dict[str, int] = field(default_factory=dict)
     unlabelled: dict[str, list[int]] = field(default_factory=dict)
-    lone: list[int] = field(default_factory=list)
+    unlettered: list[int] = field(default_factory=list)
     inner: set[int] = field(default_factory=set)
     ambiguous: list[str] = field(default_factory=list)
 
@@ -259,7 +259,7 @@ def letter(
         ]
         if not beside:
             if vertex not in vertices.inner:
-                vertices.lone.append(vertex)
+                vertices.unlettered.append(vertex)
             continue
         for name in told[min(beside)[1]][1]:
             vertices.unlabelled.setdefault(name, []).append(vertex)

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from msgspec import Struct, field
 
-from planmethod.check.sheet import Sheet, scalar
+from planmethod.check.sheet import Sheet, single_float
 from planmethod.construct.program import Program
 from planmethod.construct.rewrite import rewritten
 from planmethod.construct.steps import (
@@ -34,7 +34,7 @@ class Change(Struct, frozen=True):
     Attributes
     ----------
     code : str
-    place : str
+    mistake_at : str
         Link, point or pair, as people write it.
     steps : mapping of Name to tuple of Step
         Steps that replace a step.
@@ -47,7 +47,7 @@ class Change(Struct, frozen=True):
     """
 
     code: str
-    place: str
+    mistake_at: str
     steps: Mapping[Name, tuple[Step, ...]] = field(default_factory=lambda: MappingProxyType({}))
     data: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
     prior: float = 1.0
@@ -82,9 +82,9 @@ class MistakeContext:
         """Return the segments of the velocity or the acceleration plan."""
         return self.sheet.questions.selecting.segments(plan)
 
-    def exact(self, name: Name) -> float:
+    def exact_value(self, name: Name) -> float:
         """Return the exact value of a number."""
-        return scalar(self.sheet.trace.value[name])
+        return single_float(self.sheet.exact_trace.value[name])
 
     def turnings(self, plan: PlanKind) -> Iterator[tuple[str, Turning]]:
         """Yield the links whose ω (ε) is read from a plan of the sheet."""
@@ -109,12 +109,12 @@ class MistakeContext:
     def signed(self, step: Compute, powers: Powers, factor: float = 1.0) -> Compute:
         """Return a product with the sign that the right one has."""
         made = Compute(step.out, factor, powers)
-        turn = -1.0 if self.value(made) * self.exact(step.out) < 0 else 1.0
+        turn = -1.0 if self.value(made) * self.exact_value(step.out) < 0 else 1.0
         return Compute(step.out, factor * turn, powers)
 
     def value(self, step: Compute) -> float:
         """Return what a product comes to with the exact numbers."""
-        powers = (self.exact(name) ** power for name, power in step.powers)
+        powers = (self.exact_value(name) ** power for name, power in step.powers)
         return step.factor * math.prod(powers)
 
 

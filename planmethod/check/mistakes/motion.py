@@ -53,7 +53,7 @@ def driver_reversed(scene: MistakeContext) -> Iterator[Change]:
     """V2: the driver moves the other way."""
     drive = scene.problem.drive
     name = NumberName(drive.coordinate.rates[0])
-    if name in scene.steps_by_name and (rate := scene.exact(name)):
+    if name in scene.steps_by_name and (rate := scene.exact_value(name)):
         # One wrong sense alone does not indicate the driver.
         yield Change("V2", drive.link, data={name: -rate}, prior=0.04)
 
@@ -100,7 +100,7 @@ def sliding_forgotten(scene: MistakeContext) -> Iterator[Change]:
         for step in scene.steps:
             if isinstance(step, steps.MeasureAlong) and step.head == head and step.tail != start:
                 read = NumberName(f"{step.out} whole")
-                turn = -1.0 if scene.exact(step.out) < 0 else 1.0
+                turn = -1.0 if scene.exact_value(step.out) < 0 else 1.0
                 whole = (
                     steps.Measure(read, step.tail, step.head),
                     steps.Compute(step.out, turn, ((read, 1),)),
@@ -120,10 +120,10 @@ def arm_wrong(scene: MistakeContext) -> Iterator[Change]:
     """V5: ω by another arm: a given length of the link, or the distance of the pivots."""
     for link, turning in scene.turnings(V):
         step = scene.compute(scene.kinematics.omega[link])
-        if step is None or not scene.exact(step.out):
+        if step is None or not scene.exact_value(step.out):
             continue
         value = step.powers[0]
-        right = abs(scene.exact(value[0]) / scene.exact(step.out))
+        right = abs(scene.exact_value(value[0]) / scene.exact_value(step.out))
         for length in sorted(_arms(scene, link, turning)):
             if abs(length - right) > 1e-6 * right:
                 number, made = known(f"{step.out} arm")
@@ -170,12 +170,14 @@ def coriolis_by_factor(scene: MistakeContext) -> Iterator[Change]:
                 yield from _unlaid(scene, relative.a_coriolis, code, relative.name)
 
 
-def _unlaid(scene: MistakeContext, end: Name | None, code: str, place: str) -> Iterator[Change]:
+def _unlaid(
+    scene: MistakeContext, end: Name | None, code: str, mistake_at: str
+) -> Iterator[Change]:
     """Yield a component that is computed and then not laid off."""
     laid = None if end is None else scene.steps_by_name.get(end)
     length = scene.compute(laid.length) if isinstance(laid, steps.LayOffLength) else None
     if length is not None:
-        yield Change(code, place, {length.out: times(length, 0.0)})
+        yield Change(code, mistake_at, {length.out: times(length, 0.0)})
 
 
 def coriolis_of_absolute(scene: MistakeContext) -> Iterator[Change]:
@@ -279,7 +281,7 @@ def normal_by_wrong_formula(scene: MistakeContext) -> Iterator[Change]:
         ]
         for powers in wrong:
             made = steps.Compute(step.out, step.factor, powers, size=True)
-            least = 0.0 if step.out in asked else LITTLE * abs(scene.exact(step.out))
+            least = 0.0 if step.out in asked else LITTLE * abs(scene.exact_value(step.out))
             if abs(scene.value(made)) > least:
                 yield Change("N3", where, {step.out: (made,)})
 
@@ -295,7 +297,7 @@ def epsilon_of_total(scene: MistakeContext) -> Iterator[Change]:
         for tail in dict.fromkeys((motion.pole, joint)):
             read = NumberName(f"{step.out} whole")
             value = NumberName(f"{step.out} a")
-            turn = -1.0 if scene.exact(step.powers[0][0]) < 0 else 1.0
+            turn = -1.0 if scene.exact_value(step.powers[0][0]) < 0 else 1.0
             whole = (
                 steps.Measure(read, tail, turning.head),
                 steps.Compute(value, turn, ((read, 1), (scene.segments(A).scale, 1))),

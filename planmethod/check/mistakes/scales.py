@@ -74,7 +74,11 @@ def units_of_speed(scene: MistakeContext) -> Iterator[Change]:
     """S2: rev/min for 1/s, n/30 without π, degrees for radians."""
     drive = scene.problem.drive
     name = NumberName(drive.coordinate.rates[0])
-    if drive.pivot is None or name not in scene.steps_by_name or not (rate := scene.exact(name)):
+    if (
+        drive.pivot is None
+        or name not in scene.steps_by_name
+        or not (rate := scene.exact_value(name))
+    ):
         return
     for factor in (30.0 / math.pi, 1.0 / math.pi, 180.0 / math.pi, math.pi / 30.0):
         yield Change("S2", drive.link, data={name: rate * factor})
@@ -158,9 +162,9 @@ def _is_arm(scene: MistakeContext, step: steps.LayOffLength) -> bool:
 
 def _other_poses(scene: MistakeContext, step: steps.TriadPose) -> Iterator[Change]:
     """P1: each of the other assemblies of a triad (сборки группы III класса)."""
-    mu_l = scene.exact(NumberName(FACTS[PlanKind.POSITION].scale))
-    here = complex(np.reshape(scene.sheet.trace.value[step.out][0], -1)[0])
-    poses = assemblies(step, env_of(step, scene.sheet.trace, 0))
+    mu_l = scene.exact_value(NumberName(FACTS[PlanKind.POSITION].scale))
+    here = complex(np.reshape(scene.sheet.exact_trace.value[step.out][0], -1)[0])
+    poses = assemblies(step, env_of(step, scene.sheet.exact_trace, 0))
     for pose in sorted(poses, key=lambda pose: abs(pose.origin - here))[1:]:
         told = (pose.origin.real * mu_l, pose.origin.imag * mu_l, pose.turn)
         names = (f"start_{what}_{link_of_axis(step)}" for what in ("x", "y", "turn"))
@@ -173,7 +177,7 @@ def other_angle(scene: MistakeContext) -> Iterator[Change]:
     name = drive.program_inputs[0]
     if drive.pivot is None or name not in scene.steps_by_name:
         return
-    phi = scene.exact(NumberName(name))
+    phi = scene.exact_value(NumberName(name))
     told: set[float] = {phi % 360.0}
     for other in (-phi, 180.0 - phi, phi + 180.0, 90.0 - phi, phi + 90.0, phi - 90.0):
         if other % 360.0 not in told:

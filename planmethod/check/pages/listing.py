@@ -77,7 +77,7 @@ def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
         "codes": list(diagnosis.codes),
         "sure": diagnosis.sure,
         "roots": list(diagnosis.roots),
-        "where": diagnosis.place or None,
+        "where": diagnosis.mistake_at or None,
     }
 
 

@@ -77,7 +77,7 @@ class Remarks(Struct, frozen=True):
     def redraw(self) -> list[str]:
         """Return the segments to redraw: those where mistakes begin, else the wrong ones."""
         drawn = [d for d in self.checked.diagnosis if not d.codes or {*d.codes} - ON_PAPER]
-        roots = [judged for d in drawn for judged in self._known(d.roots)]
+        roots = [judged for d in drawn for judged in self._answers_with_ids(d.roots)]
         if self.checked.diagnosis and not roots:
             return []
         off = [judged for judged in self.checked.answers if judged.verdict in OFF]
@@ -111,7 +111,7 @@ class Remarks(Struct, frozen=True):
     def _causes(self) -> Iterator[str]:
         """Yield a remark on each mistake that has a name, or on where the trouble begins."""
         for diagnosis in self.checked.diagnosis:
-            roots = self._known(diagnosis.roots)
+            roots = self._answers_with_ids(diagnosis.roots)
             if not roots:
                 continue
             first, others = roots[0], roots[1:]
@@ -122,27 +122,27 @@ class Remarks(Struct, frozen=True):
                 parts.append(self.texts.also.format(answers=self._listed(others)))
             yield " ".join(filter(None, parts))
 
-    def _cause_text(self, diagnosis: Diagnosis, root: GradedAnswer) -> str:
+    def _cause_text(self, diagnosis: Diagnosis, first_wrong_answer: GradedAnswer) -> str:
         words = [self.formatter.texts["mistakes"][c] for c in diagnosis.codes if c in self._codes]
         if not words:
-            return self._not_known(root)
-        if diagnosis.codes == ("slip",) and not diagnosis.place:
+            return self._not_known(first_wrong_answer)
+        if diagnosis.codes == ("slip",) and not diagnosis.mistake_at:
             return ""  # included in the remark on the student's own numbers
         if not diagnosis.sure or len(words) > 1:
             names = "; ".join(word.name for word in words)
-            end = self.texts.one_of_end.format(answer=self.formatter.symbol(root))
+            end = self.texts.one_of_end.format(answer=self.formatter.symbol(first_wrong_answer))
             return f"{self.texts.one_of.format(names=names)} {end}"
-        gives = diagnosis.values.get(root.id)
-        many = "" if gives is None else self.formatter.close_to(gives, root)
+        gives = diagnosis.values.get(first_wrong_answer.id)
+        many = "" if gives is None else self.formatter.close_to(gives, first_wrong_answer)
         so_many = (
             f" ({many})"
-            if self.values and many and many not in self.formatter.student_value(root)
+            if self.values and many and many not in self.formatter.student_value(first_wrong_answer)
             else ""
         )
         return self.texts.mistake.format(
             value=so_many,
             so=words[0].so,
-            where=self._place_text(diagnosis.place),
+            where=self._place_text(diagnosis.mistake_at),
             advice=words[0].advice,
         )
 
@@ -206,7 +206,7 @@ class Remarks(Struct, frozen=True):
         for judged in self._of(Verdict.INHERITED):
             groups.setdefault(judged.follows, []).append(judged)
         for source, judged_here in groups.items():
-            told = self._known((source,))
+            told = self._answers_with_ids((source,))
             yield self.texts.inherited.format(
                 answers=self._listed(judged_here),
                 source=self.formatter.symbol(told[0]) if told else quoted(source),
@@ -322,7 +322,7 @@ class Remarks(Struct, frozen=True):
             right=self.formatter.right(answer.key, answer.tolerance),
         )
 
-    def _known(self, ids: Iterable[str]) -> list[GradedAnswer]:
+    def _answers_with_ids(self, ids: Iterable[str]) -> list[GradedAnswer]:
         by_id = {judged.id: judged for judged in self.checked.answers}
         return [by_id[id] for id in ids if id in by_id]
 

@@ -73,7 +73,7 @@ def exact(variant: str, lang: str) -> str:
     items = {(item.name, item.position): item for item in task.list_items()}
     answers = {}
     for number, gap in enumerate(gaps_of(task), 1):
-        value = task.sheet(0).exact[items[gap.id, gap.position].question.id]
+        value = task.sheet(0).exact_answers[items[gap.id, gap.position].question.id]
         senses = get_language(lang).check["senses"]
         turned = " ".join(senses["ccw" if value > 0 else "cw"])
         answers[number] = turned if gap.sense else f"{abs(value):.4g}".replace(".", ",")
