@@ -336,7 +336,7 @@ def test_a_crowded_label_breaks_thin_lines_before_thick_ones() -> None:
     whites = [item for item in items if isinstance(item, Fill)]
     assert [item.tag for item in whites] == [UNDER_LABEL]
     assert lint([*wall, *items], BOUNDS) == []
-    (kept,) = place_labels([of_a_series(1, 95 + 70j)], wall, BOUNDS, breaking=False)
+    (kept,) = place_labels([of_a_series(1, 95 + 70j)], wall, BOUNDS, may_interrupt_lines=False)
     assert not kept.ground
     assert not kept.free
 

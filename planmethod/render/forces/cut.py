@@ -35,7 +35,7 @@ from planmethod.render.forces.guides import (
     pressed,
     span_dimension,
 )
-from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
+from planmethod.render.forces.shifts import ShiftedForce, shift_items, shifted_forces_on
 from planmethod.render.ink.drawing import Disc, Ink, Item
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
@@ -155,7 +155,7 @@ def _loaded_picture(
     links: Iterable[str],
     forces: Sequence[Acting],
     couples: Sequence[CoupleArc],
-    shifts: Sequence[Shifted],
+    shifted_forces: Sequence[ShiftedForce],
     prefix: str,
     notation: Notation,
     guided: Sequence[Pressed] = (),
@@ -165,11 +165,11 @@ def _loaded_picture(
     items = [*drawn_items(scheme), *point_items(guided, scheme.factor)]
     items += [Disc(place, 0.8 * scheme.factor, Ink.BLACK) for _, place in special]
     bars = [part for parts in scheme.segments.values() for part in parts]
-    bars += [shift.line for shift in shifts]
+    bars += [shift.line for shift in shifted_forces]
     joints = [scheme.at(point) for point in scheme.named]
     placed = place_force_arrows(forces, bars, joints, gap=SIZES.joint / 2 * scheme.factor + 0.5)
     arrows, labels = force_items(placed, scheme.letter_height, prefix)
-    lines, letters = shift_items(shifts, placed, scheme.letter_height, prefix)
+    lines, letters = shift_items(shifted_forces, placed, scheme.letter_height, prefix)
     measured, sizes = arm_items(arms, placed, scheme.letter_height, prefix, notation)
     items += [*lines, *measured, *arrows]
     turns, more = couple_items(couples, items, scheme.letter_height, prefix)
@@ -203,8 +203,10 @@ def loads_picture(reading: ForceReading, letter_height: float, notation: Notatio
             if not reading.is_no_couple(couple):
                 couples.append(turning(reading, scheme, couple, notation))
     links = solution.problem.mechanism.links
-    shifts = shifts_on(reading, links, notation)
-    return _loaded_picture(scheme, links, forces, couples, shifts, f"loads {index}", notation)
+    shifted_forces = shifted_forces_on(reading, links, notation)
+    return _loaded_picture(
+        scheme, links, forces, couples, shifted_forces, f"loads {index}", notation
+    )
 
 
 @memoized
@@ -271,7 +273,7 @@ def _cut(
     turnings = [
         turning(reading, scheme, one, notation) for one in couples if one.symbol not in replaced
     ]
-    shifts = shifts_on(reading, scheme.links, notation)
+    shifted_forces = shifted_forces_on(reading, scheme.links, notation)
     arms = [arm for arm in arms_of(reading, equations, notation) if arm.symbol not in replaced]
     points = {one.point for one in reading.solution.construction.draft.special.values()}
     special = [
@@ -280,7 +282,16 @@ def _cut(
         if one.about in points
     ]
     return _loaded_picture(
-        scheme, scheme.links, forces, turnings, shifts, prefix, notation, guided, arms, special
+        scheme,
+        scheme.links,
+        forces,
+        turnings,
+        shifted_forces,
+        prefix,
+        notation,
+        guided,
+        arms,
+        special,
     )
 
 

@@ -14,7 +14,7 @@ from planmethod.render.forces.arrows import (
     force_items,
     place_force_arrows,
 )
-from planmethod.render.forces.shifts import Shifted, shift_items
+from planmethod.render.forces.shifts import ShiftedForce, shift_items
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.labels import NEAREST
 from planmethod.render.labels.merged_labels import label_merged_letters, merge_letters
@@ -51,11 +51,13 @@ def lever_picture(reading: ForceReading, letter_height: float, notation: Notatio
     forces = [
         Acting(notation.symbol(force.symbol), force.at, force.force) for force in lever.forces
     ]
-    shifts = [Shifted(force_symbol(one.link), one.letters[1], *one.line) for one in lever.shifts]
-    shifts = [one for one in shifts if one.is_visible]
-    placed = place_force_arrows(forces, [one.line for one in shifts])
+    shifted_forces = [
+        ShiftedForce(force_symbol(one.link), one.letters[1], *one.line) for one in lever.shifts
+    ]
+    shifted_forces = [one for one in shifted_forces if one.is_visible]
+    placed = place_force_arrows(forces, [one.line for one in shifted_forces])
     arrows, letters_of_forces = force_items(placed, letter_height, prefix)
-    lines, letters_of_shifts = shift_items(shifts, placed, letter_height, prefix)
+    lines, letters_of_shifts = shift_items(shifted_forces, placed, letter_height, prefix)
     arms = [
         arm_of(acting, force.about, force.arm)
         for acting, force in zip(forces, lever.forces, strict=True)

@@ -23,7 +23,7 @@ _MIN_WITH_MARK = 6.0  # mm: a shorter shift has no room for the mark of its righ
 _CORNER = 2.0  # side of that mark, mm
 
 
-class Shifted(Struct, frozen=True):
+class ShiftedForce(Struct, frozen=True):
     """Force moved off the centre of mass: its letter, its point's letter, both places, mm.
 
     ``text`` is the inscription of the line between them.
@@ -46,7 +46,9 @@ class Shifted(Struct, frozen=True):
         return self.centre, self.at
 
 
-def shifts_on(reading: ForceReading, links: Iterable[str], notation: Notation) -> list[Shifted]:
+def shifted_forces_on(
+    reading: ForceReading, links: Iterable[str], notation: Notation
+) -> list[ShiftedForce]:
     """Return the visible shifts on some links."""
     found = []
     for link in links:
@@ -56,12 +58,12 @@ def shifts_on(reading: ForceReading, links: Iterable[str], notation: Notation) -
             read = abs(reading.read_number(shift.length))
             length = f"{notation.number(f'{half_up(read, 1):.1f}')} {notation.units['mm']}"
             text = f"{shift_symbol(link)} = {length}"
-            found.append(Shifted(force_symbol(link), shift.letter, centre, at, text))
+            found.append(ShiftedForce(force_symbol(link), shift.letter, centre, at, text))
     return [one for one in found if one.is_visible]
 
 
 def shift_items(
-    shifts: Iterable[Shifted],
+    shifted_forces: Iterable[ShiftedForce],
     placed: Sequence[tuple[Acting, Segment]],
     height: float,
     prefix: str,
@@ -72,7 +74,7 @@ def shift_items(
     """
     items: list[Item] = []
     labels: list[Label] = []
-    for one in shifts:
+    for one in shifted_forces:
         tag = f"{SHIFT} {one.letter}"
         items += [Stroke(one.line, Pen.THIN, tag=tag), Disc(one.at, 0.8, Ink.BLACK, tag=tag)]
         for force, arrow in placed:
@@ -82,7 +84,7 @@ def shift_items(
     return items, labels
 
 
-def _line_of_action(one: Shifted, end: complex) -> list[Item]:
+def _line_of_action(one: ShiftedForce, end: complex) -> list[Item]:
     """Return the line from the point of a force to its arrow, square to the shift."""
     along, back = end - one.at, one.centre - one.at
     items: list[Item] = [Stroke((one.at, end), Pen.THIN, tag="line of action")]
@@ -93,7 +95,7 @@ def _line_of_action(one: Shifted, end: complex) -> list[Item]:
     return items
 
 
-def _letters(one: Shifted, height: float, prefix: str) -> list[Label]:
+def _letters(one: ShiftedForce, height: float, prefix: str) -> list[Label]:
     """Return the labels of the point and of the shift."""
     labels = [
         Label(

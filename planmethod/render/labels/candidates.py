@@ -21,7 +21,7 @@ Complexes: TypeAlias = NDArray[np.complex128]
 _SEGMENT_FRACTIONS = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
 _SEGMENT_DISTANCES = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
 _OTHER_SIDE_COST = 3.0  # cost of the side of its segment that is not preferred, mm of distance
-_LEVEL = 0.6  # a leader line that rises no more reads as the bar of a fraction, mm
+_MIN_LEADER_RISE = 0.6  # a leader line that rises no more reads as the bar of a fraction, mm
 
 
 class Candidates(Struct, frozen=True, dict=True):
@@ -169,7 +169,7 @@ def _leader_ends(label: Label, boxes: Floats) -> tuple[Complexes, Complexes]:
     up = np.clip(anchor.imag, boxes[:, 1], boxes[:, 3])
     if label.style.slanted:  # to the further edge of a box that lies level with its point
         far = np.where(2 * up > boxes[:, 1] + boxes[:, 3], boxes[:, 1], boxes[:, 3])
-        up = np.where(np.abs(up - anchor.imag) <= _LEVEL, far, up)
+        up = np.where(np.abs(up - anchor.imag) <= _MIN_LEADER_RISE, far, up)
     ends = np.clip(anchor.real, boxes[:, 0], boxes[:, 2]) + 1j * up
     reach = ends - anchor
     length = np.abs(reach)

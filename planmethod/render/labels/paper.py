@@ -92,12 +92,12 @@ class Paper:
         lines: Sequence[tuple[complex, complex]] = (),
         *,
         free: bool = False,
-        breaking: bool = False,
+        may_interrupt_lines: bool = False,
     ) -> list[Floats]:
         """Return the costs of all places without other labels, one array for each label.
 
         ``strangers`` are the points that labels name, ``lines`` the segments. ``free`` places are
-        not checked again for items under them. With ``breaking`` a label on thin lines costs
+        not checked again for items under them. With ``may_interrupt_lines`` a label on thin lines costs
         little: it will break them.
         """
         led = np.concatenate([c.led for c in many])
@@ -106,7 +106,7 @@ class Paper:
         costs = np.concatenate([c.dislike for c in many])
         if not free:
             boxes = np.concatenate([c.boxes for c in many])
-            costs += self._line_costs(boxes, breaking=breaking)
+            costs += self._line_costs(boxes, may_interrupt_lines=may_interrupt_lines)
             costs += np.where(self._are_inside(boxes), 0.0, FORBIDDEN)
             costs += self._area_costs(boxes)
         costs += np.where(led, np.repeat([m.leader for m in manners], counts), 0.0)
@@ -126,7 +126,7 @@ class Paper:
             (boxes[:, 0] >= x0) & (boxes[:, 1] >= y0) & (boxes[:, 2] <= x1) & (boxes[:, 3] <= y1)
         )
 
-    def _line_costs(self, boxes: Floats, *, breaking: bool) -> Floats:
+    def _line_costs(self, boxes: Floats, *, may_interrupt_lines: bool) -> Floats:
         """Return the cost of the lines that run through the boxes grown by the white about them."""
         costs = np.zeros(len(boxes))
         if self._lines is None:
@@ -135,7 +135,7 @@ class Paper:
         which, line = self._lines.query(box(*grown.T))
         lengths = inside(self.segments[line], grown[which])
         crossed = np.where(lengths >= 0, CROSSED + _PER_MM * np.maximum(lengths, 0), 0.0)
-        if breaking:
+        if may_interrupt_lines:
             crossed *= np.where(self.breakable[line], 0.1, 1e3)
         np.add.at(costs, which, crossed)
         return costs

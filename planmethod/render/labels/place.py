@@ -42,7 +42,11 @@ _HOPELESS = 2  # labels without a place: repair never freed that many in 143 cro
 
 
 def place_labels(
-    labels: Sequence[Label], obstacles: Iterable[Item], bounds: Bounds, *, breaking: bool = True
+    labels: Sequence[Label],
+    obstacles: Iterable[Item],
+    bounds: Bounds,
+    *,
+    may_interrupt_lines: bool = True,
 ) -> list[Placed]:
     """Find a place for every label (размещение надписей).
 
@@ -55,7 +59,7 @@ def place_labels(
         hides no items here.
     bounds : Bounds, mm
         All labels stay inside.
-    breaking : bool
+    may_interrupt_lines : bool
         A label of a crowd that finds no free place may break thin lines by a white ground. If not,
         and several find none, they are left unrepaired: the crowd has to be thinned.
 
@@ -65,7 +69,15 @@ def place_labels(
         In the order of ``labels``, without the optional ones that found no free place. A label
         without any place overlaps others or leaves the bounds, and is not ``free``.
     """
-    return list(_placed(tuple(labels), tuple(obstacles), bounds, in_use(), breaking=breaking))
+    return list(
+        _placed(
+            tuple(labels),
+            tuple(obstacles),
+            bounds,
+            in_use(),
+            may_interrupt_lines=may_interrupt_lines,
+        )
+    )
 
 
 @lru_cache(maxsize=128)  # more than the pictures of a project's sheet
@@ -75,7 +87,7 @@ def _placed(
     bounds: Bounds,
     _lettering: OutlineLettering,
     *,
-    breaking: bool,
+    may_interrupt_lines: bool,
 ) -> tuple[Placed, ...]:
     """Return the labels with their places, cached for a picture that is tried on other paper.
 
@@ -88,14 +100,14 @@ def _placed(
     places.fill([k for k in firm if not labels[k].series])
     places.line_up()
     places.fill([k for k in firm if labels[k].series])
-    if not breaking and len(places.unfree()) >= _HOPELESS:
+    if not may_interrupt_lines and len(places.unfree()) >= _HOPELESS:
         return places.result()
     if any(labels[k].style != SPARSE for k in firm):
         places.reconsider()
         places.improve()
     for k in places.unfree():
         places.displace_others(k)
-    for k in places.unfree() if breaking else ():
+    for k in places.unfree() if may_interrupt_lines else ():
         places.break_lines(k)
     for k in places.list_distant():
         places.bring_near(k)
@@ -379,7 +391,9 @@ class _Places:
         for number in (0, 1):
             choice = self._wider(k, number)
             candidates = choice.every or choice.candidates
-            (costs,) = self.paper.costs([candidates], self.strangers, self.lines, breaking=True)
+            (costs,) = self.paper.costs(
+                [candidates], self.strangers, self.lines, may_interrupt_lines=True
+            )
             best = self._cheapest(k, self._choice(candidates, costs))
             if best.cost < CROSSED:
                 best.ground = True
@@ -403,7 +417,9 @@ class _Places:
         """Put a letter at the end of a long leader line beside its point on a few thin lines."""
         choice = self._wider(k, 0)
         candidates = choice.every or choice.candidates
-        (costs,) = self.paper.costs([candidates], self.strangers, self.lines, breaking=True)
+        (costs,) = self.paper.costs(
+            [candidates], self.strangers, self.lines, may_interrupt_lines=True
+        )
         best = self._cheapest(k, self._choice(candidates, costs))
         if best.cost < _FEW_BROKEN:
             best.ground = True

@@ -176,10 +176,10 @@ def _coincide(one: Stroke, two: Stroke) -> bool:
 
 
 def ellipse_inscription(
-    solution: Solution, kind: PlanKind, indices: Sequence[int], language: Language
+    solution: Solution, kind: PlanKind, position_indices: Sequence[int], language: Language
 ) -> list[str]:
     """Return the lines that explain the ellipses of a view."""
-    shown = [error_ellipses(solution, kind, i) for i in indices]
+    shown = [error_ellipses(solution, kind, i) for i in position_indices]
     return describe_ellipses(shown, solution.profile, language)
 
 

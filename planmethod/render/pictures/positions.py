@@ -264,9 +264,9 @@ def _readable(item: Item) -> Item:
     return replace(item, pen=Pen.THIN) if len(stroke_lines(item)) < 2 else item
 
 
-def shows_extremes(solution: Solution, indices: Sequence[int]) -> bool:
+def shows_extremes(solution: Solution, position_indices: Sequence[int]) -> bool:
     """Return whether the extreme positions are shown: among few they would look like two more."""
-    return len(indices) > FEW or solution.problem.cycle is not None
+    return len(position_indices) > FEW or solution.problem.cycle is not None
 
 
 def written(

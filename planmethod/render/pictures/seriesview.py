@@ -95,7 +95,9 @@ def series_picture(
     for height in heights:
         labels = [*own, *positions.labels(height, every=every, thinned=thinned)]
         last = height == heights[-1]
-        tries.append(place_labels(labels, [*items, *ellipses.grounds], bounds, breaking=last))
+        tries.append(
+            place_labels(labels, [*items, *ellipses.grounds], bounds, may_interrupt_lines=last)
+        )
         if untidiness(tries[-1]) <= UNTIDY * len(labels):
             break
     placed = min(tries, key=untidiness)

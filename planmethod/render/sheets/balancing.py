@@ -46,7 +46,7 @@ def _make_narrator(solution: Solution, style: BlockStyle) -> BalancingNarrator:
     return BalancingNarrator(solution, style.language)
 
 
-def balancing_text(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def balancing_text(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the given data, the masses, the counterweights and the forces with numbers."""
     narrator = _make_narrator(solution, style)
     height, width = style.text(style.sizes.text), style.width(style.sizes.column)
@@ -61,10 +61,12 @@ def balancing_text(solution: Solution, indices: Sequence[int], style: BlockStyle
     return Column([before, *blocks_of(nodes, height, width=width)], gap=3.0)
 
 
-def scheme_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
+def scheme_view(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> ViewBlock:
     """Return the scheme with its counterweights, all to scale."""
     narrator = _make_narrator(solution, style)
-    index = indices[0]
+    index = position_indices[0]
     items: list[Item] = []
     labels = []
     for one in narrator.balancing.counterweights:
@@ -95,7 +97,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -
     return ViewBlock(named(picture, title, told, style), "scheme", scale)
 
 
-def polygon_views(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def polygon_views(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the polygons of m·r; collinear vectors are drawn below one another."""
     narrator = _make_narrator(solution, style)
     views: list[Block] = []
@@ -136,7 +138,9 @@ def polygon_views(solution: Solution, indices: Sequence[int], style: BlockStyle)
     return Row(views, gap=16.0, align="bottom")
 
 
-def hodograph_views(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def hodograph_views(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the main vector of inertia before and after, in one scale."""
     narrator = _make_narrator(solution, style)
     curves = [np.append(curve, curve[0]) for curve in narrator.balancing.forces(360)]
@@ -159,7 +163,7 @@ def hodograph_views(solution: Solution, indices: Sequence[int], style: BlockStyl
     return Row(views, gap=16.0, align="bottom")
 
 
-def tables(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def tables(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the counterweights, and the main vector by positions."""
     narrator = _make_narrator(solution, style)
     height = style.text(min(style.sizes.text, 3.5))

@@ -90,23 +90,23 @@ def _transfers() -> Mapping[str, Maker]:
     }
 
 
-def _scheme(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def _scheme(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     if len(solution.positions) == 1:
-        return views.scheme_view(solution, indices, style)
+        return views.scheme_view(solution, position_indices, style)
     from planmethod.render.sheets import several
 
-    return several.scheme_view(solution, indices, style)
+    return several.scheme_view(solution, position_indices, style)
 
 
-def _plan(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def _plan(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     still = style.entry.of is PlanKind.VELOCITY and not np.any(solution.driven[1])
     if style.entry.droppable and still:  # an empty plan
         return Column([])
     if len(solution.positions) == 1:
-        return views.plan_view(solution, indices, style)
+        return views.plan_view(solution, position_indices, style)
     from planmethod.render.sheets import several
 
-    return several.plan_view(solution, indices, style)
+    return several.plan_view(solution, position_indices, style)
 
 
 def _forces() -> Mapping[str, Maker]:

@@ -129,7 +129,9 @@ def _as_high(style: BlockStyle, draw: Callable[[float, float], ViewBlock]) -> Bl
     return at_scales(draw(WIDE * column, times * HIGH * column) for times in HIGHER)
 
 
-def balance_diagram(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def balance_diagram(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the balancing force or moment over the cycle, with both methods' results."""
     return _as_high(style, lambda width, height: _balance(solution, style, width, height))
 
@@ -189,7 +191,9 @@ def _chords(forces: Cycle, style: BlockStyle) -> list[str]:
     return [] if forces.smooth else [style.language.sheets.chords]
 
 
-def reaction_diagram(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def reaction_diagram(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the sizes of the reactions of one force plan over the cycle."""
     return _as_high(style, lambda width, height: _reactions(solution, style, width, height))
 
@@ -240,7 +244,7 @@ def _coincide(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]
 # Polar diagrams ----------------------------------------------------------------------------------
 
 
-def hodographs(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def hodographs(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the polar diagrams of the reactions in the revolute joints, in rows.
 
     They may be larger: the packer takes the size that fills the paper.
@@ -312,7 +316,9 @@ def _largest(solution: Solution, symbol: str, peak: ReactionPeak, language: Lang
 # Texts -------------------------------------------------------------------------------------------
 
 
-def statement_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def statement_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return "Дано" with masses and loads of all positions, and "Определить"."""
     cycle(solution)
     language = style.language

@@ -23,15 +23,17 @@ from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
 
-def reactions_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def reactions_table(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the table of reactions and of the balance by positions."""
     forces = cycle(solution)
     height, width = style.text(min(style.sizes.text, 3.5)), table_width(style)
     language = style.language
-    columns = position_columns(solution, indices, language)
+    columns = position_columns(solution, position_indices, language)
     for k in range(len(forces.joints)):
-        columns += _reaction_columns(forces, k, indices, language.notation)
-    columns += cycle_balance_columns(solution, indices, language)
+        columns += _reaction_columns(forces, k, position_indices, language.notation)
+    columns += cycle_balance_columns(solution, position_indices, language)
     title = style.entry.title or language.sheets.cycle_reactions
     table = table_block(columns, height, max_width=width, leading=2, title=title)
     return Column([table, paragraph(_drawn_at(solution, language), height, table.width)], gap=3.0)
@@ -49,14 +51,14 @@ def _drawn_at(solution: Solution, language: Language) -> str:
 
 
 def _reaction_columns(
-    forces: Cycle, which: int, indices: Sequence[int], notation: Notation
+    forces: Cycle, which: int, position_indices: Sequence[int], notation: Notation
 ) -> list[TableColumn]:
     """Return size and direction of a reaction, and of a guide its moment about the pin."""
     joint, statics = forces.joints[which], statics_of(forces.solution)
-    values = [complex(joint.force[i]) for i in indices]
+    values = [complex(joint.force[i]) for i in position_indices]
     nothing = [
         abs(v) <= NEGLIGIBLE_FRACTION * statics.largest(i)
-        for v, i in zip(values, indices, strict=True)
+        for v, i in zip(values, position_indices, strict=True)
     ]
     sizes = format_column([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
     angles = [
@@ -72,9 +74,12 @@ def _reaction_columns(
         ),
         TableColumn(f"φ{index}", tuple(angles), unit=notation.in_head("deg")),
     ]
-    moments = [float(joint.moment[i]) for i in indices]
+    moments = [float(joint.moment[i]) for i in position_indices]
     lengths = [length for _, _, length in forces.solution.problem.lengths]
-    least = [NEGLIGIBLE_FRACTION * statics.largest(i) * max(lengths, default=1.0) for i in indices]
+    least = [
+        NEGLIGIBLE_FRACTION * statics.largest(i) * max(lengths, default=1.0)
+        for i in position_indices
+    ]
     none = [abs(m) <= small for m, small in zip(moments, least, strict=True)]
     if not all(none):
         texts = format_column(
@@ -89,7 +94,7 @@ def _reaction_columns(
 
 
 def cycle_balance_columns(
-    solution: Solution, indices: Sequence[int], language: Language
+    solution: Solution, position_indices: Sequence[int], language: Language
 ) -> list[TableColumn]:
     """Return the balance: exact, by both methods, their difference and its expected size.
 
@@ -107,14 +112,14 @@ def cycle_balance_columns(
         return TableColumn(head, tuple(cells), unit=unit)
 
     def chosen(values: Reals) -> list[float]:
-        return [float(values[i]) for i in indices]
+        return [float(values[i]) for i in position_indices]
 
     columns = [column(symbol, format_column(chosen(statics.balance)), sense=balancing.turns)]
     balances, sigma = drawn_forces(statics).balances, drawn_forces(statics).discrepancy_sigma
     if balances is None or sigma is None:
         return columns
     both = format_column([*chosen(balances.plans), *chosen(balances.lever)])
-    plans, lever = both[: len(indices)], both[len(indices) :]
+    plans, lever = both[: len(position_indices)], both[len(position_indices) :]
     pairs = list(zip(plans, lever, strict=True))
     differences = [_difference_text(one, two, sense=balancing.turns) for one, two in pairs]
     columns.append(column(said.cycle_plans, plans, sense=balancing.turns))

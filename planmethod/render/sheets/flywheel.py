@@ -56,14 +56,18 @@ def _make_narrator(solution: Solution, style: BlockStyle) -> MachineNarrator:
 # Texts -------------------------------------------------------------------------------------------
 
 
-def statement_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def statement_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return "Дано" of the machine, and "Определить"."""
     narrator = _make_narrator(solution, style)
     asked = style.language.sheets.wanted.format(wanted=narrator.unknowns())
     return stated(narrator.given_facts(), asked, style)
 
 
-def calculation_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def calculation_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the formulas of the construction, the exact flywheel, and their difference."""
     narrator = _make_narrator(solution, style)
     height, width = style.text(style.sizes.text), style.width(style.sizes.column)
@@ -97,7 +101,9 @@ class _DiagramsViewBlock(ViewBlock, frozen=True):
             yield from (Span(name, None, tail + by, head + by) for name, tail, head in self.ends)
 
 
-def diagrams_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
+def diagrams_view(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> ViewBlock:
     """Return the constructed diagrams of moment, work, energy, inertia and those of the method."""
     drawing, narrator = _drawing(solution), _make_narrator(solution, style)
     picture = construction_picture(drawing, narrator, style.letter)
@@ -124,7 +130,9 @@ def diagrams_view(solution: Solution, indices: Sequence[int], style: BlockStyle)
 # Further diagrams --------------------------------------------------------------------------------
 
 
-def speed_diagram(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
+def speed_diagram(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> ViewBlock:
     """Return the deviation of the speed of the steady motion from the mean as a diagram."""
     narrator, flywheel = _make_narrator(solution, style), flywheel_of(solution)
     _, height = _diagram_size(style)
@@ -155,7 +163,7 @@ def _diagram_size(style: BlockStyle) -> tuple[float, float]:
     return 0.75 * column, 0.22 * column
 
 
-def load_diagrams(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def load_diagrams(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return diagrams of variable forces over the strokes of their points, side by side.
 
     A load that repeats another one's diagram later is listed under that diagram.
@@ -226,7 +234,7 @@ def _fine(flywheel: Flywheel) -> Reals:
 # Table -------------------------------------------------------------------------------------------
 
 
-def machine_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def machine_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the quantities reduced to the crank, work, energy and speed by positions."""
     narrator = _make_narrator(solution, style)
     height = style.text(min(style.sizes.text, 3.5))
@@ -241,14 +249,14 @@ def machine_table(solution: Solution, indices: Sequence[int], style: BlockStyle)
     return Column([table, paragraph(note, height, table.width)], gap=3.0)
 
 
-def moment_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def moment_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the reduced moment term by term: forces, velocities, angles."""
     reduction = ReductionNarrator(_make_narrator(solution, style))
     formulas = [reduction.moment_formula()]
     return _reduced(reduction.moments(), formulas, reduction.narrator.texts.moments, style)
 
 
-def energy_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def energy_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the energies of the links and the reduced moment of inertia."""
     reduction = ReductionNarrator(_make_narrator(solution, style))
     formulas, title = reduction.energy_formulas(), reduction.narrator.texts.energies
@@ -275,7 +283,7 @@ def _reduced(
 # The wheel ---------------------------------------------------------------------------------------
 
 
-def wheel_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def wheel_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the flywheel in section and from the side, with its dimensions."""
     narrator = _make_narrator(solution, style)
     sizes = narrator.sizes

@@ -50,8 +50,10 @@ from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
 
-def _reading(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ForceReading:
-    return force_reading(solution, shown_position(solution, indices, style))
+def _reading(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> ForceReading:
+    return force_reading(solution, shown_position(solution, position_indices, style))
 
 
 # Views -------------------------------------------------------------------------------------------
@@ -95,9 +97,9 @@ def scheme_of(
     return ViewBlock(named(picture, title, told, style), kind.value, scale)
 
 
-def loads_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
+def loads_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> ViewBlock:
     """Return the scheme with all loads."""
-    reading = _reading(solution, indices, style)
+    reading = _reading(solution, position_indices, style)
     texts, picture = (
         style.language.sheets,
         loads_picture(reading, style.letter, style.language.notation),
@@ -105,9 +107,9 @@ def loads_view(solution: Solution, indices: Sequence[int], style: BlockStyle) ->
     return scheme_of(reading, picture, style.entry.title or texts.loads, style, texts.not_to_scale)
 
 
-def cut_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
+def cut_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> ViewBlock:
     """Return a structural group, or the driver, cut free with all forces on it."""
-    reading, number = _reading(solution, indices, style), style.entry.number
+    reading, number = _reading(solution, position_indices, style), style.entry.number
     language = style.language
     title = plan_title(reading, reading.plans[number], language)
     picture: Block = cut_picture(reading, number, style.letter, language.notation)
@@ -121,9 +123,9 @@ def cut_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> V
     return scheme_of(reading, picture, title, style)
 
 
-def plan_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def plan_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return a force plan, or only its name if all its forces are zero."""
-    return plan_of(_reading(solution, indices, style), style)
+    return plan_of(_reading(solution, position_indices, style), style)
 
 
 def plan_of(reading: ForceReading, style: BlockStyle) -> Block:
@@ -148,9 +150,9 @@ def plan_of(reading: ForceReading, style: BlockStyle) -> Block:
     return ForcePlanViewBlock(block, "forces", scale, reading, number, language.notation)
 
 
-def lever_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def lever_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the Zhukovsky lever, or only its title if the driver is at rest."""
-    reading = _reading(solution, indices, style)
+    reading = _reading(solution, position_indices, style)
     language = style.language
     title = style.entry.title or language.sheets.lever
     if reading.statics.lever_at(reading.index) is None:
@@ -167,9 +169,11 @@ def lever_view(solution: Solution, indices: Sequence[int], style: BlockStyle) ->
 # Texts -------------------------------------------------------------------------------------------
 
 
-def statement_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def statement_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return "Дано" with masses and loads, "Определить", and the computed loads."""
-    reading = _reading(solution, indices, style)
+    reading = _reading(solution, position_indices, style)
     language, texts = style.language, style.language.sheets
     loads = LoadNarrator(lettered(reading, language)).formulas()
     return stated(
@@ -182,9 +186,11 @@ def statement_block(solution: Solution, indices: Sequence[int], style: BlockStyl
     )
 
 
-def equations_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def equations_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the equations of a force plan: moments with arms, forces, results of the plan."""
-    return equations_of(_reading(solution, indices, style), style)
+    return equations_of(_reading(solution, position_indices, style), style)
 
 
 def equations_of(reading: ForceReading, style: BlockStyle) -> Block:
@@ -223,9 +229,9 @@ def _result_text(context: ForceContext, number: int) -> str:
     return texts.all_zero.format(zeros=" = ".join(context.symbol(edge.symbol) for edge in wholes))
 
 
-def lever_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def lever_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the equation of the lever, and its difference from the force plans."""
-    reading = _reading(solution, indices, style)
+    reading = _reading(solution, position_indices, style)
     height, width = style.text(style.sizes.text), style.width(style.sizes.column)
     told = [style.language.sheets.lever_stands]
     if reading.statics.lever_at(reading.index) is not None:

@@ -23,7 +23,9 @@ from planmethod.solved.forces.reading import force_reading, require_dynamics
 from planmethod.solved.solution import Solution
 
 
-def _reading(solution: Solution, indices: Sequence[int], style: BlockStyle) -> RubbedReading:
+def _reading(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> RubbedReading:
     require_dynamics(solution.problem)
     assert solution.problem.dynamics is not None
     if solution.problem.dynamics.friction is None:
@@ -32,19 +34,19 @@ def _reading(solution: Solution, indices: Sequence[int], style: BlockStyle) -> R
             "[friction] f = 0.1, f_pin = 0.1, radius = 0.01.",
             solution.problem.name,
         )
-    return rubbed_reading(solution, shown_position(solution, indices, style))
+    return rubbed_reading(solution, shown_position(solution, position_indices, style))
 
 
 def _make_narrator(
-    solution: Solution, indices: Sequence[int], style: BlockStyle
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> FrictionNarrator:
-    index = _reading(solution, indices, style).index
+    index = _reading(solution, position_indices, style).index
     return FrictionNarrator(lettered(force_reading(solution, index), style.language), sizes=True)
 
 
-def friction_text(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def friction_text(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the coefficients, circles and angles with their formulas, and the results."""
-    narrator = _make_narrator(solution, indices, style)
+    narrator = _make_narrator(solution, position_indices, style)
     height, width = style.text(style.sizes.text), style.width(style.sizes.column)
     nodes: list[TextNode] = [
         Caption(style.entry.title or narrator.texts.title),
@@ -58,28 +60,30 @@ def friction_text(solution: Solution, indices: Sequence[int], style: BlockStyle)
     return Column(list(blocks_of(nodes, height, width=width)), gap=3.0)
 
 
-def cut_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def cut_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return a group cut free with the reactions that friction inclines."""
-    reading, number = _reading(solution, indices, style), style.entry.number
+    reading, number = _reading(solution, position_indices, style), style.entry.number
     picture = friction_picture(reading, number, style.letter, style.language.notation)
     title = plan_title(reading, reading.plans[number], style.language)
     said = [style.language.friction.enlarged] if is_enlarged(reading) else []
     return scheme_of(reading, picture, title, style, *said)
 
 
-def plan_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def plan_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return a force plan with one correction for friction."""
-    return plan_of(_reading(solution, indices, style), style)
+    return plan_of(_reading(solution, position_indices, style), style)
 
 
-def equations_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def equations_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the equations of a force plan with one correction for friction."""
-    return equations_of(_reading(solution, indices, style), style)
+    return equations_of(_reading(solution, position_indices, style), style)
 
 
-def friction_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def friction_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the reactions without friction, corrected, and converged."""
-    narrator = _make_narrator(solution, indices, style)
+    narrator = _make_narrator(solution, position_indices, style)
     columns = [TableColumn(headed(head), tuple(cells)) for head, *cells in narrator.columns()]
     width, title = table_width(style, STAMP_WIDTH), style.entry.title or narrator.texts.sheet_table
     return table_block(

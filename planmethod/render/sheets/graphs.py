@@ -153,7 +153,7 @@ def graph_labels(solution: Solution, style: BlockStyle) -> tuple[str, ...]:
     return style.options.quantities or (() if own == (OUTPUT,) else own) or of_file or own
 
 
-def graphs_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def graphs_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the requested graphs, in one column or several; an empty block without a request.
 
     They may be larger: the packer takes what fills the paper.

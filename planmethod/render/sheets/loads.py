@@ -29,12 +29,12 @@ _NUMBERS = 6
 """Largest number of steps between the numbers of the axis of abscissae."""
 
 
-def load_curves(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def load_curves(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the diagrams of loads over angles, coordinates and strokes, with a position's value.
 
     Where a load does not act, no value is marked.
     """
-    dynamics, index = solution.problem.dynamics, shown_position(solution, indices, style)
+    dynamics, index = solution.problem.dynamics, shown_position(solution, position_indices, style)
     assert dynamics is not None
     blocks: list[Block] = []
     for number, load in enumerate(dynamics.loads):

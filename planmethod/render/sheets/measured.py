@@ -41,20 +41,22 @@ RULED = (Measure, MeasureAlong)
 """Steps whose values are read with a ruler."""
 
 
-def measured_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def measured_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return measured and exact values of every quantity, by positions.
 
     If errors are requested, the exact values with their errors.
     """
     if style.options.sigma:
-        return results_block(solution, indices, style)
+        return results_block(solution, position_indices, style)
     language = style.language
-    columns, known = position_columns(solution, indices, language), list[str]()
+    columns, known = position_columns(solution, position_indices, language), list[str]()
     for series, symbols in _once(motion_series(solution, *MOTION_KINDS)):
-        column = value_column(series, indices, language.notation, sigma=False, is_single=False)
+        column = value_column(
+            series, position_indices, language.notation, sigma=False, is_single=False
+        )
         column = replace(column, head=" = ".join(symbols))
         if _is_measured(solution, series.quantity):
-            columns += [column, *_measured(series, column, indices, language)]
+            columns += [column, *_measured(series, column, position_indices, language)]
         elif len(set(column.cells)) > 1:
             columns.append(column)
         else:
@@ -70,7 +72,7 @@ def measured_table(solution: Solution, indices: Sequence[int], style: BlockStyle
         return Column([made, *(paragraph(note, height, made.width) for note in below)], 3.0)
 
     usual = table(table_width(style))
-    if len(indices) <= FEW:
+    if len(position_indices) <= FEW:
         return usual
     # Rows of many positions are high: one wide table, or half of it under the other.
     other = table(WIDE * style.inside)
@@ -114,20 +116,21 @@ def _once(every: Sequence[Series]) -> list[tuple[Series, list[str]]]:
 
 
 def _measured(
-    series: Series, exact: TableColumn, indices: Sequence[int], language: Language
+    series: Series, exact: TableColumn, position_indices: Sequence[int], language: Language
 ) -> list[TableColumn]:
     """Return the measured values and their deviations, %; "—" where a deviation is undefined.
 
     Zeros at the end of all measured values are left out: the ruler has no such digits.
     """
-    notation, values = language.notation, series.displayed(series.reads(), indices)
+    notation, values = language.notation, series.displayed(series.reads(), position_indices)
     texts = _without_zeros(series.texts(values))
     read = tuple(
         TableCell(notation.number(text), series.sense(value))
         for text, value in zip(texts, values, strict=True)
     )
     off = tuple(
-        notation.number(series.measured(i).percent_text(limit=MAX_PERCENT)) for i in indices
+        notation.number(series.measured(i).percent_text(limit=MAX_PERCENT))
+        for i in position_indices
     )
     head = language.sheets.read_symbol.format(symbol=series.quantity.symbol)
     return [

@@ -62,7 +62,7 @@ class BuiltBlock(Struct, frozen=True):
 def pages_of(
     composition: Composition,
     solution: Solution,
-    indices: Sequence[int],
+    position_indices: Sequence[int],
     paper: TrialPaper,
     options: BlockOptions,
     *,
@@ -78,7 +78,14 @@ def pages_of(
     for number in composition.sheets:
         at = first + len(pages)
         found = _sheet(
-            composition, number, solution, indices, paper, options, fraction=fraction, first=at
+            composition,
+            number,
+            solution,
+            position_indices,
+            paper,
+            options,
+            fraction=fraction,
+            first=at,
         )
         if found is None:
             return None
@@ -90,7 +97,7 @@ def _sheet(
     composition: Composition,
     number: int,
     solution: Solution,
-    indices: Sequence[int],
+    position_indices: Sequence[int],
     paper: TrialPaper,
     options: BlockOptions,
     *,
@@ -103,7 +110,7 @@ def _sheet(
     """
     entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
     sizes = composition.sizes_for(paper.name, fraction)
-    stock, alone = _BlockCache(solution, indices, {}), len(solution.positions) == 1
+    stock, alone = _BlockCache(solution, position_indices, {}), len(solution.positions) == 1
     for count, level, dropped, taken_apart in _tries(
         composition.levels,
         droppable=any(entry.droppable for entry in entries),
@@ -222,7 +229,7 @@ class _BlockCache(Struct, frozen=True):
     """Cache of the blocks of a sheet: repeated trials do not make them again."""
 
     solution: Solution
-    indices: Sequence[int]
+    position_indices: Sequence[int]
     blocks: dict[tuple[int, int, float], Block]
 
     def build(self, manners: Sequence[BlockStyle], area: float) -> list[BuiltBlock] | None:
@@ -245,7 +252,7 @@ class _BlockCache(Struct, frozen=True):
         key = (id(entry), level, style.inside)
         if key not in self.blocks:
             make = maker_of(entry.kind)
-            self.blocks[key] = make(self.solution, self.indices, style)
+            self.blocks[key] = make(self.solution, self.position_indices, style)
         return self.blocks[key]
 
 

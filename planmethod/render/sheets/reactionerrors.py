@@ -103,7 +103,7 @@ def balance_columns(
         off = notation.number(sigma_text(both.expected)) + both.mark
     return [
         TableColumn("", (language.sheets.value, "±σ")),
-        TableColumn(exact.head, (exact.cells[0], _like(exact, DASH))),
+        TableColumn(exact.head, (exact.cells[0], _matching_cell(exact, DASH))),
         *found,
         TableColumn(share.head, (share.cells[0], off)),
     ]
@@ -116,9 +116,11 @@ def _with_error(
     value = column.cells[0]
     if label in drawn_forces(reading.statics).items:
         value = TableCell(read_text(reading, label, notation), value.sense)
-    return TableColumn(column.head, (value, _like(column, sigma_cell(reading, label, notation))))
+    return TableColumn(
+        column.head, (value, _matching_cell(column, sigma_cell(reading, label, notation)))
+    )
 
 
-def _like(column: TableColumn, text: str) -> TableCell:
+def _matching_cell(column: TableColumn, text: str) -> TableCell:
     """Return a cell that keeps space for the sign of a sense if the column has one."""
     return TableCell(text, None if column.cells[0].sense is None else 0)

@@ -28,9 +28,11 @@ from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION, ForceReading, 
 from planmethod.solved.solution import Solution
 
 
-def reactions_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def reactions_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the table of reactions, and the balancing moment by both methods."""
-    reading = force_reading(solution, shown_position(solution, indices, style))
+    reading = force_reading(solution, shown_position(solution, position_indices, style))
     height = style.text(style.sizes.text)
     width = table_width(style, STAMP_WIDTH)
     reactions, index = reading.statics.reactions, reading.index

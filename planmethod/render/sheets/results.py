@@ -37,23 +37,28 @@ def position_text(solution: Solution, index: int, notation: Notation) -> str:
 
 
 def value_column(
-    series: Series, indices: Sequence[int], notation: Notation, *, sigma: bool, is_single: bool
+    series: Series,
+    position_indices: Sequence[int],
+    notation: Notation,
+    *,
+    sigma: bool,
+    is_single: bool,
 ) -> TableColumn:
     """Return the exact values of a quantity, their senses beside them, by positions.
 
     With ``sigma`` they have their errors beside them, and a single position (``is_single``) has
     rows for the read value, for its deviation, and for its error.
     """
-    values, cells = series.displayed(series.exact, indices), list[TableCell]()
+    values, cells = series.displayed(series.exact, position_indices), list[TableCell]()
     texts = series.texts(values)
-    for i, text, value in zip(indices, texts, values, strict=True):
+    for i, text, value in zip(position_indices, texts, values, strict=True):
         error, mark = series.error(i) if sigma else (0.0, "")
         written = notation.number(as_long(text, abs(value), error))
         if error and not is_single:
             written += f" ± {notation.number(sigma_text(error))}{mark}"
         cells.append(TableCell(written, series.sense(value)))
     if sigma and is_single:
-        cells += _read_cells(series, indices[0], texts[0], notation)
+        cells += _read_cells(series, position_indices[0], texts[0], notation)
     unit = series.quantity.kind.unit
     return TableColumn(
         series.quantity.symbol, tuple(cells), unit="" if unit == "1" else notation.units[unit]
@@ -86,7 +91,7 @@ def _decimals(text: str) -> int:
 
 def result_columns(
     solution: Solution,
-    indices: Sequence[int],
+    position_indices: Sequence[int],
     language: Language,
     *,
     sigma: bool = False,
@@ -98,13 +103,15 @@ def result_columns(
     the read value and its error, and the values of many positions have their errors beside them.
     """
     shown = [kind for kind in MOTION_KINDS if not kinds or kind.sign in kinds]
-    return columns_of(motion_series(solution, *shown), solution, indices, language, sigma=sigma)
+    return columns_of(
+        motion_series(solution, *shown), solution, position_indices, language, sigma=sigma
+    )
 
 
 def columns_of(
     every: Sequence[Series],
     solution: Solution,
-    indices: Sequence[int],
+    position_indices: Sequence[int],
     language: Language,
     *,
     sigma: bool,
@@ -112,22 +119,23 @@ def columns_of(
     """Return the columns of quantities, those of the positions before them."""
     alone, texts = len(solution.positions) == 1, language.sheets
     columns = [
-        value_column(one, indices, language.notation, sigma=sigma, is_single=alone) for one in every
+        value_column(one, position_indices, language.notation, sigma=sigma, is_single=alone)
+        for one in every
     ]
     if not alone:
-        return [*position_columns(solution, indices, language), *columns]
+        return [*position_columns(solution, position_indices, language), *columns]
     rows = (texts.exact, texts.read, "Δ, %", "±σ")
     return [TableColumn("", rows), *columns] if sigma else columns
 
 
 def position_columns(
-    solution: Solution, indices: Sequence[int], language: Language
+    solution: Solution, position_indices: Sequence[int], language: Language
 ) -> list[TableColumn]:
     """Return the columns of the numbers of positions, and of the driver's positions."""
     coordinate = solution.problem.drive.coordinate
-    asked = tuple(position_text(solution, i, language.notation) for i in indices)
+    asked = tuple(position_text(solution, i, language.notation) for i in position_indices)
     return [
-        TableColumn(language.note.number, tuple(str(i) for i in indices), min_width=8.0),
+        TableColumn(language.note.number, tuple(str(i) for i in position_indices), min_width=8.0),
         TableColumn(coordinate.symbol, asked, unit=language.notation.in_head(coordinate.unit)),
     ]
 
@@ -138,18 +146,20 @@ def table_width(style: BlockStyle, usual: float = inf) -> float:
     return min(max(STAMP_WIDTH, style.width(min(usual, room))), room)
 
 
-def results_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def results_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the table of results and, with sigmas, a note on its errors."""
     alone, sigma = len(solution.positions) == 1, style.options.sigma
     sigma = alone if sigma is None else sigma
     size = style.sizes.text
-    height = style.text(size if len(indices) == 1 else min(size, 3.5))
+    height = style.text(size if len(position_indices) == 1 else min(size, 3.5))
     width = table_width(style)
     language, texts = style.language, style.language.sheets
     title = texts.results_exact
     if sigma:
         title = texts.results if alone else texts.results_sigma
-    columns = result_columns(solution, indices, language, sigma=sigma, kinds=style.entry.columns)
+    columns = result_columns(
+        solution, position_indices, language, sigma=sigma, kinds=style.entry.columns
+    )
     table = table_block(
         columns,
         height,

@@ -46,7 +46,7 @@ def _make_narrator(solution: Solution, language: Language) -> MachineNarrator:
     return MachineNarrator(drawing_of(flywheel_of(solution), solution.profile), language)
 
 
-def run_up_text(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def run_up_text(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return "Дано" and "Определить", the motor, run-up, steady motion and stop with numbers."""
     narrator = _make_narrator(solution, style.language)
     height, width = style.text(style.sizes.text), style.width(style.sizes.column)
@@ -56,7 +56,7 @@ def run_up_text(solution: Solution, indices: Sequence[int], style: BlockStyle) -
     return Column([before, *blocks_of(nodes, height, width=width)], gap=3.0)
 
 
-def run_up_tables(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def run_up_tables(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return run-up and stop by even times, one table beside another."""
     narrator = _make_narrator(solution, style.language)
     height = style.text(min(style.sizes.text, 3.5))
@@ -70,7 +70,9 @@ def run_up_tables(solution: Solution, indices: Sequence[int], style: BlockStyle)
     return Row(tables, gap=14.0)
 
 
-def run_up_diagrams(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def run_up_diagrams(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the motor's characteristic, the speed over time and angle, and that of the stop.
 
     They are as large as the paper permits.
@@ -87,16 +89,22 @@ def _diagrams(narrator: MachineNarrator, style: BlockStyle, size: Box) -> Block:
     if run.machine.motor is not None and run.failure is None:
         course = run.run_up
         time, _, speeds = course.rows(_count(course))
-        blocks.append(_speed(narrator, style, size, texts.by_time, ("t", "s"), time, speeds))
+        blocks.append(
+            _speed_diagram(narrator, style, size, texts.by_time, ("t", "s"), time, speeds)
+        )
         turned = np.linspace(course.rotation[0], course.rotation[-1], _count(course))
         speeds = course.at(turned)[0]
         speeds[0] = 0.0
         blocks.append(
-            _speed(narrator, style, size, texts.by_angle, ("φ", "deg"), np.degrees(turned), speeds)
+            _speed_diagram(
+                narrator, style, size, texts.by_angle, ("φ", "deg"), np.degrees(turned), speeds
+            )
         )
     if run.stop is not None:
         time, _, speeds = run.stop.rows(_count(run.stop))
-        blocks.append(_speed(narrator, style, size, texts.stop_diagram, ("t", "s"), time, speeds))
+        blocks.append(
+            _speed_diagram(narrator, style, size, texts.stop_diagram, ("t", "s"), time, speeds)
+        )
     rows = [Row(blocks[k : k + 2], gap=16.0, align="bottom") for k in range(0, len(blocks), 2)]
     return Column(rows, gap=12.0)
 
@@ -114,7 +122,7 @@ def _numbered(symbol: str, largest: float, width: float, style: BlockStyle) -> A
     return Abscissae(symbol, tuple(width * k * step / largest for k in range(count)), numbers)
 
 
-def _speed(
+def _speed_diagram(
     narrator: MachineNarrator,
     style: BlockStyle,
     size: Box,

@@ -36,16 +36,18 @@ CAPTION = 3.5
 """Height of the letters of one of many plans, and of its caption, mm."""
 
 
-def scheme_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
+def scheme_view(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> ViewBlock:
     """Return the scheme of many positions: one in full, the others thin."""
-    bold, kind = shown_position(solution, indices, style), PlanKind.POSITION
+    bold, kind = shown_position(solution, position_indices, style), PlanKind.POSITION
     letter, errors = style.letter, style.options.errors
     traces = shown_traces(solution, style.entry.traces, has_space=style.options.traces)
-    if len(indices) > 1:
+    if len(position_indices) > 1:
         picture = series_picture(
             solution,
             bold,
-            tuple(indices),
+            tuple(position_indices),
             letter_height=letter,
             errors=errors,
             turn=style.options.turn,
@@ -53,14 +55,14 @@ def scheme_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -
         )
     else:
         picture = scheme_picture(solution, bold, letter_height=letter, errors=errors, traces=traces)
-    said = _extremes(solution, indices, style)
-    block = with_scale(solution, kind, picture, style, indices, said)
+    said = _extremes(solution, position_indices, style)
+    block = with_scale(solution, kind, picture, style, position_indices, said)
     return ViewBlock(block, kind.value, solution.scales[kind])
 
 
-def _extremes(solution: Solution, indices: Sequence[int], style: BlockStyle) -> list[str]:
+def _extremes(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> list[str]:
     """Return the notes on the extreme positions of a scheme that shows both."""
-    if not shows_extremes(solution, indices):
+    if not shows_extremes(solution, position_indices):
         return []
     paths = Paths(solution)
     if paths.output is None or len(paths.extremes) < len(PRIMES):
@@ -71,24 +73,24 @@ def _extremes(solution: Solution, indices: Sequence[int], style: BlockStyle) -> 
     return extremes_named(crank_cycle_of(solution) if whole else None, names, style.language)
 
 
-def plan_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def plan_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the plans of several positions in rows, drawn like those of one."""
     kind = style.entry.of
     assert kind is not None
     if style.entry.position is not None:
-        indices = (style.entry.position,)
+        position_indices = (style.entry.position,)
     step, language = style.entry.per_row, style.language
-    alike = _group_repeated(solution, indices)
+    alike = _group_repeated(solution, position_indices)
     shown, errors = tuple(alike), style.options.errors
     pictures = plan_grid(solution, kind, shown, language, in_row=step, errors=errors, repeats=alike)
     return plans_viewed(solution, pictures, shown, style)
 
 
-def _group_repeated(solution: Solution, indices: Sequence[int]) -> dict[int, list[int]]:
+def _group_repeated(solution: Solution, position_indices: Sequence[int]) -> dict[int, list[int]]:
     """Return positions with those of the cycle's second turn at the same crank angle."""
     found: dict[float, list[int]] = {}
     two = solution.repeated > 1 and solution.problem.drive.goes_round
-    for i in indices:
+    for i in position_indices:
         place = round(float(solution.positions[i]) % 360.0, 6) % 360.0 if two else float(i)
         found.setdefault(place, []).append(i)
     return {numbers[0]: numbers for numbers in found.values()}
@@ -97,7 +99,7 @@ def _group_repeated(solution: Solution, indices: Sequence[int]) -> dict[int, lis
 def plan_grid(
     solution: Solution,
     kind: PlanKind,
-    indices: Sequence[int],
+    position_indices: Sequence[int],
     language: Language,
     *,
     in_row: int | None = None,
@@ -113,7 +115,7 @@ def plan_grid(
     cells: list[Block] = []
     common = solution.has_common(kind)
     convention = solution.problem.scales.convention
-    for i in indices:
+    for i in position_indices:
         own_numbers, unit = repeats.get(i, (i,)), notation.units[coordinate.unit]
         places = dict.fromkeys(position_text(solution, k, notation) for k in own_numbers)
         values = ", ".join(with_unit(place, unit) for place in places)

@@ -20,7 +20,9 @@ NARROW = 0.7
 """Part of the usual width for a narrower layout of a text."""
 
 
-def statement_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def statement_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return "Дано" and "Определить"."""
     facts = given_facts(solution.problem, style.language, list(solution.positions))
     return stated(
@@ -42,7 +44,9 @@ def stated(facts: Sequence[GivenFact], task: str, style: BlockStyle, *more: str)
     return Alternatives(tuple(ways))
 
 
-def equations_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def equations_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the vector equations of a plan, one under another."""
     kind = style.entry.of
     assert kind is not None
@@ -55,11 +59,13 @@ def equations_block(solution: Solution, indices: Sequence[int], style: BlockStyl
     return Column([title, *blocks_of([equations], height, width=width)], gap=4.0)
 
 
-def calculation_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def calculation_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the formulas with the read segments, of one position only."""
     kind = style.entry.of
     assert kind is not None
-    index = shown_position(solution, indices, style)
+    index = shown_position(solution, position_indices, style)
     height = style.text(min(3.5, style.sizes.text))
     texts = style.language.sheets
     title = style.entry.title or texts["calculation"][kind.value]
@@ -72,7 +78,7 @@ def calculation_block(solution: Solution, indices: Sequence[int], style: BlockSt
     return Alternatives((whole, Row(columns, gap=2.0 * height)))
 
 
-def text_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def text_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return a text of the composition itself."""
     height, width = style.text(style.sizes.text), style.width(style.sizes.column)
     lines: list[Block] = [paragraph(style.entry.text, height, width=width)]

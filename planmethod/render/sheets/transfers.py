@@ -20,13 +20,13 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.transfers import transfers_of
 
 
-def formulas_block(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def formulas_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the transfer functions' formulas from a plan, of one position only."""
     kind, transfers, texts = style.entry.of, transfers_of(solution), style.language.sheets
     assert kind is not None
     if transfers is None:
         return Column([])
-    index = shown_position(solution, indices, style)
+    index = shown_position(solution, position_indices, style)
     names = Names(solution, style.language.note, on_sheet=True)
     told = TransferNarrator(Formulas(solution, names, index), transfers)
     height, width = style.text(min(3.5, style.sizes.text)), style.width(style.sizes.column)
@@ -46,13 +46,15 @@ def formulas_block(solution: Solution, indices: Sequence[int], style: BlockStyle
     return Alternatives((whole, Row(parts, gap=2.0 * height)))
 
 
-def transfer_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def transfer_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the table by positions; of a single one exact and read values with errors."""
     transfers, language = transfers_of(solution), style.language
     if transfers is None:
         return Column([])
     alone, texts = len(solution.positions) == 1, language.sheets
-    columns = columns_of(transfer_series(transfers), solution, indices, language, sigma=alone)
+    columns = columns_of(
+        transfer_series(transfers), solution, position_indices, language, sigma=alone
+    )
     height = style.text(min(style.sizes.text, 3.5))
     table = table_block(
         columns,

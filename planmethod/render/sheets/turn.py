@@ -49,7 +49,7 @@ SMALL = 0.6
 _NARROW = 0.05  # width over length below which a hodograph counts as a straight line
 
 
-def turn_statement(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def turn_statement(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return "Дано", "Определить" and the facts found for the turn."""
     language = style.language
     facts = given_facts(solution.problem, language, [float(crank_cycle_of(solution).zero)])
@@ -63,7 +63,7 @@ def _output_text(turn: CrankCycle, style: BlockStyle) -> str:
     return phrase.format(name=output_name(output))
 
 
-def diagrams_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def diagrams_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the diagrams of s, v and a under one another."""
     diagrams, language = diagrams_of(solution), style.language
     picture = kinematic_picture(diagrams, style.letter, language.notation)
@@ -79,7 +79,7 @@ def diagrams_view(solution: Solution, indices: Sequence[int], style: BlockStyle)
     return ViewBlock(block, "diagram", diagrams.scales[0])
 
 
-def chosen_plans(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def chosen_plans(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the plans of the positions that the block names.
 
     Default: of as many as fit, evenly from 0 on; or of two, one of either stroke: after a sixth and
@@ -197,7 +197,7 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
     return Hodograph(kind, point, scale, parts, np.nan_to_num(ends) / scale.per_mm)
 
 
-def hodograph_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def hodograph_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the hodograph of velocities or accelerations of a point about one pole.
 
     It may be larger: the packer takes the size that fills the paper.
@@ -229,13 +229,15 @@ def _table(columns: Columns, lead: int, title: str, style: BlockStyle) -> Block:
     return table_block(made, height, max_width=table_width(style), leading=lead, title=title)
 
 
-def turn_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def turn_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the table of the turn by positions."""
     diagrams = diagrams_of(solution)
     return _table(cycle_columns(diagrams, style.language), 2, style.language.cycle.table, style)
 
 
-def deviations_table(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def deviations_table(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
     """Return the deviations of the diagrams by every method."""
     diagrams = diagrams_of(solution)
     columns = deviation_columns(diagrams, style.language)

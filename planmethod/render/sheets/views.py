@@ -47,7 +47,7 @@ class PlanViewBlock(ViewBlock, frozen=True):
 
     solution: Solution
     kind: PlanKind
-    indices: tuple[int, ...]
+    position_indices: tuple[int, ...]
     use_ruler: bool = False
 
     def spans(self, items: Sequence[Item], corner: complex) -> Iterable[Span]:
@@ -58,7 +58,7 @@ class PlanViewBlock(ViewBlock, frozen=True):
             for item in items
             if isinstance(item, Arc) and item.tag.startswith(ENLARGED) and item.tag[-1].isdigit()
         }
-        for pole, index in zip(poles, self.indices, strict=False):
+        for pole, index in zip(poles, self.position_indices, strict=False):
             yield from plan_spans(
                 self.solution, self.kind, index, pole, use_ruler=self.use_ruler, views=views
             )
@@ -112,9 +112,11 @@ def plan_spans(
     return spans
 
 
-def scheme_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> ViewBlock:
+def scheme_view(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> ViewBlock:
     """Return the scheme in one position; `sheets.several` makes that of several."""
-    (index,) = indices
+    (index,) = position_indices
     picture = scheme_picture(
         solution,
         index,
@@ -123,11 +125,11 @@ def scheme_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -
         traces=shown_traces(solution, style.entry.traces, has_space=style.options.traces),
     )
     kind = PlanKind.POSITION
-    block = with_scale(solution, kind, picture, style, indices)
+    block = with_scale(solution, kind, picture, style, position_indices)
     return ViewBlock(block, kind.value, solution.scales[kind])
 
 
-def plan_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> Block:
+def plan_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return a plan with its enlarged views; `sheets.several` makes those of several positions.
 
     It is drawn with the readings of the ruler, so that a ruler finds the numbers of the
@@ -136,23 +138,26 @@ def plan_view(solution: Solution, indices: Sequence[int], style: BlockStyle) -> 
     kind = style.entry.of
     assert kind is not None
     ways = plan_with_details(
-        solution, kind, indices[0], style.language,
+        solution, kind, position_indices[0], style.language,
         letter_height=style.letter, errors=style.options.errors,
         traces=shown_traces(solution, style.entry.traces, has_space=style.options.traces),
     )  # fmt: skip
-    return plans_viewed(solution, ways, indices, style)
+    return plans_viewed(solution, ways, position_indices, style)
 
 
 def plans_viewed(
-    solution: Solution, pictures: Sequence[Block], indices: Sequence[int], style: BlockStyle
+    solution: Solution,
+    pictures: Sequence[Block],
+    position_indices: Sequence[int],
+    style: BlockStyle,
 ) -> Block:
     """Return the plans of some positions, in several layouts, under their name."""
     kind = style.entry.of
     assert kind is not None
-    blocks = [with_scale(solution, kind, picture, style, indices) for picture in pictures]
+    blocks = [with_scale(solution, kind, picture, style, position_indices) for picture in pictures]
     scale, by_hand = solution.scales[kind], not style.options.errors
     return make_alternatives(
-        PlanViewBlock(block, kind.value, scale, solution, kind, tuple(indices), by_hand)
+        PlanViewBlock(block, kind.value, scale, solution, kind, tuple(position_indices), by_hand)
         for block in blocks
     )
 
@@ -192,12 +197,16 @@ def plan_with_details(
     return sorted(ways, key=lambda way: way.width * way.height)
 
 
-def shown_position(solution: Solution, indices: Sequence[int], style: BlockStyle) -> int:
+def shown_position(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> int:
     """Return the representative position: the requested or calculated one, else the clearest."""
     for asked in (style.entry.position, solution.problem.calculated):
-        if asked is not None and asked in indices:
+        if asked is not None and asked in position_indices:
             return asked
-    return indices[0] if len(indices) == 1 else clearest_position(solution, tuple(indices))
+    return (
+        position_indices[0]
+        if len(position_indices) == 1
+        else clearest_position(solution, tuple(position_indices))
+    )
 
 
 def with_scale(
