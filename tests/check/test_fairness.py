@@ -125,7 +125,12 @@ def test_a_likeness_with_a_chance_above_1_in_200_is_not_called_copied(
         for n in "012"[:answers]
     ]
     theirs = [
-        (str(n), SimpleNamespace(exact=dict.fromkeys("012", 2.0 if not n else 7.0), trace=None))
+        (
+            str(n),
+            SimpleNamespace(
+                exact_answers=dict.fromkeys("012", 2.0 if not n else 7.0), exact_trace=None
+            ),
+        )
         for n in range(others)
     ]
     task: Any = SimpleNamespace(named=lambda _: [], theirs=lambda _: theirs)

@@ -43,7 +43,10 @@ def limit(exact: float, sigma: float, *, sign: Sign = Sign.SIZE, **settings: Any
         id="v_B", is_mm=False, scale="mu_v", sign=sign, selector=SimpleNamespace(kind="v")
     )
     sheet: Any = SimpleNamespace(
-        exact={"v_B": exact}, scales={"mu_v": 0.01}, sigma=lambda _: sigma, length=lambda _: 1.0
+        exact_answers={"v_B": exact},
+        scales={"mu_v": 0.01},
+        sigma=lambda _: sigma,
+        length=lambda _: 1.0,
     )
     return limit_of(sheet, question, Settings(**settings), None)
 

@@ -97,8 +97,8 @@ class Paper:
         """Return the costs of all places without other labels, one array for each label.
 
         ``strangers`` are the points that labels name, ``lines`` the segments. ``free`` places are
-        not checked again for items under them. With ``may_interrupt_lines`` a label on thin lines costs
-        little: it will break them.
+        not checked again for items under them. With ``may_interrupt_lines`` a label on thin lines
+        costs little: it will break them.
         """
         led = np.concatenate([c.led for c in many])
         manners = [c.label.style for c in many]
