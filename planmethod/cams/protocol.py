@@ -202,7 +202,7 @@ class CamNarrator(StepNarrator):
     def _format(self, value: float) -> Rich:
         return self.language.notation.short(value + 0.0, 4)
 
-    def lay_off_length(self, step: steps.LayOffLength) -> list[Rich]:
+    def describe_laid_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe the mean ordinate of a part."""
         if not step.out.startswith("m_"):
             return []
@@ -213,13 +213,13 @@ class CamNarrator(StepNarrator):
             )
         ]
 
-    def line(self, step: Line) -> list[Rich]:
+    def describe_line(self, step: Line) -> list[Rich]:
         """Describe a ray from a pole."""
         if isinstance(step, steps.Join):
             return [self.texts.ray.format(ray=step.tail + step.head)]
         return []
 
-    def meet(self, step: steps.IntersectLines) -> list[Rich]:
+    def describe_intersection(self, step: steps.IntersectLines) -> list[Rich]:
         """Describe the end of a chord, its middle, and that on the axis of ordinates."""
         letter, _, rest = step.out.partition("_")
         k = rest[1:-1]
@@ -238,7 +238,7 @@ class CamNarrator(StepNarrator):
             case _:
                 return []
 
-    def measure(self, step: Reading) -> list[Rich]:
+    def describe_measured_segment(self, step: Reading) -> list[Rich]:
         """Describe an ordinate that is read."""
         exact = self.language.notation.number(
             f"{self.drawn.number(step.out, exact=True) + 0.0:.2f}"

@@ -93,7 +93,7 @@ class DiagramNarrator(StepNarrator):
         self._bodies = {line: drawn.label(body) for body, line in drawn.lines.items()}
         self._ends = {spot.end: spot for spot in drawn.spots}
 
-    def lay_off_length(self, step: steps.LayOffLength) -> list[Rich]:
+    def describe_laid_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a velocity, or the place of a point on the axis of contact points."""
         spot = self._ends.get(step.out)
         if spot is not None and spot.plotted == step.length:
@@ -106,14 +106,14 @@ class DiagramNarrator(StepNarrator):
         shown = _mm(height, self.notation)
         return [self.say["foot"].format(point=step.out, what=what, height=shown)]
 
-    def line(self, step: Line) -> list[Rich]:
+    def describe_line(self, step: Line) -> list[Rich]:
         """Describe the line of a body."""
         if not isinstance(step, steps.Join):
             return []
         body = self._bodies[step.out]
         return [self.say["line"].format(one=step.tail, other=step.head, body=body)]
 
-    def meet(self, step: steps.IntersectLines) -> list[Rich]:
+    def describe_intersection(self, step: steps.IntersectLines) -> list[Rich]:
         """Describe a velocity that the line of a body gives."""
         spot = self._ends[step.out]
         facts = {"foot": spot.base, "point": step.out, "what": self._describe_point(spot, "of ")}

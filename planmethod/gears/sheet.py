@@ -309,7 +309,7 @@ class _Sheet(Struct, frozen=True):
     language: Language
     sizes: Sizes
     order: ColumnOrder | None
-    notation: str | None
+    pair_notation: str | None
     compared: PlanetaryComparison | None = None
 
     def orders(self) -> Iterator[tuple[LayoutItem, ...]]:
@@ -482,7 +482,7 @@ class _Sheet(Struct, frozen=True):
         text = self.language.note.given.format(given=facts)
         blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
         blocks.append(heading(self.language.gears["sheet"].calculation, self.sizes.text))
-        lines = calculation(self.motion, self.language, self.notation)
+        lines = calculation(self.motion, self.language, self.pair_notation)
         blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
         return Column(blocks, gap=2.4)
 

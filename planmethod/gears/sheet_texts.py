@@ -165,10 +165,12 @@ def _modules(train: Train, language: Language) -> Iterator[GivenFact]:
         yield GivenFact(form.format(value=notation.as_input(mm), labels=", ".join(wheels)), data)
 
 
-def calculation(motion: TrainMotion, language: Language, notation: str | None = None) -> list[str]:
+def calculation(
+    motion: TrainMotion, language: Language, pair_notation: str | None = None
+) -> list[str]:
     """Return kind, mobility, equations of the meshes with their ratios, derivations."""
     train, found = motion.train, motion.structure
-    lines = [kind_of(found, language), mobility(found, language, notation)]
+    lines = [kind_of(found, language), mobility(found, language, pair_notation)]
     for mesh in train.meshes:
         lines.append(";  ".join(equation_of(motion, mesh)))
     lines += [line.text for line in ratios(motion, language)]

@@ -184,15 +184,15 @@ def kind_of(structure: Mobility, language: Language) -> Rich:
     return language.gears.kind.format(kind=language.gears["kinds"][structure.kind.value])
 
 
-def mobility(structure: Mobility, language: Language, notation: str | None = None) -> Rich:
-    """Return the mobility by Chebyshev's formula; ``notation`` is that of ``[sheet]``."""
+def mobility(structure: Mobility, language: Language, pair_notation: str | None = None) -> Rich:
+    """Return the mobility by Chebyshev's formula; ``pair_notation`` is that of ``[sheet]``."""
     formula = str(structure.formula).replace("-", MINUS)
     return language.gears.chebyshev.format(
         n=structure.moving,
         low=structure.lower,
         high=structure.higher,
         w=formula,
-        **pair_classes(notation, language),
+        **pair_classes(pair_notation, language),
     )
 
 

@@ -132,7 +132,7 @@ class PointNarrator(StepNarrator):
         text = texts.of_pole if name in POLES.values() else texts.of_point
         return text.format(point=self.built.letters[name])
 
-    def line(self, step: Line) -> list[Rich]:
+    def describe_line(self, step: Line) -> list[Rich]:
         """Describe a ray, a line across the wheel, or the direction of the tangent."""
         match step:
             case steps.AtAngle(_, through, _, angle):
@@ -147,11 +147,11 @@ class PointNarrator(StepNarrator):
             case _:
                 return []
 
-    def meet(self, step: steps.IntersectLines) -> list[Rich]:
+    def describe_intersection(self, step: steps.IntersectLines) -> list[Rich]:
         """Describe the foot of the perpendicular on the tangent."""
         return [self.texts.foot.format(point=self.built.letters[step.out])]
 
-    def measure(self, step: Reading) -> list[Rich]:
+    def describe_measured_segment(self, step: Reading) -> list[Rich]:
         """Describe a side of the wheel; other segments are described with their readings."""
         if any(self._is_value(one, step.out) for one in self.columns):
             return []
@@ -162,7 +162,7 @@ class PointNarrator(StepNarrator):
         made = self.step[result]
         return isinstance(made, steps.Compute) and made.powers[0][0] == length
 
-    def lay_off_length(self, step: steps.LayOffLength) -> list[Rich]:
+    def describe_laid_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a vector, or a side of the wheel: its length, origin and direction."""
         texts, made, letters = self.texts, self.step[step.length], self.built.letters
         assert isinstance(made, steps.Compute)
@@ -189,7 +189,7 @@ class PointNarrator(StepNarrator):
             )
         ]
 
-    def compute(self, step: steps.Compute) -> list[Rich]:
+    def describe_computed_number(self, step: steps.Compute) -> list[Rich]:
         """Describe a value read off the drawing."""
         column = self.columns.get(step.out)
         if column is None:

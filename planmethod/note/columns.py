@@ -10,7 +10,7 @@ from planmethod.note.columnar import Column, ColumnarRecords, list_of
 from planmethod.solved.reading import Complexes, Flags, Reals
 
 
-def listed(values: Reals | Sequence[float]) -> list[float | None]:
+def numbers_or_none(values: Reals | Sequence[float]) -> list[float | None]:
     """Return numbers for a record, without a negative zero; None for NaN and infinity."""
     numbers = np.asarray(values) + 0.0
     found: Column = numbers.tolist()
@@ -21,7 +21,7 @@ def listed(values: Reals | Sequence[float]) -> list[float | None]:
 
 def bounds(values: Reals) -> list[float | None]:
     """Return bounds for a record, rounded up to two significant digits."""
-    return listed([_rounded_up(float(value)) for value in values])
+    return numbers_or_none([_rounded_up(float(value)) for value in values])
 
 
 def _rounded_up(value: float) -> float:
@@ -33,12 +33,12 @@ def _rounded_up(value: float) -> float:
 
 def pairs(places: Complexes) -> ColumnarRecords:
     """Return places as pairs of coordinates."""
-    return list_of([listed(places.real), listed(places.imag)], len(places))
+    return list_of([numbers_or_none(places.real), numbers_or_none(places.imag)], len(places))
 
 
 def sizes(vectors: Complexes) -> Column:
     """Return the sizes of vectors: those of one by one, whose last bit is that of a position."""
-    return listed([abs(vector) for vector in vectors.tolist()])
+    return numbers_or_none([abs(vector) for vector in vectors.tolist()])
 
 
 def named(flags: Mapping[str, Flags], count: int) -> list[list[str]]:

@@ -126,9 +126,9 @@ class SynthesisNaming:
     def number(self, name: NumberName) -> float:
         """Return the drafted value of a number; the exact one where the drawing fails."""
         value = float(self.drawn.ruler_reading.value[name])
-        return value if math.isfinite(value) else self.exact(name)
+        return value if math.isfinite(value) else self.exact_value(name)
 
-    def exact(self, name: NumberName) -> float:
+    def exact_value(self, name: NumberName) -> float:
         """Return a number without the error of reading."""
         return float(self.drawn.paper.value[name])
 
@@ -242,13 +242,13 @@ class SynthesisNarrator(BoardNarrator):
         sentence: str = self.synthesis_texts["steps"][key]
         return sentence.format(**shown)
 
-    def given_point(self, step: steps.GivenPoint) -> list[Rich]:
+    def describe_given_point(self, step: steps.GivenPoint) -> list[Rich]:
         """Describe a given point by its coordinates."""
         at = place(self.drawn.paper, step.out)
         x, y = (input_text(value + 0.0, self.texts, 5) for value in (at.real, at.imag))
         return [self.synthesis_texts.point.format(point=point_name(step.out), x=x, y=y)]
 
-    def lay_off_length(self, step: steps.LayOffLength) -> list[Rich]:
+    def describe_laid_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a length that is laid off."""
         naming = self.naming
         length = f"{naming.segment(step.origin, step.out)} = {naming.length(step.length)}"
@@ -262,7 +262,7 @@ class SynthesisNarrator(BoardNarrator):
             )
         ]
 
-    def compute(self, step: steps.Compute) -> list[Rich]:
+    def describe_computed_number(self, step: steps.Compute) -> list[Rich]:
         """Describe the formula of a length of the mechanism."""
         name = self.board.sizes.get(step.out)
         if name is None:

@@ -45,14 +45,14 @@ class Letters:
     def number(self, name: NumberName) -> float:
         return NUMBERS[name]
 
-    def exact(self, name: NumberName) -> float:
+    def exact_value(self, name: NumberName) -> float:
         return NUMBERS[name] - 0.04
 
 
 class Marking(BoardNarrator):
     """A narrator with its own sentence for given points."""
 
-    def given_point(self, step: steps.GivenPoint) -> list[str]:
+    def describe_given_point(self, step: steps.GivenPoint) -> list[str]:
         return [f"mark {self.naming.point(step.out)}"]
 
 

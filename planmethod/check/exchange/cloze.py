@@ -21,7 +21,7 @@ from planmethod.check.pages.keypage import format_scales
 from planmethod.note.document import GivenFact
 from planmethod.note.formula import escape
 from planmethod.note.wording import Language, MessageTable
-from planmethod.note.writers.html import clean, markup
+from planmethod.note.writers.html import markup, without_control_characters
 
 PICTURE = "scheme.png"
 
@@ -67,7 +67,9 @@ def moodle_xml(questions: Iterable[QuizQuestion], language: Language) -> bytes:
     for question in questions:
         if question.title != category:
             category = question.title
-            path = html.escape(clean(f"$course$/top/{category.replace('/', '//')}"))
+            path = html.escape(
+                without_control_characters(f"$course$/top/{category.replace('/', '//')}")
+            )
             lines += [
                 '<question type="category">',
                 f"<category><text>{path}</text></category>",
@@ -80,7 +82,7 @@ def moodle_xml(questions: Iterable[QuizQuestion], language: Language) -> bytes:
 def _question(question: QuizQuestion, language: Language) -> Iterator[str]:
     text = "\n".join(_text(question, language))
     yield '<question type="cloze">'
-    yield f"<name><text>{html.escape(clean(question.name(language)))}</text></name>"
+    yield f"<name><text>{html.escape(without_control_characters(question.name(language)))}</text></name>"
     yield '<questiontext format="html">'
     yield f"<text>{_cdata(text)}</text>"
     if question.picture:

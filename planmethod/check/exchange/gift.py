@@ -9,7 +9,7 @@ from planmethod.check.exchange.quiz import QuizPart
 from planmethod.check.pages.answer_format import AnswerFormatter
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language
-from planmethod.note.writers.html import clean
+from planmethod.note.writers.html import without_control_characters
 
 
 def gift(questions: Iterable[QuizQuestion], language: Language) -> bytes:
@@ -50,5 +50,5 @@ def _gift_question(question: QuizQuestion, part: QuizPart, language: Language) -
 
 def _gift(text: str) -> str:
     """Return a text of GIFT in one line."""
-    flat = " ".join(clean(text).split())
+    flat = " ".join(without_control_characters(text).split())
     return "".join(f"\\{c}" if c in "\\~=#{}:" else c for c in flat)

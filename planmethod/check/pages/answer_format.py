@@ -10,7 +10,7 @@ from planmethod.note.numbers import ZERO_TOLERANCE, trimmed
 from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, MessageTable
-from planmethod.note.writers.html import clean
+from planmethod.note.writers.html import without_control_characters
 
 LONGEST = 60
 """Maximum number of characters quoted from foreign text; the rest is cut."""
@@ -18,7 +18,7 @@ LONGEST = 60
 
 def quoted(text: str) -> str:
     """Return foreign text as rich text, cut to a length that fits into a sentence."""
-    shown = clean(text).strip()
+    shown = without_control_characters(text).strip()
     return escape(shown if len(shown) <= LONGEST else f"{shown[: LONGEST - 1]}…")
 
 

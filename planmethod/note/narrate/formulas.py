@@ -35,7 +35,7 @@ class Formulas:
         """Return a number as the hand has it."""
         return float(self.solution.ruler_reading.number(name)[self.index])
 
-    def exact(self, name: NumberName) -> float:
+    def exact_value(self, name: NumberName) -> float:
         """Return a number without the error of reading."""
         return float(self.solution.paper.number(name)[self.index])
 
@@ -146,11 +146,11 @@ class Formulas:
         lines.append(self.formula(segment, sides, length, "mm", "."))
         return ["  ".join(lines)] if self.names.on_sheet else lines
 
-    def read(self, step: Compute, kind: PlanKind) -> str:
+    def quantity_from_segment(self, step: Compute, kind: PlanKind) -> str:
         """Return a quantity from the read segment that shows it."""
         symbol = self.names.symbol(step.out)
         powers = step.powers[::-1] if self.names.is_inverse_scale() else step.powers
-        exact, unit = abs(self.exact(step.out)), FACTS[kind].unit
+        exact, unit = abs(self.exact_value(step.out)), FACTS[kind].unit
         if not self.readable(step.out):
             text = self.exactly(exact, self.unit(unit))
             return f"{symbol} {self.language.sheets.unreadable}{text}"

@@ -65,7 +65,7 @@ class MotionNarrator:
         others = self.names.further_letters(point)
         return self.texts.meet_coincide.format(points=", ".join(others)) if others else ""
 
-    def lay_off_length(self, step: LayOffLength) -> list[str]:
+    def describe_laid_off_length(self, step: LayOffLength) -> list[str]:
         """Describe the laying off of a vector from its known data."""
         names, texts = self.names, self.texts
         vector, point = names.vector(step.origin, step.out), names.point(step.out)
@@ -149,7 +149,7 @@ class MotionNarrator:
     def _sense_word(self, value: float) -> str:
         return self.texts.ccw if value > 0 else self.texts.cw
 
-    def compute(self, step: Compute) -> list[str]:
+    def describe_computed_number(self, step: Compute) -> list[str]:
         """Describe a number that is a result; one that is laid off is described there.
 
         A reading is a formula of a list; another value is a sentence.
@@ -181,7 +181,7 @@ class MotionNarrator:
             self.formulas.number(step.out),
             self.formulas.product(step.powers, step.factor),
         )
-        more = self.formulas.exactly(self.formulas.exact(step.out))
+        more = self.formulas.exactly(self.formulas.exact_value(step.out))
         return self.formulas.formula(quantity.symbol, sides, value, quantity.kind.unit, more)
 
     def _rate_plan(self, step: Compute) -> PlanKind | None:
@@ -209,7 +209,7 @@ class MotionNarrator:
         if not self.is_value(step):
             return []
         plan = self._values[step.out]
-        text = self.formulas.read(step, plan)
+        text = self.formulas.quantity_from_segment(step, plan)
         for relative in self.kinematics.relatives.values():
             if relative.to == FRAME and step.out in (
                 relative.speed,
@@ -257,7 +257,7 @@ class MotionNarrator:
     def _turning_formula(self, step: Compute) -> str:
         """Return the rate of rotation of a link, and its sense unless it is zero."""
         value = self.formulas.number(step.out)
-        more = self.formulas.exactly(abs(self.formulas.exact(step.out)))
+        more = self.formulas.exactly(abs(self.formulas.exact_value(step.out)))
         sides = self.formulas.product(step.powers, step.factor)
         unit = self.solution.legend[str(step.out)].kind.unit
         more += f", {self._sense_word(value)}" if value else ""
@@ -270,7 +270,7 @@ class MotionNarrator:
         others = [k for k, number in table.items() if number == step.out and k != own]
         return [(other, f"{letter}_{{{other}}}") for other in others]
 
-    def similar(self, step: Similar) -> list[str]:
+    def describe_similar_point(self, step: Similar) -> list[str]:
         """Describe a point found by similarity."""
         names, texts = self.names, self.texts
         point, coincide = names.point(step.out), self.coincide(step.out)
@@ -317,11 +317,13 @@ class MotionNarrator:
         link = map(self.names.point, (step.link_b, step.link_c, step.link_s))
         return "".join(plan), "".join(link)
 
-    def _length(self, tail: PointName, head: PointName) -> NumberName:
+    def _length(self, tail_point: PointName, head_point: PointName) -> NumberName:
         """Return the number of a segment's length."""
         motions = (self.kinematics.velocity, self.kinematics.acceleration)
-        lengths = next(m.segments for m in motions if (tail, head) in m.segments.lengths)
-        return lengths.drawn((tail, head))
+        lengths = next(
+            m.segments for m in motions if (tail_point, head_point) in m.segments.lengths
+        )
+        return lengths.drawn((tail_point, head_point))
 
     def without_coriolis(self, points: set[PointName]) -> list[str]:
         """Return which Coriolis accelerations vanish because the guide does not turn."""
@@ -329,27 +331,32 @@ class MotionNarrator:
         for relative in self.kinematics.relatives.values():
             if relative.a_head not in points or relative.to in self.kinematics.omega:
                 continue
-            head = self.names.vector(relative.start, relative.head)
-            if head is None:
+            relative_vector = self.names.vector(relative.start, relative.head)
+            if relative_vector is None:
                 continue
             index = self._index(relative.start, relative.head)
             symbol = f"a^{{k}}_{{{index}}}"
             if relative.to == FRAME:
                 lines.append(
-                    self.texts.no_coriolis_frame.format(symbol=symbol, guide=self._track(head))
+                    self.texts.no_coriolis_frame.format(
+                        symbol=symbol, guide=self._track(relative_vector)
+                    )
                 )
             else:
                 lines.append(self.texts.no_coriolis_link.format(symbol=symbol, link=relative.to))
         return lines
 
-    def _index(self, start: PointName, head: PointName) -> str:
+    def _index(self, start_point: PointName, head_point: PointName) -> str:
         """Return the index of a relative velocity as its equation has it: ``CC0``."""
         plan = self.names.construction.plan(PlanKind.VELOCITY)
         for equation in plan.equations:
             for term in equation.right:
-                if term.kind is VectorKind.SLIDING and (term.tail, term.head) == (start, head):
+                if term.kind is VectorKind.SLIDING and (term.tail, term.head) == (
+                    start_point,
+                    head_point,
+                ):
                     return term.symbol.partition("_{")[2].rstrip("}")
-        return self.names.point(head)
+        return self.names.point(head_point)
 
     def _track(self, vector: Vector) -> str:
         if vector.direction is None:

@@ -34,7 +34,7 @@ class Naming(Protocol):
     def number(self, name: NumberName) -> float:
         """Return a number as the hand has it."""
 
-    def exact(self, name: NumberName) -> float:
+    def exact_value(self, name: NumberName) -> float:
         """Return a number without the error of reading."""
 
     def line(self, name: LineName) -> Rich:
@@ -54,77 +54,77 @@ class StepNarrator:
         """Return sentences and formulas of a step; none if another step describes it."""
         match step:
             case steps.GivenPoint():
-                return self.given_point(step)
+                return self.describe_given_point(step)
             case steps.GivenNumber():
                 return []
             case steps.Join() | steps.Parallel() | steps.Perpendicular() | steps.AtAngle():
-                return self.line(step)
+                return self.describe_line(step)
             case steps.LayOffLength():
-                return self.lay_off_length(step)
+                return self.describe_laid_off_length(step)
             case steps.IntersectLines():
-                return self.meet(step)
+                return self.describe_intersection(step)
             case steps.IntersectLineCircle():
-                return self.arc_and_line(step)
+                return self.describe_arc_and_line(step)
             case steps.IntersectCircles():
-                return self.two_arcs(step)
+                return self.describe_two_arcs(step)
             case steps.Touch():
-                return self.touch(step)
+                return self.describe_tangent(step)
             case steps.TriadPose():
-                return self.triad(step)
+                return self.describe_triad(step)
             case steps.Spot():
                 return []  # described with its link
             case steps.Similar():
-                return self.similar(step)
+                return self.describe_similar_point(step)
             case steps.Measure() | steps.MeasureAlong():
-                return self.measure(step)
+                return self.describe_measured_segment(step)
             case steps.Compute():
-                return self.compute(step)
+                return self.describe_computed_number(step)
             case steps.Carry() | steps.MeasureArm() | steps.Total():
                 return []  # of force plans, described with their forces; sums, with their results
             case _:
                 assert_never(step)
 
-    def given_point(self, step: steps.GivenPoint) -> list[Rich]:
+    def describe_given_point(self, step: steps.GivenPoint) -> list[Rich]:
         """Describe a given point."""
         return []
 
-    def line(self, step: Line) -> list[Rich]:
+    def describe_line(self, step: Line) -> list[Rich]:
         """Describe a line: most are described by the points found on them."""
         return []
 
-    def lay_off_length(self, step: steps.LayOffLength) -> list[Rich]:
+    def describe_laid_off_length(self, step: steps.LayOffLength) -> list[Rich]:
         """Describe a length that is laid off."""
         return []
 
-    def meet(self, step: steps.IntersectLines) -> list[Rich]:
+    def describe_intersection(self, step: steps.IntersectLines) -> list[Rich]:
         """Describe the intersection of two lines."""
         return []
 
-    def arc_and_line(self, step: steps.IntersectLineCircle) -> list[Rich]:
+    def describe_arc_and_line(self, step: steps.IntersectLineCircle) -> list[Rich]:
         """Describe the intersection of an arc and a line."""
         return []
 
-    def two_arcs(self, step: steps.IntersectCircles) -> list[Rich]:
+    def describe_two_arcs(self, step: steps.IntersectCircles) -> list[Rich]:
         """Describe the intersection of two arcs."""
         return []
 
-    def touch(self, step: steps.Touch) -> list[Rich]:
+    def describe_tangent(self, step: steps.Touch) -> list[Rich]:
         """Describe a tangent."""
         return []
 
-    def triad(self, step: steps.TriadPose) -> list[Rich]:
+    def describe_triad(self, step: steps.TriadPose) -> list[Rich]:
         """Describe how three legs determine the pose of a link."""
         return []
 
-    def similar(self, step: steps.Similar) -> list[Rich]:
+    def describe_similar_point(self, step: steps.Similar) -> list[Rich]:
         """Describe a point found by similarity."""
         return []
 
-    def measure(self, step: Reading) -> list[Rich]:
+    def describe_measured_segment(self, step: Reading) -> list[Rich]:
         """Describe a measured segment."""
         return []
 
-    def compute(self, step: steps.Compute) -> list[Rich]:
+    def describe_computed_number(self, step: steps.Compute) -> list[Rich]:
         """Describe a computed number."""
         return []
 
@@ -135,7 +135,7 @@ class BoardNarrator(StepNarrator):
     def __init__(self, naming: Naming, texts: MessageTable) -> None:
         self.naming, self.texts = naming, texts
 
-    def meet(self, step: steps.IntersectLines) -> list[Rich]:
+    def describe_intersection(self, step: steps.IntersectLines) -> list[Rich]:
         """Describe the intersection of two lines."""
         return [
             self.texts.meet.format(
@@ -150,7 +150,7 @@ class BoardNarrator(StepNarrator):
         """Return which other points are in the same place."""
         return ""
 
-    def arc_and_line(self, step: steps.IntersectLineCircle) -> list[Rich]:
+    def describe_arc_and_line(self, step: steps.IntersectLineCircle) -> list[Rich]:
         """Describe the intersection of an arc and a line."""
         texts, naming = self.texts, self.naming
         course = naming.direction_vector(step.line) * step.sense.value * self._sign(step.branch)
@@ -168,7 +168,7 @@ class BoardNarrator(StepNarrator):
             )
         ]
 
-    def two_arcs(self, step: steps.IntersectCircles) -> list[Rich]:
+    def describe_two_arcs(self, step: steps.IntersectCircles) -> list[Rich]:
         """Describe the intersection of two arcs."""
         naming = self.naming
         return [
@@ -182,7 +182,7 @@ class BoardNarrator(StepNarrator):
             )
         ]
 
-    def touch(self, step: steps.Touch) -> list[Rich]:
+    def describe_tangent(self, step: steps.Touch) -> list[Rich]:
         """Describe a tangent."""
         naming = self.naming
         return [
@@ -195,13 +195,13 @@ class BoardNarrator(StepNarrator):
             )
         ]
 
-    def measure(self, step: Reading) -> list[Rich]:
+    def describe_measured_segment(self, step: Reading) -> list[Rich]:
         """Describe a measured segment."""
         return [
             self.measured(step).format(
                 segment=self.naming.segment(step.tail, step.head),
                 length=input_text(abs(self.naming.number(step.out)), self.texts, 5),
-                exact=fixed(abs(self.naming.exact(step.out)), self.texts),
+                exact=fixed(abs(self.naming.exact_value(step.out)), self.texts),
             )
         ]
 

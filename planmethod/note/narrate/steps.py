@@ -45,7 +45,7 @@ class PositionNarrator:
         x, y = (input_text(value, self.texts, 5) for value in (place.real, place.imag))
         return self.texts.draw_guide_at.format(x=x, y=y, angle=angle, guide=guide)
 
-    def lay_off_length(self, step: steps.LayOffLength) -> list[str]:
+    def describe_laid_off_length(self, step: steps.LayOffLength) -> list[str]:
         """Describe a length laid off on the drawing."""
         out, origin, along, length = step.out, step.origin, step.line, step.length
         names, texts = self.names, self.texts
@@ -79,7 +79,7 @@ class PositionNarrator:
         )
         return [text]
 
-    def triad(self, step: steps.TriadPose) -> list[str]:
+    def describe_triad(self, step: steps.TriadPose) -> list[str]:
         """Describe how a base link is found: it moves without one leg, which then fixes it."""
         names, texts, construction = self.names, self.texts, self.names.construction
         base = link_of_axis(step)
@@ -200,10 +200,10 @@ class LinkageNaming:
     def __init__(self, names: Names, formulas: Formulas, drawing: PositionNarrator) -> None:
         self._names = names
         self.point, self.of, self.segment = names.point, names.of, names.segment
-        self.direction_vector, self.number, self.exact = (
+        self.direction_vector, self.number, self.exact_value = (
             formulas.direction_vector,
             formulas.number,
-            formulas.exact,
+            formulas.exact_value,
         )
         self.length = drawing.length
 
@@ -256,39 +256,43 @@ class Narrator(BoardNarrator):
             return self._unreadable(step)
         return super().narrate(step)
 
-    def lay_off_length(self, step: steps.LayOffLength) -> list[str]:
+    def describe_laid_off_length(self, step: steps.LayOffLength) -> list[str]:
         """Describe a vector of a plan, or a length of the drawing."""
         on_plan = step.out in self.names.letters
-        return self.motion.lay_off_length(step) if on_plan else self.drawing.lay_off_length(step)
+        return (
+            self.motion.describe_laid_off_length(step)
+            if on_plan
+            else self.drawing.describe_laid_off_length(step)
+        )
 
-    def similar(self, step: steps.Similar) -> list[str]:
+    def describe_similar_point(self, step: steps.Similar) -> list[str]:
         """Describe a point of a plan found by similarity."""
-        return self.motion.similar(step)
+        return self.motion.describe_similar_point(step)
 
-    def triad(self, step: steps.TriadPose) -> list[str]:
+    def describe_triad(self, step: steps.TriadPose) -> list[str]:
         """Describe how a base link is found, and the other assemblies."""
-        return self.drawing.triad(step)
+        return self.drawing.describe_triad(step)
 
-    def meet(self, step: steps.IntersectLines) -> list[str]:
+    def describe_intersection(self, step: steps.IntersectLines) -> list[str]:
         """Describe the intersection of two lines; for the special point, its purpose."""
-        told = super().meet(step)
+        told = super().describe_intersection(step)
         for base, special in self.names.construction.draft.special.items():
             if special.point == step.out:
                 point = self.names.point(step.out)
                 told.append(self.texts.special_point.format(base=base, point=point))
         return told
 
-    def compute(self, step: steps.Compute) -> list[str]:
+    def describe_computed_number(self, step: steps.Compute) -> list[str]:
         """Describe a computed number."""
-        return self.motion.compute(step)
+        return self.motion.describe_computed_number(step)
 
     def coincide(self, point: PointName) -> str:
         """Return which other points of a plan are in the same place."""
         return self.motion.coincide(point)
 
-    def measure(self, step: Reading) -> list[str]:
+    def describe_measured_segment(self, step: Reading) -> list[str]:
         """Describe a measured segment, unless its result does."""
-        return [] if step.out in self._narrated_later else super().measure(step)
+        return [] if step.out in self._narrated_later else super().describe_measured_segment(step)
 
     def measured(self, step: Reading) -> str:
         """Return the sentence for a reading."""
@@ -337,7 +341,7 @@ class Narrator(BoardNarrator):
         ]
         return [self.texts.unreadable_points.format(points=", ".join(points))] if points else []
 
-    def line(self, step: Line) -> list[str]:
+    def describe_line(self, step: Line) -> list[str]:
         """Describe a guide of the frame, or a line on which two points are found."""
         texts, names = self.texts, self.names
         guide = names.guide(step.out)

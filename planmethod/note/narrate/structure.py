@@ -25,22 +25,22 @@ def structure_document(
     mechanism: Mechanism,
     structure: Structure,
     language: Language,
-    notation: str | None = None,
+    pair_notation: str | None = None,
     aligned: SelfAligning | None = None,
 ) -> Document:
     """Return the structural analysis of a mechanism with its numbers (структурный анализ).
 
-    ``notation`` is that of the numbers of pairs: `pair_classes`. ``aligned``: with the scheme
+    ``pair_notation`` is that of the numbers of pairs: `pair_classes`. ``aligned``: with the scheme
     without redundant constraints.
     """
-    return Document.of(_analysis(mechanism, structure, language, notation, aligned))
+    return Document.of(_analysis(mechanism, structure, language, pair_notation, aligned))
 
 
 def _analysis(
     mechanism: Mechanism,
     structure: Structure,
     language: Language,
-    notation: str | None,
+    pair_notation: str | None,
     aligned: SelfAligning | None,
 ) -> Iterator[Node]:
     texts = language.structure
@@ -50,7 +50,7 @@ def _analysis(
     yield Caption(texts.links)
     yield link_table(mechanism, language)
     yield Caption(texts.formulas)
-    yield from map(Item, mobility_formulas(mechanism, structure, language, notation))
+    yield from map(Item, mobility_formulas(mechanism, structure, language, pair_notation))
     yield Caption(texts.parts)
     driver, *counts = driver_caption(mechanism, language)
     yield Step((driver, "; ".join(counts)))
@@ -60,7 +60,7 @@ def _analysis(
     yield from map(Item, order_formulas(mechanism, structure, language))
     if aligned is not None:
         yield Caption(texts.aligned)
-        yield from map(Item, aligned_lines(mechanism, structure, aligned, language, notation))
+        yield from map(Item, aligned_lines(mechanism, structure, aligned, language, pair_notation))
     yield Item(_static_counts(structure, language.note))
 
 
@@ -130,24 +130,24 @@ def link_table(mechanism: Mechanism, language: Language) -> Table:
 # Formulas ------------------------------------------------------------------------------------
 
 
-def pair_classes(notation: str | None, language: Language) -> dict[str, str]:
+def pair_classes(pair_notation: str | None, language: Language) -> dict[str, str]:
     """Return the indices of the numbers of lower and higher pairs, as ``[sheet] notation`` says."""
     said = language.structure["notation"]
-    lower, higher = said[notation or said["usual"]]
+    lower, higher = said[pair_notation or said["usual"]]
     return {"lower": lower, "higher": higher}
 
 
 def mobility_formulas(
-    mechanism: Mechanism, structure: Structure, language: Language, notation: str | None = None
+    mechanism: Mechanism, structure: Structure, language: Language, pair_notation: str | None = None
 ) -> Iterator[Rich]:
     """Yield mobility and redundant constraints of the whole (подвижность, избыточные связи)."""
     texts, low, high = language.structure, structure.lower_pairs, structure.higher_pairs
     revolute = sum(pair.kind is PairKind.REVOLUTE for pair in stated_pairs(mechanism))
-    indices = pair_classes(notation, language)
+    indices = pair_classes(pair_notation, language)
     counts = {"n": structure.moving_links, "low": low, "high": high, **indices}
     yield texts.counts.format(revolute=revolute, prismatic=low - revolute, **counts)
     yield texts.chebyshev.format(w=signed(structure.mobility), **counts)
-    letters, numbers = spatial_sum(structure.moving_links, {1: low, 4: high}, notation)
+    letters, numbers = spatial_sum(structure.moving_links, {1: low, 4: high}, pair_notation)
     spatial = structure.spatial_mobility
     yield texts.spatial.format(letters=letters, numbers=numbers, w=signed(spatial))
     yield texts.redundant.format(
@@ -181,7 +181,9 @@ def replacement_lines(
         yield texts.replacing.format(n=n, p=p, w=signed(3 * n - 2 * p))
 
 
-def spatial_sum(n: int, pairs_of: Mapping[int, int], notation: str | None) -> tuple[Rich, Rich]:
+def spatial_sum(
+    n: int, pairs_of: Mapping[int, int], pair_notation: str | None
+) -> tuple[Rich, Rich]:
     """Return the sum of Somov and Malyshev, in letters and in numbers (формула Сомова – Малышева).
 
     Parameters
@@ -190,10 +192,10 @@ def spatial_sum(n: int, pairs_of: Mapping[int, int], notation: str | None) -> tu
         Moving links.
     pairs_of : mapping of int to int
         Number of pairs by their mobility.
-    notation : str or None
+    pair_notation : str or None
         Where it is ``p5 p4``, pairs are numbered by their constraints, else by their mobilities.
     """
-    by_class = notation == "p5 p4"
+    by_class = pair_notation == "p5 p4"
     letters, numbers = "6n", f"6·{n}"
     for mobility in range(1, 6):
         held, index = 6 - mobility, 6 - mobility if by_class else mobility
@@ -251,7 +253,7 @@ def aligned_lines(
     structure: Structure,
     aligned: SelfAligning,
     language: Language,
-    notation: str | None = None,
+    pair_notation: str | None = None,
 ) -> Iterator[Rich]:
     """Yield how each group loses its redundant constraints, and the whole (устранение связей)."""
     texts = language.structure
@@ -264,7 +266,7 @@ def aligned_lines(
         links = "; ".join("–".join(group.links) for group in aligned.without)
         yield texts.aligned_none.format(links=links)
         return
-    yield from aligned_sums(structure, aligned, language, notation)
+    yield from aligned_sums(structure, aligned, language, pair_notation)
     rows, n = aligned.rows, structure.moving_links
     yield texts.aligned_rank.format(
         rows=rows, columns=6 * n, rank=aligned.rank, q=rows - aligned.rank, w=6 * n - aligned.rank
@@ -279,15 +281,18 @@ def aligned_lines(
 
 
 def aligned_sums(
-    structure: Structure, aligned: SelfAligning, language: Language, notation: str | None = None
+    structure: Structure,
+    aligned: SelfAligning,
+    language: Language,
+    pair_notation: str | None = None,
 ) -> Iterator[Rich]:
     """Yield the formulas of the scheme without redundant constraints, where there is one."""
     if not aligned.schemes or not structure.groups:
         return
     n, counts = structure.moving_links, aligned.counts
     local = structure.local_mobility + aligned.local[0]
-    _, numbers = spatial_sum(n, counts, notation)
-    by_class = notation == "p5 p4"
+    _, numbers = spatial_sum(n, counts, pair_notation)
+    by_class = pair_notation == "p5 p4"
     text = ", ".join(
         f"p_{{{6 - mobility if by_class else mobility}}}{NBSP}={NBSP}{count}"
         for mobility, count in sorted(counts.items())

@@ -13,7 +13,7 @@ from planmethod.languages import WRITTEN, speaking
 from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.note.columnar import Column, ColumnarRecords, list_of, record_of, to_builtins
-from planmethod.note.columns import bounds, listed, named, pairs, sizes
+from planmethod.note.columns import bounds, named, numbers_or_none, pairs, sizes
 from planmethod.note.numbers import record_float
 from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
@@ -44,15 +44,17 @@ def analogue_records(solution: Solution) -> ColumnarRecords:
     points, links = analogues(solution)
     told: dict[str, dict[str, Column]] = {
         name: {
-            "x1": listed(one.velocity.real),
-            "y1": listed(one.velocity.imag),
-            "x2": listed(one.acceleration.real),
-            "y2": listed(one.acceleration.imag),
+            "x1": numbers_or_none(one.velocity.real),
+            "y1": numbers_or_none(one.velocity.imag),
+            "x2": numbers_or_none(one.acceleration.real),
+            "y2": numbers_or_none(one.acceleration.imag),
         }
         for name, one in points.items()
     }
     for name, (first, second) in links.items():  # which may be called as a point is
-        told.setdefault(name, {}).update({"1": listed(first), "2": listed(second)})
+        told.setdefault(name, {}).update(
+            {"1": numbers_or_none(first), "2": numbers_or_none(second)}
+        )
     count = len(solution.positions)
     return record_of({name: record_of(columns) for name, columns in told.items()}, count)
 
@@ -87,11 +89,11 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
     return {
         "output": turn.output.name,
         "zero_deg": record_float(turn.zero),
-        "positions_deg": listed(turn.positions),
-        "path": listed(diagrams.path(path)),
-        "velocity": listed(velocity),
-        "acceleration": listed(acceleration),
-        "acceleration_even": listed(even),
+        "positions_deg": numbers_or_none(turn.positions),
+        "path": numbers_or_none(diagrams.path(path)),
+        "velocity": numbers_or_none(velocity),
+        "acceleration": numbers_or_none(acceleration),
+        "acceleration_even": numbers_or_none(even),
         "extremes": [
             {
                 "phi_deg": record_float(one.phi),
@@ -105,7 +107,7 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
         "working_deg": strokes.working_deg if strokes else None,
         "idle_deg": strokes.idle_deg if strokes else None,
         "by": strokes.by if strokes else None,
-        "range_deg": None if turn.range is None else listed(turn.range),
+        "range_deg": None if turn.range is None else numbers_or_none(turn.range),
         "pressure_angle": None
         if peak is None
         else {
@@ -145,19 +147,19 @@ def _diagrams(diagrams: Diagrams) -> dict[str, Any]:
         "mu_s": diagrams.mu_s,
         "mu_v": diagrams.mu_v,
         "mu_a": diagrams.mu_a,
-        "s_mm": listed(s),
-        "v_chord_mm": listed(v_chord),
-        "v_curve_mm": listed(diagrams.curve),
-        "a_chord_mm": listed(a_chord),
-        "v_exact_mm": listed(v_exact),
-        "a_exact_mm": listed(a_exact),
+        "s_mm": numbers_or_none(s),
+        "v_chord_mm": numbers_or_none(v_chord),
+        "v_curve_mm": numbers_or_none(diagrams.curve),
+        "a_chord_mm": numbers_or_none(a_chord),
+        "v_exact_mm": numbers_or_none(v_exact),
+        "a_exact_mm": numbers_or_none(a_exact),
     }
 
 
 def _graphs(turn: CrankCycle) -> dict[str, Any]:
     """Return the quantities of ``[cycle] graphs`` in the positions of the cycle, SI and degrees."""
     return {
-        one.label: listed(values_over(turn, one, turn.positions))
+        one.label: numbers_or_none(values_over(turn, one, turn.positions))
         for one in quantities_over(turn, turn.task.graphs)
     }
 
@@ -208,8 +210,8 @@ def structure_record(structure: Structure, mechanism: Mechanism) -> dict[str, An
 
 def _vector(prefix: str, values: Complexes) -> dict[str, Column]:
     return {
-        f"{prefix}x": listed(values.real),
-        f"{prefix}y": listed(values.imag),
+        f"{prefix}x": numbers_or_none(values.real),
+        f"{prefix}y": numbers_or_none(values.imag),
         prefix: sizes(values),
     }
 
@@ -221,9 +223,9 @@ def _segments(solution: Solution, kind: PlanKind) -> ColumnarRecords:
         {
             segment.name: record_of(
                 {
-                    "exact": listed(segment.exact),
-                    "read": listed(segment.read),
-                    "sigma": listed(spreads[f"{kind.value}.{segment.name}"].sigma),
+                    "exact": numbers_or_none(segment.exact),
+                    "read": numbers_or_none(segment.read),
+                    "sigma": numbers_or_none(spreads[f"{kind.value}.{segment.name}"].sigma),
                 }
             )
             for segment in solution.segments(kind)
@@ -242,12 +244,16 @@ def _drafting_records(solution: Solution) -> ColumnarRecords:
         for quantity in quantities:
             name = LONG.get(quantity.kind, quantity.kind.letter)
             spread = spreads.get(quantity.label)
-            columns[name] = listed(solution.read_off(quantity.label))
-            columns[f"sigma_{name}"] = [0.0] * count if spread is None else listed(spread.sigma)
+            columns[name] = numbers_or_none(solution.read_off(quantity.label))
+            columns[f"sigma_{name}"] = (
+                [0.0] * count if spread is None else numbers_or_none(spread.sigma)
+            )
         return columns
 
     def place(name: str) -> dict[str, Column]:
-        return {f"sigma_{axis}": listed(spreads[f"{axis}_{name}"].sigma) for axis in ("x", "y")}
+        return {
+            f"sigma_{axis}": numbers_or_none(spreads[f"{axis}_{name}"].sigma) for axis in ("x", "y")
+        }
 
     points = {
         name: record_of({**read_columns(quantities), **place(name)})
@@ -291,9 +297,9 @@ def _transfers(solution: Solution) -> dict[str, Column | ColumnarRecords]:
     told = {
         one.label: record_of(
             {
-                "exact": listed(transfers.exact(one)),
-                "read": listed(transfers.read_off(one)),
-                "sigma": listed(spreads[one.label].sigma),
+                "exact": numbers_or_none(transfers.exact(one)),
+                "read": numbers_or_none(transfers.read_off(one)),
+                "sigma": numbers_or_none(spreads[one.label].sigma),
             }
         )
         for one in transfers.quantities
@@ -335,8 +341,8 @@ def _columns(solution: Solution) -> dict[str, Column | ColumnarRecords]:
     points = {
         name: record_of(
             {
-                "x": listed(point.place.real),
-                "y": listed(point.place.imag),
+                "x": numbers_or_none(point.place.real),
+                "y": numbers_or_none(point.place.imag),
                 **_vector("v", point.velocity),
                 **_vector("a", point.acceleration),
             }
@@ -345,7 +351,7 @@ def _columns(solution: Solution) -> dict[str, Column | ColumnarRecords]:
     }
     links = {
         name: record_of(
-            {q.kind.columns[0].removeprefix("."): listed(solution.exact(q)) for q in known}
+            {q.kind.columns[0].removeprefix("."): numbers_or_none(solution.exact(q)) for q in known}
         )
         for name, known in solution.quantities(*TURNING).items()
     }
@@ -356,12 +362,12 @@ def _columns(solution: Solution) -> dict[str, Column | ColumnarRecords]:
                 "v": sizes(r.velocity),
                 "a_coriolis": sizes(r.coriolis),
                 "a_rel": sizes(r.acceleration),
-                "vx": listed(r.velocity.real),
-                "vy": listed(r.velocity.imag),
-                "a_coriolis_x": listed(r.coriolis.real),
-                "a_coriolis_y": listed(r.coriolis.imag),
-                "a_rel_x": listed(r.acceleration.real),
-                "a_rel_y": listed(r.acceleration.imag),
+                "vx": numbers_or_none(r.velocity.real),
+                "vy": numbers_or_none(r.velocity.imag),
+                "a_coriolis_x": numbers_or_none(r.coriolis.real),
+                "a_coriolis_y": numbers_or_none(r.coriolis.imag),
+                "a_rel_x": numbers_or_none(r.acceleration.real),
+                "a_rel_y": numbers_or_none(r.acceleration.imag),
             }
         )
         for r in solution.relatives
@@ -369,7 +375,7 @@ def _columns(solution: Solution) -> dict[str, Column | ColumnarRecords]:
     plans = {
         kind.value: record_of(
             {
-                "mu": listed(np.broadcast_to(solution.per_mm[FACTS[kind].scale], count)),
+                "mu": numbers_or_none(np.broadcast_to(solution.per_mm[FACTS[kind].scale], count)),
                 **({"pole": [poles[kind]] * count} if poles[kind] else {}),
                 "segments": _segments(solution, kind),
             }
@@ -377,8 +383,8 @@ def _columns(solution: Solution) -> dict[str, Column | ColumnarRecords]:
         for kind in MOTION
     }
     columns: dict[str, Column | ColumnarRecords] = {
-        solution.problem.drive.coordinate.column: listed(solution.positions),
-        "margin": listed(solution.margin),
+        solution.problem.drive.coordinate.column: numbers_or_none(solution.positions),
+        "margin": numbers_or_none(solution.margin),
         "bound": bounds(error_bound(solution)),
         "points": record_of(points, count),
         "links": record_of(links, count),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from planmethod.note.columnar import Column, ColumnarRecords, list_of, record_of
-from planmethod.note.columns import bounds, listed, named, pairs, sizes
+from planmethod.note.columns import bounds, named, numbers_or_none, pairs, sizes
 from planmethod.note.compared import DASH
 from planmethod.note.document import Caption, Node, Note
 from planmethod.note.formula import Rich
@@ -50,7 +50,7 @@ def _acts(contact: SlideReaction | None) -> dict[str, Column]:
     b = contact.b()
     acts, places = np.isfinite(b).tolist(), pairs(contact.place(b)).to_list()
     point = [place if is_there else None for place, is_there in zip(places, acts, strict=True)]
-    return {"b": listed(b), "point": point}
+    return {"b": numbers_or_none(b), "point": point}
 
 
 def _at_edges(contact: SlideReaction | None) -> dict[int, dict[str, Any]]:
@@ -82,8 +82,8 @@ def _in_bearings(statics: Statics, joint: JointForce) -> dict[str, ColumnarRecor
         record_of(
             {
                 "at": [place] * count,
-                "fx": listed(share * joint.force.real),
-                "fy": listed(share * joint.force.imag),
+                "fx": numbers_or_none(share * joint.force.real),
+                "fy": numbers_or_none(share * joint.force.imag),
                 "f": sizes(share * joint.force),
             }
         )
@@ -103,11 +103,11 @@ def _drawn(drawn: DrawnForces, joint: JointForce, vanishing: Flags) -> dict[str,
     if not vanishing.all():
         turned[~vanishing] = drawn.spreads[angle_label(joint)].sigma[~vanishing]
     return {
-        "read": listed(drawn.read(size)),
-        "sigma": listed(drawn.spreads[size].sigma),
-        "sigma_angle_deg": listed(turned),
-        "read_moment": listed(drawn.read(moment)) if prismatic else none,
-        "sigma_moment": listed(drawn.spreads[moment].sigma) if prismatic else none,
+        "read": numbers_or_none(drawn.read(size)),
+        "sigma": numbers_or_none(drawn.spreads[size].sigma),
+        "sigma_angle_deg": numbers_or_none(turned),
+        "read_moment": numbers_or_none(drawn.read(moment)) if prismatic else none,
+        "sigma_moment": numbers_or_none(drawn.spreads[moment].sigma) if prismatic else none,
     }
 
 
@@ -121,12 +121,12 @@ def _reaction_records(statics: Statics, number: int) -> ColumnarRecords:
     return record_of(
         {
             **{key: [name] * len(still) for key, name in names.items()},
-            "fx": listed(joint.force.real),
-            "fy": listed(joint.force.imag),
+            "fx": numbers_or_none(joint.force.real),
+            "fy": numbers_or_none(joint.force.imag),
             "f": sizes(joint.force),
-            "angle_deg": listed(angle),
+            "angle_deg": numbers_or_none(angle),
             "at": pairs(joint.at),
-            "moment": listed(joint.moment),
+            "moment": numbers_or_none(joint.moment),
             **_drawn(drawn, joint, still),
             **_acts(contact),
             **_in_bearings(statics, joint),
@@ -166,9 +166,9 @@ def forces_records(solution: Solution) -> ColumnarRecords:
         "reactions": list_of(reactions, count),
         "driving": record_of(
             {
-                quantity: listed(balance),
+                quantity: numbers_or_none(balance),
                 **(
-                    {"moment": listed(statics.moment)}
+                    {"moment": numbers_or_none(statics.moment)}
                     if pushed and statics.moment is not None
                     else {}
                 ),
@@ -177,15 +177,19 @@ def forces_records(solution: Solution) -> ColumnarRecords:
                     if (ends := solution.problem.drive.actuator) is not None
                     else {}
                 ),
-                "read": listed(drawn.read(BALANCE)),
-                "sigma": listed(drawn.spreads[BALANCE].sigma),
+                "read": numbers_or_none(drawn.read(BALANCE)),
+                "sigma": numbers_or_none(drawn.spreads[BALANCE].sigma),
             }
         ),
-        "mu": listed(np.broadcast_to(statics.mu, count)),
+        "mu": numbers_or_none(np.broadcast_to(statics.mu, count)),
         "plans": list_of(
             [
                 record_of(
-                    {"links": [[*plan.links]] * count, "mu": listed(own), "q": [_q(plan)] * count}
+                    {
+                        "links": [[*plan.links]] * count,
+                        "mu": numbers_or_none(own),
+                        "q": [_q(plan)] * count,
+                    }
                 )
                 for plan, own in zip(statics.board.plans, statics.plan_scales, strict=True)
             ],
@@ -202,15 +206,15 @@ def forces_records(solution: Solution) -> ColumnarRecords:
         plans, hung = drawn.balances.plans, drawn.balances.lever
         columns["lever"] = record_of(
             {
-                quantity: listed(statics.lever),
-                "difference": listed(statics.lever - balance),
-                "sigma": listed(drawn.discrepancy_sigma),
+                quantity: numbers_or_none(statics.lever),
+                "difference": numbers_or_none(statics.lever - balance),
+                "sigma": numbers_or_none(drawn.discrepancy_sigma),
                 "hand": record_of(
                     {
-                        "plans": listed(plans),
-                        "lever": listed(hung),
-                        "sigma_lever": listed(drawn.spreads[LEVER].sigma),
-                        "difference": listed(hung - plans),
+                        "plans": numbers_or_none(plans),
+                        "lever": numbers_or_none(hung),
+                        "sigma_lever": numbers_or_none(drawn.spreads[LEVER].sigma),
+                        "difference": numbers_or_none(hung - plans),
                     }
                 ),
             }

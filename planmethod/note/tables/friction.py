@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from planmethod.note.columnar import Column, ColumnarRecords, list_of, record_of
-from planmethod.note.columns import listed, sizes
+from planmethod.note.columns import numbers_or_none, sizes
 from planmethod.note.document import Caption, Node, Note
 from planmethod.note.narrate.forces.common import ForceContext
 from planmethod.note.narrate.forces.friction import FrictionNarrator
@@ -40,14 +40,22 @@ def friction_records(solution: Solution) -> ColumnarRecords:
         "pairs": list_of([_pair(friction, pair, count) for pair in friction.every], count),
         "driving": record_of(
             {
-                key: record_of({quantity: listed(forces.balance), "power": listed(forces.power)})
+                key: record_of(
+                    {
+                        quantity: numbers_or_none(forces.balance),
+                        "power": numbers_or_none(forces.power),
+                    }
+                )
                 for key, forces in _kinds(friction).items()
             }
         ),
         "change": record_of(
-            {quantity: listed(friction.change), "reactions": listed(friction.reaction_change)}
+            {
+                quantity: numbers_or_none(friction.change),
+                "reactions": numbers_or_none(friction.reaction_change),
+            }
         ),
-        "efficiency": listed(friction.efficiency),
+        "efficiency": numbers_or_none(friction.efficiency),
         "self_locking": friction.locks.tolist(),
         "jammed": friction.jammed.tolist(),
     }
@@ -67,16 +75,19 @@ def _pair(friction: Friction, pair: FrictionPair, count: int) -> ColumnarRecords
     steady |= {"from": pair.by, "f": pair.f}
     steady |= {"rho": pair.rho} if pair.slide is None else {"phi_deg": pair.phi}
     told: dict[str, Column | ColumnarRecords] = {key: [one] * count for key, one in steady.items()}
-    told |= {"rate": listed(pair.rate), "f_without": sizes(friction.total(pair, friction.without))}
+    told |= {
+        "rate": numbers_or_none(pair.rate),
+        "f_without": sizes(friction.total(pair, friction.without)),
+    }
     for key, forces in list(_kinds(friction).items())[1:]:
         whole = friction.total(pair, forces)
         told[key] = record_of(
             {
-                "fx": listed(whole.real),
-                "fy": listed(whole.imag),
+                "fx": numbers_or_none(whole.real),
+                "fy": numbers_or_none(whole.imag),
                 "f": sizes(whole),
-                "moment": listed(forces.moments[pair.number]),
-                "friction": listed(friction.rub(pair, forces)),
+                "moment": numbers_or_none(forces.moments[pair.number]),
+                "friction": numbers_or_none(friction.rub(pair, forces)),
             }
         )
     return record_of(told)

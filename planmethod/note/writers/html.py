@@ -60,7 +60,7 @@ NOTE_STYLE = """
 _CONTROL = "[^\n\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 
-def clean(text: str) -> str:
+def without_control_characters(text: str) -> str:
     """Return a text without signs that no page can show."""
     return re.sub(_CONTROL, " ", text)
 
@@ -86,7 +86,7 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
             # The content comes from untrusted files: none of it may load or run anything.
             '<meta http-equiv="Content-Security-Policy" '
             "content=\"default-src 'none'; style-src 'unsafe-inline'\">",
-            f"<title>{html.escape(clean(title))}</title><style>{STYLE}{style}</style></head><body>",
+            f"<title>{html.escape(without_control_characters(title))}</title><style>{STYLE}{style}</style></head><body>",
             body,
             "</body></html>\n",
         ]
@@ -203,7 +203,7 @@ def markup(rich: str, *, built: bool = False) -> str:
 
     ``built``: whether fractions are built up, as on a line of their own.
     """
-    nodes = parse(clean(rich))
+    nodes = parse(without_control_characters(rich))
     return "".join(map(_sign, nodes if built else inline(nodes)))
 
 

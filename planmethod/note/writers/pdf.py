@@ -38,7 +38,7 @@ from planmethod.note.formula import (
     parse,
 )
 from planmethod.note.plaintext import plain_text
-from planmethod.note.writers.html import clean
+from planmethod.note.writers.html import without_control_characters
 from planmethod.note.writers.tokens import Token, tokens_of
 
 MM = 72.0 / 25.4
@@ -109,7 +109,7 @@ def pdf_document(
             canvas.drawString(MARGIN, MARGIN / 2, footer(canvas.getPageNumber()))
 
     pages.build(
-        list(_Setter(font, pages.width - 12.0).story(written)),
+        list(_Setter(font, pages.width - 12.0).flowables_of_document(written)),
         onFirstPage=close_page,
         onLaterPages=close_page,
     )
@@ -137,7 +137,7 @@ class _Setter:
     def _text(self, rich: str, size: float = 9.5, *, before: float = 0.0) -> Paragraph:
         return Paragraph(pdf_markup(rich, size), self._style(size, before=before))
 
-    def story(self, written: Document) -> Iterator[Flowable]:
+    def flowables_of_document(self, written: Document) -> Iterator[Flowable]:
         """Yield the flowables of a document."""
         for kind, run in groupby(written.nodes, type):
             nodes = list(run)
@@ -287,7 +287,7 @@ class _Row(Flowable):  # type: ignore[misc]
 
 def pdf_markup(rich: str, size: float) -> str:
     """Return rich text as markup of reportlab's paragraphs, in letters of a size in points."""
-    return marked(inline(parse(clean(rich))), size)
+    return marked(inline(parse(without_control_characters(rich))), size)
 
 
 def marked(nodes: Iterable[Sign], size: float, italic: str = "") -> str:

@@ -38,7 +38,7 @@ from planmethod.note.document import Document, Node, Table
 from planmethod.note.formula import Rich, inline, parse
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language
-from planmethod.note.writers.html import clean
+from planmethod.note.writers.html import without_control_characters
 from planmethod.note.writers.linebreak import lines_of, width_em
 from planmethod.note.writers.pdf import marked, parts_of
 from planmethod.note.writers.pdfformula import Fonts, FormulaLines, FormulaSetter
@@ -158,7 +158,7 @@ def _built(
     file = BytesIO()
     pages = _Pages(file, _title(written), author or "planmethod", written, forms, is_final)
     foot = BOTTOM if forms is None else forms.heights[1] * mm + ABOVE
-    pages.multiBuild(list(_Setter(language, tight, foot).story(written)))
+    pages.multiBuild(list(_Setter(language, tight, foot).flowables_of_document(written)))
     return file.getvalue() if pages.is_drawn else b"", pages.ends
 
 
@@ -166,9 +166,9 @@ def _title(written: Document) -> str:
     for node in written.nodes:
         match node:
             case document.TitlePage(title=title, work=work):
-                return plain_text(clean(title or work))
+                return plain_text(without_control_characters(title or work))
             case document.Title(text):
-                return plain_text(clean(text))
+                return plain_text(without_control_characters(text))
     return ""
 
 
@@ -375,7 +375,7 @@ class _Setter:
     def _markup(self, rich: Rich, size: float = SIZE) -> str:
         """Return a sentence as reportlab takes it, the letters of its formulas italic."""
         found = ""
-        for piece in pieces(parse(clean(rich)), self._units, symbols=True):
+        for piece in pieces(parse(without_control_characters(rich)), self._units, symbols=True):
             if not piece.is_formula:
                 found += html.escape(tied(piece.text).replace(JOINER, "")).replace("\n", "<br/>")
                 continue
@@ -389,7 +389,7 @@ class _Setter:
     def _text(self, rich: Rich, style: ParagraphStyle) -> Paragraph:
         return LaidParagraph(self._markup(rich, style.fontSize), style)
 
-    def story(self, written: Document) -> Iterator[Flowable]:
+    def flowables_of_document(self, written: Document) -> Iterator[Flowable]:
         """Yield the flowables of a document."""
         kinds = {type(node) for node in written.nodes}
         self._is_note = bool(kinds & {document.TitlePage, document.Contents})
@@ -437,7 +437,9 @@ class _Setter:
             case document.Step(lines, continues):
                 yield from self._stepped(lines, continues=continues)
             case document.Formula(text):
-                yield self._displayed(tuple(with_levels(parse(clean(text)))), number)
+                yield self._displayed(
+                    tuple(with_levels(parse(without_control_characters(text)))), number
+                )
             case document.Equations(equations):
                 yield self._lines([self._formulas.equations(equations)], number)
             case document.Table():
@@ -464,12 +466,17 @@ class _Setter:
         style = self._style(align=align, indent=indent, around=8.0, bold=True, keep_with_next=True)
         self._count += 1
         text = f"{number} {title}" if number else title
-        shown = marked(inline(parse(clean(text))), SIZE)
-        return _Heading(shown, plain_text(clean(text)), style, level, self._count)
+        shown = marked(inline(parse(without_control_characters(text))), SIZE)
+        return _Heading(
+            shown, plain_text(without_control_characters(text)), style, level, self._count
+        )
 
     def _stepped(self, lines: Sequence[Rich], *, continues: bool) -> Iterator[Flowable]:
         self._step += not continues
-        alone = [sole_formula(pieces(parse(clean(line)), self._units)) for line in lines]
+        alone = [
+            sole_formula(pieces(parse(without_control_characters(line)), self._units))
+            for line in lines
+        ]
         for k, line in enumerate(lines):
             if k and alone[k]:
                 yield self._displayed(alone[k], "")
@@ -592,4 +599,4 @@ class _Setter:
 
 
 def _words(cell: Rich) -> list[str]:
-    return plain_text(clean(cell)).split() or [""]
+    return plain_text(without_control_characters(cell)).split() or [""]

@@ -25,7 +25,7 @@ from planmethod.note.document import Document, Figure, Node, Table
 from planmethod.note.formula import Node as Sign, Rich, parse
 from planmethod.note.wording import Language
 from planmethod.note.writers import omml
-from planmethod.note.writers.html import clean
+from planmethod.note.writers.html import without_control_characters
 from planmethod.note.writers.linebreak import lines_of
 from planmethod.note.writers.sentences import (
     introduces_next_node,
@@ -251,7 +251,7 @@ class _Writer:
             case document.Step(lines, continues):
                 self._stepped(lines, continues=continues)
             case document.Formula(text):
-                nodes = tuple(with_levels(parse(clean(text))))
+                nodes = tuple(with_levels(parse(without_control_characters(text))))
                 self._displayed([omml.equation(line) for line in self._lines(nodes)], number)
             case document.Equations(equations):
                 room = self._width_em * (1.0 - 2.0 * SIDE / self._width * bool(number))
@@ -314,7 +314,10 @@ class _Writer:
     def _stepped(self, lines: Sequence[Rich], *, continues: bool) -> None:
         """Add the lines of a step; a line that is a formula alone is centred."""
         self._step += not continues
-        alone = [sole_formula(pieces(parse(clean(line)), self._units)) for line in lines]
+        alone = [
+            sole_formula(pieces(parse(without_control_characters(line)), self._units))
+            for line in lines
+        ]
         for k, line in enumerate(lines):
             is_last = k + 1 == len(lines)
             if k and alone[k]:

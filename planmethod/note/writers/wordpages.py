@@ -10,7 +10,7 @@ from planmethod.note import document
 from planmethod.note.document import Figure, Node
 from planmethod.note.formula import Rich
 from planmethod.note.plaintext import plain_text
-from planmethod.note.writers.html import clean
+from planmethod.note.writers.html import without_control_characters
 from planmethod.note.writers.sentences import introduces_next_node
 from planmethod.note.writers.wordstyles import INDENT, MM_PER_POINT, SIZE
 
@@ -58,7 +58,7 @@ def flowing(
 
 def clean_text(rich: Rich) -> str:
     """Return rich text as plain, without control signs."""
-    return plain_text(clean(rich))
+    return plain_text(without_control_characters(rich))
 
 
 class PageFlow:

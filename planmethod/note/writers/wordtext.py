@@ -13,7 +13,7 @@ from docx.shared import Pt
 
 from planmethod.note.formula import Rich, parse
 from planmethod.note.writers import omml
-from planmethod.note.writers.html import clean
+from planmethod.note.writers.html import without_control_characters
 from planmethod.note.writers.linebreak import chain_of, width_em
 from planmethod.note.writers.sentences import pieces, tied, with_stops
 
@@ -28,7 +28,7 @@ def add_sentence(
 
     ``joined``: no line ends within a range of numbers; a sign without width sees to that.
     """
-    for piece in with_stops(pieces(parse(clean(rich)), units, symbols=True)):
+    for piece in with_stops(pieces(parse(without_control_characters(rich)), units, symbols=True)):
         if not piece.is_formula:
             paragraph.add_run(tied(piece.text) if joined else piece.text)
             continue

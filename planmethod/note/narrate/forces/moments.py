@@ -201,16 +201,16 @@ class MomentNarrator:
         """Yield the moment equations of a component or a balanced crank, before the plan."""
         for equation in self.plan.moments:
             if equation.force is not None:
-                yield self._component(equation, equation.force)
+                yield self._component_lines(equation, equation.force)
             elif equation.couple is not None and self._is_balancing(equation.couple):
-                yield self._balancing(equation, equation.couple)
+                yield self._balancing_lines(equation, equation.couple)
             elif equation.couple is None and (told := self.equation_text(equation)) is not None:
                 yield [*self._sum(equation, told), f"{told.result} ≈ 0.", self.texts.in_balance]
 
     def _is_balancing(self, couple: CoupleOn) -> bool:
         return couple.moment == self.statics.driving.balance
 
-    def _component(self, equation: Moments, edge: Edge) -> list[str]:
+    def _component_lines(self, equation: Moments, edge: Edge) -> list[str]:
         told, point = self.equation_text(equation), equation.about
         assert told is not None
         lines = self._sum(equation, told)
@@ -224,14 +224,14 @@ class MomentNarrator:
         turns = self.texts.turns.format(symbol=symbol, link=edge.on, point=point, sense=sense)
         return [*lines, f"{told.result}{exact}.", turns]
 
-    def _balancing(self, equation: Moments, couple: CoupleOn) -> list[str]:
+    def _balancing_lines(self, equation: Moments, couple: CoupleOn) -> list[str]:
         told = self.equation_text(equation)
         if told is None:
             zero = f"{self.symbol(couple.symbol)} = 0."
             return [self.texts.no_moments.format(point=equation.about), zero]
-        return [*self._sum(equation, told), self._couple(told, couple)]
+        return [*self._sum(equation, told), self._couple_text(told, couple)]
 
-    def _couple(self, text: MomentText, couple: CoupleOn) -> str:
+    def _couple_text(self, text: MomentText, couple: CoupleOn) -> str:
         """Return a found couple with numbers, its exact value and its sense."""
         if not text.value:
             return f"{text.result}."
@@ -256,7 +256,7 @@ class MomentNarrator:
         told = self.equation_text(equation)
         if told is None:
             return [texts.guide_through.format(link=", ".join(equation.links), **symbols)]
-        lines = [*self._sum(equation, told), self._couple(told, couple)]
+        lines = [*self._sum(equation, told), self._couple_text(told, couple)]
         if not told.value:
             return [*lines, texts.guide_cancelled.format(**symbols)]
         edges = self._edges(guided)
