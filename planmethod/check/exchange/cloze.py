@@ -82,7 +82,8 @@ def moodle_xml(questions: Iterable[QuizQuestion], language: Language) -> bytes:
 def _question(question: QuizQuestion, language: Language) -> Iterator[str]:
     text = "\n".join(_text(question, language))
     yield '<question type="cloze">'
-    yield f"<name><text>{html.escape(without_control_characters(question.name(language)))}</text></name>"
+    name = html.escape(without_control_characters(question.name(language)))
+    yield f"<name><text>{name}</text></name>"
     yield '<questiontext format="html">'
     yield f"<text>{_cdata(text)}</text>"
     if question.picture:

@@ -12,7 +12,7 @@ from planmethod.note.wording import MessageTable
 from planmethod.project.report.context import Report, sentences
 from planmethod.project.report.figures import figure, of_sheet
 
-COLUMN = 180.0
+TEXT_WIDTH = 180.0
 """Width of the texts of the sheet, mm."""
 
 Columns = list[tuple[str, str, list[str]]]
@@ -28,7 +28,7 @@ def balancing_chapter(report: Report) -> Iterator[Node]:
     for line in others[:-2]:
         yield sentences(f"{line}.")
     for kind in ("balanced-scheme", "mass-polygons"):
-        made = of_sheet(kind, report.every, report.language, column=COLUMN)
+        made = of_sheet(kind, report.every, report.language, column=TEXT_WIDTH)
         yield figure(made, str(texts["figures"][kind]).format(), kind.replace("-", "_"))
     yield sentences(texts.weights_text.format(), *(f"{line}." for line in others[-2:]))
     (_, unit, links), *numbers = narrator.weights()
@@ -36,7 +36,7 @@ def balancing_chapter(report: Report) -> Iterator[Node]:
     yield _table(weights, report, texts.weights_table.format(), "weights", 1)
     yield sentences(texts.forces_text.format())
     yield _table(narrator.columns(), report, texts.forces_table.format(), "inertia", 2)
-    made = of_sheet("inertia-hodographs", report.every, report.language, column=COLUMN)
+    made = of_sheet("inertia-hodographs", report.every, report.language, column=TEXT_WIDTH)
     yield figure(made, texts.hodographs.format(), "inertia_hodographs", height=90.0)
 
 

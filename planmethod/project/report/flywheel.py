@@ -20,7 +20,7 @@ from planmethod.solved.machine.drawing import drawing_of, split
 from planmethod.solved.machine.flywheel import flywheel_of
 from planmethod.solved.machine.sizes import density_of
 
-COLUMN = 240.0
+TEXT_WIDTH = 240.0
 """Width of the texts of the sheet, which its diagrams are measured by, mm."""
 
 SMALL = 5e-4
@@ -75,7 +75,7 @@ def _reduced(report: Report, narrator: MachineNarrator, texts: MessageTable) -> 
         isinstance(load, Load) and isinstance(load.size, SizeTable) for load in dynamics.loads
     )
     if changing:
-        made = of_sheet("load-diagram", report.every, report.language, column=COLUMN)
+        made = of_sheet("load-diagram", report.every, report.language, column=TEXT_WIDTH)
         yield sentences(texts.load_text.format())
         yield figure(made, texts.load_figure.format(), "load", height=90.0)
 
@@ -180,7 +180,7 @@ def _inertia(report: Report, narrator: MachineNarrator, texts: MessageTable) -> 
     sizes = narrator.sizes
     if sizes is not None:
         yield from _sizes(report, narrator, texts)
-    made = of_sheet("speed-diagram", report.every, report.language, column=COLUMN)
+    made = of_sheet("speed-diagram", report.every, report.language, column=TEXT_WIDTH)
     yield sentences(texts.speed.format())
     yield figure(made, texts.speed_figure.format(), "speed", height=90.0)
 

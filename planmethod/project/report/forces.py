@@ -94,17 +94,17 @@ class ForceChapter:
             texts.loads_figure.format(),
             "loads",
         )
-        voice = LoadNarrator(self.context)
+        narrator = LoadNarrator(self.context)
         given = [one for one in reading.statics.board.given if self._acts(one)]
         by_kind = {kind: [one for one in given if one.applied.kind is kind] for kind in LoadKind}
         if by_kind[LoadKind.WEIGHT]:
             yield sentences(texts.weights.format())
-            yield from chain(map(voice.formula, by_kind[LoadKind.WEIGHT]))
-        yield from self._inertia(voice, by_kind[LoadKind.INERTIA])
+            yield from chain(map(narrator.formula, by_kind[LoadKind.WEIGHT]))
+        yield from self._inertia(narrator, by_kind[LoadKind.INERTIA])
         couples = by_kind[LoadKind.INERTIA_COUPLE]
         if couples:
             yield sentences(texts.couples.format())
-            yield from chain(map(voice.formula, couples))
+            yield from chain(map(narrator.formula, couples))
             yield sentences(self._senses(couples))
         for one in reading.statics.board.given:
             if one.applied.kind is LoadKind.EXTERNAL:
@@ -133,7 +133,7 @@ class ForceChapter:
             told.append(template.format(symbols=self.report.listed(symbols), sense=sense))
         return f"{', '.join(told)}."
 
-    def _inertia(self, voice: LoadNarrator, forces: list[GivenLoad]) -> Iterator[Node]:
+    def _inertia(self, narrator: LoadNarrator, forces: list[GivenLoad]) -> Iterator[Node]:
         texts: MessageTable = self.said
         shifts = self.reading.statics.board.shifts
         if not forces:
@@ -142,10 +142,10 @@ class ForceChapter:
         yield sentences((texts.inertia_shifted if shifted else texts.inertia).format())
         lines = []
         for one in forces:
-            lines.append(voice.formula(one))
+            lines.append(narrator.formula(one))
             shift = shifts.get(one.applied.link)
             if shift is not None and shift.moment.couple[0]:
-                lines += voice.shifted(one, shift)
+                lines += narrator.shifted(one, shift)
         yield from chain(lines)
 
     def _acts(self, one: GivenLoad) -> bool:
@@ -184,15 +184,15 @@ class ForceChapter:
 
     def _plan(self, plan: ForcePlan, number: int) -> Iterator[Node]:
         texts: MessageTable = self.said
-        voice = ForcePlanNarrator(self.context, plan, number)
+        narrator = ForcePlanNarrator(self.context, plan, number)
         moments = MomentNarrator(self.context, plan)
         links = "–".join(plan.links)
         driver = plan.links == (self.drive,)
         yield Part(texts.driver.format(link=links) if driver else texts.group.format(links=links))
         if not number:
             yield sentences(texts.order.format(), *thrust_lines(self.context))
-        yield sentences(*voice.freed())
-        if voice.is_unloaded:
+        yield sentences(*narrator.freed())
+        if narrator.is_unloaded:
             yield sentences(texts.nothing.format())
             return
         drawn = bool(drawn_edges(self.reading, number))
@@ -208,7 +208,7 @@ class ForceChapter:
                 couple is None or couple.moment == self.reading.statics.driving.balance
             )
             if before:
-                yield from self._moments(moments, equation)
+                yield from self._moment_equation(moments, equation)
         for balance in plan.balances:
             template = texts["balance"]["one" if len(balance.links) == 1 else "many"]
             yield sentences(template.format(links="–".join(balance.links)))
@@ -216,12 +216,12 @@ class ForceChapter:
                 balance, self.context, partial(direction_text, say=self.report.language.notation)
             )
             yield Equations((summed,), numbered=True)
-        *steps, _ = voice.steps()
+        *steps, _ = narrator.steps()
         form = texts["plan"]["one" if len(plan.balances) == 1 else "many"]
         yield sentences(form.format(), *(line for step in steps for line in step))
         inverse = self.report.names.is_inverse_scale()
         yield sentences((texts.found_inverse if inverse else texts.found).format())
-        yield from chain(voice.force_text(edge) for edge in plan.reactions)
+        yield from chain(narrator.force_text(edge) for edge in plan.reactions)
         for lines in moments.guides():
             yield sentences(*self._of_guide(lines))
         if drawn:
@@ -236,28 +236,28 @@ class ForceChapter:
         """Return the sentences on the place of a guide's force, each ended."""
         return [line if line.endswith((".", ":", ",", ";")) else f"{line}." for line in lines]
 
-    def _moments(self, voice: MomentNarrator, equation: Moments) -> Iterator[Node]:
+    def _moment_equation(self, narrator: MomentNarrator, equation: Moments) -> Iterator[Node]:
         texts: MessageTable = self.said
-        told: MomentText | None = voice.equation_text(equation)
-        if told is None:
+        equation_text: MomentText | None = narrator.equation_text(equation)
+        if equation_text is None:
             return
         template = texts.moments if len(equation.links) == 1 else texts.moments_links
         yield sentences(template.format(point=equation.about, links=", ".join(equation.links)))
         whose = f"Σ_{{{','.join(equation.links)}}}M"  # it is in the sentence before
-        summed, _, zero = told.equation.replace(whose, "ΣM", 1).partition(": ")
+        summed, _, zero = equation_text.equation.replace(whose, "ΣM", 1).partition(": ")
         yield displayed(f"{summed}.")
         if zero:  # the equation without moments
             yield sentences(texts.no_moments.format(point=equation.about))
             yield from chain([zero])
         lead = texts.hence.format()
-        if told.arms:
-            arms = texts.arms if len(told.arms) > 1 else texts.arms_one
-            lead = arms.format(arms="; ".join(told.arms))
-        if told.length:
-            yield sentences(texts.length.format(length=told.length))
-        if told.result:
+        if equation_text.arms:
+            arms = texts.arms if len(equation_text.arms) > 1 else texts.arms_one
+            lead = arms.format(arms="; ".join(equation_text.arms))
+        if equation_text.length:
+            yield sentences(texts.length.format(length=equation_text.length))
+        if equation_text.result:
             yield sentences(lead)
-            yield from chain([told.result.replace(whose, "ΣM", 1)])
+            yield from chain([equation_text.result.replace(whose, "ΣM", 1)])
         if equation.force is None and equation.couple is None:
             yield sentences(self.context.texts.in_balance)
 
@@ -352,39 +352,39 @@ class ForceChapter:
         if not self._readable(lever.balance):
             yield sentences(texts.unreadable.format())
             return
-        voice = LeverNarrator(self.context)
+        narrator = LeverNarrator(self.context)
         template = texts.lever_about if reading.balancing.turns else texts.lever_about_force
         template = template if statics.thrust is None else texts.lever_about_thrust
         about = template.format(pole=report.names.pole(PlanKind.VELOCITY))
-        yield sentences(about, *voice.larger())
+        yield sentences(about, *narrator.larger())
         yield figure(
             lambda letter: lever_picture(reading, letter, report.notation),
             texts.lever_figure.format(position=report.in_position),
             "lever",
         )
-        if not voice.lever.forces and not voice.lever.couples:
+        if not narrator.lever.forces and not narrator.lever.couples:
             symbol = self.context.symbol(reading.balancing_symbol)
             yield sentences(texts.lever_no_work.format(symbol=symbol))
             return
-        segments = voice.segments()
+        segments = narrator.segments()
         yield sentences(
             texts.lever_pairs.format(segments="; ".join(segments)) if segments else "",
             texts.lever_equation.format(),
         )
-        yield displayed(f"{voice.equation()}.")
-        for shift in voice.lever.shifts:
-            yield from chain([voice.shift(shift)])
-        arms = voice.arms()
+        yield displayed(f"{narrator.equation()}.")
+        for shift in narrator.lever.shifts:
+            yield from chain([narrator.shift(shift)])
+        arms = narrator.arms()
         yield sentences(texts.lever_arms.format(arms=arms) if arms else texts.hence.format())
-        yield from chain([voice.result()])
-        yield from self._compared(voice)
+        yield from chain([narrator.result()])
+        yield from self._compared(narrator)
 
-    def _compared(self, voice: LeverNarrator) -> Iterator[Node]:
+    def _compared(self, narrator: LeverNarrator) -> Iterator[Node]:
         texts: MessageTable = self.said
         notation, reading = self.report.notation, self.reading
         plans, lever = both_balances(reading)
         assert lever is not None
-        symbol, unit = voice.balancing, voice.unit
+        symbol, unit = narrator.balancing, narrator.unit
         both = compared_balances(reading.statics, reading.index)
         assert both is not None
         yield sentences(

@@ -47,7 +47,7 @@ from planmethod.render.sheets.composer import Sizes
 FRACTION = 1
 """Column of the results that has them as fractions."""
 
-COLUMN = 185.0
+TEXT_WIDTH = 185.0
 """Width of the texts of the sheet, mm."""
 
 _FURTHER = {"meshing.b", "meshing.cutter", "meshing.s_a_min"}
@@ -268,7 +268,7 @@ def _figures(
     has_picture = draw(motion) is not None
 
     def draw_picture(letter: float) -> Block:
-        sizes = Sizes(letter, letter, letter, COLUMN)
+        sizes = Sizes(letter, letter, letter, TEXT_WIDTH)
         found = draw_views(motion, report.one.profile, report.language, sizes)
         return found[0] if which == "train" or found[1] is None else without_heading(found[1])
 

@@ -249,7 +249,7 @@ class PlanChapter:
             kept.clear()
 
     def _explain_lay_off(self, step: steps.LayOffLength) -> Iterator[Node]:
-        *formulas, sentence = self.narrator.motion.lay_off_length(step)
+        *formulas, sentence = self.narrator.motion.describe_laid_off_length(step)
         vector = self.names.vector(step.origin, step.out)
         if formulas and vector is not None:
             kinds: MessageTable = self.texts["kinds"][self.kind.value]
@@ -325,7 +325,7 @@ class PlanChapter:
         return texts.ray_angled.format(line=line, base=base, angle=text, carried=carried)
 
     def _similar(self, step: steps.Similar) -> Iterator[Node]:
-        *formulas, sentence = self.narrator.motion.similar(step)
+        *formulas, sentence = self.narrator.motion.describe_similar_point(step)
         point = self.names.point(step.out)
         if formulas:
             parts = [text.rstrip(".,") for text in formulas]

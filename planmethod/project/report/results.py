@@ -57,14 +57,16 @@ def results_parts(report: Report) -> Iterator[Node]:
             (kinds_on(PlanKind.VELOCITY), "velocities"),
             (kinds_on(PlanKind.ACCELERATION), "accelerations"),
         ):
-            yield _by_positions(report, kinds, str(texts[key]).format(), key)
+            yield _table_by_positions(report, kinds, str(texts[key]).format(), key)
     yield Part(texts.compared.format())
     yield from _compared(report, texts)
     if report.is_series:
         yield from _largest(report, texts)
 
 
-def _by_positions(report: Report, kinds: Sequence[QuantityKind], name: Rich, key: str) -> Table:
+def _table_by_positions(
+    report: Report, kinds: Sequence[QuantityKind], name: Rich, key: str
+) -> Table:
     every = report.every
     lead = lead_columns(every.problem, report.project.positions, report.language.note)
     columns = []
