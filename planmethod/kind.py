@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from planmethod.note.document import Document, GivenFact
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.note.wording import Language
-    from planmethod.problem.figures import Figures
+    from planmethod.problem.question_quantities import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
 
 P = TypeVar("P", bound=KindProblem)
@@ -112,7 +112,7 @@ class ProblemKind(ABC, Generic[P]):
         """Return the scheme without any results; None for a kind without one."""
         return None
 
-    def figures(self, problem: P) -> Figures:
+    def question_quantities(self, problem: P) -> QuestionQuantities:
         """Return the quantities for questions to students.
 
         Raises

@@ -22,13 +22,13 @@ from planmethod.cams.construction import (
 from planmethod.cams.design import CamDesign
 from planmethod.cams.divisions import motion_in_division, nodes_of
 from planmethod.cams.driving import follower_drive
-from planmethod.cams.figures import CamFigures
 from planmethod.cams.geometry import CamGeometry
 from planmethod.cams.laws import CamLawName, Reals as LawsReals, UnitLaw, law_of
 from planmethod.cams.live import live_page as cams_live_live_page
 from planmethod.cams.model import TURN, CamPhase, CamProblem, Contact
 from planmethod.cams.peaks import nearest_to_origin
 from planmethod.cams.pictures import PROFILE
+from planmethod.cams.question_quantities import CamQuantities
 from planmethod.cams.reader import load as cams_reader_load, read_cam
 from planmethod.cams.sheet import drawings as cams_sheet_drawings
 from planmethod.cams.text import given_facts as text_given_facts, positions as text_positions
@@ -132,7 +132,7 @@ from planmethod.cli import COMMANDS, cli, command_of
 from planmethod.commands import batch
 from planmethod.commands.batch import VariantOrder
 from planmethod.commands.output import bar
-from planmethod.commands.problems import LoadedProblem, load_unsettled, named, run_steps
+from planmethod.commands.problems import LoadedProblem, load_unchanged, named, run_steps
 from planmethod.commands.processes import in_processes
 from planmethod.commands.sheet import compacted
 from planmethod.commands.studio import settings_of
@@ -243,7 +243,11 @@ from planmethod.gears.construction import (
     construct as gears_construction_construct,
     read,
 )
-from planmethod.gears.derivation import DerivedLine, by_speeds, derivation as derivation_derivation
+from planmethod.gears.derivation import (
+    DerivationLine,
+    by_speeds,
+    derivation as derivation_derivation,
+)
 from planmethod.gears.drawn.side import SideView
 from planmethod.gears.drawn.views import ARROW_INSIDE, front
 from planmethod.gears.driving import TrainOutput

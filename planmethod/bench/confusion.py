@@ -307,7 +307,7 @@ def computed_inherited(task: Calculation, count: int) -> Inherited:
             values = {**sheet.exact_answers, item.question.id: own[wrong]}
             follow = set()
             for name, one in names.items():
-                for value, by in task.figures.derive_values(name, own):
+                for value, by in task.quantities.derive_values(name, own):
                     if by == wrong and np.isfinite(value) and name != wrong:
                         values[one.question.id] = value
                         follow.add(one.id)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.note.wording import Language
-    from planmethod.problem.figures import Figures
+    from planmethod.problem.question_quantities import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
 
 
@@ -81,8 +81,8 @@ class Cams(ProblemKind["CamProblem"]):
 
         return given_facts(problem, language, numbered=True)
 
-    def figures(self, problem: CamProblem) -> Figures:
+    def question_quantities(self, problem: CamProblem) -> QuestionQuantities:
         """Return the quantities for questions to students."""
-        from planmethod.cams.figures import FIGURES
+        from planmethod.cams.question_quantities import CamQuantities
 
-        return FIGURES(problem)
+        return CamQuantities(problem)

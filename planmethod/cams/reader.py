@@ -18,7 +18,7 @@ from planmethod.problem.flat_tables import CustomReader, read_flat
 from planmethod.problem.names import short
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
-from planmethod.problem.tables import CAM_EXAMPLE, CHOOSE, CamTable
+from planmethod.problem.tables import CAM_EXAMPLE, CHOOSE, CamSection
 from planmethod.problem.units import measured
 
 TOP = ("title", "source", "units", "stamp", "sheet", "answers", "compare", "variants", "cam")
@@ -105,10 +105,10 @@ def _read(faults: Faults, body: Mapping[str, Any], speed: float | None) -> dict[
     sizes = ("offset", "centre", "r_min", "roller")
     own: dict[str, CustomReader] = dict.fromkeys(sizes, _read_size)
     own |= dict.fromkeys(("law", "pressure"), _accept)  # both need other keys
-    found = read_flat(faults, "cam", body, CamTable, own, example=CAM_EXAMPLE)
+    found = read_flat(faults, "cam", body, CamSection, own, example=CAM_EXAMPLE)
     if faults:
         return None
-    given = CamTable(**found)
+    given = CamSection(**found)
     oscillates, flat = given.follower == "oscillating", given.contact == "flat"
     _check_keys(faults, body, oscillates=oscillates, contact=given.contact)
     laws = _read_laws(faults, given.law)
@@ -207,7 +207,7 @@ def _check_sizes(
         faults.add("cam.r_min", what, hint)
 
 
-def _phases(faults: Faults, table: CamTable) -> tuple[float, float, float, float] | None:
+def _phases(faults: Faults, table: CamSection) -> tuple[float, float, float, float] | None:
     """Return the phases, rad."""
     told = table.rise + table.upper_dwell + table.return_
     rest = 360.0 - told if table.lower_dwell is None else table.lower_dwell
@@ -226,7 +226,7 @@ def _phases(faults: Faults, table: CamTable) -> tuple[float, float, float, float
     return one, two, three, four if four > 1e-9 else 0.0
 
 
-def _read_pressure(faults: Faults, table: CamTable) -> tuple[float, float | None] | None:
+def _read_pressure(faults: Faults, table: CamSection) -> tuple[float, float | None] | None:
     """Return the allowed angles of rise and return, rad."""
     value = table.pressure
     told = value if isinstance(value, Mapping) else {} if value is None else {"rise": value}

@@ -34,7 +34,7 @@ from planmethod.kind import ProblemKind
 from planmethod.languages import translate
 from planmethod.plans.model import Plan
 from planmethod.problem.common import AnswerForm, KindProblem, QuestionSpec
-from planmethod.problem.figures import AnswerValue, Figures, Mistaken
+from planmethod.problem.question_quantities import AnswerValue, Mistaken, QuestionQuantities
 from planmethod.problem.selector import Selector
 from planmethod.solved.selectors.steps import NoValue, NoValueError
 
@@ -54,9 +54,13 @@ class CalculationSheet(Sheet):
     """Requested quantities of one position of a computed problem."""
 
     def __init__(
-        self, figures: Figures, position: int, requested: Iterable[Question], by: Profile
+        self,
+        quantities: QuestionQuantities,
+        position: int,
+        requested: Iterable[Question],
+        by: Profile,
     ) -> None:
-        self.figures, self.position = figures, position
+        self.quantities, self.position = quantities, position
         self.requested, self.profile = tuple(requested), by
         self.scales, self.order, self.steps_by_name = {}, {}, {}
         self._readings: dict[str, tuple[float, float]] = {}
@@ -81,7 +85,7 @@ class CalculationSheet(Sheet):
             return math.nan, 0.0
         name = question.selector.names[0]
         if name not in self._readings:
-            read = self.figures.read_off(name, self.position, self.profile)
+            read = self.quantities.read_off(name, self.position, self.profile)
             self._readings[name] = read or (math.nan, 0.0)
         return self._readings[name]
 
@@ -123,15 +127,15 @@ class Calculation(Task):
         self.problem, self.settings = problem, replace(settings, floor_mm=0.0)
         self.variant, self._other_variants = problem.variant, other_variants
         self.table = kind.table
-        self.figures = kind.figures(problem)
+        self.quantities = kind.question_quantities(problem)
         self._question_cache: dict[tuple[str, int, bool, bool], Question] = {}
         self._forms: dict[str, TaskItem] = {}
         self._numbers: dict[tuple[object, ...], CalculationSheet] = {}
         # Computed once for all works and positions: each may be another cam.
         self._mistaken: Callable[[], tuple[Mistaken, ...]] = cache(
-            lambda: tuple(self.figures.mistaken())
+            lambda: tuple(self.quantities.mistaken())
         )
-        if not (problem.answers or self.figures.names):
+        if not (problem.answers or self.quantities.names):
             fault = Fault(kind.table, "no quantity has a value that could be requested")
             raise ProblemError(problem.name, [fault])
         self.declared = tuple(self._declare_item(at, one) for at, one in enumerate(problem.answers))
@@ -174,15 +178,17 @@ class Calculation(Task):
         self, name: str, position: int, *, drawn: bool = False, turns: bool = False
     ) -> Question | None:
         key = (name, position, drawn, turns)
-        figure = self.figures.figure(name, position) if key not in self._question_cache else None
-        if figure is not None:
-            self._question_cache[key] = _question_of(name, figure, drawn=drawn, turns=turns)
+        quantity = (
+            self.quantities.quantity(name, position) if key not in self._question_cache else None
+        )
+        if quantity is not None:
+            self._question_cache[key] = _question_of(name, quantity, drawn=drawn, turns=turns)
         return self._question_cache.get(key)
 
     def _item(self, question: Question, position: int, name: str) -> TaskItem:
-        figure = self.figures.figure(name, position)
-        whole = figure is not None and figure.is_integer and figure.value
-        fixed = COUNTED / abs(figure.value) if figure is not None and whole else None
+        quantity = self.quantities.quantity(name, position)
+        whole = quantity is not None and quantity.is_integer and quantity.value
+        fixed = COUNTED / abs(quantity.value) if quantity is not None and whole else None
         return TaskItem(name, question, position, fixed=fixed, label=name, name=name)
 
     def usual(self, position: int | None = None) -> tuple[TaskItem, ...]:
@@ -190,13 +196,13 @@ class Calculation(Task):
         if self.declared:
             return self.declared
         position = position or 0
-        told = [(name, self._question(name, position)) for name in self.figures.names]
+        told = [(name, self._question(name, position)) for name in self.quantities.names]
         return tuple(self._item(q, position, name) for name, q in told if q is not None)
 
     @property
     def count(self) -> int:
         """Positions, or moments."""
-        return self.figures.count
+        return self.quantities.count
 
     def find(self, written: WrittenAnswer) -> TaskItem:
         """Return the item of an answer; an answer in millimetres is read from the picture.
@@ -210,7 +216,7 @@ class Calculation(Task):
             raise NoValueError(NoValue.NO_POSITION)
         if (declared := self.stated(written)) is not None:
             return declared
-        spelled = {normalize(name): name for name in self.figures.names}
+        spelled = {normalize(name): name for name in self.quantities.names}
         for text in filter(None, (written.what, written.id)):
             for name in (text, text.replace(" ", "_"), spelled.get(normalize(text), "")):
                 question = self._question(name, position, drawn=written.mm is not None)
@@ -246,7 +252,9 @@ class Calculation(Task):
         asked = {q.id: q for (_, at, *_), q in self._question_cache.items() if at == position}
         key = (position, profile, tuple(asked))
         if key not in self._numbers:
-            self._numbers[key] = CalculationSheet(self.figures, position, asked.values(), profile)
+            self._numbers[key] = CalculationSheet(
+                self.quantities, position, asked.values(), profile
+            )
         return self._numbers[key]
 
     def named(self, sheet: Sheet) -> list[Explanation]:
@@ -329,7 +337,7 @@ class Calculation(Task):
         names = {one.item.question.selector.names[0]: one for one in examined}
         own = {name: one.value for name, one in names.items()}
         for name, one in names.items():
-            for value, by in self.figures.derive_values(name, own):
+            for value, by in self.quantities.derive_values(name, own):
                 parent = names[by]
                 if not math.isfinite(value) or (one.local is not None and parent.right):
                     continue
@@ -342,12 +350,14 @@ class Calculation(Task):
                 one.closely = one.follows
 
 
-def _question_of(name: str, figure: AnswerValue, *, drawn: bool, turns: bool) -> Question:
-    sign = Sign.SIZE if not figure.signed else Sign.TURN if turns and figure.turns else Sign.STRICT
+def _question_of(name: str, quantity: AnswerValue, *, drawn: bool, turns: bool) -> Question:
+    sign = (
+        Sign.SIZE if not quantity.signed else Sign.TURN if turns and quantity.turns else Sign.STRICT
+    )
     kind = READ if drawn else "number"
-    value, own = figure.value, f"{name} read" if drawn else name
+    value, own = quantity.value, f"{name} read" if drawn else name
     return Question(
-        Selector(kind, (name,)), own, figure.symbol, figure.unit, sign, lambda _: value, ()
+        Selector(kind, (name,)), own, quantity.symbol, quantity.unit, sign, lambda _: value, ()
     )
 
 

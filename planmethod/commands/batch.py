@@ -242,7 +242,7 @@ def batch(
     )
     manifest = Manifest(out)
 
-    def steps(items: list[LoadedProblem]) -> Iterator[Callable[[], None]]:
+    def make_steps(items: list[LoadedProblem]) -> Iterator[Callable[[], None]]:
         twice = [
             name for name, count in Counter(basename(t.problem) for t in items).items() if count > 1
         ]
@@ -265,7 +265,7 @@ def batch(
         with _cluster(scheduler) as client:
             yield from _sent(client, orders, manifest)
 
-    code = run_steps(problems, variant, all_variants or variant is None, steps, kinds=True)
+    code = run_steps(problems, variant, all_variants or variant is None, make_steps, kinds=True)
     manifest.close()
     finish(code)
 

@@ -128,7 +128,7 @@ def load(
     return found
 
 
-def load_unsettled(path: Path, variant: str | None) -> Problem:
+def load_unchanged(path: Path, variant: str | None) -> Problem:
     """Read a problem file unchanged."""
     (problem,) = _read(path, variant, all_variants=False)
     return problem
@@ -231,7 +231,7 @@ def for_each_problem(
         Of the first error.
     """
 
-    def steps(items: list[LoadedProblem]) -> Iterator[Callable[[], T | None]]:
+    def make_steps(items: list[LoadedProblem]) -> Iterator[Callable[[], T | None]]:
         # Problems of the same name write the same files: the last one wins, as in one process.
         if jobs == 1 or len({basename(one.problem) for one in items}) < max(2, len(items)):
             if len(items) > AT_ONCE:
@@ -248,7 +248,7 @@ def for_each_problem(
             yield from _in_chunks(act, act_on_many, items, jobs)
 
     return run_steps(
-        paths, variant, all_variants, steps, kinds=kinds, on_result=on_result, drawn=drawn
+        paths, variant, all_variants, make_steps, kinds=kinds, on_result=on_result, drawn=drawn
     )
 
 
@@ -278,7 +278,7 @@ def run_steps(
     paths: tuple[Path, ...],
     variant: str | None,
     all_variants: bool,
-    steps: Callable[[list[LoadedProblem]], Iterator[Callable[[], T | None]]],
+    make_steps: Callable[[list[LoadedProblem]], Iterator[Callable[[], T | None]]],
     *,
     kinds: bool,
     on_result: Callable[[T], object] | None = None,
@@ -288,7 +288,7 @@ def run_steps(
 
     Parameters
     ----------
-    steps : callable
+    make_steps : callable
         Returns the callables to run in turn for the problems.
     kinds : bool
         Whether problems of other kinds are accepted, too.
@@ -311,7 +311,7 @@ def run_steps(
             fail(error)
     done = 0
     try:
-        for one, step in zip(items, with_progress(steps(items), len(items)), strict=True):
+        for one, step in zip(items, with_progress(make_steps(items), len(items)), strict=True):
             problem, is_one = one.problem, len(paths) + len(items) == 2
             names = () if is_one else names_of(one.path, problem.name, problem.variant)
             try:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 from msgspec.structs import replace
 
-from planmethod.commands.problems import load_unsettled, solution_of, warn
+from planmethod.commands.problems import load_unchanged, solution_of, warn
 from planmethod.errors import ProblemError
 from planmethod.options import UsageError, drawn_by
 
@@ -62,7 +62,7 @@ def load_project(
             path.name,
             kind.table,
         )
-    problem = request.over(load_unsettled(path, variant))
+    problem = request.over(load_unchanged(path, variant))
     if position is not None:
         task = replace(problem.project or ProjectTask(), calculated=position)
         problem = replace(problem, project=task)

@@ -177,6 +177,7 @@ def read_paper(ctx: click.Context, param: click.Parameter, value: str | None) ->
 
 stamp_option = click.option(
     "--stamp",
+    "title_block_fields",
     callback=read_fields,
     multiple=True,
     metavar="KEY=TEXT",
@@ -241,7 +242,7 @@ def sheet_options(command: F) -> F:
         from planmethod.problem.keys import known
 
         asked = PaperRequest(
-            fields=kwargs.pop("stamp"),
+            fields=kwargs.pop("title_block_fields"),
             sheet={key: kwargs.pop(key) for key in known("sheet") if key in kwargs},
             config=kwargs.pop("config"),
             no_config=kwargs.pop("no_config"),

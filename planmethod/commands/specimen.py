@@ -48,7 +48,7 @@ def specimen(
     sheets: tuple[str, ...],
     out: Path,
     formats: tuple[str, ...],
-    stamp: dict[str, str],
+    title_block_fields: dict[str, str],
     lettering: str | None,
     lang: str,
     dpi: int,
@@ -66,13 +66,13 @@ def specimen(
     language = get_language(lang)
     for name in sheets:
         with using(lettered(lettering or "B")):
-            drawing = SPECIMENS[name](stamp, language)
+            drawing = SPECIMENS[name](title_block_fields, language)
         write_drawings(
             [drawing],
             out,
             f"specimen-{name}",
             formats,
             dpi=dpi,
-            author=stamp.get("author"),
+            author=title_block_fields.get("author"),
             dxf_text=dxf_text,
         )

@@ -25,7 +25,7 @@ from planmethod.note.wording import Language, MessageTable
 _ONE = Fraction(1)
 
 
-class DerivedLine(Struct, frozen=True):
+class DerivationLine(Struct, frozen=True):
     """A line of a derivation: a formula, or a sentence (строка вывода)."""
 
     text: Rich
@@ -57,7 +57,7 @@ class Stage(Struct, frozen=True):
     tops: tuple[str, ...] = ()
     bottoms: tuple[str, ...] = ()
     carrier: str | None = None
-    lines: tuple[DerivedLine, ...] = ()
+    lines: tuple[DerivationLine, ...] = ()
 
     @property
     def symbol(self) -> Rich:
@@ -65,7 +65,7 @@ class Stage(Struct, frozen=True):
         return RequestedQuantity("U", self.labels, self.carrier).symbol
 
 
-def derivation(motion: TrainMotion, language: Language) -> list[DerivedLine]:
+def derivation(motion: TrainMotion, language: Language) -> list[DerivationLine]:
     """Return the derivation of the requested ratios and speeds, line by line.
 
     Raises
@@ -149,12 +149,12 @@ class _Derivation:
             less = f"1 − {whole.symbol}"
             teeth, numbers = (f"1 {_plus(*parts)}" for parts in self._signed(whole))
             told, ratio = tuple(self._product(path)), 1 - whole.ratio
-            line = DerivedLine(
+            line = DerivationLine(
                 f"{symbol} = {less} = {teeth} = {numbers} = {_value(ratio, self.language)}"
             )
             yield Stage(body, carrier, (label, held), ratio, lines=(*told, line))
             under = [fraction("1", text) for text in (symbol, less, teeth, numbers)]
-            line = DerivedLine(
+            line = DerivationLine(
                 " = ".join([_symbol(held, label), *under, _value(1 / ratio, self.language)])
             )
             yield Stage(carrier, body, (held, label), 1 / ratio, lines=(*told, line))
@@ -210,18 +210,18 @@ class _Derivation:
             shares = [fraction(f"{n_p} − {n_c}", below[0]), fraction(f"{p_c} − 1", below[1])]
             divided = f"{symbol} = {' = '.join(shares)}"
             told = (
-                DerivedLine(
+                DerivationLine(
                     texts.willis.format(wheels=wheels, carrier=held, formula=willis), False
                 ),
-                DerivedLine(texts.closing.format(formula=closing), False),
-                DerivedLine(texts.divided.format(speed=n_c, formula=divided), False),
-                DerivedLine(texts.hence.format(formula=f"{p_c} = {hence}"), False),
+                DerivationLine(texts.closing.format(formula=closing), False),
+                DerivationLine(texts.divided.format(speed=n_c, formula=divided), False),
+                DerivationLine(texts.hence.format(formula=f"{p_c} = {hence}"), False),
                 *self._product(path),
                 *self._explained(chain, link),
-                DerivedLine(f"{p_c} = {numbers} = {_value(ratio, self.language)}"),
+                DerivationLine(f"{p_c} = {numbers} = {_value(ratio, self.language)}"),
             )
             label, inverse = _number(whole.labels[0]), _value(1 / ratio, self.language)
-            back = DerivedLine(f"{_symbol(held, label)} = {fraction('1', p_c)} = {inverse}")
+            back = DerivationLine(f"{_symbol(held, label)} = {fraction('1', p_c)} = {inverse}")
             return [
                 Stage(p, carrier, (label, held), ratio, lines=told),
                 Stage(carrier, p, (held, label), 1 / ratio, lines=(*told, back)),
@@ -230,7 +230,7 @@ class _Derivation:
 
     # Writing --------------------------------------------------------------------------------------
 
-    def ratio(self, quantity: RequestedQuantity) -> Iterator[DerivedLine]:
+    def ratio(self, quantity: RequestedQuantity) -> Iterator[DerivationLine]:
         """Yield the derivation of a ratio; letters and value alone where no stages lead to it."""
         train = self.train
         one, other = (train.body_of[label] for label in quantity.labels)
@@ -247,7 +247,7 @@ class _Derivation:
             path = find_path(self._carrier_stages(train.body_of[quantity.carrier]), one, other)
         has_sign = self.motion.has_sign(*quantity.labels)
         if not path:
-            yield DerivedLine(by_speeds(self.motion, quantity, self.language))
+            yield DerivationLine(by_speeds(self.motion, quantity, self.language))
         else:
             self._check(quantity.symbol, self._combined(path).ratio, exact)
             path = path if has_sign else _sizes(path)
@@ -262,20 +262,22 @@ class _Derivation:
         ):
             first, last = quantity.labels
             sense = str(self.texts["senses"]["same" if exact > 0 else "other"])
-            yield DerivedLine(sense.format(symbol=quantity.symbol, one=first, other=last), False)
+            yield DerivationLine(sense.format(symbol=quantity.symbol, one=first, other=last), False)
 
-    def _signless(self, symbol: Rich, labels: Sequence[str]) -> DerivedLine:
+    def _signless(self, symbol: Rich, labels: Sequence[str]) -> DerivationLine:
         """Return the sentence on a ratio whose bodies turn about axes that are not parallel."""
         one, other = map(_number, labels)
-        return DerivedLine(self.texts.signless.format(symbol=symbol, one=one, other=other), False)
+        return DerivationLine(
+            self.texts.signless.format(symbol=symbol, one=one, other=other), False
+        )
 
-    def _once(self, lines: Iterable[DerivedLine]) -> Iterator[DerivedLine]:
+    def _once(self, lines: Iterable[DerivationLine]) -> Iterator[DerivationLine]:
         for line in lines:
             if line.text not in self._written:
                 self._written.add(line.text)
                 yield line
 
-    def _explained(self, path: Sequence[Stage], symbol: Rich) -> Iterator[DerivedLine]:
+    def _explained(self, path: Sequence[Stage], symbol: Rich) -> Iterator[DerivationLine]:
         """Yield how the ratio of a path is found."""
         if not any(stage.lines for stage in path):
             yield from self._product(path, symbol)
@@ -283,20 +285,20 @@ class _Derivation:
         if len(path) == 1:
             yield from path[0].lines
             if symbol != path[0].symbol:
-                yield DerivedLine(
+                yield DerivationLine(
                     f"{symbol} = {path[0].symbol} = {_value(path[0].ratio, self.language)}"
                 )
             return
         product = "·".join(stage.symbol for stage in path)
-        yield DerivedLine(f"{symbol} = {product}")
+        yield DerivationLine(f"{symbol} = {product}")
         for stage in path:
             yield from stage.lines or self._product([stage])
         numbers = "·".join(_factor(s.ratio, first=not k) for k, s in enumerate(path))
-        yield DerivedLine(
+        yield DerivationLine(
             f"{symbol} = {numbers} = {_value(self._combined(path).ratio, self.language)}"
         )
 
-    def _product(self, path: Sequence[Stage], symbol: Rich = "") -> Iterator[DerivedLine]:
+    def _product(self, path: Sequence[Stage], symbol: Rich = "") -> Iterator[DerivationLine]:
         """Yield the ratio of meshes one after another in teeth: what cancels, and the number."""
         whole = self._combined(path)
         symbol = symbol or whole.symbol
@@ -311,12 +313,12 @@ class _Derivation:
         shown = _value(whole.ratio, self.language)
         if chain[-1] == shown.partition(" = ")[0]:
             chain.pop()
-        yield DerivedLine(" = ".join([*chain, shown]))
+        yield DerivationLine(" = ".join([*chain, shown]))
         idle = [label for one, two in pairwise(path) for label in {one.labels[1]} & {two.labels[0]}]
         if idle:
             form = "one" if len(idle) == 1 else "many"
             phrase = str(self.texts["idlers"][form])
-            yield DerivedLine(phrase.format(labels=", ".join(idle), symbol=symbol), False)
+            yield DerivationLine(phrase.format(labels=", ".join(idle), symbol=symbol), False)
 
     def _combined(self, path: Sequence[Stage]) -> Stage:
         """Return a path as one stage: wheels that are both above and below cancel."""
@@ -368,14 +370,14 @@ class _Derivation:
 
     # Speeds ---------------------------------------------------------------------------------------
 
-    def speed(self, label: str) -> Iterator[DerivedLine]:
+    def speed(self, label: str) -> Iterator[DerivationLine]:
         """Yield the derivation of a speed: by a ratio to a known one, else by Willis."""
         body = self.train.body_of[label]
         if body in self.speeds or body in self.train.racks or body in self.motion.roles.transverse:
             return
         yield from self._once(self._speed_lines(label, body, 2 * len(self.train.bodies)))
 
-    def _speed_lines(self, label: str, body: str, depth: int) -> Iterator[DerivedLine]:
+    def _speed_lines(self, label: str, body: str, depth: int) -> Iterator[DerivationLine]:
         """Yield the derivation of a speed; for planets as in the textbook, by Willis first."""
         ways = [self._by_ratio, self._by_willis]
         if any(body in around for around in self.motion.roles.planets.values()):
@@ -384,7 +386,7 @@ class _Derivation:
             if body not in self.speeds:
                 yield from way(label, body, depth)
 
-    def _by_ratio(self, label: str, body: str, _: int) -> Iterator[DerivedLine]:
+    def _by_ratio(self, label: str, body: str, _: int) -> Iterator[DerivationLine]:
         letter = self.train.letter
         for source in [b for b, v in self.speeds.items() if v]:
             path = find_path(self.stages, source, body)
@@ -408,7 +410,7 @@ class _Derivation:
             yield self._speed(label, body, (formula, numbers), n / whole.ratio)
             return
 
-    def _by_willis(self, label: str, body: str, depth: int) -> Iterator[DerivedLine]:
+    def _by_willis(self, label: str, body: str, depth: int) -> Iterator[DerivationLine]:
         for carrier in self.moving:
             stages = self._carrier_stages(carrier)
             bodies = dict.fromkeys(
@@ -430,19 +432,21 @@ class _Derivation:
                         yield from self._wheel(label, body, carrier, one)
                         return
 
-    def _carrier(self, label: str, body: str, path: Sequence[Stage]) -> Iterator[DerivedLine]:
+    def _carrier(self, label: str, body: str, path: Sequence[Stage]) -> Iterator[DerivationLine]:
         """Yield the speed of a carrier by those of two of its wheels."""
         whole, n = self._combined(path), self._letter_of(label)
         u, p, q = whole.ratio, self.speeds[path[0].first], self.speeds[path[-1].second]
         n_p, n_q = (self._letter_of(b) for b in (path[0].first, path[-1].second))
         yield from self._product(path)
-        yield DerivedLine(f"{whole.symbol} = {fraction(f'{n_p} − {n}', f'{n_q} − {n}')}")
+        yield DerivationLine(f"{whole.symbol} = {fraction(f'{n_p} − {n}', f'{n_q} − {n}')}")
         formula = fraction(f"{n_p} − {whole.symbol}·{n_q}", f"1 − {whole.symbol}")
         above = f"{_built(p)} − {_factor(u)}·{_factor(q)}"
         numbers = fraction(above, f"1 {_plus(*_split(u))}")
         yield self._speed(label, body, (formula, numbers), (p - u * q) / (1 - u))
 
-    def _wheel(self, label: str, body: str, carrier: str, reference: str) -> Iterator[DerivedLine]:
+    def _wheel(
+        self, label: str, body: str, carrier: str, reference: str
+    ) -> Iterator[DerivationLine]:
         """Yield the speed of a wheel on a carrier by those of the carrier and another wheel.
 
         The ratio is the requested one, if any; else that to the other wheel.
@@ -458,7 +462,7 @@ class _Derivation:
         c, q, u = self.speeds[carrier], self.speeds[reference], whole.ratio
         yield from self._product(path)
         ways = [f"{n} − {n_c}", f"{n_q} − {n_c}"]
-        yield DerivedLine(f"{whole.symbol} = {fraction(*(ways[::-1] if is_asked else ways))}")
+        yield DerivationLine(f"{whole.symbol} = {fraction(*(ways[::-1] if is_asked else ways))}")
         less = f"{_built(q)} {_plus(*_split(c))}"
         if is_asked:
             sides = [fraction(ways[1], whole.symbol), fraction(less, _built(u))]
@@ -478,7 +482,7 @@ class _Derivation:
         derived: Fraction,
         *,
         is_size: bool = False,
-    ) -> DerivedLine:
+    ) -> DerivationLine:
         """Return a speed with its formula, and keep it for the next; its size if it has no sign."""
         unit = raised(self.language.gears["units"][self.train.units[0]])
         symbol = f"{self.train.letter}_{{{label}}}"
@@ -488,7 +492,7 @@ class _Derivation:
             symbol, derived = f"|{symbol}|", abs(derived)
         value = _value(derived, self.language)
         whole = [side for side in sides if side != value.partition(" = ")[0]]
-        return DerivedLine(" = ".join([symbol, *whole, f"{value} {unit}"]))
+        return DerivationLine(" = ".join([symbol, *whole, f"{value} {unit}"]))
 
 
 def _sizes(path: Sequence[Stage]) -> list[Stage]:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from planmethod.gears.model import GearProblem
     from planmethod.note.audit.audit import Audited
     from planmethod.note.wording import Language
-    from planmethod.problem.figures import Figures
+    from planmethod.problem.question_quantities import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
 
 
@@ -101,8 +101,8 @@ class GearTrains(ProblemKind["GearProblem"]):
 
         return draw_scheme(problem)
 
-    def figures(self, problem: GearProblem) -> Figures:
+    def question_quantities(self, problem: GearProblem) -> QuestionQuantities:
         """Return the quantities that students can be asked for."""
-        from planmethod.gears.figures import FIGURES
+        from planmethod.gears.question_quantities import TrainQuantities
 
-        return FIGURES(problem)
+        return TrainQuantities(problem)

@@ -15,7 +15,7 @@ from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat_tables import read_flat
 from planmethod.problem.names import fold, is_label, joined, looks_latin, segment
-from planmethod.problem.tables import GearWheelTable
+from planmethod.problem.tables import GearWheelSection
 
 WHEEL_LIMIT = 60
 TEETH_LIMIT = 10_000
@@ -162,7 +162,7 @@ def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: Tra
         return GearRim(label, Fraction(teeth or 1))
     table = fields.read_table(faults, path, entry, "{ r = 0.07 }") or {}
     own = {"r": fields.read_length, "axis": _read_axis}
-    given = GearWheelTable(**read_flat(faults, path, table, GearWheelTable, own))
+    given = GearWheelSection(**read_flat(faults, path, table, GearWheelSection, own))
     size: Fraction | None = None
     if "z" in table and "r" in table:
         faults.add(path, "z and r are both given", "Keep one of them.")

@@ -29,7 +29,7 @@ from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
 from planmethod.problem.selector import read_published
 from planmethod.problem.sheet import read_head
-from planmethod.problem.tables import PictureTable, PlanetaryTask
+from planmethod.problem.tables import PictureSection, PlanetaryTask
 
 ASK_LIMIT = 100
 TURNS = ("n", "omega")
@@ -245,7 +245,7 @@ def _read_planets(faults: Faults, value: object, draft: TrainDraft) -> dict[str,
 
 def _read_picture(faults: Faults, value: object) -> DiagramSettings:
     table = fields.read_table(faults, "gears.picture", value, "picture = { pole_mm = 40 }") or {}
-    found = read_flat(faults, "gears.picture", table, PictureTable)
+    found = read_flat(faults, "gears.picture", table, PictureSection)
     return DiagramSettings(**{key: fraction(value) for key, value in found.items()})
 
 

@@ -284,7 +284,7 @@ class SchemeData(Struct, frozen=True, dict=True):
             else:
                 columns.append(column := {})
             for rim in rims:
-                column[rim.label] = _joined(column.get(rim.label), rim)
+                column[rim.label] = _merge_rims(column.get(rim.label), rim)
         return tuple(tuple(column.values()) for column in columns)
 
     def _meshing(self) -> Iterator[tuple[Rim, ...]]:
@@ -315,7 +315,7 @@ class SchemeData(Struct, frozen=True, dict=True):
             )
 
 
-def _joined(before: Rim | None, rim: Rim) -> Rim:
+def _merge_rims(before: Rim | None, rim: Rim) -> Rim:
     if before is None:
         return rim
     ways = tuple(dict.fromkeys((*before.mesh_sides, *rim.mesh_sides)))
@@ -329,7 +329,7 @@ def _has_no_overlap(column: Mapping[str, Rim], *rims: Rim) -> bool:
     """Return whether wheels fit in a column without overlap."""
     if any(column[rim.label].ring != rim.ring for rim in rims if rim.label in column):
         return False  # one wheel has teeth inside and outside
-    whole = {**column, **{rim.label: _joined(column.get(rim.label), rim) for rim in rims}}
+    whole = {**column, **{rim.label: _merge_rims(column.get(rim.label), rim) for rim in rims}}
     spans = [span for rim in whole.values() for span in rim.spans()]
     for (a, b), (c, d) in combinations(spans, 2):
         if min(b, d) - max(a, c) > EPS or abs(a - c) + abs(b - d) < EPS:

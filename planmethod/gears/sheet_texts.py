@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from planmethod.gears.answers import Answer, answer, named
 from planmethod.gears.conditions import conditions, judgement
 from planmethod.gears.construction import GearDrawing, GearReading
-from planmethod.gears.derivation import DerivedLine, derivation
+from planmethod.gears.derivation import DerivationLine, derivation
 from planmethod.gears.model import Mesh, MeshKind, Train
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.requested_quantities import parse
@@ -182,7 +182,7 @@ def calculation(
     return lines
 
 
-def ratios(motion: TrainMotion, language: Language) -> Iterator[DerivedLine]:
+def ratios(motion: TrainMotion, language: Language) -> Iterator[DerivationLine]:
     """Yield derivations of the requested ratios and speeds, and why some have no value."""
     yield from derivation(motion, language)
     yield from by_velocities(motion, language)
@@ -191,7 +191,7 @@ def ratios(motion: TrainMotion, language: Language) -> Iterator[DerivedLine]:
         asked, one = parse(name, known), answer(motion, name)
         if asked.kind == "U" and one.value is None:
             told = texts["reasons"][one.reason].format(label=one.label)
-            yield DerivedLine(f"{asked.symbol}: {told}", False)
+            yield DerivationLine(f"{asked.symbol}: {told}", False)
 
 
 def _other_quantity(name: str, motion: TrainMotion, language: Language) -> Iterator[str]:

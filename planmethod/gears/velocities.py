@@ -12,7 +12,7 @@ from itertools import permutations
 from msgspec import Struct
 
 from planmethod.errors import PlanMethodError
-from planmethod.gears.derivation import DerivedLine
+from planmethod.gears.derivation import DerivationLine
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.velocity_diagrams import ContactKind, carrier_of, draw
 from planmethod.note.formula import Rich, fraction
@@ -31,7 +31,7 @@ class _Point(Struct, frozen=True):
     bodies: tuple[str, ...]
 
 
-def by_velocities(motion: TrainMotion, language: Language) -> list[DerivedLine]:
+def by_velocities(motion: TrainMotion, language: Language) -> list[DerivationLine]:
     """Return the method step by step; none where teeth are given, or there is no diagram.
 
     Raises
@@ -52,7 +52,9 @@ def by_velocities(motion: TrainMotion, language: Language) -> list[DerivedLine]:
             name = f"O_{{{contact.at.of}}}"
             points.append(_Point(name, height, (contact.at.of, carrier)))
     lines = list(_Velocities(motion, points, language).steps())
-    return [DerivedLine(language.gears["derived"]["by_velocities"], False), *lines] if lines else []
+    return (
+        [DerivationLine(language.gears["derived"]["by_velocities"], False), *lines] if lines else []
+    )
 
 
 class _Velocities:
@@ -72,7 +74,7 @@ class _Velocities:
             if body in heights and body not in around
         }
 
-    def steps(self) -> Iterator[DerivedLine]:
+    def steps(self) -> Iterator[DerivationLine]:
         """Yield the steps, until none follows."""
         while True:
             told = next(self._next(), None)
@@ -80,7 +82,7 @@ class _Velocities:
                 return
             yield told
 
-    def _next(self) -> Iterator[DerivedLine]:
+    def _next(self) -> Iterator[DerivationLine]:
         for point in self.points:
             for body in point.bodies if point.letter not in self.velocities else ():
                 if body in self.speeds:
@@ -89,7 +91,7 @@ class _Velocities:
             if body not in self.speeds:
                 yield from self._speed(body)
 
-    def _velocity(self, point: _Point, body: str) -> Iterator[DerivedLine]:
+    def _velocity(self, point: _Point, body: str) -> Iterator[DerivationLine]:
         """Derive the velocity of a point of a body whose speed is known."""
         speed, symbol = self.speeds[body], f"v_{{{point.letter}}}"
         omega, size = f"ω_{{{body}}}", self._number(abs(speed))
@@ -111,9 +113,9 @@ class _Velocities:
             sign = MINUS if is_less else "+"
             sides = [f" {sign} ".join(both[::order]) for both in (parts, numbers)]
         self.velocities[point.letter] = value
-        yield DerivedLine(f"{symbol} = {' = '.join(sides)} = {self._metres(value)}")
+        yield DerivationLine(f"{symbol} = {' = '.join(sides)} = {self._metres(value)}")
 
-    def _speed(self, body: str) -> Iterator[DerivedLine]:
+    def _speed(self, body: str) -> Iterator[DerivationLine]:
         """Derive the speed of a body from two known points, one of them its fixed axis."""
         known = [p for p in self._of(body) if p.letter in self.velocities]
         if body in self.axes and known:
@@ -148,7 +150,7 @@ class _Velocities:
         unit = raised(self.language.gears["units"]["1/s"])
         sense = self.language.note.ccw if speed > 0 else self.language.note.cw
         text = f", {sense}" if speed else ""
-        yield DerivedLine(
+        yield DerivationLine(
             f"ω_{{{body}}} = {' = '.join(sides)} = {self._number(abs(speed))} {unit}{text}"
         )
 

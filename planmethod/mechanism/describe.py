@@ -142,7 +142,7 @@ def kind_of_motion(mechanism: Mechanism) -> list[LinkKind]:
         if FRAME in (pair.slider, pair.host)
         for link in (pair.slider, pair.host)
     }
-    stones, partners = _stones(mechanism)
+    stones, partners = _sliding_blocks(mechanism)
     rows = [LinkKind(FRAME, MotionKind.FIXED, Role.FRAME)]
     for link in mechanism.links:
         if link in sliding:
@@ -178,7 +178,7 @@ def _translating(mechanism: Mechanism) -> set[str]:
     return found - {FRAME}
 
 
-def _stones(mechanism: Mechanism) -> tuple[set[str], set[str]]:
+def _sliding_blocks(mechanism: Mechanism) -> tuple[set[str], set[str]]:
     """Sliding blocks of the pairs between moving links, and the links that they slide on."""
     count = dict.fromkeys((FRAME, *mechanism.links), 0)
     for joint in mechanism.revolutes:

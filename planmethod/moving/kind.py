@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from planmethod.moving.model import PointProblem
     from planmethod.note.audit.audit import Audited
     from planmethod.note.wording import Language
-    from planmethod.problem.figures import Figures
+    from planmethod.problem.question_quantities import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
 
 
@@ -76,8 +76,8 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
         return given_facts(problem, language)
 
-    def figures(self, problem: PointProblem) -> Figures:
+    def question_quantities(self, problem: PointProblem) -> QuestionQuantities:
         """Return the quantities for questions to students."""
-        from planmethod.moving.figures import FIGURES
+        from planmethod.moving.question_quantities import PointQuantities
 
-        return FIGURES(problem)
+        return PointQuantities(problem)

@@ -21,7 +21,7 @@ from planmethod.problem.formula import FormulaKind
 Reals = NDArray[np.float64]
 
 ROUNDOFF = 2.0**-53
-ELEMENTARY = 8 * ROUNDOFF
+FUNCTION_ROUNDOFF = 8 * ROUNDOFF
 """Bound of the relative error of NumPy's functions."""
 
 
@@ -100,7 +100,7 @@ def length(x: Bounded, y: Bounded) -> Bounded:
     value = np.hypot(x.value, y.value)
     size = np.where(value == 0.0, 1.0, value)
     spread = (np.abs(x.value) * x.radius + np.abs(y.value) * y.radius) / size
-    return Bounded(value, spread + ELEMENTARY * value)
+    return Bounded(value, spread + FUNCTION_ROUNDOFF * value)
 
 
 Derivatives = tuple[Any, Any, Any, Any]
@@ -194,7 +194,7 @@ def _composed(inner: Jet, derivatives: Callable[[Any], Derivatives], *, edge: bo
 
     def part(k: int) -> Bounded:
         moved = np.where(f.radius == 0.0, 0.0, np.abs(d[k + 1]) * f.radius)
-        return Bounded(d[k], moved + ELEMENTARY * np.abs(d[k]))
+        return Bounded(d[k], moved + FUNCTION_ROUNDOFF * np.abs(d[k]))
 
     return Jet(part(0), part(1) * f1, part(2) * f1 * f1 + part(1) * f2)
 

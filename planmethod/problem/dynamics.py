@@ -20,7 +20,7 @@ from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import (
     GRAVITY,
     BalancingForceTask,
-    BearingTable,
+    BearingSection,
     Dynamics,
     FrictionTask,
     Mass,
@@ -299,7 +299,7 @@ _BEARINGS = "[bearings.O] at = [-0.04, 0.06]"
 
 def read_bearings(
     faults: Faults, document: Mapping[str, Any], turning: Collection[str]
-) -> dict[str, BearingTable]:
+) -> dict[str, BearingSection]:
     """Read ``[bearings]``, by joint.
 
     Parameters
@@ -309,7 +309,7 @@ def read_bearings(
     turning : collection of str
         Points of the frame about which a link turns.
     """
-    found: dict[str, BearingTable] = {}
+    found: dict[str, BearingSection] = {}
     shafts = fields.read_table(faults, "bearings", document["bearings"], _BEARINGS)
     for joint, body in (shafts or {}).items():
         where = f"bearings.{segment(joint)}"
@@ -322,9 +322,9 @@ def read_bearings(
         table = fields.read_table(faults, where, body, _BEARINGS)
         before = len(faults)
         own = {"at": _read_places}
-        read = read_flat(faults, where, table or {}, BearingTable, own, example=_BEARINGS)
+        read = read_flat(faults, where, table or {}, BearingSection, own, example=_BEARINGS)
         if table is not None and len(faults) == before:
-            found[joint] = BearingTable(**read)
+            found[joint] = BearingSection(**read)
     if "dynamics" not in document and "loads" not in document:
         faults.add("bearings", "there are neither masses nor loads that they could carry", _MASSES)
     return found

@@ -12,7 +12,7 @@ from planmethod.problem.flat_tables import read_flat
 from planmethod.problem.links import Length, LinkText
 from planmethod.problem.names import NAME_LIMIT, is_label, listed
 from planmethod.problem.slides import FrameText
-from planmethod.problem.tables import HigherPairTable
+from planmethod.problem.tables import HigherPairSection
 
 EXAMPLE = 'links = ["1", "2"]'
 
@@ -69,7 +69,7 @@ class _Reader:
             "roller": self._number,
             "by": self._number,
         }
-        given = read_flat(faults, path, table, HigherPairTable, read)
+        given = read_flat(faults, path, table, HigherPairSection, read)
         if len(faults) != before:
             return None
         ends, centres = given["links"], given["centres"]

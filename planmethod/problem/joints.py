@@ -33,12 +33,12 @@ def join(
         Whether every point and slide of the file could be read: if not, a missing joint means
         nothing.
     """
-    members: dict[str, list[str]] = {point: [FRAME] for point in frame.points}
+    links_by_point: dict[str, list[str]] = {point: [FRAME] for point in frame.points}
     for link in links.values():
         for point in link.points:
-            members.setdefault(point, []).append(link.name)
+            links_by_point.setdefault(point, []).append(link.name)
     revolutes = tuple(
-        Revolute(point, tuple(names)) for point, names in members.items() if len(names) > 1
+        Revolute(point, tuple(names)) for point, names in links_by_point.items() if len(names) > 1
     )
     prismatics = tuple(
         Prismatic(slider, host, links[slider].points[0])
@@ -48,8 +48,8 @@ def join(
     _reject_duplicates(faults, revolutes, prismatics)
     if complete:
         _check_reach(faults, links, revolutes, prismatics, driver)
-    _check_coincident(faults, members, prismatics)
-    _check_letters(faults, members)
+    _check_coincident(faults, links_by_point, prismatics)
+    _check_letters(faults, links_by_point)
     return Mechanism(tuple(links), revolutes, prismatics, driver)
 
 
@@ -151,11 +151,11 @@ def _check_reach(
 
 
 def _check_coincident(
-    faults: Faults, members: Mapping[str, list[str]], prismatics: tuple[Prismatic, ...]
+    faults: Faults, links_by_point: Mapping[str, list[str]], prismatics: tuple[Prismatic, ...]
 ) -> None:
     for slide in prismatics:
         name = f"{slide.pin}{slide.host}"
-        if slide.host != FRAME and name in members:
+        if slide.host != FRAME and name in links_by_point:
             faults.add(
                 f"links.{slide.slider}.slides",
                 translate(

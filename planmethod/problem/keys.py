@@ -21,7 +21,7 @@ from planmethod.problem.cycle_records import CycleTask, PoleDistances, ProjectTa
 from planmethod.problem.key_types import declared
 from planmethod.problem.load_records import (
     BalancingForceTask,
-    BearingTable,
+    BearingSection,
     Dynamics,
     FrictionTask,
     LoadEntry,
@@ -32,18 +32,18 @@ from planmethod.problem.load_records import (
 from planmethod.problem.machine_records import (
     CounterweightTask,
     FlywheelTask,
-    KlossTable,
-    LineTable,
+    KlossSection,
+    LineSection,
     Machine,
-    MotorTable,
+    MotorSection,
 )
 from planmethod.problem.model import Scales
 from planmethod.problem.tables import (
-    CamTable,
-    GearWheelTable,
-    HigherPairTable,
-    MeshingTable,
-    PictureTable,
+    CamSection,
+    GearWheelSection,
+    HigherPairSection,
+    MeshingSection,
+    PictureSection,
     PlanetaryTask,
 )
 
@@ -114,11 +114,11 @@ FLAT: Mapping[str, type[object]] = {
     "cycle": CycleTask, "pole": PoleDistances, "scales": Scales, "sheet": SheetSettings,
     "published": Published, "answer": QuestionSpec, "dynamics": Dynamics, "mass": Mass,
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
-    "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
-    "wheel": GearWheelTable, "picture": PictureTable, "design": PlanetaryTask,
-    "meshing": MeshingTable,
-    "project": ProjectTask, "higher": HigherPairTable, "balancing_force": BalancingForceTask,
-    "friction": FrictionTask, "pair": PairFriction, "bearing": BearingTable, "cam": CamTable,
+    "motor": MotorSection, "kloss": KlossSection, "line": LineSection, "balancing": CounterweightTask,
+    "wheel": GearWheelSection, "picture": PictureSection, "design": PlanetaryTask,
+    "meshing": MeshingSection,
+    "project": ProjectTask, "higher": HigherPairSection, "balancing_force": BalancingForceTask,
+    "friction": FrictionTask, "pair": PairFriction, "bearing": BearingSection, "cam": CamSection,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 

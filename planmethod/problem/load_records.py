@@ -324,7 +324,7 @@ class FrictionTask(Struct, frozen=True):
     ] = field(default_factory=dict)
 
 
-class BearingTable(Struct, frozen=True):
+class BearingSection(Struct, frozen=True):
     """Two bearings of a shaft, a table of ``[bearings]`` (подшипники вала)."""
 
     at: Annotated[
@@ -390,4 +390,4 @@ class Dynamics(Struct, frozen=True):
         ),
     ] = False
     friction: FrictionTask | None = None
-    bearings: Mapping[str, BearingTable] = field(default_factory=dict)
+    bearings: Mapping[str, BearingSection] = field(default_factory=dict)

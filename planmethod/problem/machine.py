@@ -14,11 +14,11 @@ from planmethod.problem.formula import read_decimal
 from planmethod.problem.machine_records import (
     ConstantMoment,
     FlywheelTask,
-    KlossTable,
-    LineTable,
+    KlossSection,
+    LineSection,
     Machine,
     Motor,
-    MotorTable,
+    MotorSection,
 )
 from planmethod.problem.model import Drive
 
@@ -115,7 +115,7 @@ def _read_motor(faults: Faults, path: str, value: object) -> Motor | None:
     table = fields.read_table(faults, path, value, _MOTOR)
     if table is None:
         return None
-    found = read_flat(faults, path, table, MotorTable)
+    found = read_flat(faults, path, table, MotorSection)
     given = [form for form in keys.MOTOR_FORMS if form in found]
     if len(given) != 1 and set(table) <= {*keys.MOTOR_FORMS, "ratio"}:
         faults.add(
@@ -126,7 +126,7 @@ def _read_motor(faults: Faults, path: str, value: object) -> Motor | None:
     (form,) = given
     where = f"{path}.{form}"
     numbers = fields.read_table(faults, where, found[form], _MOTOR) or {}
-    read = read_flat(faults, where, numbers, KlossTable if form == "kloss" else LineTable)
+    read = read_flat(faults, where, numbers, KlossSection if form == "kloss" else LineSection)
     ways = keys.MOTOR_FORMS[form]
     if len(faults) == before and set(numbers) not in map(set, ways):
         asked = translate(" or ").join(", ".join(names) for names in ways)
@@ -138,11 +138,11 @@ def _read_motor(faults: Faults, path: str, value: object) -> Motor | None:
         return None
     ratio = found.get("ratio", 1.0)
     if form == "kloss":
-        return _kloss(faults, where, KlossTable(**read), ratio)
-    return _line(faults, where, LineTable(**read), ratio)
+        return _kloss(faults, where, KlossSection(**read), ratio)
+    return _line(faults, where, LineSection(**read), ratio)
 
 
-def _kloss(faults: Faults, path: str, table: KlossTable, ratio: float) -> Motor | None:
+def _kloss(faults: Faults, path: str, table: KlossSection, ratio: float) -> Motor | None:
     """Return the characteristic of Kloss's formula."""
     before = len(faults)
     slip = _nominal_slip(faults, path, table.n_nom, table.n_sync)
@@ -163,7 +163,7 @@ def _kloss(faults: Faults, path: str, table: KlossTable, ratio: float) -> Motor 
     return None if len(faults) != before else Motor(idle, moment * ratio, critical)
 
 
-def _line(faults: Faults, path: str, table: LineTable, ratio: float) -> Motor | None:
+def _line(faults: Faults, path: str, table: LineSection, ratio: float) -> Motor | None:
     """Return a straight characteristic."""
     slip = _nominal_slip(faults, path, table.n_nom, table.n_idle)
     if slip <= 0.0:

@@ -99,7 +99,7 @@ CAST_IRON = 7500.0
 """Density below which a flywheel is of cast iron, not of steel, kg/m³."""
 
 
-class KlossTable(Struct, frozen=True):
+class KlossSection(Struct, frozen=True):
     """Numbers of Kloss's formula as the file gives them, in one of two ways (формула Клосса)."""
 
     M_max: Annotated[float, NumberKey("greatest moment, N·m", low=1e-9)] = 0.0
@@ -119,7 +119,7 @@ class KlossTable(Struct, frozen=True):
     ] = 0.0
 
 
-class LineTable(Struct, frozen=True):
+class LineSection(Struct, frozen=True):
     """Numbers of a straight characteristic as the file gives them, in one of two ways."""
 
     M_start: Annotated[float, NumberKey("moment at rest, N·m", low=1e-9)] = 0.0
@@ -131,14 +131,14 @@ class LineTable(Struct, frozen=True):
     n_nom: Annotated[float, NumberKey("speed of the nominal point, rev/min", low=1e-9)] = 0.0
 
 
-class MotorTable(Struct, frozen=True):
+class MotorSection(Struct, frozen=True):
     """A motor as the file gives it: ``kloss`` or ``line`` (механическая характеристика)."""
 
     kloss: Annotated[
-        KlossTable,
+        KlossSection,
         CustomKey("a table: Kloss's formula M = 2M_max/(s/s_k + s_k/s), s = 1 − n/n_sync"),
-    ] = KlossTable()
-    line: Annotated[LineTable, CustomKey("a table: a straight line")] = LineTable()
+    ] = KlossSection()
+    line: Annotated[LineSection, CustomKey("a table: a straight line")] = LineSection()
     ratio: Annotated[
         float,
         NumberKey(

@@ -187,15 +187,15 @@ def _set_number(table: dict[str, Any], key: Key, value: float) -> None:
 def _numbers(problem: Problem) -> Iterator[Parameter]:
     """Yield the numbers that a file gives and that plans depend on."""
     read, given = _Reader(problem.unit), problem.source_table
-    yield from _of_frame(read, given.get("frame", {}))
+    yield from _frame_parameters(read, given.get("frame", {}))
     for link, table in given["links"].items():
-        yield from _of_link(read, link, table, problem.bodies.get(link))
+        yield from _link_parameters(read, link, table, problem.bodies.get(link))
     for index, pair in enumerate(given.get("higher_pairs", ())):
         if "distance" in pair:
             name = f"l_{''.join(pair['centres'])}"
             yield from read.length(name, ("higher_pairs", index, "distance"), pair["distance"])
-    yield from _of_driver(read, problem)
-    yield from _of_forces(read, problem)
+    yield from _driver_parameters(read, problem)
+    yield from _force_parameters(read, problem)
 
 
 class _Reader(Struct):
@@ -226,7 +226,7 @@ class _Reader(Struct):
             yield from self.length(f"y_{name}", (*key, 1), value[1])
 
 
-def _of_frame(read: _Reader, frame: Table) -> Iterator[Parameter]:
+def _frame_parameters(read: _Reader, frame: Table) -> Iterator[Parameter]:
     for point, place in frame.items():
         if point != "guides":
             yield from read.place(point, ("frame", point), place)
@@ -236,7 +236,9 @@ def _of_frame(read: _Reader, frame: Table) -> Iterator[Parameter]:
         yield from read.angle(f"angle_{guide}", (*key, "angle"), line["angle"])
 
 
-def _of_link(read: _Reader, link: str, table: Table, body: Body | None) -> Iterator[Parameter]:
+def _link_parameters(
+    read: _Reader, link: str, table: Table, body: Body | None
+) -> Iterator[Parameter]:
     axis = body.axis if body is not None else None
     for name, value in table.items():
         key: Key = ("links", link, name)
@@ -253,12 +255,12 @@ def _of_link(read: _Reader, link: str, table: Table, body: Body | None) -> Itera
             if "angle" in value:
                 yield from read.angle(f"angle_{link}", (*key, "angle"), value["angle"])
         elif isinstance(value, Mapping):
-            yield from _of_point(read, key, name, value, axis)
+            yield from _point_parameters(read, key, name, value, axis)
         elif len(split_names(name)) == 2:
             yield from read.length(f"l_{name}", key, value)
 
 
-def _of_point(
+def _point_parameters(
     read: _Reader, key: Key, point: str, form: Table, axis: tuple[str, str] | None
 ) -> Iterator[Parameter]:
     """Yield the numbers that place a third point of a link.
@@ -283,7 +285,7 @@ def _of_point(
         yield from read.length(f"y_{of}", (*key, "across"), form["across"])
 
 
-def _of_driver(read: _Reader, problem: Problem) -> Iterator[Parameter]:
+def _driver_parameters(read: _Reader, problem: Problem) -> Iterator[Parameter]:
     drive, driver = problem.drive, problem.source_table["driver"]
     if isinstance(driver, list):
         return
@@ -313,7 +315,7 @@ def _rates_left_out(problem: Problem) -> Iterator[Parameter]:
         yield Parameter("a", ("driver", "a"), 0.0)
 
 
-def _of_forces(read: _Reader, problem: Problem) -> Iterator[Parameter]:
+def _force_parameters(read: _Reader, problem: Problem) -> Iterator[Parameter]:
     dynamics = problem.source_table.get("dynamics", {})
     if is_number(dynamics.get("gravity")):
         yield from read.number("g", ("dynamics", "gravity"), dynamics["gravity"])

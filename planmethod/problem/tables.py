@@ -17,7 +17,7 @@ from planmethod.problem.key_types import (
 )
 
 
-class HigherPairTable(Struct, frozen=True):
+class HigherPairSection(Struct, frozen=True):
     """Two profiles that touch (высшая пара), as the file has them."""
 
     name: Annotated[
@@ -68,7 +68,7 @@ MESHING_EXAMPLE = '[meshing] z = [12, 30], m = 5, x = "blocking"'
 MESHING_HINT = "Lengths of [meshing] are millimetres, as the standard has them."
 
 
-class MeshingTable(Struct, frozen=True, kw_only=True):
+class MeshingSection(Struct, frozen=True, kw_only=True):
     """``[meshing]``: two wheels with involute teeth (эвольвентное зацепление)."""
 
     z: Annotated[
@@ -184,7 +184,7 @@ CamSize = float | str | None
 """A size in metres, or ``choose``."""
 
 
-class CamTable(Struct, frozen=True, kw_only=True):
+class CamSection(Struct, frozen=True, kw_only=True):
     """``[cam]``: a cam and its follower (кулачковый механизм)."""
 
     follower: Annotated[
@@ -319,7 +319,7 @@ class CamTable(Struct, frozen=True, kw_only=True):
     ] = 1.2  # fmt: skip
 
 
-class PictureTable(Struct, frozen=True):
+class PictureSection(Struct, frozen=True):
     """``[gears.picture]``: scales of the pictures of velocities (масштабы картин скоростей)."""
 
     mu_l: Annotated[float, NumberKey("scale of the scheme", "a scale", "m/mm", 1e-9, 1e6)] = 0.001
@@ -363,7 +363,7 @@ class PlanetaryTask(Struct, frozen=True, kw_only=True):
     count: Annotated[int, IntegerKey("how many variants of each number are shown", 1, 10)] = 3
 
 
-class GearWheelTable(Struct, frozen=True):
+class GearWheelSection(Struct, frozen=True):
     """A wheel of ``[gears]`` that is a table (колесо)."""
 
     z: Annotated[int | None, IntegerKey("number of teeth (of a worm: starts)", 1, 10_000)] = None

@@ -43,7 +43,7 @@ KeyPath = tuple[str, ...]
 _HOLDERS = (Mapping, list)
 """Containers in a path: a table, the loads or the answers."""
 
-_MOTION = ("frame", "links", "driver", "assembly", *keys.OF_KINDS)
+_MOTION_TABLES = ("frame", "links", "driver", "assembly", *keys.OF_KINDS)
 """Tables on which all published values depend."""
 
 TURNING = ("omega", "n", "train")
@@ -211,12 +211,12 @@ def apply_variant(table: Mapping[str, Any], overrides: Mapping[KeyPath, Any]) ->
     one with other masses or loads keeps those of the motion.
     """
     result = dict(table)
-    if any(path[0] in _MOTION and path[2:] != _CONTACT for path in overrides):
+    if any(path[0] in _MOTION_TABLES and path[2:] != _CONTACT for path in overrides):
         result.pop("published", None)
     elif any(path[0] in _FORCES for path in overrides):
         entries = result.get("published")
         if isinstance(entries, Mapping):
-            result["published"] = {k: v for k, v in entries.items() if not _of_forces(v)}
+            result["published"] = {k: v for k, v in entries.items() if not _is_force_entry(v)}
     for path, value in overrides.items():
         level: Any = result
         for part, after in pairwise(path):
@@ -236,7 +236,7 @@ def _replaces(one: str, second: str) -> bool:
     return is_place(one) and (is_place(second) or second == "root")
 
 
-def _of_forces(entry: object) -> bool:
+def _is_force_entry(entry: object) -> bool:
     """Return whether a published value is of the force analysis; one that is faulty is not."""
     what = entry.get("what") if isinstance(entry, Mapping) else None
     try:

@@ -121,7 +121,7 @@ def application(settings: StudioSettings, act: Act, root: Path) -> Starlette:
     )
 
 
-async def _body(request: Request, limit: int) -> bytes:
+async def _read_body(request: Request, limit: int) -> bytes:
     """Read a body within its bound."""
     parts, size = [], 0
     try:
@@ -255,7 +255,7 @@ class _Studio:
         return session
 
     async def _read_request(self, request: Request, limit: int) -> StudioRequest:
-        data = await _body(request, limit)
+        data = await _read_body(request, limit)
         try:
             with speaking(lang_of(request)):
                 return request_of(data)
@@ -312,7 +312,7 @@ class _Studio:
                 "'{}': submissions are *.csv, *.xlsx, *.json, *.toml, or drawings *.dxf, *.svg."
             )
             raise StudioRefusal(415, phrase, " ".join(Path(given).name.split())[:120])
-        data, limits = await _body(request, self.limits.upload), self.limits
+        data, limits = await _read_body(request, self.limits.upload), self.limits
         path = session.works / name
         if session.uploaded() + len(data) > limits.uploads:
             raise StudioRefusal(

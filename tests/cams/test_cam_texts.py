@@ -19,8 +19,8 @@ from doors import (
     DRAFTING_PROFILES as PROFILES,
     PROFILE,
     CamDesign,
-    CamFigures,
     CamProblem,
+    CamQuantities,
     Drawing,
     GradedSubmission,
     Report,
@@ -39,7 +39,7 @@ from doors import (
     families_template as template,
     get_language,
     inspect,
-    load_unsettled,
+    load_unchanged,
     nodes_of,
     settle,
     text_positions as positions,
@@ -165,19 +165,19 @@ def judged(told: dict[str, float], position: int = 0) -> GradedSubmission:
 def test_a_mistake_is_known_by_its_numbers(
     code: str, names: tuple[str, ...], position: int
 ) -> None:
-    figures = CamFigures(load(BY_NAME["offset"]))
+    figures = CamQuantities(load(BY_NAME["offset"]))
     (mistake,) = (one for one in figures.mistaken() if one.code == code)
     told = {name: mistake.read(name, position) or 0.0 for name in names}
     ids = {name: f"{name}@{position}" if position else name for name in names}
     one = judged({ids[name]: value for name, value in told.items()}, position)
     assert [diagnosis.codes for diagnosis in one.diagnosis] == [(code,)]
-    exact = {name: figures.figure(name, position) for name in names}
+    exact = {name: figures.quantity(name, position) for name in names}
     right = {ids[name]: one.value for name, one in exact.items() if one is not None}
     assert not judged(right, position).diagnosis
 
 
 def test_a_value_read_on_the_drawing_has_its_sigma() -> None:
-    figures = CamFigures(load(BY_NAME["oscillating"]))
+    figures = CamQuantities(load(BY_NAME["oscillating"]))
     for name in ("r_min", "centre_distance", "s", "v_q"):
         read = figures.read_off(name, 3, PROFILES["board"])
         assert read is not None
@@ -193,7 +193,7 @@ def test_a_project_has_the_cam_as_a_part_of_its_own(tmp_path: Path) -> None:
     text = template("project").replace("[project] ", '[project]\nparts = ["cam"] ')
     text += "\n[scales]\nmu_l = 0.002\nmu_v = 0.04\nmu_a = 0.2\n"  # given, they are not searched
     path.write_text(text, "utf-8")
-    project = settle(load_unsettled(path, None), path)
+    project = settle(load_unchanged(path, None), path)
     (part,) = project.parts
     assert isinstance(part.problem, CamProblem)
     assert part.problem.oscillates
@@ -207,7 +207,7 @@ def test_a_project_has_the_cam_as_a_part_of_its_own(tmp_path: Path) -> None:
     beside = tmp_path / "cam.toml"
     beside.write_text(template("cam"), "utf-8")
     path.write_text(text.replace('["cam"]', '["cam"]\ncam = "cam.toml"'), "utf-8")
-    (part,) = settle(load_unsettled(path, None), path).parts
+    (part,) = settle(load_unchanged(path, None), path).parts
     assert isinstance(part.problem, CamProblem)
     assert not part.problem.oscillates
 

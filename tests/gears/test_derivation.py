@@ -13,7 +13,7 @@ from cases import each, some
 from click.testing import CliRunner
 from doors import (
     LANGUAGES_LANGUAGES as LANGUAGES,
-    DerivedLine,
+    DerivationLine,
     PlanMethodError,
     RequestedQuantity,
     TrainMotion,
@@ -206,5 +206,5 @@ def test_solve_protocol_and_sheet_show_the_derivation(lang: str, tmp_path: Path)
         done = CliRunner().invoke(cli, [*words, "--lang", lang])
         assert "U_1H = U^(H)₁₃·(U_3'-5 − 1) + 1" in " ".join(done.output.split())
     assert isinstance(
-        derivation(solve_motion(load(Path(path))), get_language(lang))[0], DerivedLine
+        derivation(solve_motion(load(Path(path))), get_language(lang))[0], DerivationLine
     )

@@ -34,7 +34,7 @@ class LimitKind(Enum):
     BASE = "base"
 
 
-class BlockingLimit(Struct, frozen=True):
+class ProfileShiftLimit(Struct, frozen=True):
     """One limit (ограничение).
 
     Attributes
@@ -88,28 +88,28 @@ class BlockingLimit(Struct, frozen=True):
         return np.asarray(self.value(pair) - self.bound(pair))
 
 
-def limits(tip: float, overlap: float, *, internal: bool = False) -> tuple[BlockingLimit, ...]:
+def limits(tip: float, overlap: float, *, internal: bool = False) -> tuple[ProfileShiftLimit, ...]:
     """Return all limits: those without which the pair does not work, then those of good use.
 
     The tips of an internal pair must not meet outside the mesh; its ring has no undercut.
     """
     wheels = (0, 1)
     return (
-        *((BlockingLimit(LimitKind.TIPS, None, hard=True),) if internal else ()),
-        *(BlockingLimit(LimitKind.INTERFERENCE, k, hard=True) for k in wheels),
-        *(BlockingLimit(LimitKind.TIP, k, hard=True) for k in wheels),
-        BlockingLimit(LimitKind.OVERLAP, None, 1.0, hard=True),
-        *(BlockingLimit(LimitKind.UNDERCUT, k) for k in wheels[: 1 if internal else 2]),
-        *(BlockingLimit(LimitKind.TIP, k, tip) for k in wheels),
-        BlockingLimit(LimitKind.OVERLAP, None, overlap),
+        *((ProfileShiftLimit(LimitKind.TIPS, None, hard=True),) if internal else ()),
+        *(ProfileShiftLimit(LimitKind.INTERFERENCE, k, hard=True) for k in wheels),
+        *(ProfileShiftLimit(LimitKind.TIP, k, hard=True) for k in wheels),
+        ProfileShiftLimit(LimitKind.OVERLAP, None, 1.0, hard=True),
+        *(ProfileShiftLimit(LimitKind.UNDERCUT, k) for k in wheels[: 1 if internal else 2]),
+        *(ProfileShiftLimit(LimitKind.TIP, k, tip) for k in wheels),
+        ProfileShiftLimit(LimitKind.OVERLAP, None, overlap),
     )
 
 
-BASES = tuple(BlockingLimit(LimitKind.BASE, k, hard=True) for k in (0, 1))
+BASES = tuple(ProfileShiftLimit(LimitKind.BASE, k, hard=True) for k in (0, 1))
 """Limits beyond which a tooth has no involute: they bound the contour, not a real pair."""
 
 
-def meets_limits(pair: Pair, required: tuple[BlockingLimit, ...]) -> Reals:
+def meets_limits(pair: Pair, required: tuple[ProfileShiftLimit, ...]) -> Reals:
     """Return where all of some limits are met."""
     with np.errstate(all="ignore"):
         return np.asarray(np.all([one.margin(pair) >= 0 for one in required], axis=0))
@@ -126,7 +126,7 @@ def candidate_shifts(total: float | None, side: int = 1) -> Reals:
 
 def choose(
     pair: Pair,
-    required: tuple[BlockingLimit, ...],
+    required: tuple[ProfileShiftLimit, ...],
     total: float | None = None,
     aim: ShiftAim = ShiftAim.BLOCKING,
 ) -> tuple[float, float] | None:

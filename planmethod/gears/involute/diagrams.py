@@ -12,7 +12,7 @@ from msgspec import Struct
 from shapely import Polygon, contains_xy, prepare, union_all
 
 from planmethod.construct.scale import series_near
-from planmethod.gears.involute.blocking import BASES, BlockingLimit, LimitKind, meets_limits
+from planmethod.gears.involute.blocking import BASES, LimitKind, ProfileShiftLimit, meets_limits
 from planmethod.gears.involute.meshpicture import nearest_scale
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import Reals
@@ -102,7 +102,7 @@ def window_of(solved: SolvedMeshing, region: Polygon) -> Window:
 
 def curves(
     solved: SolvedMeshing, region: Polygon, window: Window
-) -> Iterator[tuple[BlockingLimit, list[Reals]]]:
+) -> Iterator[tuple[ProfileShiftLimit, list[Reals]]]:
     """Yield limits with the parts of their curves that the contour shows, arrays (2, n).
 
     Those of hard limits bound the pairs that work, the others run among these.
@@ -133,7 +133,7 @@ def curves(
         yield limit, parts
 
 
-def _polished(solved: SolvedMeshing, limit: BlockingLimit, points: Reals) -> Reals:
+def _polished(solved: SolvedMeshing, limit: ProfileShiftLimit, points: Reals) -> Reals:
     """Bring points near a curve onto it, along the gradient of the margin (Newton's method)."""
     with np.errstate(all="ignore"):
         for _ in range(_POLISHED):
@@ -142,7 +142,7 @@ def _polished(solved: SolvedMeshing, limit: BlockingLimit, points: Reals) -> Rea
     return np.asarray(points[:, np.isfinite(points).all(axis=0)])
 
 
-def _slope(solved: SolvedMeshing, limit: BlockingLimit, points: Reals) -> Reals:
+def _slope(solved: SolvedMeshing, limit: ProfileShiftLimit, points: Reals) -> Reals:
     """Return the gradient of a margin at some shifts, shape (2, n)."""
     small, here = 1e-6, limit.margin(solved.pair.shifted(points))
     ways = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])
@@ -169,7 +169,7 @@ class Contour(Struct, frozen=True):
 
     solved: SolvedMeshing
     window: Window
-    parts: list[tuple[BlockingLimit, list[Reals]]]
+    parts: list[tuple[ProfileShiftLimit, list[Reals]]]
 
     @classmethod
     def of(cls, solved: SolvedMeshing) -> Contour:
@@ -234,7 +234,7 @@ def _length(points: tuple[complex, ...]) -> float:
     return sum(abs(end - start) for start, end in pairwise(points))
 
 
-def _sign(limit: BlockingLimit, notation: Notation) -> str:
+def _sign(limit: ProfileShiftLimit, notation: Notation) -> str:
     """Return what a curve is called, rich text."""
     number = "" if limit.wheel is None else limit.wheel + 1
     match limit.kind:

@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planmethod.gears.involute.meshpicture import MeshView, shows_end
+from planmethod.gears.involute.meshpicture import MeshView, draws_limit_point
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
@@ -117,7 +117,7 @@ def _radii(view: MeshView) -> Iterator[tuple[list[Item], Named]]:
         foot = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
         turn = float(np.angle((foot - centre) / -centre))
         named: Named = [(f"r_{{w{number}}}", centre / 2, complex(-np.sign((foot - centre).real)))]
-        if shows_end(view, wheel):
+        if draws_limit_point(view, wheel):
             beside = (foot - centre) * 1j * np.sign(turn)
             named.append((f"r_{{b{number}}}", (centre + foot) / 2, beside))
         items: list[Item] = []

@@ -282,7 +282,7 @@ def _line_of_action(view: MeshView) -> Iterator[Item]:
     for wheel, tip in ((0, start), (1, end)):
         beyond = view.action_direction * (-_OVER if wheel == 0 else _OVER) / 2
         yield Stroke((tip, tip + beyond), Pen.THIN, tag="line of action")
-        if shows_end(view, wheel):
+        if draws_limit_point(view, wheel):
             foot = view.drawn_centre(wheel)
             if view.is_broken(wheel):
                 way = view.centre(wheel) - tip
@@ -302,12 +302,12 @@ def _visible_end(view: MeshView, wheel: int) -> complex:
     full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
     if wheel and view.solved.pair.side < 0:  # N₂ of a ring is beyond N₁
         return view.action_direction * _farthest(view)
-    if shows_end(view, wheel):
+    if draws_limit_point(view, wheel):
         return full
     return full / abs(full) * _farthest(view)
 
 
-def shows_end(view: MeshView, wheel: int) -> bool:
+def draws_limit_point(view: MeshView, wheel: int) -> bool:
     """Return whether N₁ or N₂ is drawn, and with it the base radius of its wheel."""
     if wheel and view.solved.pair.side < 0:
         return False
@@ -396,7 +396,7 @@ def _letters(view: MeshView, height: float) -> list[Label]:
             view.action_direction * (1 if wheel else -1),
         )
         for wheel in (0, 1)
-        if shows_end(view, wheel)
+        if draws_limit_point(view, wheel)
     ]
     labels = [
         Label(typeset(letters, height), at, prefer=way, gap=2.0, name=letters, style=BUSY)

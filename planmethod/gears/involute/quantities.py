@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.gears.angles import involute
-from planmethod.gears.involute.blocking import BlockingLimit, LimitKind, limits
+from planmethod.gears.involute.blocking import LimitKind, ProfileShiftLimit, limits
 from planmethod.gears.involute.formulas import RING_FORMULAS, GearSize, Unit, sizes_of
 from planmethod.gears.involute.generation import RackCutting
 from planmethod.gears.involute.profile import LineOfAction, Tooth
@@ -162,7 +162,7 @@ class SolvedMeshing:
                     numbers = substitute(filled).format_map(fields | {"tan": tan})
                     yield q.key, f"{substitute(q.symbol)} = {letters} = {numbers} = {shown}{unit}"
 
-    def evaluated_limits(self) -> Iterator[tuple[BlockingLimit, float, float]]:
+    def evaluated_limits(self) -> Iterator[tuple[ProfileShiftLimit, float, float]]:
         """Yield every limit with the value compared with it, and its bound.
 
         The contact ratio is that of the teeth as cut. Radii of a ring are negative.
@@ -175,14 +175,14 @@ class SolvedMeshing:
                 yield one, value, float(one.bound(self.pair))
 
     def standard_values(
-        self, limit: BlockingLimit, value: float, bound: float
+        self, limit: ProfileShiftLimit, value: float, bound: float
     ) -> tuple[float, float]:
         """Return value and bound with the signs of the standard: radii of a ring are positive."""
         if limit.kind is LimitKind.INTERFERENCE and limit.wheel == 1:
             return self.pair.side * value, self.pair.side * bound
         return value, bound
 
-    def sentences(self, language: Language) -> list[tuple[BlockingLimit, bool, str]]:
+    def sentences(self, language: Language) -> list[tuple[ProfileShiftLimit, bool, str]]:
         """Return every limit, whether it is met, and its sentence as rich text."""
         texts, found = language.meshing, []
         for one, value, bound in self.evaluated_limits():

@@ -28,7 +28,7 @@ from planmethod.problem.fields import Faults
 from planmethod.problem.flat_tables import CustomReader, read_flat
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
-from planmethod.problem.tables import MESHING_EXAMPLE, MESHING_HINT, MeshingTable
+from planmethod.problem.tables import MESHING_EXAMPLE, MESHING_HINT, MeshingSection
 
 TOP = ("title", "source", "units", "stamp", "sheet", "variants", "meshing")
 """Tables of the file that a meshing may have."""
@@ -74,11 +74,11 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
 def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
     """Return the fields of a problem from its table."""
     own: dict[str, CustomReader] = {"z": _read_teeth, "a_w": _read_size, "b": _read_size}
-    found = read_flat(faults, "meshing", body, MeshingTable, own, example=MESHING_EXAMPLE)
+    found = read_flat(faults, "meshing", body, MeshingSection, own, example=MESHING_EXAMPLE)
     x = _read_shifts(faults, body)
     if faults:
         return None
-    given = MeshingTable(**found | {"x": x})
+    given = MeshingSection(**found | {"x": x})
     rack = Rack(radians(given.alpha), given.ha, given.c)
     if rack.half_tip <= 0.0:
         most = (np.pi / 4) / np.tan(rack.alpha)
@@ -154,7 +154,7 @@ def _read_teeth(faults: Faults, path: str, value: object) -> tuple[int, int] | N
     return None if one is None or two is None else (one, two)
 
 
-def _cutter(faults: Faults, table: MeshingTable) -> int | None:
+def _cutter(faults: Faults, table: MeshingSection) -> int | None:
     """Return the teeth of the cutter of an internal wheel, 0 of an external one; None: a fault."""
     if not table.internal:
         if table.cutter is not None:
@@ -204,7 +204,7 @@ def _read_shifts(faults: Faults, table: Mapping[str, Any]) -> tuple[float, float
 
 
 def _resolve_shifts(
-    faults: Faults, pair: Pair, table: MeshingTable, aim: ShiftAim
+    faults: Faults, pair: Pair, table: MeshingSection, aim: ShiftAim
 ) -> tuple[float, float] | None:
     """Return the shifts: as given, from the centre distance, or chosen."""
     if table.x is not None:

@@ -59,10 +59,10 @@ def differentiate(
 
 
 def repeated(
-    board: DiagramBoard, name: str, point: PointName, end: PointName, start: PointName
+    board: DiagramBoard, name: str, diagram_point: PointName, end: PointName, start: PointName
 ) -> PointName:
     """Return a point of a periodic diagram a period earlier: moved as ``end`` is to ``start``."""
-    return board.b.carry(name, start, end, point)
+    return board.b.carry(name, start, end, diagram_point)
 
 
 def integrate(

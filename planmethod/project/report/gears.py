@@ -13,7 +13,7 @@ from planmethod.gears.answers import answer
 from planmethod.gears.comparison import compare
 from planmethod.gears.conditions import conditions, judgement, sentence
 from planmethod.gears.construction import construct, read
-from planmethod.gears.derivation import DerivedLine, by_speeds
+from planmethod.gears.derivation import DerivationLine, by_speeds
 from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_view
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
@@ -172,7 +172,7 @@ def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
     return f"U{hat}_{{{mesh.first}{mesh.second}}} = {speeds} = {found} = {ratio}"
 
 
-def _derived(lines: Iterable[DerivedLine], texts: MessageTable) -> Iterator[Node]:
+def _derived(lines: Iterable[DerivationLine], texts: MessageTable) -> Iterator[Node]:
     """Yield a derivation: formulas in chains, sentences between them."""
     for k, (is_formula, run) in enumerate(groupby(lines, lambda line: line.is_formula)):
         if not k:

@@ -31,7 +31,7 @@ from planmethod.plans.forces.loads import Applied, numbers_of
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.forces.thrust import Thrust, close_thrust, find_thrust
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.problem.load_records import BearingTable, Dynamics
+from planmethod.problem.load_records import BearingSection, Dynamics
 from planmethod.problem.model import Convention
 from planmethod.solved.driving import driven
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
@@ -518,7 +518,7 @@ def statics_of(solution: Solution) -> Statics:
     return of_type("solution", solution, Solution, "planmethod.solve()").compute_once(Statics)
 
 
-def bearings_of(statics: Statics, joint: JointForce) -> BearingTable | None:
+def bearings_of(statics: Statics, joint: JointForce) -> BearingSection | None:
     """Return the two bearings that share the reaction of a shaft; None where the file has none."""
     dynamics = statics.solution.problem.dynamics
     if dynamics is None or FRAME not in (joint.on, joint.by):

@@ -8,13 +8,13 @@ from planmethod.note.narrate.statement import point_name
 from planmethod.note.plaintext import computed_text, input_text
 from planmethod.note.wording import MessageTable
 from planmethod.plans.forces.polygons import reaction_symbol
-from planmethod.problem.load_records import BearingTable
+from planmethod.problem.load_records import BearingSection
 from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.solution import Solution
 
 
 def bearing_text(
-    solution: Solution, joint: JointForce, shared: BearingTable, force: float, texts: MessageTable
+    solution: Solution, joint: JointForce, shared: BearingSection, force: float, texts: MessageTable
 ) -> Rich:
     """Return the load of each bearing from a reaction, N, with numbers."""
     called, z = solution.problem.mechanism.called, shared.plane

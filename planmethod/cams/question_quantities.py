@@ -16,7 +16,7 @@ from planmethod.cams.model import CamPhase, CamProblem, Contact
 from planmethod.cams.reader import PLACED, SIZE_NAMES
 from planmethod.cams.sheet import sheet_scales
 from planmethod.errors import ProblemError
-from planmethod.problem.figures import AnswerValue, Mistaken, QuantityReader
+from planmethod.problem.question_quantities import AnswerValue, Mistaken, QuantityReader
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -31,15 +31,15 @@ PER_DEGREE = np.pi / 180
 POWERS = {"v_q": 1, "a_q": 2}
 
 
-class CamFigures:
-    """Quantities of a cam for questions; see `planmethod.problem.figures.Figures`."""
+class CamQuantities:
+    """Quantities of a cam for questions; see `planmethod.problem.question_quantities.QuestionQuantities`."""
 
     def __init__(self, problem: CamProblem) -> None:
         self.problem, self.count = problem, problem.count
         self.design = CamDesign(problem)
         self.names = tuple(n for n in (*SIZE_NAMES, *PLACED) if self._of(n, 0) is not None)
 
-    def figure(self, name: str, position: int) -> AnswerValue | None:
+    def quantity(self, name: str, position: int) -> AnswerValue | None:
         """Return a quantity by its name in ``[[answers]]``."""
         value = self._of(name, position)
         if value is None:
@@ -139,7 +139,3 @@ def value_of(design: CamDesign, name: str, position: int) -> float | None:
         "theta_max_return": lambda: None if flat else degrees(design.pressure(phase).value),
     }
     return found[name]() if name in found else None
-
-
-FIGURES = CamFigures
-"""Quantities of this kind of problem."""

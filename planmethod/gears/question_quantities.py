@@ -19,7 +19,7 @@ from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import TrainMotion, rows_of, solve_motion, speeds_by
 from planmethod.gears.requested_quantities import RequestedQuantityError, parse
 from planmethod.gears.velocity_diagrams import draw
-from planmethod.problem.figures import AnswerValue, Mistaken
+from planmethod.problem.question_quantities import AnswerValue, Mistaken
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -31,8 +31,8 @@ Rows = list[dict[str, Fraction]]
 """Equations of the meshes, in their order."""
 
 
-class TrainFigures:
-    """All quantities of a train that can be asked; see `planmethod.problem.figures.Figures`."""
+class TrainQuantities:
+    """All quantities of a train that can be asked; see `planmethod.problem.question_quantities.QuestionQuantities`."""
 
     count = 1
 
@@ -45,10 +45,10 @@ class TrainFigures:
             if body not in {*train.fixed, *train.inputs, *train.racks}
         )
         names = train.ask or tuple(speeds)
-        self.names = tuple(name for name in names if self.figure(name, 0) is not None)
+        self.names = tuple(name for name in names if self.quantity(name, 0) is not None)
         self._known = tuple(train.body_of)
 
-    def figure(self, name: str, position: int) -> AnswerValue | None:
+    def quantity(self, name: str, position: int) -> AnswerValue | None:
         """Return a quantity by its name of ``ask``; None where it has no value."""
         try:
             kind = parse(name, tuple(self.motion.train.body_of)).kind
@@ -149,7 +149,7 @@ class TrainFigures:
         return replace(self.motion, speeds=found.values)
 
     def _inverted(self, name: str, position: int) -> float | None:
-        found = self.figure(name, position)
+        found = self.quantity(name, position)
         if found is None or not (parse(name, self._known).kind == "U" and found.value):
             return None
         return 1 / found.value
@@ -202,7 +202,3 @@ class TrainFigures:
 
 def _value(motion: TrainMotion, name: str, position: int) -> float | None:
     return answer(motion, name).value
-
-
-FIGURES = TrainFigures
-"""The class that computes answers to this kind of problem."""

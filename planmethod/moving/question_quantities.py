@@ -15,7 +15,7 @@ from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import LEGEND, Motion, move
 from planmethod.moving.reader import QUANTITY_COLUMNS, column_of
 from planmethod.moving.sheet import sheet_scales
-from planmethod.problem.figures import AnswerValue, Mistaken, QuantityReader
+from planmethod.problem.question_quantities import AnswerValue, Mistaken, QuantityReader
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -27,19 +27,19 @@ ROOTS = {"v": ("vx", "vy"), "a": ("ax", "ay")}
 """Lengths of vectors, and their parts."""
 
 
-class PointFigures:
-    """Quantities of a moving point for questions; see `planmethod.problem.figures.Figures`."""
+class PointQuantities:
+    """Quantities of a moving point for questions; see `planmethod.problem.question_quantities.QuestionQuantities`."""
 
     def __init__(self, problem: PointProblem) -> None:
         self.problem, self.count = problem, len(problem.times)
-        self.names = tuple(n for n in USUAL if self.figure(n, 0) is not None)
+        self.names = tuple(n for n in USUAL if self.quantity(n, 0) is not None)
 
     @cached_property
     def motion(self) -> Motion:
         """Motion at the moments of the file."""
         return move(self.problem)
 
-    def figure(self, name: str, position: int) -> AnswerValue | None:
+    def quantity(self, name: str, position: int) -> AnswerValue | None:
         """Return a quantity by its name of ``[published]``, or as people write it."""
         column = column_of(name)
         value = None if column is None else _value(self.motion, name, position)
@@ -123,7 +123,3 @@ class PointFigures:
 def _value(motion: Motion, name: str, position: int) -> float | None:
     value = float(motion.columns[QUANTITY_COLUMNS.get(name) or column_of(name) or name][position])
     return value if math.isfinite(value) else None
-
-
-FIGURES = PointFigures
-"""Quantities of this kind of problem."""

@@ -48,7 +48,7 @@ class Mistaken(NamedTuple):
     read: QuantityReader
 
 
-class Figures(Protocol):
+class QuestionQuantities(Protocol):
     """Quantities of a computed problem for questions.
 
     Attributes
@@ -62,7 +62,7 @@ class Figures(Protocol):
     names: tuple[str, ...]
     count: int
 
-    def figure(self, name: str, position: int) -> AnswerValue | None:
+    def quantity(self, name: str, position: int) -> AnswerValue | None:
         """Return a quantity; None if it is unknown or has no value."""
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
