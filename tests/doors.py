@@ -139,7 +139,7 @@ from planmethod.commands.studio import settings_of
 from planmethod.commands.studio_jobs import LACKING, act
 from planmethod.compiled import FEW, Runner, blocks as compiled_blocks, native, pysource, symbolic
 from planmethod.compiled.blocks import BLOCK as BLOCKS_BLOCK, CACHE_BYTES, MIN_BLOCK, Blocks
-from planmethod.compiled.csource import BLOCK as CSOURCE_BLOCK, WORD, c_source
+from planmethod.compiled.csource import BLOCK as CSOURCE_BLOCK, GUARDS_PER_WORD, c_source
 from planmethod.compiled.native import COMPILERS, Native, NotCompiledError
 from planmethod.compiled.pysource import ImpossibleError, straight, used_by
 from planmethod.compiled.runner import MANY
@@ -1014,7 +1014,7 @@ from planmethod.solved.machine.drawing import (
 )
 from planmethod.solved.machine.flywheel import Flywheel, flywheel_of
 from planmethod.solved.machine.motor import RATED_KW, machine_power
-from planmethod.solved.machine.runup import NEAR, RunUp, StalledError, run_up_of
+from planmethod.solved.machine.runup import STEADY_SPEED_TOLERANCE, RunUp, StalledError, run_up_of
 from planmethod.solved.machine.sizes import WIDEST, size_of, too_wide
 from planmethod.solved.many import positions as many_positions, varied
 from planmethod.solved.many.gaps import CHUNK, GappedSweep

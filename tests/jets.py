@@ -68,7 +68,7 @@ class Jets(Exact):
         jet = _jet(value)
         return Jet(self.base.nonzero(jet.value), jet.rate, jet.acceleration)
 
-    def solid(self, length: Number) -> Number:
+    def direction_margin(self, length: Number) -> Number:
         """Return 1 where a length is not zero, else 0."""
         return Jet(self.base.solid(_jet(length).value))
 

@@ -32,7 +32,7 @@ POWERS = {"v_q": 1, "a_q": 2}
 
 
 class CamQuantities:
-    """Quantities of a cam for questions; see `planmethod.problem.question_quantities.QuestionQuantities`."""
+    """Quantities of a cam for questions (`QuestionQuantities`)."""
 
     def __init__(self, problem: CamProblem) -> None:
         self.problem, self.count = problem, problem.count

@@ -22,16 +22,16 @@ BLOCK = 512
 BUFFER_PADDING = 24
 """Doubles between buffers: places a page apart push each other out of the cache."""
 
-STAGE = 200
+OPERATIONS_PER_LOOP = 200
 """Operations of one loop: longer ones are slower."""
 
-ROWS = 20
+ROWS_PER_LOOP = 20
 """Rows that one loop writes: more streams than that go slower through the memory."""
 
-WEIGHT = {"cosd": 30, "sind": 0, "atan2": 30}
+OPERATION_WEIGHTS = {"cosd": 30, "sind": 0, "atan2": 30}
 """Operations that one of these comes to; a sine comes with its cosine."""
 
-WORD = 63
+GUARDS_PER_WORD = 63
 """Guards in one word of the margins that do not hold."""
 
 FEW = 64
@@ -158,10 +158,13 @@ def c_source(
     results, guards, depends
         As of `Blocks`.
     """
-    words = -(-len(guards) // WORD)
+    words = -(-len(guards) // GUARDS_PER_WORD)
     lines = _Lines(tape, results, guards)
     needs = [
-        [_bits(sum(1 << g % WORD for g in one if g // WORD == word)) for word in range(words)]
+        [
+            _bits(sum(1 << g % GUARDS_PER_WORD for g in one if g // GUARDS_PER_WORD == word))
+            for word in range(words)
+        ]
         for one in depends
     ]
     return Source(_wrap_function(lines, needs, words), tuple(lines.constants), tuple(lines.inputs))
@@ -180,7 +183,9 @@ class _Lines:
         self.watched: set[int] = set()  # words of the margins that earlier loops have checked
         self._home: dict[int, str] = {}  # where the next loops find a node
         needed = used_by(tape, [*results, *(guard.margin for guard in guards)])
-        if len(needed) <= STAGE:  # all of it fits in the nearest cache: quickest as written
+        if (
+            len(needed) <= OPERATIONS_PER_LOOP
+        ):  # all of it fits in the nearest cache: quickest as written
             needed.sort()
         stages = _stages(tape, needed, results)
         last = {ref: k for k, stage in enumerate(stages) for n in stage for ref in _used(tape, n)}
@@ -268,7 +273,7 @@ class _Lines:
 
     def _watch(self, number: int, place: int, limit: float) -> None:
         """Note where the margin of a guard does not hold."""
-        word, bit = divmod(place, WORD)
+        word, bit = divmod(place, GUARDS_PER_WORD)
         holds = f"{self._name(number)} > {self._name(float(limit))}"
         if word not in self._here:
             self._here.append(word)
@@ -302,8 +307,8 @@ def _stages(tape: Tape, needed: Sequence[int], results: Sequence[Ref]) -> list[l
     weight = written = 0
     for number in needed:
         kind, refs = tape.nodes[number]
-        own = 0 if kind == "cosd" and _is_input(tape, refs[0]) else WEIGHT.get(kind, 1)
-        if weight + own > STAGE or written + rows[number] > ROWS:
+        own = 0 if kind == "cosd" and _is_input(tape, refs[0]) else OPERATION_WEIGHTS.get(kind, 1)
+        if weight + own > OPERATIONS_PER_LOOP or written + rows[number] > ROWS_PER_LOOP:
             stages.append([])
             weight = written = 0
         stages[-1].append(number)
@@ -354,7 +359,7 @@ def _wrap_function(lines: _Lines, needs: Sequence[Sequence[str]], words: int) ->
             "    if (failed) for (long i = 0; i < n; i++) {",
         ]
         for w in reversed(range(words)):  # the first guard last: it stays
-            first = f"failed[i] = (int16_t)({WORD * w} + __builtin_ctzll(bad{w}[i]));"
+            first = f"failed[i] = (int16_t)({GUARDS_PER_WORD * w} + __builtin_ctzll(bad{w}[i]));"
             look.append(f"        if (bad{w}[i]) {first}")
         look += ["    }", "}"]
     loops = [

@@ -182,7 +182,7 @@ class Symbolic(Exact, Struct):
         """Return the value; the caller that runs the tape checks the margins."""
         return value
 
-    def solid(self, length: Number) -> Number:
+    def direction_margin(self, length: Number) -> Number:
         """Return the length, which is positive if it is not zero."""
         return length
 

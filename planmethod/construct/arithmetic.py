@@ -36,7 +36,7 @@ class Arithmetic(Protocol):
         """Return the value with NaN in place of zero: a divisor."""
         ...
 
-    def solid(self, length: Number) -> Number:
+    def direction_margin(self, length: Number) -> Number:
         """Return 1 if a length is not zero, else 0: the margin of a step that needs a direction."""
         ...
 
@@ -164,7 +164,7 @@ class Float64(Exact):
         """Return the value with NaN in place of zero."""
         return np.where(value == 0, np.nan, value)
 
-    def solid(self, length: Number) -> Number:
+    def direction_margin(self, length: Number) -> Number:
         """Return 1.0 where a length is not zero, else 0.0."""
         return np.where(abs(length) > 0, 1.0, 0.0)
 
@@ -208,7 +208,7 @@ class Single(Exact):
         """Return the value with NaN in place of zero."""
         return value if value else math.nan
 
-    def solid(self, length: Number) -> Number:
+    def direction_margin(self, length: Number) -> Number:
         """Return 1.0 where a length is not zero, else 0.0."""
         return 1.0 if abs(length) > 0 else 0.0
 

@@ -82,7 +82,7 @@ class Pencil:
     profile : Profile
     free : frozenset of str
         Given points without an error: the poles, which may be placed anywhere.
-    enlarged : mapping of str to Number
+    enlargements : mapping of str to Number
         Enlargement of a step relative to its scale, by its name: an error on paper counts that many
         times less there.
     """
@@ -91,9 +91,9 @@ class Pencil:
         self,
         profile: Profile,
         free: frozenset[str] = frozenset(),
-        enlarged: Mapping[str, Number] = AS_SCALED,
+        enlargements: Mapping[str, Number] = AS_SCALED,
     ) -> None:
-        self.profile, self.free, self.enlarged = profile, free, enlarged
+        self.profile, self.free, self.enlargements = profile, free, enlargements
 
     def error(self, out: str, sigma: float) -> Number:
         """Return the next error of a stroke: a real number of zero mean."""
@@ -105,7 +105,7 @@ class Pencil:
 
     def _off(self, out: str, sigma: float) -> Number:
         """Return the next error of so much on paper, mm at the scale of the plan."""
-        times = self.enlarged.get(out)
+        times = self.enlargements.get(out)
         error = self.error(out, sigma)
         return error if times is None else error / times
 
@@ -182,9 +182,9 @@ class Propagated(Pencil, Duals):
         profile: Profile,
         free: frozenset[str],
         causes: int,
-        enlarged: Mapping[str, Number] = AS_SCALED,
+        enlargements: Mapping[str, Number] = AS_SCALED,
     ) -> None:
-        super().__init__(profile, free, enlarged)
+        super().__init__(profile, free, enlargements)
         self.causes = causes
         self.of: list[str] = []
         self._known: dict[int, CauseRows] = {}
@@ -257,11 +257,11 @@ class Sampled(Pencil, Float64):
         free: frozenset[str],
         draws: int,
         seed: int,
-        enlarged: Mapping[str, Number] = AS_SCALED,
+        enlargements: Mapping[str, Number] = AS_SCALED,
     ) -> None:
-        super().__init__(profile, free, enlarged)
+        super().__init__(profile, free, enlargements)
         self.draws, self._seed = draws, seed
-        self._hand = RulerArithmetic(ruler=profile.ruler, enlarged=enlarged)
+        self._hand = RulerArithmetic(ruler=profile.ruler, enlargements=enlargements)
 
     nonzero = Float64.nonzero
     unless_zero = Float64.unless_zero
@@ -298,9 +298,9 @@ class LatticeSampled(Sampled):
         self,
         profile: Profile,
         free: frozenset[str] = frozenset(),
-        enlarged: Mapping[str, Number] = AS_SCALED,
+        enlargements: Mapping[str, Number] = AS_SCALED,
     ) -> None:
-        super().__init__(profile, free, LATTICE_SIZE, 0, enlarged)
+        super().__init__(profile, free, LATTICE_SIZE, 0, enlargements)
         self._asked = 0
 
     def _next(self) -> npt.NDArray[np.intp]:
@@ -319,7 +319,7 @@ class LatticeSampled(Sampled):
     def rounded(self, out: str, length: Number) -> Number:
         """Return the length off by up to half a step."""
         off = self.profile.ruler * ((self._next() + 0.5) / LATTICE_SIZE - 0.5)
-        return length + off / self.enlarged.get(out, 1.0)
+        return length + off / self.enlargements.get(out, 1.0)
 
 
 @cache
@@ -356,14 +356,14 @@ def sigmas(
     data: Mapping[str, Any],
     profile: Profile,
     free: frozenset[str],
-    enlarged: Mapping[str, Number] = AS_SCALED,
+    enlargements: Mapping[str, Number] = AS_SCALED,
 ) -> dict[str, npt.NDArray[np.float64]]:
     """Return how far the numbers of a drawing may be off, by first order, shapes (n,).
 
-    ``free``: points that may be placed anywhere; ``enlarged``: enlargement of each step.
+    ``free``: points that may be placed anywhere; ``enlargements``: enlargement of each step.
     """
     causes = causes_of(program, lambda: data, free)
-    trace = evaluate(program, data, Propagated(profile, free, causes, enlarged))
+    trace = evaluate(program, data, Propagated(profile, free, causes, enlargements))
     found: dict[str, npt.NDArray[np.float64]] = {}
     for name, value in trace.value.items():
         if isinstance(value, tuple) or np.iscomplexobj(as_dual(value).value):

@@ -239,7 +239,7 @@ class Duals(Exact):
         value = as_dual(value)
         return value.scaled(np.where(value.value == 0, np.nan, value.value), None)
 
-    def solid(self, length: Number) -> Number:
+    def direction_margin(self, length: Number) -> Number:
         """Return 1.0 where a length is not zero, else 0.0."""
         return Dual(np.where(np.abs(as_dual(length).value) > 0, 1.0, 0.0))
 

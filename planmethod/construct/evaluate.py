@@ -93,7 +93,9 @@ def apply(
             span = abs(u)
             point = env[o] + u * (ar.laid_off_length(out, size) / ar.nonzero(span))
             # A zero length needs no direction: it is laid off even along a line that has none.
-            return ar.unless_zero(span, point, env[o]), ar.unless_zero(size, ar.solid(span), 1.0)
+            return ar.unless_zero(span, point, env[o]), ar.unless_zero(
+                size, ar.direction_margin(span), 1.0
+            )
         case IntersectLines(out, f, g):
             (p, u), (q, v) = env[f], env[g]
             across = _cross(u, v)
@@ -150,7 +152,7 @@ def apply(
             if arm_read is not None:
                 scale = scale * ar.length_ratio(env[arm_read], arm)
             point = env[b] + side * (arm / ar.nonzero(span)) * scale
-            return ar.pricked(out, point), ar.solid(abs(span))
+            return ar.pricked(out, point), ar.direction_margin(abs(span))
         case Measure(out, a, b):
             return ar.read(out, abs(env[b] - env[a])), None
         case MeasureAlong(out, a, b, line):
@@ -158,7 +160,7 @@ def apply(
             span = abs(u)
             vector = env[b] - env[a]
             along = (vector * u.conjugate()).real / ar.nonzero(span)
-            return ar.read(out, along), ar.solid(span)
+            return ar.read(out, along), ar.direction_margin(span)
         case Compute(_, factor, powers, size):
             value: Number = factor
             for name, power in powers:

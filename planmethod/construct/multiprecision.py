@@ -47,7 +47,7 @@ class Precise(Exact):
         """Return the value, NaN in place of zero."""
         return self.context.nan if value == 0 else value
 
-    def solid(self, length: Number) -> Number:
+    def direction_margin(self, length: Number) -> Number:
         """Return 1 if a length is not zero, else 0."""
         return self.context.one if length != 0 else self.context.zero
 

@@ -23,13 +23,13 @@ class RulerArithmetic(Float64, Struct, frozen=True):
     ----------
     ruler : float, mm
         Step of the ruler (цена деления).
-    enlarged : mapping of str to Number
+    enlargements : mapping of str to Number
         Enlargement of a length relative to its scale, by its name: it is read on an enlarged view
         or on a plan with its own scale, where the ruler's step is that many times finer.
     """
 
     ruler: float = 0.5
-    enlarged: Mapping[str, Number] = field(default_factory=dict)
+    enlargements: Mapping[str, Number] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.ruler) and self.ruler > 0):
@@ -41,5 +41,5 @@ class RulerArithmetic(Float64, Struct, frozen=True):
 
     def read(self, out: str, length: Number) -> Number:
         """Return the length rounded to the ruler step, which is finer where it is enlarged."""
-        times = self.enlarged.get(out)
+        times = self.enlargements.get(out)
         return self.ruled(length) if times is None else self.ruled(length * times) / times

@@ -46,7 +46,7 @@ class Stage(Struct, frozen=True):
         Wheels whose teeth are multiplied and divided; empty for a set.
     carrier : str or None
         The carrier relative to which the ratio is taken.
-    lines : tuple of DerivedLine
+    lines : tuple of DerivationLine
         Derivation, line by line; empty for a mesh.
     """
 

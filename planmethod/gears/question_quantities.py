@@ -32,7 +32,7 @@ Rows = list[dict[str, Fraction]]
 
 
 class TrainQuantities:
-    """All quantities of a train that can be asked; see `planmethod.problem.question_quantities.QuestionQuantities`."""
+    """All quantities of a train that can be asked (`QuestionQuantities`)."""
 
     count = 1
 

@@ -28,7 +28,7 @@ ROOTS = {"v": ("vx", "vy"), "a": ("ax", "ay")}
 
 
 class PointQuantities:
-    """Quantities of a moving point for questions; see `planmethod.problem.question_quantities.QuestionQuantities`."""
+    """Quantities of a moving point for questions (`QuestionQuantities`)."""
 
     def __init__(self, problem: PointProblem) -> None:
         self.problem, self.count = problem, len(problem.times)

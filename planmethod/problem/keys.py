@@ -114,9 +114,9 @@ FLAT: Mapping[str, type[object]] = {
     "cycle": CycleTask, "pole": PoleDistances, "scales": Scales, "sheet": SheetSettings,
     "published": Published, "answer": QuestionSpec, "dynamics": Dynamics, "mass": Mass,
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
-    "motor": MotorSection, "kloss": KlossSection, "line": LineSection, "balancing": CounterweightTask,
-    "wheel": GearWheelSection, "picture": PictureSection, "design": PlanetaryTask,
-    "meshing": MeshingSection,
+    "motor": MotorSection, "kloss": KlossSection, "line": LineSection,
+    "balancing": CounterweightTask, "wheel": GearWheelSection, "picture": PictureSection,
+    "design": PlanetaryTask, "meshing": MeshingSection,
     "project": ProjectTask, "higher": HigherPairSection, "balancing_force": BalancingForceTask,
     "friction": FrictionTask, "pair": PairFriction, "bearing": BearingSection, "cam": CamSection,
 }  # fmt: skip

@@ -362,7 +362,7 @@ class Dynamics(Struct, frozen=True):
         (равнодействующая сил инерции)
     friction : FrictionTask or None
         None: the pairs are ideal.
-    bearings : mapping of str to BearingTable
+    bearings : mapping of str to BearingSection
         By the joint of the shaft with the frame.
     """
 

@@ -203,7 +203,7 @@ class Evenly(Struct, frozen=True):
 
     Attributes
     ----------
-    zero : float
+    first_angle : float
         The first one, degrees.
     count : int
         Positions of a turn.
@@ -211,7 +211,7 @@ class Evenly(Struct, frozen=True):
         That they go over.
     """
 
-    zero: float
+    first_angle: float
     count: int
     turns: int
 
@@ -221,7 +221,11 @@ class Evenly(Struct, frozen=True):
             "position is a dead position."
         )
         return translate(
-            text, self.zero, self.count, self.zero + TURN * self.turns, TURN / self.count
+            text,
+            self.first_angle,
+            self.count,
+            self.first_angle + TURN * self.turns,
+            TURN / self.count,
         )
 
 

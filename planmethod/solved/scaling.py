@@ -586,14 +586,14 @@ class _Drawn(Struct, frozen=True, dict=True):
         return frozenset(found)
 
     @cached_property
-    def _known(self) -> dict[float, tuple[Reals, Reals]]:
+    def _size_by_scale(self) -> dict[float, tuple[Reals, Reals]]:
         return {}
 
     def _on_paper(self, per_mm: float) -> tuple[Reals, Reals]:
         """Return the width and height of every plan with its letters, mm, shape (n,)."""
-        if per_mm not in self._known:
-            self._known[per_mm] = self._lettered(per_mm)
-        return self._known[per_mm]
+        if per_mm not in self._size_by_scale:
+            self._size_by_scale[per_mm] = self._lettered(per_mm)
+        return self._size_by_scale[per_mm]
 
     def _lettered(self, per_mm: float) -> tuple[Reals, Reals]:
         each = self.each(per_mm)

@@ -233,7 +233,7 @@ def without_dead(solution: Solution, failure: Failure, *, forces: bool) -> Evenl
     ways += [(first, other) for other in COUNTS if other != count]
     for zero, other in ways:
         found = Evenly(round(zero % TURN, 9), other, turns)
-        tried = found.zero + TURN / other * np.arange(other * turns)
+        tried = found.first_angle + TURN / other * np.arange(other * turns)
         with suppress(PlanMethodError):
             _verify(solution.with_positions(tried), forces=forces)
             return found

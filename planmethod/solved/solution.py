@@ -500,20 +500,20 @@ class Solution(Memoizing):
                 n: detail_view.times for n, detail_view in self.read_on(0).items()
             }
             return RulerArithmetic(self.profile.ruler, alone)
-        enlarged: dict[str, Number] = {}
+        enlargements: dict[str, Number] = {}
         for index in sorted({k for small in self.small_plans.values() for k in small}):
             for name, detail_view in self.read_on(index).items():
-                times = enlarged.setdefault(name, np.ones(len(self.positions)))
+                times = enlargements.setdefault(name, np.ones(len(self.positions)))
                 times[index] = detail_view.times
         calculated = self.problem.calculated
         if calculated is not None and self.positions.tolist() == list(self.problem.drive.positions):
             # The calculated position has a plan of its own: it is read there.
             one = self.with_positions([float(self.positions[calculated])])
-            others: set[str] = {*enlarged, *one.ruler_arithmetic.enlarged}
+            others: set[str] = {*enlargements, *one.ruler_arithmetic.enlargements}
             for other in sorted(others):
-                times = enlarged.setdefault(other, np.ones(len(self.positions)))
-                times[calculated] = one.ruler_arithmetic.enlarged.get(other, 1.0)
-        return RulerArithmetic(self.profile.ruler, enlarged)
+                times = enlargements.setdefault(other, np.ones(len(self.positions)))
+                times[calculated] = one.ruler_arithmetic.enlargements.get(other, 1.0)
+        return RulerArithmetic(self.profile.ruler, enlargements)
 
     @cached_property
     def ruler_reading(self) -> Reading:

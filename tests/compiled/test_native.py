@@ -14,8 +14,8 @@ import pytest
 from doors import (
     COMPILERS,
     CSOURCE_BLOCK as BLOCK,
+    GUARDS_PER_WORD,
     MANY,
-    WORD,
     Blocks,
     Guard,
     ModelProblem as Problem,
@@ -81,13 +81,13 @@ def test_a_compiled_tape_is_that_of_numpy() -> None:
     ]
     results = [*made, made[-1], 7.5]
     nodes = [ref for ref in made if type(ref) is int][:-1]
-    limits = [-1.99] * WORD + [0.5] * (len(nodes) - WORD)
+    limits = [-1.99] * GUARDS_PER_WORD + [0.5] * (len(nodes) - GUARDS_PER_WORD)
     guards = [Guard(NumberName("g"), *pair) for pair in zip(nodes, limits, strict=True)]
     depends = [frozenset(rng.sample(range(len(guards)), k % 4)) for k in range(len(results))]
     columns = [[rng.uniform(-2.0, 2.0) for _ in range(2 * BLOCK + 17)] for _ in range(3)]
     columns[0][5] = float("nan")
     mine, theirs = both(tape, results, guards, depends, columns)
-    assert len(set(mine[1].tolist())) > 5 and mine[1].max() >= WORD
+    assert len(set(mine[1].tolist())) > 5 and mine[1].max() >= GUARDS_PER_WORD
     assert np.array_equal(mine[1], theirs[1])
     assert np.array_equal(np.isnan(mine[0]), np.isnan(theirs[0]))
     np.testing.assert_allclose(mine[0], theirs[0], rtol=1e-12, atol=1e-14)

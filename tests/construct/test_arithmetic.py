@@ -73,7 +73,7 @@ def test_float64() -> None:
     assert np.isnan(ar.nonzero(np.array([0.0, 2.0]))).tolist() == [True, False]
     assert ar.unless_zero(np.array([0.0, 3.0]), 1.0, 2.0).tolist() == [2.0, 1.0]
     assert [float(x) for x in ar.ordered(0.3, 0.2)] == [0.2, 0.3]
-    assert ar.solid(np.array([0.0, 1e-300, -2.0])).tolist() == [0.0, 1.0, 1.0]
+    assert ar.direction_margin(np.array([0.0, 1e-300, -2.0])).tolist() == [0.0, 1.0, 1.0]
     assert ar.read("l", 1.2345) == 1.2345
     shares = ar.length_ratio(np.array([-30.0, 50.0, 2.0]), np.array([30 + 40j, 30 + 40j, 0j]))
     assert shares.tolist() == [0.6, 1.0, 1.0]

@@ -117,7 +117,7 @@ def test_the_hand_goes_on_with_the_forces_that_it_has_read(name: str) -> None:
                 vector, at = drawn_by_hand(edge), solution.ruler_reading.point(edge.at)
                 length = np.abs(vector)
                 # A small plan is drawn and read at a scale of its own.
-                times = statics.ruler_arithmetic.enlarged.get(segments.drawn(edge.ends), 1.0)
+                times = statics.ruler_arithmetic.enlargements.get(segments.drawn(edge.ends), 1.0)
                 size = length if edge.symbol in loaded else ruled(length, times)
                 across = ((at - about).conj() * vector).imag / np.where(length == 0, 1.0, length)
                 total = total + ruled(across) * size

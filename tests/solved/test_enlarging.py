@@ -106,7 +106,7 @@ def test_a_segment_below_half_a_division_is_called_zero() -> None:
 def test_short_segments_of_many_positions_are_not_enlarged() -> None:
     solution = Solution(problem_of("levers/task-49"), positions=[30.0, 60.0])
     assert not any(solution.detail_views.values())
-    assert not solution.ruler_arithmetic.enlarged
+    assert not solution.ruler_arithmetic.enlargements
 
 
 def test_a_small_plan_of_many_is_shown_enlarged_beside_itself_and_read_there() -> None:

@@ -228,7 +228,7 @@ def test_read_segments_are_marks_of_the_ruler(name: str, ruler: float) -> None:
             if segment.name in laid_off(name, kind):
                 continue
             # On an enlarged view the marks are closer by its factor.
-            read = segment.read[0] * solution.ruler_arithmetic.enlarged.get(
+            read = segment.read[0] * solution.ruler_arithmetic.enlargements.get(
                 lengths[kind, segment.name], 1.0
             )
             marks = round(read / ruler)

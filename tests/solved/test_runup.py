@@ -12,7 +12,7 @@ from cases import each
 from click.testing import CliRunner
 from doors import (
     DRAFTING_PROFILES as PROFILES,
-    NEAR,
+    STEADY_SPEED_TOLERANCE,
     Flywheel,
     ProblemError,
     RunUp,
@@ -67,7 +67,9 @@ def test_run_up_and_stop_are_those_of_the_equation_of_motion() -> None:
     assert omega == pytest.approx(float(course.omega[-1]), rel=2e-5)
     steady = run.steady(run.flywheel.steady_inertia)
     there = steady.at(np.mod(course.rotation[-1:], 2 * pi))[0]
-    assert abs(float(course.omega[-1] / there[0]) - 1.0) == pytest.approx(NEAR, rel=0.1)
+    assert abs(float(course.omega[-1] / there[0]) - 1.0) == pytest.approx(
+        STEADY_SPEED_TOLERANCE, rel=0.1
+    )
     stop = run.stop
     assert stop is not None
     turned, omega = over_time(run, float(stop.omega[0]), lambda _: -20.0, 500, float(stop.time[-1]))

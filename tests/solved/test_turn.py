@@ -404,7 +404,7 @@ def test_a_dead_position_of_an_even_turn_is_reported_with_one_without(positions:
         verify(Solution(problem, positions=positions))
     instead = told.value.failure.instead
     assert instead is not None and instead.turns == round(np.ptp(positions) / 360.0)
-    zero, count, end, step = instead.zero, instead.count, *(
+    zero, count, end, step = instead.first_angle, instead.count, *(
         float(one) for one in re.findall(r"--phi [\d.]+:([\d.]+):([\d.]+),", str(told.value))[0]
     )  # fmt: skip
     # both ways that it names, as a user takes them

@@ -21,7 +21,13 @@ from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
 from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
 from planmethod.solved.machine.motor import machine_power
-from planmethod.solved.machine.runup import MAX_CYCLES, NEAR, RunUp, TimeMotion, run_up_of
+from planmethod.solved.machine.runup import (
+    MAX_CYCLES,
+    STEADY_SPEED_TOLERANCE,
+    RunUp,
+    TimeMotion,
+    run_up_of,
+)
 from planmethod.solved.machine.sizes import (
     DISC_WIDTH,
     RIM_BORE,
@@ -546,7 +552,7 @@ def _driven(run: RunUp, narrator: MachineNarrator) -> list[str]:
     lines = [
         texts.ran_up.format(
             J=f"{wheel}{notation.computed(fitted)} {unit}",
-            near=notation.as_input(100.0 * NEAR),
+            near=notation.as_input(100.0 * STEADY_SPEED_TOLERANCE),
             **_ends(run.run_up, narrator),
         ),
         texts.steady.format(

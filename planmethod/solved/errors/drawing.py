@@ -73,7 +73,7 @@ class Drafted(Struct, frozen=True):
     items : sequence of DrawnQuantity
     points : tuple of PointName
         Points whose ellipses can be requested.
-    enlarged : mapping of str to Number
+    enlargements : mapping of str to Number
         Enlargement of a step relative to its scale, by its name: in all positions, or in each,
         shape (count,).
     """
@@ -85,12 +85,13 @@ class Drafted(Struct, frozen=True):
     free: frozenset[str]
     items: tuple[DrawnQuantity, ...]
     points: tuple[PointName, ...] = ()
-    enlarged: Mapping[str, Number] = AS_SCALED
+    enlargements: Mapping[str, Number] = AS_SCALED
 
     def times(self, chosen: npt.NDArray[np.intp]) -> dict[str, Number]:
         """Return how many times larger steps are drawn in some positions."""
         return {
-            out: times[chosen] if np.ndim(times) else times for out, times in self.enlarged.items()
+            out: times[chosen] if np.ndim(times) else times
+            for out, times in self.enlargements.items()
         }
 
 

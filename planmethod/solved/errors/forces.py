@@ -156,7 +156,7 @@ def all_errors(statics: Statics) -> Errors:
             drawn.profile,
             drawn.free,
             (*drafting_of(solution).drawing.items, *drawn.items),
-            enlarged=drawn.enlarged,
+            enlargements=drawn.enlargements,
         )
     )
 
@@ -187,7 +187,7 @@ def _enlarged(statics: Statics) -> dict[str, Number]:
     for step in statics.program.steps:
         if isinstance(step, Parallel | Perpendicular | AtAngle) and step.through in found:
             found[step.out] = found[step.through]
-    return {**found, **statics.ruler_arithmetic.enlarged}
+    return {**found, **statics.ruler_arithmetic.enlargements}
 
 
 def _items(statics: Statics) -> Iterator[DrawnQuantity]:

@@ -54,7 +54,7 @@ class Drafting(Errors):
             frozenset(str(plan.pole) for plan in solution.construction.plans),
             tuple(self._items()),
             _plan_points(solution),
-            solution.ruler_arithmetic.enlarged,
+            solution.ruler_arithmetic.enlargements,
         )
         super().__init__(drawing, draws=draws, seed=seed)
 

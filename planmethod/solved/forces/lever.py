@@ -46,12 +46,12 @@ class LeverForce(Struct, frozen=True):
     about: complex = 0j
 
 
-class OnLink(Struct, frozen=True):
+class LeverSegment(Struct, frozen=True):
     """A segment of the lever that represents a link.
 
     ``segment`` is the segment of the plan, mm, that represents the link, ``ends`` are its points,
-    ``joints`` those of the link, ``length`` is their distance as read by hand, m. ``ratio`` is the
-    link's |omega| as read by hand over the plan's scale, mm/m.
+    ``joints`` those of the link, ``joint_distance`` is their distance as read by hand, m.
+    ``ratio`` is the link's |omega| as read by hand over the plan's scale, mm/m.
     """
 
     symbol: str
@@ -60,10 +60,10 @@ class OnLink(Struct, frozen=True):
     segment: tuple[complex, complex] | None
     ends: tuple[PointName, PointName] | None
     joints: tuple[str, str] | None
-    length: float
+    joint_distance: float
 
 
-class LeverCouple(OnLink, frozen=True):
+class LeverCouple(LeverSegment, frozen=True):
     """Couple on the lever: its letter, its link, and its moment about the pole, N·mm.
 
     ``moment`` is that on the link as read by hand, N·m.
@@ -73,7 +73,7 @@ class LeverCouple(OnLink, frozen=True):
     lever_moment: float
 
 
-class LeverShift(OnLink, frozen=True):
+class LeverShift(LeverSegment, frozen=True):
     """Shift h of a force of inertia on the lever: from the centre of mass s to the point t, mm.
 
     ``letters`` are those of s and t, in rich text; ``line`` is where they are. ``shift`` is h as

@@ -464,14 +464,14 @@ class Statics(Memoizing):
     def ruler_arithmetic(self) -> RulerArithmetic:
         """Arithmetic that reads each force on the first plan that has it, at that plan's scale."""
         segments, own = self.board.segments, self.solution.ruler_arithmetic
-        enlarged: dict[str, Number] = {}
+        enlargements: dict[str, Number] = {}
         for plan, share in zip(self.board.plans, self.enlargements, strict=True):
             for edge in plan.reactions:
-                enlarged.setdefault(segments.drawn(edge.ends), share)
+                enlargements.setdefault(segments.drawn(edge.ends), share)
         if self.lever_plan is not None and (self.lever_times > 1.0).any():
             arms = [load.arm for load in self.lever_plan.loads] + [self.lever_plan.arm]
-            enlarged |= {arm: self.lever_times for arm in arms if arm is not None}
-        return replace(own, enlarged={**own.enlarged, **enlarged})
+            enlargements |= {arm: self.lever_times for arm in arms if arm is not None}
+        return replace(own, enlargements={**own.enlargements, **enlargements})
 
     @cached_property
     def lever_times(self) -> Reals:

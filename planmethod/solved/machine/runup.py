@@ -21,7 +21,7 @@ from planmethod.solved.course.curve import joined
 from planmethod.solved.machine.flywheel import Flywheel, hermite, turning_points
 from planmethod.solved.reading import Memoizing, Reals, memoized
 
-NEAR = 0.01
+STEADY_SPEED_TOLERANCE = 0.01
 """A run-up is over where the speed differs so much, as a share, from the steady motion's there."""
 
 MAX_CYCLES = 600
@@ -305,7 +305,7 @@ class RunUp(Memoizing):
 
     @cached_property
     def run_up(self) -> TimeMotion:
-        """The run-up until the speed is within `NEAR` of the steady motion's.
+        """The run-up until the speed is within `STEADY_SPEED_TOLERANCE` of the steady motion's.
 
         Raises
         ------
@@ -314,7 +314,7 @@ class RunUp(Memoizing):
         whole, steady = self.starting, self.steady(self.flywheel.steady_inertia)
         rounds = np.mod(whole.rotation, self.flywheel.cycle)
         off = whole.omega / steady.at(rounds)[0] - 1.0
-        late = np.flatnonzero(np.abs(off) > NEAR)
+        late = np.flatnonzero(np.abs(off) > STEADY_SPEED_TOLERANCE)
         last = min(int(late[-1]) + 1 if late.size else 0, len(off) - 1)
         kept = slice(0, max(last, 1) + 1)
         return TimeMotion(

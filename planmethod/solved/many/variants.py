@@ -167,13 +167,13 @@ class Batch(Solution):
     @cached_property
     def ruler_arithmetic(self) -> RulerArithmetic:
         """Draughtsman with a ruler: in every row short segments are read as in its variant."""
-        enlarged: dict[str, Number] = {}
+        enlargements: dict[str, Number] = {}
         for k in np.flatnonzero(self._short):
             one, own = self.solutions[k], self.rows[k]
             one.paper = self.paper.part(own)
-            for name, times in one.ruler_arithmetic.enlarged.items():
-                enlarged.setdefault(name, np.ones(len(self.positions)))[own] = times
-        return RulerArithmetic(self.profile.ruler, enlarged)
+            for name, times in one.ruler_arithmetic.enlargements.items():
+                enlargements.setdefault(name, np.ones(len(self.positions)))[own] = times
+        return RulerArithmetic(self.profile.ruler, enlargements)
 
     @property
     def _short(self) -> Flags:

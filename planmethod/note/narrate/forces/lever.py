@@ -17,7 +17,7 @@ from planmethod.note.numbers import MINUS, significant
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.forces import DIFFERENCE, drawn_forces
-from planmethod.solved.forces.lever import LeverCouple, LeverReading, LeverShift, OnLink
+from planmethod.solved.forces.lever import LeverCouple, LeverReading, LeverSegment, LeverShift
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import Statics
 
@@ -120,7 +120,7 @@ class LeverNarrator:
         found = ((self.context.symbol(o.symbol), abs(o.arm)) for o in self.lever.forces if o.arm)
         return "; ".join(f"{arm_symbol(name)} = {self.measured(arm)}" for name, arm in found)
 
-    def _pair(self, one: OnLink) -> PairText:
+    def _pair(self, one: LeverSegment) -> PairText:
         """Return a couple, or what else goes with ω, by the ends of its link's segment."""
         names = self.names
         if one.ends is None or one.joints is None or not set(one.ends) <= set(names.letters):
@@ -132,12 +132,15 @@ class LeverNarrator:
                 letters, self.context.scaled(self.context.short(omega), per_mm, back=True)
             )
         letters, length = f"({names.segment(*one.ends)})", f"l_{{{self._joints(one, *one.joints)}}}"
-        segment, link = self.measured(one.ratio * one.length), self.context.short(one.length)
+        segment, link = (
+            self.measured(one.ratio * one.joint_distance),
+            self.context.short(one.joint_distance),
+        )
         units = self.context.units
         text = f"{letters} = {segment} {units['mm']}; {length} = {link} {units['m']}"
         return PairText(fraction(letters, length), fraction(segment, link), text, length)
 
-    def _joints(self, one: OnLink, first: str, second: str) -> str:
+    def _joints(self, one: LeverSegment, first: str, second: str) -> str:
         """Return two joints in the order in which their distance is given."""
         problem = self.context.solution.problem
         given = {name for _, name, _ in problem.lengths}
