@@ -70,7 +70,7 @@ class Jets(Exact):
 
     def direction_margin(self, length: Number) -> Number:
         """Return 1 where a length is not zero, else 0."""
-        return Jet(self.base.solid(_jet(length).value))
+        return Jet(self.base.direction_margin(_jet(length).value))
 
     def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
         """Return ``other`` where ``size`` and its rates are zero, else ``value``."""
