@@ -16,7 +16,7 @@ import pytest
 from cams import LAWS, written
 from cases import each
 from click.testing import CliRunner
-from doors import CamFigures, cams_reader_load as load, cli
+from doors import CamQuantities, cams_reader_load as load, cli
 
 PHASES = {"rise": 100, "upper_dwell": 20, "return": 110}
 LINE = {**PHASES, "follower": "translating", "stroke": 0.03, "count": 24}
@@ -148,9 +148,9 @@ def solved(name: str) -> tuple[dict[str, Any], str, OwnCam, Asked]:
             CliRunner().invoke(cli, ["solve", str(path), *words]).stdout
             for words in (["--json"], ["--lang", "en"])
         )
-        figures = CamFigures(load(path))
+        figures = CamQuantities(load(path))
         asked = {
-            (one, k): figures.figure(one, k).value  # type: ignore[union-attr]
+            (one, k): figures.quantity(one, k).value  # type: ignore[union-attr]
             for one in figures.names
             for k in ((3, 11, 17) if one in ("s", "v_q", "a_q", "theta") else (0,))
         }
@@ -355,7 +355,7 @@ def test_a_row_of_the_table_of_divisions_has_the_numbers_of_its_angle(name: str)
 def test_each_usual_mistake_has_the_numbers_of_the_cam_that_it_makes(tmp_path: Path) -> None:
     """The file is changed as the student read it; Q5 has derivatives by degrees."""
     keys = {**CAMS["offset"], "offset": 0.004, "pressure": {"rise": 25, "return": 40}}
-    own = CamFigures(load(written(tmp_path, keys)))
+    own = CamQuantities(load(written(tmp_path, keys)))
     r_min = own.design.pitch_geometry.r_min
     changed: dict[str, dict[str, Any]] = {
         "Q1": {"pressure": {"rise": 40, "return": 25}},
@@ -368,17 +368,17 @@ def test_each_usual_mistake_has_the_numbers_of_the_cam_that_it_makes(tmp_path: P
     places = [(name, 0) for name in ("r_min", "e", "rho_min", "theta_max", "theta_max_return")]
     places += [(name, k) for name in ("s", "v_q", "a_q", "theta") for k in (2, 5, 9, 16)]
     for code, change in changed.items():
-        other = CamFigures(load(written(tmp_path, keys | change)))
+        other = CamQuantities(load(written(tmp_path, keys | change)))
         differ = 0
         for name, k in places:
-            due, right = other.figure(name, k), own.figure(name, k)
+            due, right = other.quantity(name, k), own.quantity(name, k)
             assert due is not None and right is not None
             assert mistakes[code].read(name, k) == pytest.approx(due.value, rel=1e-9, abs=1e-12)
             assert (due.unit == "deg") == name.startswith("theta")
             differ += due.value != pytest.approx(right.value, rel=1e-6, abs=1e-9)
         assert differ, code
     for name, k in places:
-        right = own.figure(name, k)
+        right = own.quantity(name, k)
         assert right is not None
         power = {"v_q": 1, "a_q": 2}.get(name, 0)
         assert mistakes["Q5"].read(name, k) == pytest.approx(right.value * radians(1) ** power)
