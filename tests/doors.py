@@ -342,7 +342,6 @@ from planmethod.moving.construction import (
     construct as moving_construction_construct,
     read_hodograph,
 )
-from planmethod.moving.figures import PointFigures
 from planmethod.moving.interval import drawn_interval
 from planmethod.moving.model import PointProblem, read_formula
 from planmethod.moving.motion import (
@@ -355,6 +354,7 @@ from planmethod.moving.motion import (
     move,
 )
 from planmethod.moving.pictures import hodograph_picture, trajectory_picture
+from planmethod.moving.question_quantities import PointQuantities
 from planmethod.moving.reader import load as moving_reader_load, loads as reader_loads
 from planmethod.moving.record import record as moving_record_record
 from planmethod.moving.series import CALLS, evaluate as series_evaluate

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from cases import each
 from click.testing import CliRunner
-from doors import PointFigures, cli, drawn_interval, reader_loads as loads
+from doors import PointQuantities, cli, drawn_interval, reader_loads as loads
 
 TIMES = (0.3, 0.9, 1.7)
 Place = Callable[[float], complex]
@@ -112,7 +112,7 @@ def columns(name: str, t: float) -> dict[str, float]:
 
 
 @cache
-def solved(name: str) -> tuple[list[dict[str, Any]], dict[str, Any], str, str, PointFigures]:
+def solved(name: str) -> tuple[list[dict[str, Any]], dict[str, Any], str, str, PointQuantities]:
     """Return rows and legend of the record, the texts of one and of many moments, the questions."""
     text = f"[point]\n{LAWS[name][0]}\nt = {list(TIMES)}\n"
     many = text.replace(f"t = {list(TIMES)}", "t = { from = 0.2, to = 1.2, count = 6 }")
@@ -125,7 +125,7 @@ def solved(name: str) -> tuple[list[dict[str, Any]], dict[str, Any], str, str, P
             CliRunner().invoke(cli, ["solve", *map(str, one)]).stdout for one in words
         )
     found = json.loads(record)
-    return found["point"], found["legend"], few, table, PointFigures(loads(text, name="p"))
+    return found["point"], found["legend"], few, table, PointQuantities(loads(text, name="p"))
 
 
 def close(value: float, share: float = 1e-6) -> Any:
@@ -174,7 +174,7 @@ def test_a_table_of_moments_has_the_columns_of_each_moment(name: str) -> None:
 def test_a_mistake_has_the_number_that_its_name_says() -> None:
     """K1 to K6, with the parts, the roots and the degrees worked out here."""
     text = '[point]\nx = "3*sin(t)"\ny = "2*t^2 + cos(t)"\nt = [0.4, 1.1]\n'
-    figures = PointFigures(loads(text, name="p"))
+    figures = PointQuantities(loads(text, name="p"))
     for k, t in enumerate((0.4, 1.1)):
         v = complex(3 * cos(t), 4 * t - sin(t))
         a = complex(-3 * sin(t), 4 - cos(t))
@@ -205,13 +205,13 @@ def test_a_mistake_has_the_number_that_its_name_says() -> None:
         for mistake, (_, change) in zip(found, changes, strict=True):
             for name, value in right.items():
                 assert mistake.read(name, k) == close(change.get(name, value), 1e-9), mistake.code
-                own = figures.figure(name, k)
+                own = figures.quantity(name, k)
                 assert own is not None and own.value == close(value, 1e-9)
                 assert own.signed == (name == "a_tau")
 
 
 def test_a_quantity_follows_from_the_answers_that_it_hangs_on() -> None:
-    figures = PointFigures(loads('[point]\nx = "t"\ny = "t^2"\nt = 1\n', name="p"))
+    figures = PointQuantities(loads('[point]\nx = "t"\ny = "t^2"\nt = 1\n', name="p"))
     own = {"vx": 3.0, "vy": -4.0, "ax": 5.0, "ay": 12.0, "v": 2.0, "a": 13.0}
     own |= {"a_tau": -5.0, "a_n": 8.0}
     assert list(figures.derive_values("v", own)) == [(5.0, "vx"), (5.0, "vy")]
