@@ -32,7 +32,7 @@ from planmethod.cams.question_quantities import CamQuantities
 from planmethod.cams.reader import load as cams_reader_load, read_cam
 from planmethod.cams.sheet import drawings as cams_sheet_drawings
 from planmethod.cams.text import given_facts as text_given_facts, positions as text_positions
-from planmethod.check import form
+from planmethod.check import form, group as check_group, submissions as check_submissions
 from planmethod.check.batch import compute_keys
 from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check
@@ -82,6 +82,7 @@ from planmethod.check.model import (
     Verdict,
     WrittenAnswer,
 )
+from planmethod.check.pages import files as check_files
 from planmethod.check.pages.answer_format import AnswerFormatter
 from planmethod.check.pages.compared import compared_document
 from planmethod.check.pages.files import (

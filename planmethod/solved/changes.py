@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
@@ -19,8 +18,8 @@ from planmethod.construct.steps import PointName, Touch
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.plans.draft import Draft
 from planmethod.plans.motion.position import inner_point, outer_point, rpr_parts
+from planmethod.solved.reading import Reals
 
-Reals = npt.NDArray[np.float64]
 Data = Callable[[Reals], dict[str, complex | float | Reals]]
 
 TOUCHING = 1e-9

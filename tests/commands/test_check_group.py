@@ -14,12 +14,8 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
-from doors import check, cli, student_page, student_pdf
+from doors import check, check_files, check_group, check_submissions, cli, student_page, student_pdf
 from worked import path_of
-
-import planmethod.check.group
-import planmethod.check.pages.files
-import planmethod.check.submissions
 
 EX3 = str(path_of("linkages/ex3"))
 GOOD = "student;what;value;unit\nПетров П.П.;v B;3,2;м/с\nПетров П.П.;v E;3,9;м/с\n"
@@ -88,7 +84,7 @@ def test_an_internal_error_in_one_work_stops_no_other(
 ) -> None:
     """Before: exit code 5, and no mark of anybody."""
     own = tmp_path / "out"
-    monkeypatch.setattr(planmethod.check.group, "check", failing(check, how))
+    monkeypatch.setattr(check_group, "check", failing(check, how))
     path = put(tmp_path, "group.csv", THREE)
     result = run(EX3, path, "-o", str(own), "--jobs", jobs, "--gradebook")
     assert result.exit_code == 1, result.output
@@ -111,7 +107,7 @@ def test_an_internal_error_in_one_work_stops_no_other(
 def test_a_page_that_cannot_be_made_stops_no_other(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    files = planmethod.check.pages.files
+    files = check_files
     made = student_page
 
     def page(checked: Any, *args: Any, **more: Any) -> Any:
@@ -184,7 +180,7 @@ def test_if_no_file_can_be_read_no_file_is_written(tmp_path: Path) -> None:
 def test_an_internal_error_in_a_file_stops_no_other(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    works = planmethod.check.submissions
+    works = check_submissions
     read = works.read_works
 
     def faulty(path: Path) -> Any:
@@ -414,7 +410,7 @@ def test_a_run_removes_only_files_that_it_wrote(tmp_path: Path) -> None:
 def test_a_stopped_run_owns_the_files_that_it_wrote(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    files, out = planmethod.check.pages.files, tmp_path / "out"
+    files, out = check_files, tmp_path / "out"
     path = put(tmp_path, "three.csv", THREE)
 
     def stopped(*_: Any, **__: Any) -> bytes:

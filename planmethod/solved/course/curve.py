@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
 
-Reals = npt.NDArray[np.float64]
+from planmethod.solved.reading import Reals
 
 NODES = 16
 """Nodes of a piece, the roots of a Chebyshev polynomial: none lies on an edge of the piece."""

@@ -21,10 +21,8 @@ from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.cycle import CrankCycle, crank_cycle_of
+from planmethod.solved.turn.cycle import TURN, CrankCycle, crank_cycle_of
 from planmethod.solved.turn.strokes import Strokes
-
-TURN = 360.0
 
 MIN_POSITIONS = 6
 """Fewest positions of a turn that its diagrams can be drawn through."""
