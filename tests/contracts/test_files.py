@@ -306,8 +306,9 @@ def test_a_command_that_is_ended_leaves_no_folder_and_no_part_of_a_file(tmp_path
     waits.mkdir()
     written = str(tmp_path / "out" / "a")
     code = (
-        "import sys, tempfile, time\n"
+        "import signal, sys, tempfile, time\n"
         "from pathlib import Path\n"
+        "signal.signal(signal.SIGHUP, signal.SIG_DFL)\n"  # also where the tests run under nohup
         "from planmethod import __main__, cli\n"
         "from planmethod.render.backends.output import opened\n"
         "def work():\n"

@@ -131,18 +131,18 @@ def _read_submission(data: Any, path: Path, before: str) -> Submission:
     if student.reason is Unread.TEXT:
         draft.remark(student.reason, student.text, student.location)
     _note_unknown(draft, data, _SUBMISSION_KEYS, before)
-    for field in ("variant", "problem", "ruler_mm"):
-        draft.set_field(field, _cell(data.get(field), f"{before}{field}"))
+    for entry in ("variant", "problem", "ruler_mm"):
+        draft.set_field(entry, _cell(data.get(entry), f"{before}{entry}"))
     scales = data.get("scales") or {}
     if not isinstance(scales, Mapping):
         draft.remark(Unread.SCALE, str(scales), f"{before}scales")
         scales = {}
-    for key, value in scales.items():
-        at = f"{before}scales.{cut(key)}"
-        if name := scale_name(key):
+    for symbol, value in scales.items():
+        at = f"{before}scales.{cut(symbol)}"
+        if name := scale_name(symbol):
             draft.set_scale(name, _cell(value, at), "")
         else:
-            draft.remark(Unread.SCALE, key, at)
+            draft.remark(Unread.SCALE, symbol, at)
     names = data.get("names")
     if isinstance(names, Mapping):
         draft.points = {cut(key): _cell(value).text for key, value in names.items()}
@@ -160,9 +160,9 @@ def _read_submission(data: Any, path: Path, before: str) -> Submission:
 def _note_unknown(
     draft: SubmissionDraft, table: Mapping[str, Any], known: tuple[str, ...], before: str
 ) -> None:
-    for key in table:
-        if key not in known and key not in _IGNORED:
-            draft.remark(Unread.KEY, key, f"{before}{cut(key)}")
+    for entry in table:
+        if entry not in known and entry not in _IGNORED:
+            draft.remark(Unread.KEY, entry, f"{before}{cut(entry)}")
 
 
 def _cell(value: Any, location: str = "") -> Cell:

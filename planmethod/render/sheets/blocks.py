@@ -15,7 +15,7 @@ from msgspec import Struct
 
 from planmethod.plans.model import PlanKind
 from planmethod.render.layout.block import Block, Column
-from planmethod.render.sheets import results, texts, views
+from planmethod.render.sheets import results, several, texts, views
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.solved.solution import Solution
 
@@ -93,8 +93,6 @@ def _transfers() -> Mapping[str, Maker]:
 def _scheme(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     if len(solution.positions) == 1:
         return views.scheme_view(solution, position_indices, style)
-    from planmethod.render.sheets import several
-
     return several.scheme_view(solution, position_indices, style)
 
 
@@ -104,8 +102,6 @@ def _plan(solution: Solution, position_indices: Sequence[int], style: BlockStyle
         return Column([])
     if len(solution.positions) == 1:
         return views.plan_view(solution, position_indices, style)
-    from planmethod.render.sheets import several
-
     return several.plan_view(solution, position_indices, style)
 
 
