@@ -155,7 +155,7 @@ def test_every_position_of_the_crank_is_judged_by_independent_formulas() -> None
     assert isinstance(main, Problem)
     places = {
         f"{phi}-{1000 * rod:.0f}": {"driver.phi": phi, "links.4.DE": rod}
-        for phi in range(0, 360, 5)
+        for phi in sampled(range(0, 360, 5), 3)
         for rod in (0.18, 0.115, 0.105)
     }
     problems = [one for one in source.read(places) if isinstance(one, Problem)]
@@ -180,7 +180,7 @@ def test_every_position_of_the_crank_is_judged_by_independent_formulas() -> None
         row |= {f"scales.{scale.symbol}": scale.per_mm for scale in scales}
         shortest = min(mm for _, _, mm in ex3_segments(row))
         assert (reason is RejectionReason.SHORT) is (shortest < 5), (row, one)
-    assert len(problems) == 216 and why[str(RejectionReason.SHORT)] > 10
+    assert len(problems) == len(places) and why[str(RejectionReason.SHORT)] > 10
 
 
 def test_the_program_reads_the_table_and_finds_the_same(of_ex3: tuple[Path, str]) -> None:
