@@ -53,7 +53,7 @@ def shown(entry: KeyEntry, question: str, factor: float, away: float = 0.0) -> b
 @cache
 def key_exact() -> dict[str, float]:
     """Return the exact values of the questions, with their signs."""
-    sheet = ex3().sheet(ex3().list_items()[0].position).keyed
+    sheet = ex3().sheet(ex3().list_items()[0].position).answer_key_sheet
     return {item.question.id: sheet.exact[item.question.id] for item in ex3().list_items()}
 
 
