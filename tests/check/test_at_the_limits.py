@@ -54,7 +54,7 @@ def shown(entry: KeyEntry, question: str, factor: float, away: float = 0.0) -> b
 def key_exact() -> dict[str, float]:
     """Return the exact values of the questions, with their signs."""
     sheet = ex3().sheet(ex3().list_items()[0].position).answer_key_sheet
-    return {item.question.id: sheet.exact[item.question.id] for item in ex3().list_items()}
+    return {item.question.id: sheet.exact_answers[item.question.id] for item in ex3().list_items()}
 
 
 def test_an_answer_shows_a_mistake_from_its_tolerance_on_and_by_its_sense() -> None:
