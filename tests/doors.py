@@ -1107,5 +1107,11 @@ from planmethod.varying.parameters import (
     parse_vary,
     with_followers,
 )
-from planmethod.varying.screening import Rejection, RejectionReason
+from planmethod.varying.screening import (
+    MIN_LENGTH_MM,
+    MIN_MARGIN,
+    Rejection,
+    RejectionReason,
+    screen_linkages,
+)
 from planmethod.varying.teeth import coaxial_rows

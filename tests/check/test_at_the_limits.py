@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cache
+from pathlib import Path
 
 from doors import (
+    DEFAULT,
     GradedSubmission,
     Key,
     KeyEntry,
@@ -13,6 +15,7 @@ from doors import (
     Solution,
     Submission,
     Task,
+    Variants,
     Verdict,
     WrittenAnswer,
     check,
@@ -125,3 +128,41 @@ def test_an_answer_is_right_up_to_its_tolerance_and_with_its_sense_only() -> Non
         assert one.sense_right is False and one.verdict is not Verdict.OK, entry.id
         assert 0.0 < work.points < work.of
         assert one.points < entry.points
+
+
+POINT = """
+[point]
+x = "3*t"
+y = "2*t^2"
+t = 1
+[[answers]]
+what = "vx"
+[[answers]]
+what = "vy"
+[[answers]]
+what = "v"
+"""
+
+
+def test_a_result_of_a_wrong_number_is_inherited_to_half_a_unit_of_its_last_digit(
+    tmp_path: Path,
+) -> None:
+    """With v_x = 3.3 for 3, v is 5.1856 within half of 0.1 and the floor of 0.5 %, either way."""
+    path = tmp_path / "p.toml"
+    path.write_text(POINT, "utf-8")
+    task = Variants(path, DEFAULT).task(None)
+    own = (3.3**2 + 4.0**2) ** 0.5
+    slack = DEFAULT.floor_share * own + 0.05
+    for off, due in (
+        (0.98, Verdict.INHERITED),
+        (-0.98, Verdict.INHERITED),
+        (1.02, Verdict.WRONG),
+        (-1.02, Verdict.WRONG),
+    ):
+        answers = (
+            WrittenAnswer(id="vx", value=3.3, step=0.001),
+            WrittenAnswer(id="vy", value=4.0, step=0.001),
+            WrittenAnswer(id="v", value=own + off * slack, step=0.1),
+        )
+        found = {one.id: one.verdict for one in check(task, Submission("s", answers)).answers}
+        assert found == {"vx": Verdict.WRONG, "vy": Verdict.OK, "v": due}, off

@@ -266,6 +266,17 @@ def test_the_file_does_not_depend_on_the_clock(data: bytes) -> None:
     assert opened(data).core_properties.author == "И. Иванов"
 
 
+def test_the_pages_are_a4_upright_with_the_margins_of_a_report(data: bytes) -> None:
+    """GOST 7.32: left 30 mm, right 15 mm, above and below 20 mm."""
+    first, *others = opened(data).sections
+    for section in (first, *others):  # a page with a wide table lies on its side
+        size = section.page_width.mm, section.page_height.mm
+        assert sorted(size) == pytest.approx([210, 297], abs=0.1)
+    assert first.page_width < first.page_height
+    sides = first.left_margin.mm, first.right_margin.mm, first.top_margin.mm
+    assert (*sides, first.bottom_margin.mm) == pytest.approx((30, 15, 20, 20), abs=0.1)
+
+
 def test_pages_in_frames_have_title_blocks_with_the_fields_of_the_stamp() -> None:
     stamp = {"designation": "ТММ.01", "author": "Иванов", "title": "Пресс"}
     file = opened(word_document(note(), RU, frame=True, stamp=stamp))
