@@ -246,7 +246,7 @@ def test_sizes_and_checks_of_the_text_are_the_extremes_over_the_turn(name: str) 
 def _check_pressure(
     lines: str, record: dict[str, Any], own: OwnCam, curves: list[Any], asked: Asked
 ) -> None:
-    """Compare what is said of the pressure angles: size, place, limit, whether it is kept."""
+    """Compare the sentences on the pressure angles: size, place, limit, verdict."""
     told = [line for line in lines.splitlines() if "pressure angle of the" in line]
     assert len(told) == (0 if own.is_flat else 2)
     for line, part, phase in zip(told, (0, 2), ("rise", "return"), strict=bool(told)):

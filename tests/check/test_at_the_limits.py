@@ -1,4 +1,4 @@
-"""Every answer of a task at the limits: what it shows by the key, and what is accepted of it."""
+"""Every answer of a task at its limits: the mistakes that it shows, the values that are right."""
 
 from __future__ import annotations
 

@@ -143,7 +143,7 @@ def constraints(made: Mechanism, links: tuple[str, ...], known: set[str]) -> int
 
 
 def test_a_group_is_the_smallest_set_of_links_that_the_known_ones_settle() -> None:
-    """3 n = 2 p of it with what is known; of no part of it; and it has no later group's link."""
+    """3 n = 2 p of it with the links before it, and of no part of it."""
     for made, found in mechanisms():
         known = {FRAME, made.driver}
         for group in found.groups:

@@ -99,7 +99,7 @@ def columns(name: str, t: float) -> dict[str, float]:
         phi, omega, epsilon = rates(own["turn"], t)
         centre, moved, _ = rates(own["C"], t)
         found |= {"phi": phi, "omega": omega, "epsilon": epsilon}
-        touch = centre + 1j * moved / omega  # where v_C + ω × CP is nothing
+        touch = centre + 1j * moved / omega  # where v_C + ω × CP = 0
         if "P" in own:
             assert touch == pytest.approx(own["P"](t), abs=1e-6)
         found |= {"xC": centre.real, "yC": centre.imag, "xP": touch.real, "yP": touch.imag}
@@ -164,7 +164,7 @@ def test_a_table_of_moments_has_the_columns_of_each_moment(name: str) -> None:
                        "ar": "a_r", "aφ": "a_phi", "φ": "phi", "ω": "omega", "ε": "epsilon",
                        "ωH": "omega_H", "εH": "epsilon_H"}.get(head, head)  # fmt: skip
                 if key == "a" and "a" in heads and heads.index("a") != len(heads) - 1:
-                    continue  # a and aⁿ have lost what tells them apart
+                    continue  # the heads a and aⁿ are alike here
                 shown = float(cell.replace("−", "-").replace("·10", "e"))
                 assert shown == pytest.approx(due[key], rel=6e-3, abs=6e-3), (head, line)
                 seen += 1

@@ -22,7 +22,7 @@ from doors import (
 
 
 def read(record: type[object], name: str, value: object) -> tuple[dict[str, object], str]:
-    """Return what is read of a table of one key, and the fault of that key."""
+    """Return the values read from a table of one key, and the fault of that key."""
     faults = Faults()
     found = read_flat(faults, "table", {name: value}, record)
     own = [str(one) for one in faults.listed if one.path == f"table.{name}"]

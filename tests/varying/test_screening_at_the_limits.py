@@ -60,7 +60,7 @@ def test_a_segment_is_long_enough_from_the_limit_on() -> None:
 
 
 def test_a_position_is_judged_by_its_least_margin_on_both_sides_of_the_limit() -> None:
-    """The rod is shortened until its circle hardly meets the line of the slider."""
+    """The rod is shortened until its circle nearly touches the line of the slider."""
     rods = [float(rod) for rod in np.geomspace(0.0262, 0.05, 8)]
     problems = [linkage(phi=60.0, rod=rod) for rod in rods]
     margins = [float(np.min(Solution(one).margin)) for one in problems]
@@ -79,7 +79,7 @@ def test_a_position_is_judged_by_its_least_margin_on_both_sides_of_the_limit() -
 
 
 def test_the_margin_of_a_slider_is_the_square_of_the_sine_between_rod_and_guide() -> None:
-    """Where the sine of the angle of rod and guide's normal is small, the place hardly exists."""
+    """Where the rod is nearly across the guide the margin is nearly 0."""
     for rod in (0.027, 0.03, 0.05, 0.1):
         rise = 0.03 * np.sin(np.pi / 3) / rod
         found = float(np.min(Solution(linkage(rod=rod)).margin))
