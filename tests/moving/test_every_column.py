@@ -270,3 +270,23 @@ def test_the_interval_that_is_drawn_is_the_given_one_or_surrounds_the_moment() -
     dense = many.path.columns["t"]
     assert (dense[0], dense[-1]) == (0.0, 1.0) and (dense[1:] > dense[:-1]).all()
     assert hypot(many.path.columns["x"][0] - 5, many.path.columns["y"][0]) < 1e-9
+
+
+def test_a_function_ends_at_zero_also_where_rounding_leaves_a_little(tmp_path: Path) -> None:
+    """0.1·3 − 0.3 is 5.6e-17: logarithms of it are undefined, roots are 0 without a velocity."""
+    path = tmp_path / "p.toml"
+    for formula, reason in (
+        ("ln({})", "position undefined"),
+        ("lg({})", "position undefined"),
+        ("sqrt({})", "velocity undefined"),
+        ("({})^0.5", "velocity undefined"),
+        ("({})^1.5", "acceleration undefined"),
+        ("abs({})", "velocity undefined"),
+    ):
+        text = f'[point]\nx = "{formula.format("0.1*t - 0.3")}"\ny = "t"\nt = 3\n'
+        path.write_text(text, "utf-8")
+        record = CliRunner().invoke(cli, ["solve", "--json", str(path)]).stdout
+        (row,) = json.loads(record)["point"]
+        assert row["reason"] == reason, formula
+        assert (row["x"] is None) == (reason == "position undefined")
+        assert row["x"] is None or row["x"] == 0.0
