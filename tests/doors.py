@@ -377,7 +377,7 @@ from planmethod.note.audit.audit import (
 )
 from planmethod.note.audit.machine import chain
 from planmethod.note.columnar import ColumnarRecords, list_of, record_of, to_builtins
-from planmethod.note.compared import DASH, percent_text
+from planmethod.note.compared import DASH, ComparedNumber, percent_text
 from planmethod.note.document import (
     Caption,
     Chapter,
@@ -409,6 +409,7 @@ from planmethod.note.document import (
     table_of_columns,
     table_of_quantities,
 )
+from planmethod.note.force_series import lever_beside_plans
 from planmethod.note.formula import (
     Fraction,
     Index,
@@ -426,7 +427,7 @@ from planmethod.note.formula import (
 )
 from planmethod.note.narrate.equations import direction_note, equation_of as equations_equation_of
 from planmethod.note.narrate.forces.common import lettered
-from planmethod.note.narrate.forces.lever import LeverNarrator, both_balances, compared_balances
+from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
@@ -887,13 +888,11 @@ from planmethod.render.sheets.loads import load_curves
 from planmethod.render.sheets.measured import read_names
 from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle, Composition
 from planmethod.render.sheets.pages import pages_of
-from planmethod.render.sheets.reactionerrors import (
-    angle_column,
+from planmethod.render.sheets.reactions import (
     balance_columns,
-    moment_column,
-    size_columns,
+    reaction_columns,
+    reactions_block,
 )
-from planmethod.render.sheets.reactions import exact_balance_columns, reactions_block
 from planmethod.render.sheets.results import result_columns
 from planmethod.render.sheets.specimen import SPECIMENS
 from planmethod.render.sheets.specimen.cells import SymbolCell, drawn_cell

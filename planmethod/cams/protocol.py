@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import degrees
 
-import numpy as np
-
 from planmethod.cams.construction import CamConstruction, construct
 from planmethod.cams.design import CamDesign
 from planmethod.cams.divisions import CamNode, motion_in_division
@@ -28,7 +26,6 @@ from planmethod.note.document import (
 )
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
-from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
 
 DETAILED_PARTS = 2
@@ -91,20 +88,17 @@ def _diagrams(built: CamConstruction, drawn: CamReadings, language: Language) ->
         for step in narrator.part(node):
             yield from steps_of(narrator.narrate(step))
     yield Paragraph(texts.likewise)
-    rows = []
-    for node in built.nodes:
-        k = node.number
-        v, s = (drawn.number(f"{name}_{{{k}}}") for name in "vs")
-        sigma = drawn.sigma[f"s_{{{k}}}"]
+    rows, path = [], drawn.path()
+    for row, node in enumerate(built.nodes):
+        k, one = node.number, path[row]
+        v, s = (drawn.number(f"{name}_{{{k}}}") + 0.0 for name in "vs")
         rows.append(
             (
                 str(k),
                 notation.as_input(round(degrees(node.phi), 2)),
-                notation.measured(v + 0.0),
-                notation.measured(s + 0.0),
-                notation.number(f"{MM * scales.s * s + 0.0:.2f}"),
-                notation.number(f"{MM * float(motion_in_division(problem, node)[0]) + 0.0:.2f}"),
-                notation.number(sigma_text(MM * scales.s * sigma)),
+                notation.measured(v),
+                notation.measured(s),
+                *notation.numbers(f"{one.read:.2f}", f"{one.exact:.2f}", one.sigma_text),
             )
         )
     yield table_of(texts["diagram_heads"], rows, names=0)
@@ -166,17 +160,14 @@ def _profile(built: CamConstruction, drawn: CamReadings, language: Language) -> 
     yield from steps_of([texts["inverted"][key].format(**fields)])
     if problem.contact is Contact.ROLLER:
         yield from steps_of([texts.envelope])
-    exact, rows = np.abs(built.exact_points()), []
-    for node, radius in zip(built.nodes, exact, strict=True):
-        name = f"R_{{{node.number}}}"
-        read, sigma = MM * mm * drawn.number(name), MM * mm * drawn.sigma[name]
+    rows, radii = [], drawn.radii()
+    for row, node in enumerate(built.nodes):
+        one = radii[row]
         rows.append(
             (
                 str(node.number),
                 notation.as_input(round(degrees(node.phi), 2)),
-                notation.number(f"{read:.2f}"),
-                notation.number(f"{MM * mm * float(radius):.2f}"),
-                notation.number(sigma_text(sigma)),
+                *notation.numbers(f"{one.read:.2f}", f"{one.exact:.2f}", one.sigma_text),
             )
         )
     yield table_of(texts["profile_heads"], rows, names=0)

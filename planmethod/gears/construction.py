@@ -31,6 +31,7 @@ from planmethod.gears.velocity_diagrams import (
     carrier_of,
 )
 from planmethod.languages import translate
+from planmethod.note.compared import ComparedNumber
 from planmethod.solved.detail_views import SHORT, WIDEST, DetailView, min_enlarged, ratio_for
 
 LETTERS = "abcdefghklmnqrstuvwxz"
@@ -167,6 +168,11 @@ class GearReading(Struct, frozen=True):
     def point(self, name: PointName) -> complex:
         """Return a point, mm."""
         return complex(self.exact.value[name])
+
+    def compared(self, name: NumberName) -> ComparedNumber:
+        """Return a number of the construction, compared."""
+        exact, read = (float(one.value[name]) for one in (self.exact, self.read))
+        return ComparedNumber(exact, read, self.sigma[name])
 
 
 def read(drawn: GearDrawing, profile: Profile) -> GearReading:

@@ -20,15 +20,15 @@ from planmethod.gears.construction import (
 from planmethod.gears.model import GearProblem
 from planmethod.gears.requested_quantities import parse
 from planmethod.gears.sheet import as_drawn
-from planmethod.gears.sheet_texts import calculation, train_facts, unit_of
+from planmethod.gears.sheet_texts import calculation, measured_quantities, train_facts, unit_of
 from planmethod.gears.text import compared_sentences, compared_table
 from planmethod.gears.velocity_diagrams import ContactKind, draw
+from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.formulas import view_name
 from planmethod.note.narrate.narrator import Line, StepNarrator
 from planmethod.note.numbers import Notation, half_up, raised
-from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, MessageTable
 
 
@@ -165,12 +165,13 @@ def _readings(
         tuple(
             texts["steps"]["read"].format(
                 name=name,
-                read=notation.measured(float(reading.read.value[number])),
-                exact=_mm(float(reading.exact.value[number]), notation),
-                sigma=notation.number(sigma_text(reading.sigma[number])),
+                read=notation.measured(one.read),
+                exact=_mm(one.exact, notation),
+                sigma=notation.number(one.sigma_text),
                 view=view,
             )
             for number, name, view in named
+            for one in [reading.compared(number)]
         )
     )
     unit = raised(language.gears["units"][train.units[0]])
@@ -182,7 +183,10 @@ def _readings(
         from_what=texts["steps"]["chosen" if chosen else "input"],
     )
     yield Step((scale,))
-    yield Step(tuple(_quantity_text(one, drawn, reading, language) for one in drawn.quantities))
+    every = measured_quantities(drawn, reading)
+    yield Step(
+        tuple(_quantity_text(one, every[one.name], drawn, language) for one in drawn.quantities)
+    )
 
 
 def _mm(value: float, notation: Notation) -> Rich:
@@ -194,10 +198,10 @@ def _scale(drawn: GearDrawing) -> Rich:
 
 
 def _quantity_text(
-    one: MeasuredQuantity, drawn: GearDrawing, reading: GearReading, language: Language
+    one: MeasuredQuantity, both: ComparedNumber, drawn: GearDrawing, language: Language
 ) -> Rich:
     """Return a quantity with its formula, as it is read and exactly."""
-    train, notation = drawn.motion.train, language.notation
+    train = drawn.motion.train
     asked = parse(one.name, tuple(train.body_of))
     rays = [f"(o{drawn.label(body)})" for body in one.rays]
     parts = rays[: len(asked.labels)]
@@ -208,12 +212,14 @@ def _quantity_text(
         formula = f"{fraction('π', '30')}·{formula}"
     if asked.kind == "n" and train.unit != "n":
         formula = f"{fraction('30', 'π')}·{formula}"
-    value, sigma = float(reading.read.value[one.read]), reading.sigma[one.read]
     unit = unit_of(answer(drawn.motion, one.name), language)
+    read, exact, sigma = language.notation.numbers(
+        both.rounded_text, both.exact_text, both.sigma_text
+    )
     found: str = language.gears["sheet"]["steps"]["found"]
     return found.format(
-        formula=f"{parse(one.name, tuple(train.body_of)).symbol} = {formula}",
-        read=f"{notation.number(rounded_to(value, sigma))} {unit}".rstrip(),
-        exact=notation.computed(float(one.exact)),
-        sigma=notation.number(sigma_text(sigma)),
+        formula=f"{asked.symbol} = {formula}",
+        read=f"{read} {unit}".rstrip(),
+        exact=exact,
+        sigma=sigma,
     )

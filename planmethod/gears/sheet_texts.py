@@ -14,7 +14,7 @@ from planmethod.gears.motion import TrainMotion
 from planmethod.gears.requested_quantities import parse
 from planmethod.gears.text import equation_of, fraction_text, kind_of, mobility
 from planmethod.gears.velocities import by_velocities
-from planmethod.note.compared import ComparedNumber
+from planmethod.note.compared import DASH, ComparedNumber
 from planmethod.note.document import GivenFact
 from planmethod.note.numbers import raised
 from planmethod.note.wording import Language
@@ -207,6 +207,16 @@ def _other_quantity(name: str, motion: TrainMotion, language: Language) -> Itera
     yield f"{asked.symbol} = {value} {unit_of(one, language)}".rstrip()
 
 
+def measured_quantities(drawn: GearDrawing, reading: GearReading) -> dict[str, ComparedNumber]:
+    """Return the quantities measured on the diagrams, by their names."""
+    return {
+        one.name: ComparedNumber(
+            float(one.exact), float(reading.read.value[one.read]), reading.sigma[one.read]
+        )
+        for one in drawn.quantities
+    }
+
+
 def results(
     motion: TrainMotion,
     drawn: GearDrawing | None,
@@ -214,9 +224,8 @@ def results(
     language: Language,
 ) -> Iterator[tuple[str, ...]]:
     """Yield rows: symbol with unit, fraction, decimal, reading, sigma, difference in per cent."""
-    train, notation = motion.train, language.notation
-    known = tuple(train.body_of)
-    found = {} if drawn is None else {one.name: one for one in drawn.quantities}
+    notation, known = language.notation, tuple(motion.train.body_of)
+    found = {} if drawn is None or reading is None else measured_quantities(drawn, reading)
     for name in named(motion):
         if drawn is not None and name not in found:
             continue
@@ -224,17 +233,13 @@ def results(
         unit = unit_of(one, language)
         head = parse(name, known).symbol + (f", {unit}" if unit else "")
         if one.value is None:
-            yield head, "—", "—", "—", "—", "—"
+            yield head, *[DASH] * 5
             continue
         is_integer = one.exact is not None and one.exact.denominator == 1
         exact = (notation.as_input if is_integer else notation.computed)(one.value)
         row = (head, fraction_text(one.exact), exact)
-        if name not in found or reading is None:
-            yield (*row, "—", "—", "—")
+        if name not in found:
+            yield (*row, *[DASH] * 3)
             continue
-        read = found[name].read
-        both = ComparedNumber(
-            one.value, float(reading.read.value[read]), float(reading.sigma[read])
-        )
-        off = notation.number(both.percent_text(2))
-        yield (*row, notation.computed(both.read), notation.number(both.sigma_text), off)
+        both = found[name]
+        yield (*row, *notation.numbers(both.read_text, both.sigma_text, both.percent_text(2)))

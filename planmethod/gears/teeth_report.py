@@ -7,6 +7,7 @@ from typing import Any
 
 from planmethod.gears.conditions import RING_LESS
 from planmethod.gears.teeth import TeethSelection, TeethSet, TeethSpecification
+from planmethod.note.compared import percent_text
 from planmethod.note.document import Node, Paragraph, table_of
 from planmethod.note.formula import escape
 from planmethod.note.numbers import MINUS
@@ -52,7 +53,7 @@ def selection_document(selection: TeethSelection, language: Language) -> Iterato
                 *map(str, one.teeth),
                 language.notation.computed(float(one.ratio)),
                 str(one.ratio).replace("-", MINUS),
-                language.notation.number(f"{100 * float(one.error) + 0.0:.2f}"),
+                language.notation.number(percent_text(100 * float(one.error), 2)),
                 number(float(one.size)),
             ]
             for at, one in enumerate(selection.sets, 1)

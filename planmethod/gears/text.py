@@ -24,7 +24,7 @@ from planmethod.gears.motion import (
 from planmethod.gears.roles import Roles
 from planmethod.gears.velocities import by_velocities
 from planmethod.gears.velocity_diagrams import draw
-from planmethod.note.compared import ComparedNumber
+from planmethod.note.compared import ComparedNumber, percent_text
 from planmethod.note.document import (
     Caption,
     Item,
@@ -113,7 +113,7 @@ def compared_sentences(compared: PlanetaryComparison, language: Language) -> Ite
         ),
         "k": compared.planets,
         "size": number(float(own.size)),
-        "error": language.notation.number(f"{100 * float(own.error) + 0.0:.2f}"),
+        "error": language.notation.number(percent_text(100 * float(own.error), 2)),
     }
     if place is None:
         yield say["outside"].format(**facts)
@@ -137,7 +137,7 @@ def compared_table(compared: PlanetaryComparison, language: Language) -> Table:
             f"{one.planets}{star}",
             *map(str, one.chosen.teeth),
             language.notation.computed(float(one.chosen.ratio)),
-            language.notation.number(f"{100 * float(one.chosen.error) + 0.0:.2f}"),
+            language.notation.number(percent_text(100 * float(one.chosen.error), 2)),
             number(float(one.chosen.size)),
         ]
         rows.append(row if size is None else [*row, number(size)])

@@ -24,7 +24,7 @@ from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.moving.interval import DrawnInterval
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion, Undefined
-from planmethod.moving.series import Reals
+from planmethod.note.compared import Series, measured_series
 
 READ = ("v", "a", "a_tangential", "a_normal", "rho")
 """Columns of the record that are read off the drawing."""
@@ -306,14 +306,12 @@ class ChordReading(Struct, frozen=True):
     ----------
     at : tuple of int
         Numbers of the instants.
-    read, sigma, exact : array of float, m/s²
-        As the ruler gives them, their drafting error, and as they are.
+    series : Series
+        The accelerations in these instants.
     """
 
     at: tuple[int, ...]
-    read: Reals
-    sigma: Reals
-    exact: Reals
+    series: Series
 
 
 def read_hodograph(course: DrawnInterval, scale: Scale, profile: Profile) -> ChordReading:
@@ -322,7 +320,7 @@ def read_hodograph(course: DrawnInterval, scale: Scale, profile: Profile) -> Cho
     count = len(column["t"])
     inner = [k for k in range(1, count - 1) if course.unbroken("vx", "vy", k - 1, k + 1)]
     if not inner:
-        return ChordReading((), *(np.zeros(0) for _ in range(3)))
+        return ChordReading((), measured_series("a", "m/s²", (), (), ()))
     k, b, zeros = np.array(inner), Builder(), np.zeros(len(inner))
     data: dict[str, Any] = {"p": zeros + 0j, "angle": zeros}
     axis = b.at_angle(b.take_point("p"), None, b.known("angle"))
@@ -337,6 +335,5 @@ def read_hodograph(course: DrawnInterval, scale: Scale, profile: Profile) -> Cho
     found = b.compute("a", (chord, 1), (b.known("time"), -1), factor=scale.per_mm)
     program = b.program()
     read = evaluate(program, data, RulerArithmetic(ruler=profile.ruler)).value[found]
-    return ChordReading(
-        tuple(inner), read, sigmas(program, data, profile, FREE)[found], column["a"][k]
-    )
+    sigma = sigmas(program, data, profile, FREE)[found]
+    return ChordReading(tuple(inner), measured_series("a", "m/s²", column["a"][k], read, sigma))

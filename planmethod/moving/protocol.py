@@ -24,12 +24,11 @@ from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import LEGEND
 from planmethod.moving.sheet import read_rows, sheet_scales
 from planmethod.moving.text import given_facts, moment, title
-from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Caption, Chapter, Node, Paragraph, steps_of, table_of
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import significant, with_unit
+from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Language
 
 
@@ -79,23 +78,18 @@ def _hodograph(
     course: DrawnInterval, scale: Scale, language: Language, profile: Profile
 ) -> Iterator[Node]:
     """Yield the accelerations that the hodograph of the velocity gives."""
-    chords, notation, said = (
-        read_hodograph(course, scale, profile),
-        language.notation,
-        language.point,
-    )
+    chords, notation = read_hodograph(course, scale, profile), language.notation
+    said = language.point
     if len(chords.at) < 2:
         return
     yield Chapter(said.by_hodograph, numbered=False)
     yield Paragraph(said.chord_told)
     rows = []
-    for k, read, sigma, exact in zip(
-        chords.at, chords.read, chords.sigma, chords.exact, strict=True
-    ):
-        one = ComparedNumber(float(exact), float(read), float(sigma))
-        texts = (significant(one.exact), one.read_text, one.sigma_text, one.off_text)
+    for row, k in enumerate(chords.at):
+        one = chords.series[row]
+        texts = (one.exact_text, one.rounded_text, one.sigma_text, one.off_text)
         at = notation.as_input(float(course.marks.columns["t"][k]))
-        rows.append([str(k), at, *map(notation.number, texts)])
+        rows.append([str(k), at, *notation.numbers(*texts)])
     yield table_of(said["chords"], rows, names=0)
 
 

@@ -31,7 +31,6 @@ from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.statement import unbroken
 from planmethod.note.numbers import format_column, significant
 from planmethod.note.plaintext import plain_text
-from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, get_language
 from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH
 from planmethod.render.frame.furniture import Furniture
@@ -247,9 +246,9 @@ class _Point(Struct, frozen=True):
         chords = read_hodograph(self.course, scale, self.profile)
         if len(chords.at) > 1:
             shown = ["—"] * count
-            for k, value, sigma in zip(chords.at, chords.read, chords.sigma, strict=True):
-                rounded = notation.number(rounded_to(value, sigma))
-                shown[k] = f"{rounded} ± {notation.number(sigma_text(sigma))}"
+            for n, k in enumerate(chords.at):
+                one = chords.series[n]
+                shown[k] = " ± ".join(notation.numbers(one.rounded_text, one.sigma_text))
             columns.append(TableColumn(texts.chord, tuple(shown), notation.units["m/s²"]))
         row = 6.0 if count > 8 else 7.0
         table = table_block(
@@ -275,9 +274,7 @@ def read_rows(
     ruled, sigma, notation = built.ruled(profile.ruler), built.sigma(profile), language.notation
     for name in built.results:
         one = ComparedNumber(float(marks.columns[name][k]) + 0.0, ruled[name], sigma[name])
-        exact, read, error = map(
-            notation.number, (significant(one.exact), one.read_text, one.sigma_text)
-        )
+        exact, read, error = notation.numbers(one.exact_text, one.rounded_text, one.sigma_text)
         yield head_of(name, notation), exact, read, error
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import COLUMNS, LEGEND, POLAR, ROLLED, Motion, Undefined, move
+from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import (
     Caption,
     Chapter,
@@ -86,12 +87,12 @@ def _printed(
     """Yield printed values beside the exact ones."""
     for item in problem.published:
         exact = float(motion.columns[item.what][item.position or 0]) if item.what else float("nan")
+        one = ComparedNumber(exact, item.value)
         yield (
             escape(item.name),
             LEGEND[item.what].symbol if item.what else "—",
             notation.as_input(item.value),
-            notation.number(significant(exact)),
-            notation.number(significant(item.value - exact, 2)),
+            *notation.numbers(one.exact_text, one.off_text),
         )
 
 

@@ -1,20 +1,35 @@
-"""A number from a drawing beside the exact one: its error, and how the error is written.
+"""Numbers from a drawing beside the exact ones: their errors, and how these are written.
 
-Every table and sentence that sets one number beside another is made of this (сравнение).
+Every table, sentence and record that sets one number beside another is made of these (сравнение):
+`ComparedNumber` is one number beside its reference, `Series` a quantity over the positions of a
+mechanism, the divisions of a cam, the instants of a point. The modules of the subjects say which
+series there are; tables on sheets, in the terminal and in notes are views of them.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
 from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from planmethod.note.numbers import significant
+from planmethod.note.formula import Rich
+from planmethod.note.numbers import (
+    Notation,
+    decimals_of,
+    format_column,
+    is_noise,
+    significant,
+    to_decimals,
+)
 from planmethod.note.rounding import rounded_to, sigma_text
 
 if TYPE_CHECKING:
-    from planmethod.solved.errors.spread import Errors
+    from planmethod.solved.errors.spread import Spread
+    from planmethod.solved.reading import Reals
 
 DASH = "—"
 """Placeholder for a missing number."""
@@ -22,20 +37,8 @@ DASH = "—"
 MAX_PERCENT = 100.0
 """Error in per cent from which a reading is meaningless: the segment is too short."""
 
-
 DRAWN = "*"
 """Mark of a sigma that was found by random draws, first order failing there."""
-
-
-def marked(errors: Errors, label: str, index: int) -> tuple[float, str]:
-    """Return a quantity's sigma in one position and its mark, `MIN_DRAWN_SIGMA` or nothing.
-
-    A quantity that the drawing does not give, as the ω of a translating link, has no error.
-    """
-    spread = errors.spreads.get(label)
-    if spread is None:
-        return 0.0, ""
-    return float(spread.sigma[index]), DRAWN if spread.drawn[index] else ""
 
 
 def sense_of(value: float) -> int:
@@ -104,6 +107,10 @@ class ComparedNumber(Struct, frozen=True):
         """Magnitude of Δ, per cent of the exact value; 0 where it is undefined."""
         return abs(self.percent or 0.0)
 
+    def percent_of(self, reference: float) -> float:
+        """Return the magnitude of Δ, per cent of another value than the exact one."""
+        return 100.0 * abs(self.off) / reference
+
     @property
     def expected(self) -> float | None:
         """Sigma in per cent of the exact value; None where that is zero."""
@@ -114,12 +121,45 @@ class ComparedNumber(Struct, frozen=True):
         """The size of Δ, in sigmas."""
         return abs(self.off) / self.sigma if self.sigma else 0.0
 
+    def unless_lost(self) -> ComparedNumber:
+        """Return the same, without an error in per cent where the exact value is lost in sigma."""
+        return replace(self, zero_limit=self.sigma)
+
     # Plain text -------------------------------------------------------------------------------
 
     @property
+    def exact_text(self) -> str:
+        """The exact value, four digits."""
+        return significant(self.exact)
+
+    @property
     def read_text(self) -> str:
+        """The reading, as many digits as the exact value has: for tables that have Δ as well."""
+        return significant(self.read)
+
+    @property
+    def rounded_text(self) -> str:
         """The reading up to the last digit of its error; a dash where nothing can be read."""
         return rounded_to(self.read, self.sigma) if isfinite(self.read) else DASH
+
+    def text_beside(self, exact: str, *, signed: bool = True) -> str:
+        """Return the reading with the decimals of the exact value's text, unless that is zero.
+
+        Zeros at its end are not finer than the error. ``signed``: with its sign before it.
+        """
+        value = self.read if signed else abs(self.read)
+        if exact == "0" or "e" in exact:
+            text = rounded_to(value, self.sigma)
+        else:
+            text = to_decimals(value, decimals_of(exact))
+        while text.endswith("0") and decimals_of(text) > decimals_of(sigma_text(self.sigma)):
+            text = text[:-1].removesuffix(".")
+        return text
+
+    @property
+    def size_text(self) -> str:
+        """The same without its sign, where a sense beside it has that."""
+        return self.rounded_text.removeprefix("-")
 
     @property
     def sigma_text(self) -> str:
@@ -131,6 +171,141 @@ class ComparedNumber(Struct, frozen=True):
         """Δ in the unit of the number, two digits."""
         return significant(self.off, 2)
 
+    def part_text(self, part: float, decimals: int) -> str:
+        """Return Δ or a part of it in per cent of the exact value, with its sign before it."""
+        return f"{100.0 * part / self.exact:+.{decimals}f}"
+
     def percent_text(self, decimals: int = 1, limit: float = inf) -> str:
         """Return Δ in per cent; a dash where it is undefined, and from `limit` on."""
         return percent_text(self.percent, decimals, limit)
+
+
+def no_spread() -> None:
+    """Return the spread of given values, which are laid off and not read: none."""
+
+
+class Series(Struct, frozen=True, eq=False, dict=True):
+    """A quantity over positions (ряд значений); readings and errors are computed on demand.
+
+    Attributes
+    ----------
+    symbol : Rich
+    unit : str
+        As in `Notation.units`; empty of a ratio.
+    exact : array of float, shape (n,)
+    reads : callable
+        Returns the values read off the drawing, shape (n,).
+    errors : callable
+        Returns their drafting errors; None for given values, which have none.
+    turns : bool
+        Its sign is a sense of turning, shown beside its magnitude; else it is before the number.
+    peak : float
+        The largest magnitude among those shown with it; rounding noise beside it is zero.
+    label : str
+        Its name among the quantities of the drawing.
+    """
+
+    symbol: Rich
+    unit: str
+    exact: Reals
+    reads: Callable[[], Reals]
+    errors: Callable[[], Spread | None] = no_spread
+    turns: bool = False
+    peak: float = 0.0
+    label: str = ""
+
+    @cached_property
+    def read(self) -> Reals:
+        """Values read off the drawing."""
+        return self.reads()
+
+    @cached_property
+    def spread(self) -> Spread | None:
+        """Their drafting errors; None for given values."""
+        return self.errors()
+
+    @property
+    def sigma(self) -> Reals | Sequence[float]:
+        """One sigma in every position; zeros for given values."""
+        return [0.0] * len(self.exact) if self.spread is None else self.spread.sigma
+
+    @property
+    def off(self) -> Reals:
+        """Δ: errors of the readings, read minus exact."""
+        return self.reads() - self.exact
+
+    def head(self, notation: Notation) -> Rich:
+        """Return the symbol with the unit."""
+        symbol = notation.symbol(self.symbol)
+        return f"{symbol}, {notation.in_head(self.unit)}" if self.unit else symbol
+
+    # One position -----------------------------------------------------------------------------
+
+    def error(self, index: int) -> tuple[float, str]:
+        """Return one sigma in a position and its mark."""
+        if self.spread is None:
+            return 0.0, ""
+        return float(self.spread.sigma[index]), DRAWN if self.spread.drawn[index] else ""
+
+    def __getitem__(self, index: int) -> ComparedNumber:
+        """Return the quantity in a position, compared."""
+        return ComparedNumber(float(self.exact[index]), float(self.read[index]), *self.error(index))
+
+    def measured(self, index: int) -> ComparedNumber:
+        """Return the quantity in a position, compared without its sigma; rounding counts as 0."""
+        exact = float(self.exact[index])
+        nothing = abs(exact) if is_noise(exact, self.peak) else 0.0
+        return ComparedNumber(exact, float(self.read[index]), zero_limit=nothing)
+
+    # Columns ----------------------------------------------------------------------------------
+
+    @property
+    def furthest(self) -> int | None:
+        """The position where Δ is the largest; None where nothing can be read."""
+        sizes = [abs(off) for off in self.off.tolist()]
+        known = (k for k, size in enumerate(sizes) if isfinite(size))
+        return max(known, key=sizes.__getitem__, default=None)
+
+    def displayed(self, values: Reals, indices: Iterable[int]) -> list[float]:
+        """Return values as a table has them: rounding noise beside the largest is 0."""
+        some = (float(values[i]) for i in indices)
+        return [0.0 if is_noise(value, self.peak) else value for value in some]
+
+    def texts(self, values: Sequence[float]) -> list[str]:
+        """Return plain numbers with common decimals; sizes where a sense is beside them."""
+        return format_column([abs(value) if self.turns else value for value in values])
+
+    def measured_texts(self, indices: Iterable[int]) -> list[str]:
+        """Return the readings as a column of plain numbers, no finer than the ruler is.
+
+        Zeros that all of them end with are left out; a plain 0 has none.
+        """
+        texts = self.texts(self.displayed(self.read, indices))
+        some = [text for text in texts if "." in text and "e" not in text]
+        if len(some) < sum(text != "0" for text in texts):
+            return texts
+        spare = min((len(text) - len(text.rstrip("0")) for text in some), default=0)
+        return [
+            text[: len(text) - spare].removesuffix(".") if text in some else text for text in texts
+        ]
+
+    def sense(self, value: float) -> int | None:
+        """Return the sense to write beside a value; None where there is none."""
+        return sense_of(value) if self.turns else None
+
+
+def measured_series(
+    symbol: Rich,
+    unit: str,
+    exact: Sequence[float] | Reals,
+    read: Sequence[float] | Reals,
+    sigma: Sequence[float] | Reals,
+) -> Series:
+    """Return a series of numbers that were read and whose drafting errors are known."""
+    import numpy as np
+
+    from planmethod.solved.errors.spread import Spread
+
+    values, found, errors = (np.asarray(column, dtype=float) for column in (exact, read, sigma))
+    spread = Spread(errors, np.zeros(len(errors), dtype=bool))
+    return Series(symbol, unit, values, lambda: found, lambda: spread)

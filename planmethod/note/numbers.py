@@ -119,6 +119,10 @@ class Notation(Struct, frozen=True, eq=False):
         """Return a plain number."""
         return rich_number(text, self.decimal)
 
+    def numbers(self, *texts: str) -> list[str]:
+        """Return plain numbers, cells of a row."""
+        return [self.number(text) for text in texts]
+
     def symbol(self, name: str) -> str:
         """Return the letters of a quantity of the plans: its own, or those of its role.
 
@@ -206,6 +210,11 @@ def format_column(values: Sequence[float], digits: int = 4) -> list[str]:
         return [significant(value, digits) for value in values]
     decimals = len(model.partition(".")[2])
     return [to_decimals(value, decimals, digits) if value else "0" for value in values]
+
+
+def decimals_of(text: str) -> int:
+    """Return the number of digits behind the decimal point."""
+    return len(text.partition(".")[2])
 
 
 def to_decimals(value: float, decimals: int, digits: int = 4) -> str:

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from planmethod.note.narrate.statement import reported_quantities, solution_peak
 from planmethod.note.plaintext import plain_text
 from planmethod.note.records.spreadsheet import csv_columns, driver_of
+from planmethod.note.tables.series import motion_series
 from planmethod.note.wording import MessageTable, get_language
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 from planmethod.plans.legend import MOTION_KINDS
@@ -74,12 +74,11 @@ def numbers_workbook(project: Project) -> bytes:
         list(range(len(project.positions))),
         list(project.places),
     ]
-    for quantity in reported_quantities(solution, *MOTION_KINDS):
-        unit, peak = units[quantity.kind.unit], solution_peak(solution, quantity.kind)
-        header.append(_headed(quantity.symbol, unit))
+    for series in motion_series(solution, *MOTION_KINDS):
+        header.append(_headed(series.symbol, units[series.unit]))
         header.append(texts.measured.format(what=header[-1]))
-        for values in (solution.exact(quantity), solution.read_off(quantity.label)):
-            columns.append(_without_noise(values, peak).tolist())
+        for values in (series.exact, series.read):
+            columns.append(_without_noise(values, series.peak).tolist())
     add_sheet(book, texts.positions, header, list(zip(*columns, strict=True)), frozen=2)
     every = csv_columns(solution)
     every[driver_of(project.problem)] = np.array(columns[1])

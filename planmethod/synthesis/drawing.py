@@ -19,6 +19,7 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import choose_scale, series_near
 from planmethod.construct.steps import LineName, NumberName, PointName, result_kind
+from planmethod.note.compared import Series, measured_series
 from planmethod.note.numbers import finite_or_none
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
@@ -117,6 +118,14 @@ class Drawn(Struct, frozen=True, dict=True):
         """Return a length of the mechanism as the ruler has it, m."""
         return float(self.ruler_reading.value[NumberName(f"l {name}")])
 
+    @property
+    def series(self) -> list[Series]:
+        """Lengths of the mechanism."""
+        return [
+            measured_series(name, "m", [exact], [self.read(name)], [self.sigma[name]])
+            for name, exact in self.synthesis.metres().items()
+        ]
+
     def coarser(self) -> Drawn:
         """Return the same at the next scale of the series."""
         return replace(self, scale=series_near(1.01 * self.mu, up=True))
@@ -172,8 +181,7 @@ def synthesis_record(
     options : mapping
         The options as they were given.
     """
-    made = drawn.synthesis
-    sigma = drawn.sigma
+    made, lengths = drawn.synthesis, drawn.series
     return {
         "schema": 1,
         "kind": made.kind,
@@ -182,7 +190,7 @@ def synthesis_record(
         "checks": dict(checks),
         "drawing": {
             "mu_l": drawn.mu,
-            "read": {name: finite_or_none(drawn.read(name)) for name in made.lengths},
-            "sigma": {name: finite_or_none(sigma[name]) for name in made.lengths},
+            "read": {one.symbol: finite_or_none(one.read[0]) for one in lengths},
+            "sigma": {one.symbol: finite_or_none(one.sigma[0]) for one in lengths},
         },
     }

@@ -311,13 +311,12 @@ def given_facts(options: Mapping[str, Any], language: Language) -> list[str]:
 
 def size_rows(drawn: Drawn, language: Language) -> list[tuple[str, str, str, str]]:
     """Return the rows of the table of sizes: symbol, exact, read, sigma, as rich text."""
-    notation, rows = language.notation, []
-    for name, value in drawn.synthesis.metres().items():
-        rows.append(
-            (size_symbol(name), notation.short(value, 6), notation.short(drawn.read(name), 4),
-             notation.short(drawn.sigma[name], 2))
-        )  # fmt: skip
-    return rows
+    short = language.notation.short
+    return [
+        (size_symbol(series.symbol), short(one.exact, 6), short(one.read, 4), short(one.sigma, 2))
+        for series in drawn.series
+        for one in [series[0]]
+    ]
 
 
 def check_rows(checks: Mapping[str, Any], language: Language) -> list[tuple[str, str]]:

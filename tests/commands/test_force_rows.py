@@ -127,9 +127,8 @@ def read(statics: Statics) -> Iterator[tuple[str, npt.NDArray[Any]]]:
     for r in statics.reactions:
         yield f"F.{r.joint}.{r.on}-{r.by}.read", drawn.read(f"F_{r.on}_{r.by}")
     quantity = "moment" if statics.solution.problem.drive.is_crank else "force"
-    assert drawn.balances is not None
-    yield f"driving.{quantity}.read", drawn.balances.plans
-    yield f"lever.{quantity}.read", drawn.balances.lever
+    yield f"driving.{quantity}.read", drawn.read("balance")
+    yield f"lever.{quantity}.read", drawn.read("lever")
 
 
 def is_force(name: str) -> bool:

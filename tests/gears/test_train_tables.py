@@ -99,7 +99,7 @@ def test_the_difference_is_the_reading_less_the_exact_value_in_per_cent_of_the_e
     name: str,
 ) -> None:
     """With a ruler of 7 mm the differences are large: neither sign nor base is in doubt."""
-    assert get_language("en").gears["sheet"].columns_results[2:] == ("Exact", "Read", "σ", "δ, %")
+    assert get_language("en").gears["sheet"].columns_results[2:] == ("Exact", "Read", "σ", "Δ, %")
     large = 0
     for _, _, exact, seen, _, off in rows_of(name, 7.0):
         if "—" in (seen, off):

@@ -135,7 +135,7 @@ def test_at_rest_there_is_no_tangent_and_without_velocity_no_plan() -> None:
 
 def test_sigma_of_a_hodograph_s_chord_is_that_of_random_drawings() -> None:
     course = drawn_interval(of('x = "5*cos(t)"\ny = "5*sin(t)"', "t = 0"))
-    read = read_hodograph(course, Scale("mu_v", 0.1, "m/s"), BOARD)
+    read = read_hodograph(course, Scale("mu_v", 0.1, "m/s"), BOARD).series
     step = course.marks.columns["t"][1] - course.marks.columns["t"][0]
     # The chord of an arc of the circle v = 5: the error of the method, exactly.
     assert read.read == pytest.approx(5 * math.sin(step) / step, abs=0.05 / step)

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import chdir
 from functools import cache
-from itertools import product
+from itertools import groupby, product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -44,7 +44,7 @@ def written(text: str, sense: int | None = None) -> Range | None:
     Zeros at the end of a whole number may be places that were rounded to.
     """
     plain = text.replace("−", "-").replace(",", ".").replace("*", "").strip()
-    plain = plain.partition(" ± ")[0]
+    plain = plain.replace("\N{NO-BREAK SPACE}", " ").partition(" ")[0]  # without error or unit
     found = re.fullmatch(r"(-?)(\d+)(\.\d+)?(?:·10\^\{(-?\d+)\})?", plain)
     if found is None:
         return None
@@ -64,11 +64,14 @@ def names(lang: str) -> tuple[set[str], set[str], set[str]]:
     compared, reactions = said["results"]["columns_compared"], said["forces"]["columns_reactions"]
     train, results = said["gears"]["columns"], words.gears["sheet"]["columns_results"]
     published, chords = words.gears["columns_published"], point["chords"]
-    exact = {sheets.exact, sheets.by_plans, sheets.cycle_plans, compared[2], reactions[3],
-             train[2], results[2], published[2], chords[2]}  # fmt: skip
-    read = {sheets.read, sheets.by_lever, sheets.cycle_lever, compared[1], reactions[2],
-            train[3], results[3], published[1], chords[3]}  # fmt: skip
-    off = {"Δ", "Δ, %", sheets.difference, results[5], published[3], chords[5]}
+    printed, own = point["printed"], words.check["compared"]["columns"]
+    audit = words.audit["columns"]
+    exact = {sheets.exact, sheets.by_plans, sheets.cycle_plans, compared[2], reactions[3], train[2],
+             results[2], published[2], chords[2], printed[3], own[2], audit[3]}  # fmt: skip
+    read = {sheets.read, sheets.by_lever, sheets.cycle_lever, compared[1], reactions[2], train[3],
+            results[3], published[1], chords[3], printed[2], own[1], audit[2]}  # fmt: skip
+    off = {"Δ", "Δ, %", sheets.difference, results[5], published[3], chords[5], printed[4],
+           own[3], own[4], audit[5], audit[6]}  # fmt: skip
     return exact, read, off
 
 
@@ -179,13 +182,44 @@ def tables_of(*words: str) -> list[TablePart | Table]:
     return found
 
 
+def judge_largest(lines: Sequence[Line], lang: str) -> list[str]:
+    """Return the largest differences whose share is not that of the largest values beside them."""
+    heads = get_language(lang).report["results"]["columns_all"]
+    (_, peak, off, percent, *_) = (text.format() for text in heads)
+    found = {line.name: [written(*cell) for cell in line.cells] for line in lines}
+    if percent not in found:
+        return []
+    wrong = []
+    for whole, part, share in zip(found[peak], found[off], found[percent], strict=True):
+        assert whole is not None and part is not None and share is not None
+        least, most = 100.0 * part.low / whole.high, 100.0 * part.high / whole.low
+        if not (least <= share.high and share.low <= most):
+            wrong.append(f"{whole} {part} {share}")
+    return wrong
+
+
+def markdown_tables(text: str) -> Iterator[list[Line]]:
+    """Yield the tables of a document in Markdown."""
+    every = text.split("\n")
+    rows = [line[2:-2].split(" | ") if line.startswith("|") else [] for line in every]
+    for is_table, block in groupby(rows, bool):
+        if is_table:
+            head, _, *body = block
+            columns = zip(*body, strict=True)
+            yield [
+                Line(name, [(cell, None) for cell in cells])
+                for name, cells in zip(head, columns, strict=True)
+            ]
+
+
 def told_of(path: Path, lang: str, told: Told, *lines: str) -> list[str]:
     """Return the faults in the tables of commands."""
     wrong = []
     for line in lines:
         command, *words = line.split()
         for table in tables_of(command, str(path), "--lang", lang, *words):
-            wrong += [f"{line}: {one}" for one in judge(lines_of(table), lang, told)]
+            found = [*judge(lines_of(table), lang, told), *judge_largest(lines_of(table), lang)]
+            wrong += [f"{line}: {one}" for one in found]
     return wrong
 
 
@@ -231,6 +265,32 @@ def test_differences_on_sheets_and_in_notes_follow_from_the_numbers(name: str, l
     told = Told()
     assert told_of(PROBLEMS / f"{name}.toml", "ru", told, line) == []
     assert told.rows > told.dashes + told.lost
+
+
+PRINTED = [
+    path for path in sorted(PROBLEMS.rglob("*.toml")) if "[published" in path.read_text("utf-8")
+]
+"""Problems with printed values, which an audit sets beside the exact ones."""
+
+
+@each("path", sampled(PRINTED, 12))
+def test_differences_of_an_audit_follow_from_the_printed_numbers(path: Path) -> None:
+    result = CliRunner().invoke(cli, ["audit", str(path), "--lang", "en"])
+    told, wrong = Told(), list[str]()
+    for lines in markdown_tables(result.output):
+        wrong += judge(lines, "en", told)
+    assert wrong == [] and told.tables
+
+
+def test_differences_of_a_student_s_numbers_follow_from_them(tmp_path: Path) -> None:
+    file = tmp_path / "my.csv"
+    file.write_text("Величина;Значение\nv_D;3,4\na_E;80\nomega_4;-2,5\n", encoding="utf-8")
+    told, wrong = Told(), list[str]()
+    for table in tables_of(
+        "solve", str(PROBLEMS / "linkages/ex3.toml"), "--compare", str(file), "--lang", "ru"
+    ):
+        wrong += judge(lines_of(table), "ru", told)
+    assert wrong == [] and told.rows - told.dashes - told.lost == 6
 
 
 EVERY = sorted(path for path in PROBLEMS.rglob("*.toml"))

@@ -299,7 +299,7 @@ def largest_share(solution: Solution, *kinds: QuantityKind) -> tuple[str, float,
     """Return the quantity that is read worst, its error in per cent and in sigmas."""
     found = []
     for of, one in compared(solution, 0, *kinds):
-        assert one.exact == pytest.approx(float(solution.exact(of)[0]))
+        assert one.exact == pytest.approx(float(solution.exact(of.label)[0]))
         assert one.read == pytest.approx(float(solution.read_off(of.label)[0]))
         off = one.read - one.exact
         found.append((abs(off / one.exact) * 100.0, of.symbol, abs(off) / (one.sigma or np.inf)))
@@ -1088,5 +1088,5 @@ def test_a_slider_at_rest_has_no_row_among_the_compared_velocities() -> None:
     """At φ = 180.00001° its velocity is 2·10⁻⁷ of the largest, which is that of the pin."""
     problem = problem_of("linkages/ex1")
     solution = Solution(replace(problem, drive=replace(problem.drive, positions=(180.00001,))))
-    found = {str(of.label): one for of, one in compared(solution, 0, QuantityKind.VELOCITY)}
+    found = {of.label: one for of, one in compared(solution, 0, QuantityKind.VELOCITY)}
     assert "v_B" in found and "v_C" not in found, [*found]

@@ -166,8 +166,7 @@ def test_the_marks_are_the_results_of_both_methods_on_paper(
     problem = problem_of(name)
     problem = replace(problem, scales=replace(problem.scales, mu_l=scheme.per_mm))
     solution = Solution(problem, positions=positions, views=views)
-    balances = drawn_forces(statics_of(solution)).balances
-    assert balances is not None
+    hand = drawn_forces(statics_of(solution))
     (view,) = (v for v in sheet.views if v.kind == "balance")
     zero = origin(sheet, view)
     rings = [i.centre for i in sheet.items if isinstance(i, Arc) and i.tag == "mark ring"]
@@ -177,7 +176,7 @@ def test_the_marks_are_the_results_of_both_methods_on_paper(
         if isinstance(i, Stroke) and i.tag == "mark cross"
     ][::2]
     turn = per_mm(sheet, view, "φ")
-    for found, values in ((rings, balances.plans), (crosses, balances.lever)):
+    for found, values in ((rings, hand.read("balance")), (crosses, hand.read("lever"))):
         assert len(found) == len(positions) + 1  # the first one is in the legend
         for place, x, value in zip(found[1:], _across(positions, turn), values, strict=True):
             assert place - zero == pytest.approx(complex(x, value / view.per_mm), abs=1e-6)

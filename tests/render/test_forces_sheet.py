@@ -19,6 +19,7 @@ from doors import (
     PLAN_BOX,
     Acting,
     Bounds,
+    ComparedNumber,
     Drawing,
     DrawingItem as Item,
     Equation,
@@ -37,9 +38,7 @@ from doors import (
     View,
     arm_items,
     arrows_distance as distance,
-    both_balances,
     cli,
-    compared_balances,
     composition,
     drawn_edges,
     equation_block,
@@ -48,6 +47,7 @@ from doors import (
     get_language,
     inspect,
     kinematics_sheets,
+    lever_beside_plans,
     place_force_arrows,
     reaction_symbol,
     significant,
@@ -106,6 +106,13 @@ def reading_of(name: str) -> ForceReading:
     reading = ForceReading(Solution(problem_of(name), views=views_of), 0)
     assert reading.plan_scale(len(reading.plans) - 1).per_mm == per_mm["μ_{F}"]
     return reading
+
+
+def compared_balances(reading: ForceReading) -> ComparedNumber:
+    """Return the result of the lever beside that of the force plans."""
+    series = lever_beside_plans(reading.statics)
+    assert series is not None
+    return series[reading.index]
 
 
 def within(items: Sequence[Item], box: Bounds) -> Iterator[Item]:
@@ -350,8 +357,9 @@ def test_the_table_has_every_reaction(name: str) -> None:
             assert RU.notation.number(size) in written
             assert RU.notation.number(f"{degrees(phase(force)) % 360.0:.1f}") in written
     assert RU.notation.number(significant(abs(float(reading.statics.balance[0])))) in written
-    for value in both_balances(reading):
-        assert value is not None and RU.notation.number(significant(abs(value))) in written
+    both = compared_balances(reading)
+    for value in (both.exact, both.read):
+        assert RU.notation.number(significant(abs(value))) in written
 
 
 # Lever --------------------------------------------------------------------------------------------
@@ -364,8 +372,8 @@ def test_the_lever_is_in_balance(name: str) -> None:
     moments = [abs(one.force) * one.arm for one in lever.forces]
     moments += [one.lever_moment for one in lever.couples]
     assert sum(moments) == pytest.approx(0.0, abs=1e-6 * max(map(abs, moments)))
-    both = compared_balances(reading.statics, 0)
-    assert both is not None and both.percent == pytest.approx(0.0, abs=1e-4)
+    both = compared_balances(reading)
+    assert both.percent == pytest.approx(0.0, abs=1e-4)
     for one in lever.couples:
         if one.segment is not None:
             start, end = one.segment
@@ -409,16 +417,16 @@ def test_the_lever_has_the_forces_that_do_work(name: str) -> None:
     symbols = [RU.notation.symbol(one.symbol) for one in lever.couples]
     assert sorted(couples(sheet, view)) == sorted(symbols)
     assert lever.couples[-1].symbol == MOMENT.symbol
-    both = compared_balances(reading.statics, 0)
-    assert both is not None and 0.0 < both.percent_size < 5.0
+    both = compared_balances(reading)
+    assert 0.0 < both.percent_size < 5.0
 
 
 def test_a_driving_slider_is_balanced_by_a_force() -> None:
     problem = loaded_template("driving-slider", "B", "3", "O")
     reading = ForceReading(Solution(problem), 0)
     assert [edge.symbol for edge in reading.plans[-1].polygon][-2:] == [FORCE.symbol, "F_{10}"]
-    plans, lever = both_balances(reading)
-    assert lever is not None and plans * lever > 0
+    both = compared_balances(reading)
+    assert both.exact * both.read > 0
     apart, expected = lever_lines(reading)[-2:]
     assert apart.startswith("Расхождение")
     assert expected.startswith("Ожидаемое СКО расхождения σ = ")

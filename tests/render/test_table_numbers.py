@@ -27,6 +27,7 @@ from doors import (
     drawn_forces,
     flywheel_of,
     get_language,
+    lever_beside_plans,
     maker_of,
     run_up_of,
     size_label,
@@ -183,16 +184,16 @@ def test_the_balance_has_the_arrow_of_its_sense_and_differs_by_lever_less_plans(
     balance, plans, lever, apart, share, sigma = columns_of(
         "cycle-reactions", "press/press", PRESS
     )[-6:]
-    both = drawn_forces(statics).balances
+    both = lever_beside_plans(statics)
     assert both is not None
     assert [one.head for one in (balance, plans, lever)] == ["M_{b}", "force plans", "lever"]
-    for column, values in ((balance, statics.balance), (plans, both.plans), (lever, both.lever)):
+    for column, values in ((balance, statics.balance), (plans, both.exact), (lever, both.read)):
         column.assert_are(values)
         assert column.arrows == [1 if value > 0.0 else -1 for value in values.tolist()]
     assert {*balance.arrows} == {1, -1}
-    off = np.abs(both.lever) - np.abs(both.plans)
+    off = np.abs(both.read) - np.abs(both.exact)
     apart.assert_are(off, share=0.15)  # the difference of the numbers beside it
-    share.assert_are(100.0 * off / np.abs(both.plans), share=0.15)
+    share.assert_are(100.0 * off / np.abs(both.exact), share=0.15)
     np.testing.assert_array_equal(np.sign(apart.values), np.sign(off))
     expected = drawn_forces(statics).discrepancy_sigma
     assert expected is not None
@@ -215,13 +216,13 @@ def test_the_reactions_of_a_position_are_exact_read_and_turned_as_the_statics_ha
     if "M_{ij}, N·m" in heads:
         moments = [float(joint.moment[0]) for joint in statics.reactions]
         heads["M_{ij}, N·m"].assert_are(moments)
-    both = drawn_forces(statics).balances
+    both = lever_beside_plans(statics)
     assert both is not None
     exact, plans, lever, share = columns[-4:]
-    for column, value in ((exact, statics.balance), (plans, both.plans), (lever, both.lever)):
+    for column, value in ((exact, statics.balance), (plans, both.exact), (lever, both.read)):
         assert column.values[0] == pytest.approx(float(value[0]), abs=column.room[0]), column.head
         assert column.arrows[0] == (1 if float(value[0]) > 0.0 else -1)
-    off = abs(float(both.lever[0])) / abs(float(both.plans[0])) - 1.0
+    off = abs(float(both.read[0])) / abs(float(both.exact[0])) - 1.0
     assert share.values[0] == pytest.approx(100.0 * off, abs=share.room[0])
 
 

@@ -53,10 +53,9 @@ def test_the_size_expected_is_no_flat_share(name: str) -> None:
 def test_the_ruler_stays_within_the_expected_error_of_the_drawing(name: str) -> None:
     """The error of the ruler alone is less than that of the whole drawing."""
     statics = statics_with(name)
-    sigma, hand = drawn_forces(statics).discrepancy_sigma, drawn_forces(statics).balances
+    hand = drawn_forces(statics)
+    sigma, plans, lever = hand.discrepancy_sigma, hand.read("balance"), hand.read("lever")
     assert sigma is not None
-    assert hand is not None
-    plans, lever = hand.plans, hand.lever
     assert (np.abs(lever - plans) > 0).any()
     assert (np.abs(lever - plans) < 3.0 * sigma).all()
 

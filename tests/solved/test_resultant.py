@@ -159,8 +159,7 @@ def test_the_hand_lays_off_its_computed_lengths_and_reads_other_numbers(name: st
     per_mm = solution.scales[PlanKind.POSITION].per_mm
     assert laid * per_mm == pytest.approx(metres, rel=1e-12)
     one, other = drawn_forces(couples), drawn_forces(shifted)
-    assert one.balances is not None and other.balances is not None
-    apart = np.abs(one.balances.lever - other.balances.lever)
+    apart = np.abs(one.read("lever") - other.read("lever"))
     assert np.any(apart > 0)
     spread = np.abs(couples.balance) * 0.2 + 3.0 * np.asarray(other.discrepancy_sigma)
     assert np.all(apart <= spread)
@@ -233,9 +232,7 @@ def test_an_acceleration_that_the_ruler_does_not_see_is_no_divisor() -> None:
     assert list(fine.board.shifts) == ["2"]
     coarse = single(ROD.format("S2") + scales.format("100"), CRANK)
     assert reasons(coarse) == {"2": Hindrance.FAINT}
-    balances = drawn_forces(coarse).balances
-    assert balances is not None
-    assert np.all(np.isfinite(balances.plans))
+    assert np.all(np.isfinite(drawn_forces(coarse).read("balance")))
 
 
 def test_one_position_takes_the_shift_from_all() -> None:

@@ -12,7 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.languages import LANGUAGES
-from planmethod.note.compared import ComparedNumber
+from planmethod.note.compared import DASH, ComparedNumber
 from planmethod.note.numbers import significant
 from planmethod.note.plaintext import fixed, input_text, localized
 from planmethod.note.wording import get_language, wording
@@ -77,21 +77,24 @@ class Audited(Struct, frozen=True):
     reason: NoValue | None = None
 
     @property
-    def difference(self) -> float | None:
-        """Printed less exact, in the unit of the value."""
+    def compared(self) -> ComparedNumber | None:
+        """The printed value beside the exact one; None where there is none."""
         if self.exact is None:
             return None
-        difference = self.published.value - self.exact
+        printed = self.published.value
         # Binary noise of a value that is right to the last digit is not a difference.
-        return 0.0 if abs(difference) <= 1e-12 * abs(self.exact) else difference
+        is_noise = abs(printed - self.exact) <= 1e-12 * abs(self.exact)
+        return ComparedNumber(self.exact, self.exact if is_noise else printed)
+
+    @property
+    def difference(self) -> float | None:
+        """Printed less exact, in the unit of the value."""
+        return None if self.compared is None else self.compared.off
 
     @property
     def percent(self) -> float | None:
         """Difference in percent of the exact value; None beside an exact zero."""
-        exact, difference = self.exact, self.difference
-        if exact is None or difference is None:
-            return None
-        return ComparedNumber(exact, self.published.value if difference else exact).percent
+        return None if self.compared is None else self.compared.percent
 
     @property
     def mm(self) -> float | None:
@@ -271,7 +274,6 @@ def count(items: Iterable[Audited]) -> dict[AuditVerdict, int]:
     return found
 
 
-DASH = "—"
 DIGITS = 5
 """Significant digits of an exact and of a read value."""
 
@@ -338,7 +340,7 @@ class AuditDocument:
 
         rows, before = [], 0.0
         for step, value in chain(problem):
-            change = 100.0 * (value / before - 1.0) if before else None
+            change = ComparedNumber(before, value).percent
             told = self.says["chain_steps"][step]
             rows.append([self._number(value, 6), self._hundredths(change), *told])
             before = value

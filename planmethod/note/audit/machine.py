@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from msgspec.structs import replace
 
+from planmethod.note.compared_machine import compared_flywheel, compared_segment
 from planmethod.note.numbers import is_negligible
 from planmethod.problem.machine_records import FlywheelMethod, Quadrature, WeightSigns
 from planmethod.problem.model import Problem
@@ -30,13 +31,13 @@ def machine_value(solution: Solution, selector: Selector) -> tuple[float, float 
     drawing, kind = drawing_of(flywheel, solution.profile), selector.kind.partition(" ")[2]
     if selector.names:
         return _in_position(flywheel, kind, selector.names), None
-    segment = drawing.construction.segment
-    if kind == segment:
-        readings = drawing.exact, drawing.ruler_reading
-        exact, read = (float(reading.number(segment)[0]) for reading in readings)
-        return exact, read
-    if kind == "J_f":
-        return flywheel.exact.inertia, drawing.read_inertia
+    for name, compare in (
+        (drawing.construction.segment, compared_segment),
+        ("J_f", compared_flywheel),
+    ):
+        if kind == name:
+            both = compare(drawing)
+            return both.exact, both.read
     values = {
         "constant": flywheel.constant,
         "omega": flywheel.middle_speed,

@@ -6,6 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from planmethod.note.compared_machine import compared_moment
 from planmethod.note.numbers import format_column
 from planmethod.note.wording import Language
 from planmethod.solved.machine.balancing import Balancing, balancing_of
@@ -57,18 +58,19 @@ class BalancingNarrator:
             if not one_weight.mass:
                 lines.append(texts.no_weight.format(link=one_weight.link))
                 continue
-            polygon = made.polygon(number, self.profile)
-            read = float(polygon[3].number(polygon[0].moment)[0])
+            both = compared_moment(made, number, self.profile)
             text = texts.weight.format(
                 link=one_weight.link,
                 terms=" + ".join(name.replace(" ", "\u00a0") for name, _ in one_weight.terms),
-                moment=self._amount(abs(one_weight.moment), "kg·m"),
+                moment=self._amount(both.exact, "kg·m"),
                 radius=f"{self.notation.as_input(one_weight.radius)} {self.unit('m')}",
                 mass=self._amount(one_weight.mass, "kg"),
                 angle=self.notation.number(f"{one_weight.angle_deg:.1f}"),
                 line=one_weight.pivot + one_weight.pin,
             )
-            lines.append(f"{text} ({texts.measured.format(moment=self._amount(read, 'kg·m'))})")
+            lines.append(
+                f"{text} ({texts.measured.format(moment=self._amount(both.read, 'kg·m'))})"
+            )
         return [*lines, *self._result_lines()]
 
     def _result_lines(self) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from planmethod.note.compared_machine import compared_extremes, compared_stroke
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.statement import point_name
 from planmethod.note.numbers import half_up, significant, with_unit
@@ -208,11 +209,11 @@ def extreme_steps(
     angles = [
         texts["constructed"]["phi"].format(
             name=f"φ{p}",
-            read=degrees((phi + construction.off(k)) % turn.period, language),
-            exact=degrees(round(phi % turn.period, 2) % turn.period, language),
-            sigma=degrees(construction.sigma[k], language),
+            read=degrees(both.read % turn.period, language),
+            exact=degrees(round(both.exact % turn.period, 2) % turn.period, language),
+            sigma=degrees(both.sigma, language),
         )
-        for k, (p, phi) in enumerate(zip(PRIMES, construction.phi, strict=True))
+        for p, both in zip(PRIMES, compared_extremes(construction), strict=True)
     ]
     unit = "m" if construction.locus is Locus.GUIDE else "deg"
 
@@ -221,12 +222,13 @@ def extreme_steps(
             return degrees(value, language)
         return with_unit(notation.number(significant(value, digits)), notation.units["m"])
 
+    stroke = compared_stroke(construction)
     told = texts["constructed"][unit].format(
         angles="; ".join(angles),
         link=construction.link,
-        read=size(construction.stroke(construction.read), 4),
-        exact=size(construction.stroke(construction.exact), 4),
-        sigma=size(construction.sigma[2], 2),
+        read=size(stroke.read, 4),
+        exact=size(stroke.exact, 4),
+        sigma=size(stroke.sigma, 2),
     )
     return [texts["construction"][construction.locus.value].format(**facts), told]
 

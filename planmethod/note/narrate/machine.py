@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import degrees, isinf, pi
 from typing import TypeAlias
 
@@ -10,6 +11,8 @@ from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale
 from planmethod.note import formula
+from planmethod.note.compared import ComparedNumber
+from planmethod.note.compared_machine import compared_flywheel, compared_segment
 from planmethod.note.document import GivenFact
 from planmethod.note.narrate.forces.statement import load_facts, mass_lines
 from planmethod.note.narrate.scales import scale_inscription
@@ -153,7 +156,7 @@ class MachineNarrator:
             "psi_min": self._angle(drawing.psi[1]),
             "top": top,
             "bottom": bottom,
-            "segment": f"{self.notation.measured(self.segment)} {mm}",
+            "segment": f"{self.notation.measured(self.segment.read)} {mm}",
             "T_II": self.letter("second energy"),
             "T_I": self.letter("first energy"),
         }
@@ -170,10 +173,10 @@ class MachineNarrator:
         step, tangents = self.flywheel.cycle / drawing.count, drawing.points.tangents
         return numbers[round(tangents.at_max / step)], numbers[round(tangents.at_min / step)]
 
-    @property
-    def segment(self) -> float:
-        """KL or AB as it is measured, mm."""
-        return float(self.drawing.ruler_reading.number(self.drawing.construction.segment)[0])
+    @cached_property
+    def segment(self) -> ComparedNumber:
+        """KL or AB, mm."""
+        return compared_segment(self.drawing)
 
     def _angle(self, value: float) -> str:
         return self.notation.number(f"{value:.2f}")
@@ -241,8 +244,8 @@ class MachineNarrator:
         """Return scales, angles or energies and the flywheel by the construction, with numbers."""
         drawing, notation, made = self.drawing, self.notation, self.drawing.construction
         lines = [*self.scale_formulas(), *self.sought_formulas()]
-        exact = float(drawing.exact.number(made.segment)[0])
-        text = f"{made.segment} = {notation.measured(self.segment)} {self.unit('mm')}"
+        exact = self.segment.exact
+        text = f"{made.segment} = {notation.measured(self.segment.read)} {self.unit('mm')}"
         lines.append(self.texts.read.format(text=text, exact=notation.number(f"{exact:.2f}")))
         if drawing.by_mertsalov:
             lines.append(self.largest_change())
@@ -251,25 +254,30 @@ class MachineNarrator:
                 symbol=self.letter("flywheel"),
                 segment=made.segment,
                 omega=self.letter("mean speed"),
-                value=notation.computed(drawing.read_inertia),
-                sigma=notation.short(drawing.sigma, 2),
+                value=notation.number(self.inertia.read_text),
+                sigma=notation.short(self.inertia.sigma, 2),
                 unit=self.unit("kg·m²"),
             )
         )
         return lines
 
+    @cached_property
+    def inertia(self) -> ComparedNumber:
+        """Flywheel by the construction beside the exact one, kg·m²."""
+        return compared_flywheel(self.drawing)
+
     def largest_change(self) -> str:
         """Return the largest change of the flywheel's energy, of AB as it is measured."""
-        value = self.notation.computed(self.drawing.scales.work * self.segment)
+        value = self.notation.computed(self.drawing.scales.work * self.segment.read)
         symbol = self.letter("largest first energy")
         return f"{symbol} = μ_{{T}}·{self.drawing.construction.segment} = {value} {self.unit('J')}"
 
     def conclusions(self) -> list[str]:
         """Return the exact flywheel, what the construction is off by, and the check."""
         flywheel, notation, texts = self.flywheel, self.notation, self.texts
-        exact, unit = flywheel.exact.inertia, self.unit("kg·m²")
+        one, unit = self.inertia, self.unit("kg·m²")
         delta = notation.number(f"{flywheel.delta_reached:.6f}")
-        if exact <= 0.0:
+        if one.exact <= 0.0:
             return [texts.not_needed.format(delta=delta)]
         letters = {
             "symbol": self.letter("flywheel"),
@@ -277,11 +285,12 @@ class MachineNarrator:
             "T_II": self.letter("second energy"),
             "T_I": self.letter("first energy"),
         }
-        lines = [self.by_method("exact", value=notation.computed(exact), unit=unit, **letters)]
+        exact = notation.number(one.exact_text)
+        lines = [self.by_method("exact", value=exact, unit=unit, **letters)]
         parts = split(self.drawing)
 
         def percent(value: float) -> str:
-            return notation.number(f"{100.0 * value / exact:+.2f}")
+            return notation.number(one.part_text(value, 2))
 
         if self.drawing.by_mertsalov:
             told = [texts.method.format(value=percent(parts.method), **letters)]
@@ -291,8 +300,7 @@ class MachineNarrator:
             texts.positions.format(count=self.drawing.count, value=percent(parts.positions))
         )
         told.append(texts.pencil.format(value=percent(parts.pencil)))
-        whole = self.drawing.read_inertia - exact
-        lines.append(texts.parts.format(whole=percent(whole), parts="; ".join(told)))
+        lines.append(texts.parts.format(whole=percent(one.off), parts="; ".join(told)))
         high, low = flywheel.integrated
         per_second = self.unit("1/s")
         lines.append(

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.note.compared_machine import compared_moment
 from planmethod.note.narrate.balancing import COUNT
 from planmethod.note.numbers import record_float
 from planmethod.solved.machine.balancing import SAMPLES, balancing_of
@@ -23,15 +24,15 @@ def balancing_record(solution: Solution) -> dict[str, Any]:
     off_line = abs(made.share.imag) > 1e-9 * max(abs(made.share), 1.0)
     weights = []
     for number, one in enumerate(made.counterweights):
-        polygon = made.polygon(number, solution.profile)
+        both = compared_moment(made, number, solution.profile)
         weights.append(
             {
                 "link": one.link,
                 "about": one.pivot,
                 "line": one.pivot + one.pin,
                 "terms": {name: _vector(value) for name, value in one.terms},
-                "mr": record_float(abs(one.moment)),
-                "mr_read": record_float(polygon[3].number(polygon[0].moment)[0]),
+                "mr": record_float(both.exact),
+                "mr_read": record_float(both.read),
                 "r": record_float(one.radius),
                 "m": record_float(one.mass),
                 "angle_deg": record_float(one.angle_deg),

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from planmethod.construct.drafting import Profile
+from planmethod.note.compared_machine import compared_flywheel
 from planmethod.note.numbers import record_float
 from planmethod.problem.machine_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
@@ -145,7 +146,7 @@ def _segment(drawing: FlywheelDrawing) -> dict[str, float]:
 def _inertias(flywheel: Flywheel, drawing: FlywheelDrawing) -> dict[str, Any]:
     """Return the flywheel by every way, kg·m²; null where none is needed."""
     machine, middle = flywheel.machine, flywheel.middle_speed
-    delta, exact = machine.delta, flywheel.exact.inertia
+    delta, both = machine.delta, compared_flywheel(drawing)
     slopes = {
         "wittenbauer": (1.0 + delta, 1.0 - delta),
         "mertsalov": (1.0, 1.0),
@@ -162,9 +163,9 @@ def _inertias(flywheel: Flywheel, drawing: FlywheelDrawing) -> dict[str, Any]:
         for name, way in (("middle", Quadrature.MIDDLE), ("trapezoid", Quadrature.TRAPEZOID))
     }
     parts = split(drawing)
-    reason = "" if exact > 0.0 else "the machine is even enough without a flywheel"
+    reason = "" if both.exact > 0.0 else "the machine is even enough without a flywheel"
     return {
-        "exact": positive_or_none(exact),
+        "exact": positive_or_none(both.exact),
         **({"reason": reason} if reason else {}),
         **{
             name: positive_or_none(flywheel.tangents(*pair, middle).inertia)
@@ -174,8 +175,8 @@ def _inertias(flywheel: Flywheel, drawing: FlywheelDrawing) -> dict[str, Any]:
         "n": machine.count,
         "method": machine.method.value,
         "ordinates": machine.ordinates.value,
-        "read": positive_or_none(drawing.read_inertia),
-        "sigma": record_float(parts.sigma),
+        "read": positive_or_none(both.read),
+        "sigma": record_float(both.sigma),
         "by_points": points,
         "split": {
             "slopes": record_float(parts.slopes),

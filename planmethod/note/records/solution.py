@@ -14,7 +14,10 @@ from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.note.columnar import Column, ColumnarRecords, list_of, record_of, to_builtins
 from planmethod.note.columns import bounds, named, numbers_or_none, pairs, sizes
+from planmethod.note.compared import Series
+from planmethod.note.compared_machine import compared_extremes
 from planmethod.note.numbers import record_float
+from planmethod.note.tables.series import quantity_series, segment_series, transfer_series
 from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.legs import Relative
@@ -126,12 +129,11 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
 def _constructed(solution: Solution, extreme: Extreme) -> dict[str, float]:
     """Return an extreme position as the ruler reads it, and its sigma, where it is constructed."""
     made, whole = extreme_construction(solution), crank_cycle_of(solution).period
-    for k, phi in enumerate(made.phi if made is not None else ()):
-        assert made is not None
-        if abs((extreme.phi - phi + whole / 2) % whole - whole / 2) < 1e-9:
+    for both in compared_extremes(made) if made is not None else ():
+        if abs((extreme.phi - both.exact + whole / 2) % whole - whole / 2) < 1e-9:
             return {
-                "read_deg": record_float(extreme.phi + made.off(k)),
-                "sigma_deg": record_float(made.sigma[k]),
+                "read_deg": record_float(extreme.phi + both.off),
+                "sigma_deg": record_float(both.sigma),
             }
     return {}
 
@@ -218,20 +220,14 @@ def _vector(prefix: str, values: Complexes) -> dict[str, Column]:
 
 def _segments(solution: Solution, kind: PlanKind) -> ColumnarRecords:
     """Return the records of the segments of a plan."""
-    spreads = drafting_of(solution).spreads
-    return record_of(
-        {
-            segment.name: record_of(
-                {
-                    "exact": numbers_or_none(segment.exact),
-                    "read": numbers_or_none(segment.read),
-                    "sigma": numbers_or_none(spreads[f"{kind.value}.{segment.name}"].sigma),
-                }
-            )
-            for segment in solution.segments(kind)
-        },
-        len(solution.positions),
-    )
+    told = {one.symbol: _compared(one) for one in segment_series(solution, kind)}
+    return record_of(told, len(solution.positions))
+
+
+def _compared(series: Series) -> ColumnarRecords:
+    """Return the record of a quantity: ``exact``, ``read``, ``sigma``."""
+    columns = {"exact": series.exact, "read": series.read, "sigma": series.sigma}
+    return record_of({key: numbers_or_none(values) for key, values in columns.items()})
 
 
 def _drafting_records(solution: Solution) -> ColumnarRecords:
@@ -242,12 +238,12 @@ def _drafting_records(solution: Solution) -> ColumnarRecords:
         """Return quantities and their sigmas."""
         columns: dict[str, Column] = {}
         for quantity in quantities:
+            series = quantity_series(solution, quantity)
             name = LONG.get(quantity.kind, quantity.kind.letter)
-            spread = spreads.get(quantity.label)
-            columns[name] = numbers_or_none(solution.read_off(quantity.label))
-            columns[f"sigma_{name}"] = (
-                [0.0] * count if spread is None else numbers_or_none(spread.sigma)
-            )
+            columns |= {
+                name: numbers_or_none(series.read),
+                f"sigma_{name}": numbers_or_none(series.sigma),
+            }
         return columns
 
     def place(name: str) -> dict[str, Column]:
@@ -293,17 +289,7 @@ def _transfers(solution: Solution) -> dict[str, Column | ColumnarRecords]:
     transfers = transfers_of(solution)
     if transfers is None:
         return {}
-    spreads = drafting_of(solution).spreads
-    told = {
-        one.label: record_of(
-            {
-                "exact": numbers_or_none(transfers.exact(one)),
-                "read": numbers_or_none(transfers.read_off(one)),
-                "sigma": numbers_or_none(spreads[one.label].sigma),
-            }
-        )
-        for one in transfers.quantities
-    }
+    told = {one.label: _compared(one) for one in transfer_series(transfers)}
     return {"transfers": record_of(told)}
 
 

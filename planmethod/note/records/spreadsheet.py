@@ -118,29 +118,32 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     ProblemError
         A load is known only in the positions of the file, and others are requested.
     """
-    from planmethod.solved.errors.forces import drawn_forces, size_label  # few files have any
+    from planmethod.note.force_series import (  # few files have any
+        balance_series,
+        lever_series,
+        size_series,
+    )
     from planmethod.solved.forces.quantities import force_row, moment_row
     from planmethod.solved.forces.statics import statics_of
 
     statics = statics_of(solution)
-    drawn = drawn_forces(statics)
     for planned, joint in zip(statics.board.reactions, statics.reactions, strict=True):
         name = force_row(planned)
         yield f"{name}.x", joint.force.real
         yield f"{name}.y", joint.force.imag
         yield name, np.abs(joint.force)
-        yield f"{name}.read", drawn.read(size_label(planned))
+        yield f"{name}.read", size_series(statics, joint).read
         if planned.couple is not None:
             yield moment_row(planned), joint.moment
-    quantity = solution.problem.drive.balancing.quantity
-    yield f"driving.{quantity}", statics.balance
+    quantity, balance = solution.problem.drive.balancing.quantity, balance_series(statics)
+    yield f"driving.{quantity}", balance.exact
     if solution.problem.drive.pushed is not None and statics.moment is not None:
         yield "driving.moment", statics.moment
-    yield f"driving.{quantity}.read", drawn.balance
-    if statics.lever is not None:
-        assert drawn.balances is not None
-        yield f"lever.{quantity}", statics.lever
-        yield f"lever.{quantity}.read", drawn.balances.lever
+    yield f"driving.{quantity}.read", balance.read
+    lever = lever_series(statics)
+    if lever is not None:
+        yield f"lever.{quantity}", lever.exact
+        yield f"lever.{quantity}.read", lever.read
     assert solution.problem.dynamics is not None
     if solution.problem.dynamics.friction is not None:
         from planmethod.note.tables.friction import friction_columns

@@ -7,15 +7,15 @@ from typing import assert_never
 
 from planmethod.construct import steps
 from planmethod.construct.steps import PointName, Step
-from planmethod.note.compared import marked
+from planmethod.note.compared import ComparedNumber, Series
 from planmethod.note.document import Caption, Item, Node, Paragraph
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.statement import reported_quantities
 from planmethod.note.narrate.transfers import even_letter
 from planmethod.note.plaintext import fixed, localized
-from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.plans.legend import MOTION_KINDS, Quantity
+from planmethod.note.rounding import rounded_to
+from planmethod.note.tables.series import motion_series
+from planmethod.plans.legend import MOTION_KINDS
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.plans.motion.position import link_of_axis
 from planmethod.solved.errors.motion import drafting_of
@@ -48,34 +48,35 @@ class ErrorCauses:
         worst = self._worst(index)
         if worst is None:
             return
-        quantity, value, sigma = worst
-        texts = self.texts
+        series, one = worst
+        texts, part = self.texts, one.expected
+        assert part is not None
         yield Caption(texts.table_causes)
         yield Paragraph(
             texts.worst_result.format(
-                symbol=quantity.symbol,
-                value=localized(rounded_to(value, sigma), texts),
-                sigma=localized(sigma_text(sigma), texts),
-                unit=texts["units"][quantity.kind.unit],
-                part=fixed(100 * sigma / abs(value), texts, 0 if sigma > 0.02 * abs(value) else 1),
+                symbol=series.symbol,
+                value=localized(rounded_to(one.exact, one.sigma), texts),
+                sigma=localized(one.sigma_text, texts),
+                unit=texts["units"][series.unit],
+                part=fixed(part, texts, 0 if part > 2.0 else 1),
             )
         )
-        causes = drafting_of(self.solution).causes(quantity.label, index)
+        causes = drafting_of(self.solution).causes(series.label, index)
         for stroke, share in causes[:MAX_CAUSES]:
             yield Item(self.describe(stroke), label=f"{100 * share:.0f} %")
 
-    def _worst(self, index: int) -> tuple[Quantity, float, float] | None:
-        """Return the result with the largest error for its size, its value and sigma.
+    def _worst(self, index: int) -> tuple[Series, ComparedNumber] | None:
+        """Return the result with the largest error for its size.
 
         A value lost in its error, or found by random draws, has no causes of first order.
         """
-        known = []
-        for quantity in reported_quantities(self.solution, *MOTION_KINDS):
-            value = float(self.solution.exact(quantity)[index])
-            sigma, mark = marked(drafting_of(self.solution), quantity.label, index)
-            if not mark and 0.0 < SHORT * sigma <= abs(value):
-                known.append((quantity, value, sigma))
-        return max(known, key=lambda each: each[2] / abs(each[1]), default=None)
+        every = ((one, one[index]) for one in motion_series(self.solution, *MOTION_KINDS))
+        known = [
+            (series, one)
+            for series, one in every
+            if not one.mark and 0.0 < SHORT * one.sigma <= abs(one.exact)
+        ]
+        return max(known, key=lambda pair: pair[1].expected or 0.0, default=None)
 
     def describe(self, stroke: str) -> Rich:
         """Return a stroke in words: "проведение прямой из точки b ⊥ BC (план скоростей)"."""

@@ -11,36 +11,30 @@ from planmethod.note.columnar import Column, ColumnarRecords, list_of, record_of
 from planmethod.note.columns import bounds, named, numbers_or_none, pairs, sizes
 from planmethod.note.compared import DASH
 from planmethod.note.document import Caption, Node, Note
+from planmethod.note.force_series import (
+    angle_series,
+    balance_series,
+    lever_beside_plans,
+    lever_series,
+    moment_series,
+    size_series,
+    vanishing,
+)
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.forces.bearings import bearing_text, redundant
-from planmethod.note.narrate.forces.lever import compared_balances
 from planmethod.note.narrate.forces.resultants import shift_lines, unshifted_lines
 from planmethod.note.narrate.statement import point_name
 from planmethod.note.numbers import record_float
-from planmethod.note.plaintext import NO_BREAK, computed_text, fixed, input_text
+from planmethod.note.plaintext import NO_BREAK, computed_text, fixed, input_text, localized
 from planmethod.note.tables.sigmas import ErrorColumns
-from planmethod.note.wording import MessageTable
+from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.problem.model import Problem
-from planmethod.solved.errors.forces import (
-    BALANCE,
-    LEVER,
-    DrawnForces,
-    angle_label,
-    drawn_forces,
-    moment_label,
-    size_label,
-)
+from planmethod.solved.errors.forces import angle_label, drawn_forces
 from planmethod.solved.forces.contact import VANISHING, JointForce, SlideReaction
 from planmethod.solved.forces.statics import Statics, bearings_of, statics_of
-from planmethod.solved.reading import Flags, Reals
+from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
-
-
-def _angle(force: complex, largest: float) -> float | None:
-    if abs(force) <= VANISHING * largest:
-        return None
-    return record_float(np.degrees(np.angle(force)) % 360.0)
 
 
 def _acts(contact: SlideReaction | None) -> dict[str, Column]:
@@ -92,52 +86,49 @@ def _in_bearings(statics: Statics, joint: JointForce) -> dict[str, ColumnarRecor
     return {"bearings": list_of(parts, count)}
 
 
-def _drawn(drawn: DrawnForces, joint: JointForce, vanishing: Flags) -> dict[str, Column]:
+def _drawn(statics: Statics, joint: JointForce) -> dict[str, Column]:
     """Return the readings of a reaction, and the drafting errors of its reported values.
 
-    Where it is ``vanishing``, being negligible, it has no direction.
+    Where it is negligible, it has no direction.
     """
-    size, moment = size_label(joint), moment_label(joint)
-    prismatic, none = moment in drawn.items, [0.0] * len(vanishing)
-    turned = np.full(len(vanishing), np.nan)
-    if not vanishing.all():
-        turned[~vanishing] = drawn.spreads[angle_label(joint)].sigma[~vanishing]
+    size, angle, moment = (
+        make(statics, joint) for make in (size_series, angle_series, moment_series)
+    )
+    assert size is not None and angle is not None
+    known, none = np.isfinite(angle.exact), [0.0] * len(angle.exact)
+    turned = np.full(len(known), np.nan)
+    if known.any():
+        turned[known] = np.asarray(angle.sigma)[known]
     return {
-        "read": numbers_or_none(drawn.read(size)),
-        "sigma": numbers_or_none(drawn.spreads[size].sigma),
+        "read": numbers_or_none(size.read),
+        "sigma": numbers_or_none(size.sigma),
         "sigma_angle_deg": numbers_or_none(turned),
-        "read_moment": numbers_or_none(drawn.read(moment)) if prismatic else none,
-        "sigma_moment": numbers_or_none(drawn.spreads[moment].sigma) if prismatic else none,
+        "read_moment": none if moment is None else numbers_or_none(moment.read),
+        "sigma_moment": none if moment is None else numbers_or_none(moment.sigma),
     }
 
 
 def _reaction_records(statics: Statics, number: int) -> ColumnarRecords:
     """Return a reaction in every position; the data of its guide come last."""
-    joint, drawn = statics.reactions[number], drawn_forces(statics)
-    still = _vanishing(statics, joint)
-    angle = np.where(still, np.nan, np.degrees(np.angle(joint.force)) % 360.0)
+    joint = statics.reactions[number]
+    angle = angle_series(statics, joint).exact
     names = {"joint": joint.joint, "on": joint.on, "from": joint.by}
     contact = statics.contacts.get(number)
     return record_of(
         {
-            **{key: [name] * len(still) for key, name in names.items()},
+            **{key: [name] * len(angle) for key, name in names.items()},
             "fx": numbers_or_none(joint.force.real),
             "fy": numbers_or_none(joint.force.imag),
             "f": sizes(joint.force),
             "angle_deg": numbers_or_none(angle),
             "at": pairs(joint.at),
             "moment": numbers_or_none(joint.moment),
-            **_drawn(drawn, joint, still),
+            **_drawn(statics, joint),
             **_acts(contact),
             **_in_bearings(statics, joint),
         },
         some=_at_edges(contact),
     )
-
-
-def _vanishing(statics: Statics, joint: JointForce) -> Flags:
-    """Return where a reaction is negligible beside the largest force, and has no direction."""
-    return np.asarray(np.abs(joint.force) <= VANISHING * statics.largest_forces)
 
 
 def forces_records(solution: Solution) -> ColumnarRecords:
@@ -151,11 +142,11 @@ def forces_records(solution: Solution) -> ColumnarRecords:
     ruler gives.
     """
     statics = statics_of(solution)
-    drawn, balance = drawn_forces(statics), statics.balance
+    drawn, balance = drawn_forces(statics), balance_series(statics)
     quantity, count = solution.problem.drive.balancing.quantity, len(solution.positions)
     pushed = solution.problem.drive.pushed
     reactions = [_reaction_records(statics, k) for k in range(len(statics.reactions))]
-    still = {angle_label(joint): _vanishing(statics, joint) for joint in statics.reactions}
+    still = {angle_label(joint): vanishing(statics, joint) for joint in statics.reactions}
     random = {
         label: drawn.spreads[label].drawn & ~nothing
         for label in drawn.items
@@ -166,7 +157,7 @@ def forces_records(solution: Solution) -> ColumnarRecords:
         "reactions": list_of(reactions, count),
         "driving": record_of(
             {
-                quantity: numbers_or_none(balance),
+                quantity: numbers_or_none(balance.exact),
                 **(
                     {"moment": numbers_or_none(statics.moment)}
                     if pushed and statics.moment is not None
@@ -177,8 +168,8 @@ def forces_records(solution: Solution) -> ColumnarRecords:
                     if (ends := solution.problem.drive.actuator) is not None
                     else {}
                 ),
-                "read": numbers_or_none(drawn.read(BALANCE)),
-                "sigma": numbers_or_none(drawn.spreads[BALANCE].sigma),
+                "read": numbers_or_none(balance.read),
+                "sigma": numbers_or_none(balance.sigma),
             }
         ),
         "mu": numbers_or_none(np.broadcast_to(statics.mu, count)),
@@ -201,20 +192,19 @@ def forces_records(solution: Solution) -> ColumnarRecords:
         from planmethod.note.tables.friction import friction_records  # few files have any
 
         columns["friction"] = friction_records(solution)
-    if statics.lever is not None:
-        assert drawn.discrepancy_sigma is not None and drawn.balances is not None
-        plans, hung = drawn.balances.plans, drawn.balances.lever
+    lever, both = lever_series(statics), lever_beside_plans(statics)
+    if lever is not None and both is not None:
         columns["lever"] = record_of(
             {
-                quantity: numbers_or_none(statics.lever),
-                "difference": numbers_or_none(statics.lever - balance),
-                "sigma": numbers_or_none(drawn.discrepancy_sigma),
+                quantity: numbers_or_none(lever.exact),
+                "difference": numbers_or_none(lever.exact - balance.exact),
+                "sigma": numbers_or_none(both.sigma),
                 "hand": record_of(
                     {
-                        "plans": numbers_or_none(plans),
-                        "lever": numbers_or_none(hung),
-                        "sigma_lever": numbers_or_none(drawn.spreads[LEVER].sigma),
-                        "difference": numbers_or_none(hung - plans),
+                        "plans": numbers_or_none(both.exact),
+                        "lever": numbers_or_none(both.read),
+                        "sigma_lever": numbers_or_none(lever.sigma),
+                        "difference": numbers_or_none(both.off),
                     }
                 ),
             }
@@ -340,29 +330,24 @@ def _edge_notes(solution: Solution, texts: MessageTable, index: int) -> Iterator
 
 
 def forces_tables(
-    solution: Solution, texts: MessageTable, index: int, sigmas: ErrorColumns
+    solution: Solution, language: Language, index: int, sigmas: ErrorColumns
 ) -> Iterator[Node]:
     """Yield the table of reactions of one position, and how the lever compares."""
-    statics = statics_of(solution)
-    drawn, largest = drawn_forces(statics), statics.largest(index)
-    rows = []
+    statics, texts = statics_of(solution), language.note
+    rows, largest = [], statics.largest(index)
     for number, joint in enumerate(statics.reactions):
-        force = complex(joint.force[index])
-        angle = _angle(force, largest)
-        size = 0.0 if angle is None else abs(force)
-        moment = float(joint.moment[index])
+        size, angle = size_series(statics, joint), angle_series(statics, joint)
+        is_directed, moment = np.isfinite(angle.exact[index]), float(joint.moment[index])
         still = abs(moment) <= VANISHING * largest
         rows.append(
             [
                 joint.joint,
                 f"{joint.on}←{solution.problem.mechanism.called(joint.by)}",
-                computed_text(size, texts),
-                computed_text(float(drawn.read(size_label(joint))[index]), texts),
-                *sigmas.cell(size_label(joint), index, drawn),
-                "—" if angle is None else fixed(angle, texts),
-                *sigmas.cell(None if angle is None else angle_label(joint), index, drawn),
-                "—" if still else computed_text(moment, texts),
-                *sigmas.cell(None if still else moment_label(joint), index, drawn),
+                *sigmas.cells(size, index),
+                fixed(float(angle.exact[index]), texts) if is_directed else DASH,
+                *sigmas.cell(angle if is_directed else None, index),
+                DASH if still else computed_text(moment, texts),
+                *sigmas.cell(None if still else moment_series(statics, joint), index),
                 _distance(solution, number, index, texts),
             ]
         )
@@ -394,12 +379,13 @@ def forces_tables(
     if statics.lever_at(index) is None:
         yield Note(texts.lever_stands)
         return
-    both = compared_balances(statics, index)
-    assert both is not None
+    series = lever_beside_plans(statics)
+    assert series is not None
+    both = series[index]
     yield Note(
         texts.lever_note.format(
-            lever=computed_text(both.read, texts),
-            plans=computed_text(both.exact, texts),
+            lever=localized(both.read_text, texts),
+            plans=localized(both.exact_text, texts),
             difference=computed_text(both.off, texts),
             share=DASH if both.percent is None else fixed(both.percent, texts),
             sigma=computed_text(both.sigma, texts),

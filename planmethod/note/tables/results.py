@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import chain
 
 from planmethod.languages import choose_language
+from planmethod.note.compared import DASH, Series
 from planmethod.note.document import (
     Caption,
     Chapter,
@@ -21,17 +22,18 @@ from planmethod.note.document import (
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.narrate.statement import reading_notes, reported_quantities
+from planmethod.note.narrate.statement import reading_notes
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import computed_text, fixed, input_text, localized
+from planmethod.note.tables.series import motion_series, quantity_series, segment_series
 from planmethod.note.tables.sigmas import ErrorColumns, levelled
 from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.note.writers.html import html_part
-from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind, kinds_on
+from planmethod.plans.legend import TURNING, TURNINGS, QuantityKind, kinds_on
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.reading import Reals
-from planmethod.solved.solution import SegmentReading, Solution
+from planmethod.solved.solution import Solution
 
 FEW = 3
 """Most positions that are shown each with tables of its own."""
@@ -51,7 +53,7 @@ def results_document(solution: Solution, language: Language, *, sigma: bool = Fa
         positions.
     """
     return Document.of(
-        _results(solution, language, ErrorColumns(solution, language.note, enabled=sigma))
+        _results(solution, language, ErrorColumns(solution, language, enabled=sigma))
     )
 
 
@@ -140,19 +142,37 @@ def position_tables(
 ) -> Iterator[Node]:
     """Yield the tables of one position: points, links, sliding, segments of the plans, forces."""
     note = language.note
-    sigmas = sigmas or ErrorColumns(solution, note, enabled=False)
+    sigmas = sigmas or ErrorColumns(solution, language, enabled=False)
+    quantities = solution.quantities(QuantityKind.VELOCITY, QuantityKind.ACCELERATION)
     yield Caption(note.table_points)
-    points = _points(solution, note, index, sigmas)
+    points = [
+        [
+            name,
+            *(_place(solution, float(x), note) for x in (place.real, place.imag)),
+            *sigmas.row(quantities[name], index),
+        ]
+        for name in moving_points(solution)
+        for place in [solution.points[name].place[index]]
+    ]
     yield sigmas.table(note["columns_points"], (4, 6), points)
     yield Caption(note.table_links)
     yield from _link_tables(solution, note, index, sigmas)
-    sliding = _sliding(solution, note, index, sigmas)
+    quantities = solution.quantities(
+        QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
+    )
+    called = solution.problem.mechanism.called
+    sliding = [
+        [
+            note.sliding_row.format(point=one.point, of=one.of, to=called(one.to)),
+            *sigmas.row(quantities[one.name], index),
+        ]
+        for one in solution.construction.kinematics.relatives.values()
+    ]
     if sliding:
         yield Caption(note.table_sliding)
         yield sigmas.table(note["columns_sliding"], (2, 4, 6), sliding)
-    names = Names(solution, note)
     for kind, scale in zip(MOTION, scale_texts(solution, language, index), strict=True):
-        rows = _segments(solution, names, kind, index, sigmas)
+        rows = _segments(solution, note, kind, index, sigmas)
         if not rows:
             continue
         plan = note["plans"][kind.value]
@@ -166,7 +186,7 @@ def position_tables(
     if solution.problem.dynamics is not None:
         from planmethod.note.tables.forces import forces_tables
 
-        yield from forces_tables(solution, note, index, sigmas)
+        yield from forces_tables(solution, language, index, sigmas)
         if solution.problem.dynamics.friction is not None:
             from planmethod.note.tables.friction import friction_tables
 
@@ -177,26 +197,6 @@ def moving_points(solution: Solution) -> list[str]:
     """Return the names of the points that are not fixed."""
     velocity = solution.construction.kinematics.velocity
     return [name for name, at in velocity.named.items() if velocity.point[at] != velocity.pole]
-
-
-def _points(
-    solution: Solution, texts: MessageTable, i: int, sigmas: ErrorColumns
-) -> list[list[str]]:
-    rows, quantities = [], solution.quantities(QuantityKind.VELOCITY, QuantityKind.ACCELERATION)
-    for name in moving_points(solution):
-        place = solution.points[name].place[i]
-        row = [name, *(_place(solution, float(x), texts) for x in (place.real, place.imag))]
-        for quantity in quantities[name]:
-            row += _value_cells(solution, quantity, i, sigmas)
-        rows.append(row)
-    return rows
-
-
-def _value_cells(solution: Solution, quantity: Quantity, i: int, sigmas: ErrorColumns) -> list[str]:
-    """Return a quantity in one position: exact, as read by hand, and its error."""
-    exact, read = solution.exact(quantity)[i], solution.read_off(quantity.label)[i]
-    told = [computed_text(float(value), sigmas.texts) for value in (exact, read)]
-    return [*told, *sigmas.cell(quantity.label, i)]
 
 
 def _place(solution: Solution, metres: float, texts: MessageTable) -> str:
@@ -228,72 +228,43 @@ def _links(
 ) -> list[list[str]]:
     rows = []
     for name, quantities in solution.quantities(*TURNING).items():
-        known = {quantity.kind: quantity for quantity in quantities}
+        known = {one.kind: quantity_series(solution, one) for one in quantities}
         direction = known.pop(QuantityKind.DIRECTION, None)
-        row = [name, "—"]
-        if direction is not None:
-            row[1] = fixed(float(solution.exact(direction)[i]), texts)
+        row = [name, DASH if direction is None else fixed(float(direction.exact[i]), texts)]
         for kind in TURNINGS:
-            if kind in known:
-                row += _value_cells(solution, known[kind], i, sigmas)
-                row.append(_sense(solution.exact(known[kind])[i], texts))
-            else:
-                row += ["—", "—", *sigmas.cell(None, i), "—"]
+            series = known.get(kind)
+            row += [*sigmas.cells(series, i), DASH if series is None else _sense(series, i, texts)]
         rows.append(row)
     return rows
 
 
-def _sense(value: float, texts: MessageTable) -> str:
+def _sense(series: Series, index: int, texts: MessageTable) -> str:
+    value = series.exact[index]
     if abs(value) < 1e-12:
-        return "—"
+        return DASH
     return texts.ccw if value > 0 else texts.cw
 
 
-def _sliding(
-    solution: Solution, texts: MessageTable, i: int, sigmas: ErrorColumns
-) -> list[list[str]]:
-    rows = []
-    quantities = solution.quantities(
-        QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
-    )
-    called = solution.problem.mechanism.called
-    for relative in solution.construction.kinematics.relatives.values():
-        told = {"point": relative.point, "of": relative.of, "to": called(relative.to)}
-        row = [texts.sliding_row.format(**told)]
-        for quantity in quantities[relative.name]:
-            row += _value_cells(solution, quantity, i, sigmas)
-        rows.append(row)
-    return rows
-
-
 def _segments(
-    solution: Solution, names: Names, kind: PlanKind, i: int, sigmas: ErrorColumns
+    solution: Solution, texts: MessageTable, kind: PlanKind, i: int, sigmas: ErrorColumns
 ) -> list[list[str]]:
-    texts, rows = names.texts, []
-    segments = solution.segments(kind)
-
-    def lengths(segment: SegmentReading) -> list[str]:
-        return [*_lengths(segment, texts, i), *sigmas.cell(f"{kind.value}.{segment.name}", i)]
-
+    segments = [
+        (one, [fixed(float(one.exact[i]), texts), input_text(float(one.read[i]), texts, 6),
+               *sigmas.cell(one, i)])
+        for one in segment_series(solution, kind)
+    ]  # fmt: skip
     if kind is PlanKind.POSITION:
-        return [[_joined(s), *lengths(s)] for s in segments]
+        return [[one.symbol.replace("-", ""), *lengths] for one, lengths in segments]
+    names, rows = Names(solution, texts), []
     motions = (names.kinematics.velocity, names.kinematics.acceleration)
     values = next(motion.segments for motion in motions if motion.kind is kind)
-    for vector, segment in zip(solution.construction.plan(kind).vectors, segments, strict=True):
+    vectors = solution.construction.plan(kind).vectors
+    for vector, (_, lengths) in zip(vectors, segments, strict=True):
         number = solution.ruler_reading.number(values.known((vector.tail, vector.head)))
         value = computed_text(abs(float(number[i])), texts)
         name = names.segment(vector.tail, vector.head)
-        rows.append([vector.symbol, name, *lengths(segment), value])
+        rows.append([vector.symbol, name, *lengths, value])
     return rows
-
-
-def _joined(segment: SegmentReading) -> str:
-    return segment.name.replace("-", "")
-
-
-def _lengths(segment: SegmentReading, texts: MessageTable, i: int) -> list[str]:
-    exact, read = float(segment.exact[i]), float(segment.read[i])
-    return [fixed(exact, texts), input_text(read, texts, 6)]
 
 
 # Many positions --------------------------------------------------------------------------------
@@ -309,8 +280,8 @@ def _many(solution: Solution, language: Language, sigmas: ErrorColumns) -> Itera
             yield Caption(title)
             yield table_of_columns([*lead, *columns], repeated=len(lead))
 
-    def column(quantity: Quantity, values: Reals) -> list[Rich]:
-        return [quantity.symbol, *(computed_text(float(value), note) for value in values)]
+    def column(symbol: Rich, values: Reals) -> list[Rich]:
+        return [symbol, *(computed_text(float(value), note) for value in values)]
 
     places = []
     for name in moving_points(solution):
@@ -318,22 +289,22 @@ def _many(solution: Solution, language: Language, sigmas: ErrorColumns) -> Itera
         for axis, values in (("x", place.real), ("y", place.imag)):
             cells = [_place(solution, float(value), note) for value in values]
             places.append([f"{axis}_{{{name}}}", *cells])
-    speeds = reported_quantities(solution, *kinds_on(PlanKind.VELOCITY))
-    changes = reported_quantities(solution, *kinds_on(PlanKind.ACCELERATION))
+    speeds = motion_series(solution, *kinds_on(PlanKind.VELOCITY))
+    changes = motion_series(solution, *kinds_on(PlanKind.ACCELERATION))
     yield from table(note.many_places, places)
     for title, some in ((note.many_velocities, speeds), (note.many_accelerations, changes)):
-        yield from table(title, [column(q, solution.exact(q)) for q in some])
+        yield from table(title, [column(one.symbol, one.exact) for one in some])
         by_hand = note.many_by_hand.format(title=title)
-        yield from table(by_hand, [column(q, solution.read_off(q.label)) for q in some])
+        yield from table(by_hand, [column(one.symbol, one.read) for one in some])
     if solution.problem.dynamics is not None:
         from planmethod.note.tables.forces import forces_columns, resultant_notes
 
         yield from table(note.many_forces, forces_columns(solution, note))
         yield from map(Note, resultant_notes(solution, note))
     errors = []
-    for quantity in (*speeds, *changes) if sigmas.enabled else ():
-        cells = [sigmas.cell(quantity.label, i)[0] for i in range(count)]
-        errors.append([quantity.symbol, *levelled(cells)])
+    for one in (*speeds, *changes) if sigmas.enabled else ():
+        cells = [cell for i in range(count) for cell in sigmas.cell(one, i)]
+        errors.append([one.symbol, *levelled(cells)])
     yield from table(note.many_sigmas, errors)
 
 

@@ -1,24 +1,23 @@
-"""Drafting errors in tables: their cells, the mark of those found by draws."""
+"""Compared numbers in the tables of the terminal; drafting errors beside them where requested."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from planmethod.note.compared import DRAWN, marked
+from planmethod.note.compared import DASH, DRAWN, Series
 from planmethod.note.document import Node, Paragraph, Table, table_of
 from planmethod.note.formula import Rich
-from planmethod.note.plaintext import localized
-from planmethod.note.rounding import sigma_text
+from planmethod.note.tables.series import quantity_series
+from planmethod.plans.legend import Quantity
 
 if TYPE_CHECKING:
-    from planmethod.note.wording import MessageTable
-    from planmethod.solved.errors.spread import Errors
+    from planmethod.note.wording import Language
     from planmethod.solved.solution import Solution
 
 
 class ErrorColumns:
-    """Cells of the drafting errors, none where they are not requested.
+    """Cells of compared numbers, those of their errors only where they are requested.
 
     Attributes
     ----------
@@ -26,25 +25,29 @@ class ErrorColumns:
         Whether a cell has the mark of a sigma found by random draws.
     """
 
-    def __init__(self, solution: Solution, texts: MessageTable, *, enabled: bool = True) -> None:
-        self.solution, self.texts, self.enabled = solution, texts, enabled
+    def __init__(self, solution: Solution, language: Language, *, enabled: bool = True) -> None:
+        self.solution, self.language, self.enabled = solution, language, enabled
         self.drawn = False
 
-    def cell(self, label: str | None, index: int, errors: Errors | None = None) -> list[str]:
-        """Return the error of a quantity as a row of one cell, or of none.
+    def cells(self, series: Series | None, index: int) -> list[Rich]:
+        """Return a quantity in a position: exact, as read by hand, its error; else dashes."""
+        if series is None:
+            return [DASH, DASH, *self.cell(None, index)]
+        one, number = series.measured(index), self.language.notation.number
+        return [number(one.exact_text), number(one.read_text), *self.cell(series, index)]
 
-        ``errors`` contain it. Default: the kinematic errors. A quantity without a label, shown by
-        a dash, also has a dash for its error.
-        """
+    def row(self, quantities: Iterable[Quantity], index: int) -> list[Rich]:
+        """Return the cells of quantities of the motion, one after another."""
+        every = (quantity_series(self.solution, quantity) for quantity in quantities)
+        return [cell for series in every for cell in self.cells(series, index)]
+
+    def cell(self, series: Series | None, index: int) -> list[Rich]:
+        """Return the error of a quantity as a row of one cell, or of none; a dash for none."""
         if not self.enabled:
             return []
-        if label is None:
-            return ["—"]
-        from planmethod.solved.errors.motion import drafting_of
-
-        sigma, mark = marked(errors or drafting_of(self.solution), label, index)
-        self.drawn = self.drawn or bool(mark)
-        return [localized(sigma_text(sigma), self.texts) + mark]
+        text = DASH if series is None else series[index].sigma_text
+        self.drawn = self.drawn or text.endswith(DRAWN)
+        return [self.language.notation.number(text)]
 
     def table(
         self,
@@ -63,7 +66,7 @@ class ErrorColumns:
         columns: list[Sequence[Rich]] = list(zip(*rows, strict=True))
         wide = list(head)
         for made, k in enumerate(after, 1):
-            wide.insert(k + made, self.texts.sigma)
+            wide.insert(k + made, self.language.note.sigma)
             columns[k + made] = levelled(columns[k + made])
         return table_of(wide, zip(*columns, strict=True), names=names)
 
@@ -71,11 +74,10 @@ class ErrorColumns:
         """Yield what the errors are, and what the mark of some of them means."""
         if not self.enabled:
             return
-        name = self.solution.profile.name
-        profile = self.texts["profiles"].get(name, name)
-        yield Paragraph(self.texts.sigma_note.format(profile=profile))
+        note, name = self.language.note, self.solution.profile.name
+        yield Paragraph(note.sigma_note.format(profile=note["profiles"].get(name, name)))
         if self.drawn:
-            yield Paragraph(self.texts.drawn_note)
+            yield Paragraph(note.drawn_note)
 
 
 def levelled(cells: Sequence[str]) -> list[str]:

@@ -12,13 +12,13 @@ from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
-from planmethod.note.compared import ComparedNumber, percent_text
+from planmethod.note.compared import percent_text
 from planmethod.note.document import Item, Node, References, StructuralHeading, Table
+from planmethod.note.force_series import balance_series, lever_beside_plans, size_series
 from planmethod.note.formula import Rich, escape, inlined
 from planmethod.note.narrate.balancing import BalancingNarrator
 from planmethod.note.narrate.forces.common import lettered as lettered_forces
 from planmethod.note.narrate.forces.friction import FrictionNarrator
-from planmethod.note.narrate.forces.lever import both_balances, compared_balances
 from planmethod.note.numbers import with_unit
 from planmethod.note.tables.forces import rubbed
 from planmethod.note.wording import MessageTable
@@ -32,7 +32,6 @@ from planmethod.project.report.gears import failed_conditions, failed_quality, r
 from planmethod.project.report.position import has_equal_strokes, loads_drive
 from planmethod.project.report.results import compared, worst
 from planmethod.project.report.turn import has_turn
-from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.turn.cycle import crank_cycle_of
 
@@ -78,8 +77,8 @@ def _motion(report: Report, texts: MessageTable) -> Rich:
         name, found = plan.value, worst(compared(report.one, 0, *kinds_on(plan)))
         if found is None:
             return ""
-        quantity, most = found
-        facts[name] = quantity.symbol
+        series, most = found
+        facts[name] = series.symbol
         facts[f"{name}_percent"] = notation.number(percent_text(most.percent_size))
         facts[f"{name}_sigmas"] = notation.number(f"{most.sigmas:.1f}")
     later = float(facts["acceleration_percent"].replace(notation.decimal, "."))
@@ -115,23 +114,22 @@ def _forces(report: Report, texts: MessageTable) -> Iterator[Rich]:
     reading, notation = force_reading(report.one, 0), report.notation
     joints = reading.statics.reactions
     most = max(joints, key=lambda joint: abs(complex(joint.force[0])))
-    read = float(drawn_forces(reading.statics).read(size_label(most))[0])
-    plans, _ = both_balances(reading)
-    balancing = reading.balancing
+    size, balance = size_series(reading.statics, most), balance_series(reading.statics)
     (*_, whole) = "", *largest_reactions(report)
     text = texts.forces.format(
         position=report.in_position,
-        symbol=report.reaction(most),
-        value=report.quantity(read, "N"),
-        name=texts["balancing"][balancing.quantity],
-        balancing=notation.symbol(reading.balancing_symbol),
-        balance=report.quantity(abs(plans), balancing.unit),
+        symbol=size.symbol,
+        value=report.quantity(float(size.read[0]), size.unit),
+        name=texts["balancing"][reading.balancing.quantity],
+        balancing=notation.symbol(balance.symbol),
+        balance=report.quantity(abs(float(balance.read[0])), balance.unit),
     )
     yield f"{text} {whole}".rstrip()
     if rubbed(report.every.problem):
         narrator = FrictionNarrator(lettered_forces(reading, report.language), sizes=True)
         yield " ".join([texts.friction.format(), *narrator.results(), *narrator.cycle_lines()])
-    both = compared_balances(reading.statics, reading.index)
+    lever = lever_beside_plans(reading.statics)
+    both = None if lever is None else lever[0]
     if both is None or both.percent is None or both.expected is None or not isfinite(both.sigma):
         return
     share, part = both.percent_size, both.expected
@@ -143,16 +141,15 @@ def _forces(report: Report, texts: MessageTable) -> Iterator[Rich]:
 
 def _flywheel(report: Report, texts: MessageTable) -> Iterator[Rich]:
     narrator, notation = machine_of(report), report.notation
-    flywheel, sizes = narrator.flywheel, narrator.sizes
-    exact, read = flywheel.exact.inertia, narrator.drawing.read_inertia
-    if exact <= 0.0 or sizes is None:
+    flywheel, sizes, inertia = narrator.flywheel, narrator.sizes, narrator.inertia
+    if inertia.exact <= 0.0 or sizes is None:
         yield texts.no_flywheel.format(delta=notation.number(f"{flywheel.delta_reached:.4f}"))
         return
     main = texts.flywheel.format(
         delta=narrator.delta,
         symbol=narrator.letter("flywheel"),
         value=report.quantity(narrator.drawing.adopted, "kg·m²"),
-        whole=notation.number(percent_text(ComparedNumber(exact, read).percent_size)),
+        whole=notation.number(percent_text(inertia.percent_size)),
     )
     size = texts.flywheel_sizes.format(
         diameter=with_unit(notation.as_input(sizes.diameter), report.unit("m")),

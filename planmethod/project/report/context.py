@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from planmethod.construct.steps import Compute, NumberName
 from planmethod.mechanism.describe import LinkKind, kind_of_motion
-from planmethod.note.document import Formula, Item, Paragraph
+from planmethod.note.compared import DRAWN
+from planmethod.note.document import Formula, Item, Node, Paragraph
 from planmethod.note.formula import Rich, escape, inlined
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
@@ -139,6 +140,11 @@ class Report:
     def unit(self, name: str) -> str:
         """Return the letters of a unit."""
         return self.notation.units[name]
+
+    def mark_note(self, rows: Iterable[Sequence[Rich]]) -> Iterator[Node]:
+        """Yield what the mark of an error means, where a row of a table has one."""
+        if any(cell.endswith(DRAWN) for row in rows for cell in row):
+            yield sentences(self.language.note.drawn_note)
 
     def quantity(self, value: float, unit: str) -> Rich:
         """Return a computed number with its unit."""

@@ -154,13 +154,12 @@ def _inertia(report: Report, narrator: MachineNarrator, texts: MessageTable) -> 
     yield sentences(_by_method(texts, narrator, "sought").format())
     yield from _listed(narrator.sought_formulas())
     segment = drawing.construction.segment
-    exact = float(drawing.exact.number(segment)[0])
     yield sentences(
         _by_method(texts, narrator, "cut").format(
             top=top,
             bottom=bottom,
-            segment=report.mm(narrator.segment),
-            exact=f"{notation.number(f'{exact:.2f}')} {report.unit('mm')}",
+            segment=report.mm(narrator.segment.read),
+            exact=f"{notation.number(f'{narrator.segment.exact:.2f}')} {report.unit('mm')}",
             **_energies(narrator),
         )
     )
@@ -170,12 +169,12 @@ def _inertia(report: Report, narrator: MachineNarrator, texts: MessageTable) -> 
     speed = notation.computed(flywheel.middle_speed)
     letters = fraction(f"μ_{{T}}·{segment}", f"{omega}^{{2}}·δ")
     numbers = fraction(
-        f"{notation.computed(drawing.scales.work)}·{notation.measured(narrator.segment)}",
+        f"{notation.computed(drawing.scales.work)}·{notation.measured(narrator.segment.read)}",
         f"{speed}^{{2}}·{notation.as_input(flywheel.machine.delta)}",
     )
-    value = report.quantity(drawing.read_inertia, "kg·m²")
+    value = report.quantity(narrator.inertia.read, "kg·m²")
     yield displayed(f"{symbol} = {letters} = {numbers} = {value}.", "flywheel")
-    sigma = f"{notation.short(drawing.sigma, 2)} {report.unit('kg·m²')}"
+    sigma = f"{notation.short(narrator.inertia.sigma, 2)} {report.unit('kg·m²')}"
     yield sentences(texts.sigma.format(sigma=sigma), *_checked(report, narrator, texts))
     sizes = narrator.sizes
     if sizes is not None:
@@ -188,15 +187,15 @@ def _inertia(report: Report, narrator: MachineNarrator, texts: MessageTable) -> 
 def _checked(report: Report, narrator: MachineNarrator, texts: MessageTable) -> Iterator[Rich]:
     """Yield the error of the construction from the exact flywheel, and the motion check."""
     flywheel, notation = narrator.flywheel, report.notation
-    exact, unit = flywheel.exact.inertia, report.unit("kg·m²")
+    one, unit = narrator.inertia, report.unit("kg·m²")
     delta = notation.number(f"{flywheel.delta_reached:.4f}")
-    if exact <= 0.0:
+    if one.exact <= 0.0:
         yield texts.not_needed.format(delta=delta)
         return
     parts = split(narrator.drawing)
 
     def percent(value: float) -> str:
-        return notation.number(f"{100.0 * value / exact:+.1f}")
+        return notation.number(one.part_text(value, 1))
 
     causes = {name: getattr(parts, name) for name in ("slopes", "method", "positions", "pencil")}
     told = [
@@ -204,13 +203,13 @@ def _checked(report: Report, narrator: MachineNarrator, texts: MessageTable) -> 
             value=percent(value), count=narrator.drawing.count, **_energies(narrator)
         )
         for name, value in causes.items()
-        if abs(value) > SMALL * exact
+        if abs(value) > SMALL * one.exact
     ]
     yield _by_method(texts, narrator, "exact").format(
         **_energies(narrator),
         symbol=narrator.letter("flywheel"),
-        value=f"{notation.computed(exact)} {unit}",
-        whole=percent(narrator.drawing.read_inertia - exact),
+        value=f"{notation.number(one.exact_text)} {unit}",
+        whole=percent(one.off),
     )
     if told:
         form = "one" if len(told) == 1 else "many"

@@ -9,17 +9,13 @@ from math import isfinite
 import numpy as np
 
 from planmethod.construct.steps import Name
-from planmethod.note.compared import ComparedNumber, percent_text
+from planmethod.note.compared import percent_text
 from planmethod.note.document import Chapter, Equations, Node, Part, Table, table_of_columns
+from planmethod.note.force_series import balance_series, size_series
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.forces.bearings import bearing_text, undetermined
 from planmethod.note.narrate.forces.common import ForceContext, balance_equation
-from planmethod.note.narrate.forces.lever import (
-    LeverNarrator,
-    both_balances,
-    compared_balances,
-    thrust_lines,
-)
+from planmethod.note.narrate.forces.lever import LeverNarrator, thrust_lines
 from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator, MomentText
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
@@ -43,8 +39,6 @@ from planmethod.render.forces.leverpicture import lever_picture
 from planmethod.render.forces.polygon import drawn_edges, polygon_picture
 from planmethod.render.layout.block import Block, Row
 from planmethod.solved.cycle import cycle
-from planmethod.solved.errors.forces import drawn_forces, size_label
-from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.forces.statics import bearings_of, statics_of
 
@@ -289,23 +283,19 @@ class ForceChapter:
 
     def _reactions(self) -> Iterator[Node]:
         said: MessageTable = self.said
-        report, statics = self.report, self.reading.statics
-        drawn, largest, rows = drawn_forces(statics), statics.largest(0), []
-        for joint in statics.reactions:
-            exact = abs(complex(joint.force[0]))
-            exact = 0.0 if exact <= VANISHING * largest else exact
-            read = float(drawn.read(size_label(joint))[0])
-            one = ComparedNumber(exact, read, float(drawn.spreads[size_label(joint)].sigma[0]))
-            rows.append(
-                (
-                    mark(joint.joint),
-                    report.reaction(joint),
-                    self.find(read),
-                    self.find(exact),
-                    report.notation.number(one.percent_text(2)),
-                    report.notation.number(sigma_text(one.sigma)),
-                )
+        report, statics, notation = self.report, self.reading.statics, self.report.notation
+        rows = [
+            (
+                mark(joint.joint),
+                series.symbol,
+                *notation.numbers(
+                    one.read_text, one.exact_text, one.percent_text(2), one.sigma_text
+                ),
             )
+            for joint in statics.reactions
+            for series in [size_series(statics, joint)]
+            for one in [series[0]]
+        ]
         yield Part(said.table_part.format())
         yield sentences(said.reactions.format())
         yield Table(
@@ -315,19 +305,19 @@ class ForceChapter:
             name=said.reactions_table.format(position=report.in_position),
             key="reactions",
         )
+        yield from report.mark_note(rows)
         yield from map(sentences, self._out_of_plane())
         words = report.language.note
         yield from map(sentences, driven_by(report.one.problem, words))
         balancing, unit = self.reading.balancing, report.unit(self.reading.balancing.unit)
-        plans, _ = both_balances(self.reading)
-        thrust = statics.thrust
+        balance, thrust = balance_series(statics), statics.thrust
         template = said.balancing_thrust if thrust else said["balancing"][balancing.quantity]
         yield sentences(
             str(template).format(
                 line="" if thrust is None else "".join(map(mark, thrust.ends)),
-                symbol=self.context.symbol(self.reading.balancing_symbol),
-                value=f"{self.find(abs(plans))} {unit}",
-                exact=f"{self.find(abs(float(statics.balance[0])))} {unit}",
+                symbol=self.context.symbol(balance.symbol),
+                value=f"{self.find(abs(balance.read[0]))} {unit}",
+                exact=f"{self.find(abs(balance.exact[0]))} {unit}",
             )
         )
 
@@ -381,22 +371,13 @@ class ForceChapter:
 
     def _compared(self, narrator: LeverNarrator) -> Iterator[Node]:
         texts: MessageTable = self.said
-        notation, reading = self.report.notation, self.reading
-        plans, lever = both_balances(reading)
-        assert lever is not None
+        notation, both = self.report.notation, narrator.compared
         symbol, unit = narrator.balancing, narrator.unit
-        both = compared_balances(reading.statics, reading.index)
-        assert both is not None
-        yield sentences(
-            texts.lever_found.format(
-                symbol=symbol,
-                plans=f"{self.find(abs(plans))} {unit}",
-                lever=f"{self.find(abs(lever))} {unit}",
-            )
-        )
+        plans, lever = (self.find(abs(value)) for value in (both.exact, both.read))
+        found = {"plans": f"{plans} {unit}", "lever": f"{lever} {unit}"}
+        yield sentences(texts.lever_found.format(symbol=symbol, **found))
         if both.percent is not None:
-            one, two = self.find(abs(lever)), self.find(abs(plans))
-            share_of = fraction(f"|{one} − {two}|", two)
+            share_of = fraction(f"|{lever} − {plans}|", plans)
             sides = f"{share_of}·100 % = {notation.number(percent_text(both.percent_size))} %"
             yield displayed(f"Δ = {sides}.")
         if isfinite(both.sigma):

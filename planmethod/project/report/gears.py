@@ -23,7 +23,7 @@ from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
 from planmethod.gears.requested_quantities import parse
 from planmethod.gears.sheet import as_drawn, draw_views
-from planmethod.gears.sheet_texts import indexed, ratios, results, train_facts
+from planmethod.gears.sheet_texts import indexed, measured_quantities, ratios, results, train_facts
 from planmethod.gears.text import (
     compared_sentences,
     compared_table,
@@ -31,7 +31,6 @@ from planmethod.gears.text import (
     fraction_text,
 )
 from planmethod.gears.velocity_diagrams import draw
-from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.structure import pair_classes
@@ -250,11 +249,8 @@ def _pictures(
         key="train_results",
     )
     if drawn is not None and seen is not None:
-        offs = [
-            ComparedNumber(float(one.exact), float(seen.read.value[one.read])).percent_size
-            for one in drawn.quantities
-            if one.exact
-        ]
+        every = measured_quantities(drawn, seen).values()
+        offs = [one.percent_size for one in every if one.exact]
         if offs and max(offs) < MIN_SHOWN_DIFFERENCE:
             yield sentences(texts.same)
         elif offs:

@@ -6,16 +6,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from planmethod.note.compared import ComparedNumber, percent_text
+from planmethod.note.compared import ComparedNumber, Series, percent_text
 from planmethod.note.document import Node, Part, Table, table_of_columns
 from planmethod.note.formula import Rich
-from planmethod.note.narrate.statement import reported_quantities
-from planmethod.note.numbers import format_column
-from planmethod.note.rounding import sigma_text
+from planmethod.note.numbers import format_column, significant
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.tables.series import motion_series
 from planmethod.note.wording import MessageTable
-from planmethod.plans.legend import MOTION_KINDS, Quantity, QuantityKind, kinds_on
+from planmethod.plans.legend import MOTION_KINDS, QuantityKind, kinds_on
 from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, sentences
 from planmethod.solved.solution import Solution
@@ -29,20 +27,19 @@ FAINT = 1e-6
 
 def compared(
     solution: Solution, index: int, *kinds: QuantityKind
-) -> list[tuple[Quantity, ComparedNumber]]:
+) -> list[tuple[Series, ComparedNumber]]:
     """Return the quantities of some kinds in a position; those that are something."""
-    every = [(one.quantity, one.compared(index)) for one in motion_series(solution, *kinds)]
-    peaks = {kind: [abs(one.exact) for of, one in every if of.kind is kind] for kind in kinds}
+    every = ((series, series[index]) for series in motion_series(solution, *kinds))
     return [
-        (of, one)
-        for of, one in every
-        if np.isfinite(one.read) and abs(one.exact) > FAINT * max(peaks[of.kind])
+        (series, one)
+        for series, one in every
+        if np.isfinite(one.read) and abs(one.exact) > FAINT * series.peak
     ]
 
 
 def worst(
-    comparisons: Sequence[tuple[Quantity, ComparedNumber]],
-) -> tuple[Quantity, ComparedNumber] | None:
+    comparisons: Sequence[tuple[Series, ComparedNumber]],
+) -> tuple[Series, ComparedNumber] | None:
     """Return the quantity with the largest relative difference."""
     return max(comparisons, key=lambda pair: pair[1].percent_size, default=None)
 
@@ -70,9 +67,9 @@ def _table_by_positions(
     every = report.every
     lead = lead_columns(every.problem, report.project.positions, report.language.note)
     columns = []
-    for quantity in reported_quantities(every, *kinds):
-        values = [float(v) + 0.0 for v in every.read_off(quantity.label)]
-        columns.append([quantity.symbol, *map(report.notation.number, format_column(values))])
+    for series in motion_series(every, *kinds):
+        values = [float(value) + 0.0 for value in series.read]
+        columns.append([series.symbol, *map(report.notation.number, format_column(values))])
     table = table_of_columns([*lead, *columns], repeated=len(lead))
     return Table(table.head, table.rows, 0, len(lead), name=name, key=key)
 
@@ -83,14 +80,12 @@ def _compared(report: Report, texts: MessageTable) -> Iterator[Node]:
     yield sentences(texts.intro_compared.format(position=report.of_position))
     rows = [
         (
-            f"{of.symbol}, {report.unit(of.kind.unit)}",
-            notation.computed(one.read),
-            notation.computed(one.exact),
-            notation.number(one.off_text),
-            notation.number(one.percent_text(2)),
-            notation.number(sigma_text(one.sigma)),
+            series.head(notation),
+            *notation.numbers(
+                one.read_text, one.exact_text, one.off_text, one.percent_text(2), one.sigma_text
+            ),
         )
-        for of, one in found
+        for series, one in found
         if one.sigma  # given values have no error
     ]
     yield Table(
@@ -99,7 +94,8 @@ def _compared(report: Report, texts: MessageTable) -> Iterator[Node]:
         name=texts.compared_table.format(position=report.in_position),
         key="compared",
     )
-    beyond = [of.symbol for of, one in found if one.sigmas > MANY_SIGMAS]
+    yield from report.mark_note(rows)
+    beyond = [series.symbol for series, one in found if one.sigmas > MANY_SIGMAS]
     most = worst(found)
     yield sentences(
         texts.beyond.format(symbols=", ".join(beyond))
@@ -119,22 +115,16 @@ def _largest(report: Report, texts: MessageTable) -> Iterator[Node]:
     """Yield the largest difference of each quantity in all positions."""
     every, notation, rows = report.every, report.notation, []
     for series in motion_series(every, *MOTION_KINDS):
-        quantity, off = series.quantity, np.abs(series.reads() - series.exact)
         peak = float(np.nanmax(np.abs(series.exact)))
-        if not np.isfinite(off).any() or peak == 0.0:
-            continue
-        k = int(np.nanargmax(off))
-        one = series.compared(k)
-        if not one.sigma:
-            continue  # given, not read
+        k = series.furthest
+        if k is None or peak == 0.0 or not series[k].sigma:
+            continue  # nothing can be read, or it is given
+        one, off = series[k], format_column([abs(series[k].off)], 2)
+        percent = percent_text(one.percent_of(peak), 2)
         rows.append(
             (
-                f"{quantity.symbol}, {report.unit(quantity.kind.unit)}",
-                notation.computed(peak),
-                notation.number(format_column([abs(one.off)], 2)[0]),
-                notation.number(percent_text(100.0 * abs(one.off) / peak, 2)),
-                str(k),
-                notation.number(sigma_text(one.sigma)),
+                series.head(notation),
+                *notation.numbers(significant(peak), *off, percent, str(k), one.sigma_text),
             )
         )
     yield sentences(texts.all_intro.format())
@@ -144,3 +134,4 @@ def _largest(report: Report, texts: MessageTable) -> Iterator[Node]:
         name=texts.all_table.format(),
         key="largest",
     )
+    yield from report.mark_note(rows)

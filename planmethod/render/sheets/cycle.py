@@ -8,6 +8,7 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.scale import Scale, choose_scale
+from planmethod.note.force_series import lever_beside_plans
 from planmethod.note.narrate.forces.statement import (
     cycle_force_unknowns,
     cycle_statement,
@@ -42,7 +43,6 @@ from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import LARGER, at_scales, named
 from planmethod.solved.cycle import Cycle, Piece, ReactionPeak, cycle
-from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
@@ -146,9 +146,9 @@ def _balance(solution: Solution, style: BlockStyle, width: float, height: float)
     scale = Scale(f"mu_{balancing.letter}", per_mm, balancing.unit)
     curve = Curve("", frame.parts(forces.balance, per_mm, _real))
     marks, said = [], []
-    balances = drawn_forces(statics).balances
-    if balances is not None:
-        for mark, values in ((Mark.RING, balances.plans), (Mark.CROSS, balances.lever)):
+    both = lever_beside_plans(statics)
+    if both is not None:
+        for mark, values in ((Mark.RING, both.exact), (Mark.CROSS, both.read)):
             marks += [
                 (mark, complex(frame.x(float(p)), float(v) / per_mm))
                 for p, v in zip(solution.positions, values, strict=True)

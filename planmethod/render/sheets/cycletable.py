@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from planmethod.note.compared import ComparedNumber, sense_of
+from planmethod.note.force_series import balance_series, lever_beside_plans
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.statement import NBSP
-from planmethod.note.numbers import Notation, format_column, half_up
+from planmethod.note.numbers import Notation, decimals_of, format_column, half_up
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.layout.block import Block, Column, paragraph
@@ -16,7 +17,6 @@ from planmethod.render.sheets.guides import angle_text
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import position_columns, table_width
 from planmethod.solved.cycle import Cycle, cycle
-from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Reals
@@ -100,42 +100,42 @@ def cycle_balance_columns(
 
     The difference is between the numbers of the table.
     """
-    statics, balancing = statics_of(solution), solution.problem.drive.balancing
-    said, notation = language.sheets, language.notation
-    symbol, unit = notation.symbol(balancing.symbol), notation.units[balancing.unit]
+    statics, said, notation = statics_of(solution), language.sheets, language.notation
+    plans, both = balance_series(statics), lever_beside_plans(statics)
+    unit = notation.units[plans.unit]
 
-    def column(head: str, texts: Sequence[str], *, sense: bool) -> TableColumn:
+    def column(head: str, texts: Sequence[str], *, sense: bool = plans.turns) -> TableColumn:
         cells = []
         for text in texts:
             size = text.removeprefix("-") if sense else text
             cells.append(TableCell(notation.number(size), sense_of(float(text)) if sense else None))
         return TableColumn(head, tuple(cells), unit=unit)
 
-    def chosen(values: Reals) -> list[float]:
+    def chosen(values: Reals | Sequence[float]) -> list[float]:
         return [float(values[i]) for i in position_indices]
 
-    columns = [column(symbol, format_column(chosen(statics.balance)), sense=balancing.turns)]
-    balances, sigma = drawn_forces(statics).balances, drawn_forces(statics).discrepancy_sigma
-    if balances is None or sigma is None:
-        return columns
-    both = format_column([*chosen(balances.plans), *chosen(balances.lever)])
-    plans, lever = both[: len(position_indices)], both[len(position_indices) :]
-    pairs = list(zip(plans, lever, strict=True))
-    differences = [_difference_text(one, two, sense=balancing.turns) for one, two in pairs]
-    columns.append(column(said.cycle_plans, plans, sense=balancing.turns))
-    columns.append(column(said.cycle_lever, lever, sense=balancing.turns))
-    columns.append(column("Δ", differences, sense=False))
-    shares = [ComparedNumber(float(one), float(two)).percent_text() for one, two in pairs]
-    columns.append(TableColumn("Δ", tuple(map(notation.number, shares)), unit="%"))
-    columns.append(column("σ_{Δ}", format_column(chosen(sigma), 2), sense=False))
-    return columns
+    exact = column(notation.symbol(plans.symbol), format_column(chosen(plans.exact)))
+    if both is None:
+        return [exact]
+    texts = format_column([*chosen(both.exact), *chosen(both.read)])
+    pairs = list(zip(texts[: len(position_indices)], texts[len(position_indices) :], strict=True))
+    printed = [ComparedNumber(float(one), float(two)) for one, two in pairs]
+    differences = [
+        _rounded(one.size_off if both.turns else one.off, *pair)
+        for one, pair in zip(printed, pairs, strict=True)
+    ]
+    shares = tuple(notation.number(one.percent_text()) for one in printed)
+    return [
+        exact,
+        column(said.cycle_plans, texts[: len(position_indices)]),
+        column(said.cycle_lever, texts[len(position_indices) :]),
+        column("Δ", differences, sense=False),
+        TableColumn("Δ", shares, unit="%"),
+        column("σ_{Δ}", format_column(chosen(both.sigma), 2), sense=False),
+    ]
 
 
-def _difference_text(one: str, two: str, *, sense: bool) -> str:
-    """Return a second number minus the first, with their common decimals.
-
-    With a sense in the table, it is the difference of their sizes.
-    """
-    decimals = min(len(text.partition(".")[2]) for text in (one, two) if float(text) or one == two)
-    both = ComparedNumber(float(one), float(two))
-    return f"{half_up(both.size_off if sense else both.off, decimals) + 0.0:.{decimals}f}"
+def _rounded(difference: float, one: str, two: str) -> str:
+    """Return the difference of two printed numbers with their common decimals; a 0 has none."""
+    decimals = min(decimals_of(text) for text in (one, two) if float(text) or one == two)
+    return f"{half_up(difference, decimals) + 0.0:.{decimals}f}"

@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from msgspec.structs import replace
 
 from planmethod.construct.steps import Measure, MeasureAlong, Name, operands
-from planmethod.note.compared import MAX_PERCENT
-from planmethod.note.tables.series import Series, motion_series
+from planmethod.note.compared import MAX_PERCENT, Series
+from planmethod.note.tables.series import motion_series
 from planmethod.note.wording import Language
 from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.render.frame.frame import STAMP_WIDTH
@@ -50,12 +50,12 @@ def measured_table(solution: Solution, position_indices: Sequence[int], style: B
         return results_block(solution, position_indices, style)
     language = style.language
     columns, known = position_columns(solution, position_indices, language), list[str]()
-    for series, symbols in _once(motion_series(solution, *MOTION_KINDS)):
+    for series, symbols in _once(solution):
         column = value_column(
             series, position_indices, language.notation, sigma=False, is_single=False
         )
         column = replace(column, head=" = ".join(symbols))
-        if _is_measured(solution, series.quantity):
+        if _is_measured(solution, solution.legend[series.label]):
             columns += [column, *_measured(series, column, position_indices, language)]
         elif len(set(column.cells)) > 1:
             columns.append(column)
@@ -106,47 +106,29 @@ def _signed(cell: TableCell) -> str:
     return f"−{cell.text}" if (cell.sense or 0) < 0 else cell.text
 
 
-def _once(every: Sequence[Series]) -> list[tuple[Series, list[str]]]:
-    """Return quantities with their symbols, joining those with the same number."""
+def _once(solution: Solution) -> list[tuple[Series, list[str]]]:
+    """Return the reported quantities with their symbols, joining those with the same number."""
     found: dict[tuple[object, ...], tuple[Series, list[str]]] = {}
-    for one in every:
-        of = one.quantity
-        found.setdefault((of.kind, of.size), (one, []))[1].append(of.symbol)
+    for one in motion_series(solution, *MOTION_KINDS):
+        of = solution.legend[one.label]
+        found.setdefault((of.kind, of.size), (one, []))[1].append(one.symbol)
     return list(found.values())
 
 
 def _measured(
     series: Series, exact: TableColumn, position_indices: Sequence[int], language: Language
 ) -> list[TableColumn]:
-    """Return the measured values and their deviations, %; "—" where a deviation is undefined.
-
-    Zeros at the end of all measured values are left out: the ruler has no such digits.
-    """
-    notation, values = language.notation, series.displayed(series.reads(), position_indices)
-    texts = _without_zeros(series.texts(values))
+    """Return the measured values and their deviations, %; "—" where a deviation is undefined."""
+    notation, values = language.notation, series.displayed(series.read, position_indices)
     read = tuple(
         TableCell(notation.number(text), series.sense(value))
-        for text, value in zip(texts, values, strict=True)
+        for text, value in zip(series.measured_texts(position_indices), values, strict=True)
     )
-    off = tuple(
-        notation.number(series.measured(i).percent_text(limit=MAX_PERCENT))
-        for i in position_indices
+    off = notation.numbers(
+        *(series.measured(i).percent_text(limit=MAX_PERCENT) for i in position_indices)
     )
-    head = language.sheets.read_symbol.format(symbol=series.quantity.symbol)
+    head = language.sheets.read_symbol.format(symbol=series.symbol)
     return [
         TableColumn(head, read, unit=exact.unit, joined=True),
-        TableColumn("Δ", off, unit="%", min_width=9.0, joined=True),
+        TableColumn("Δ", tuple(off), unit="%", min_width=9.0, joined=True),
     ]
-
-
-def _without_zeros(texts: Sequence[str]) -> list[str]:
-    """Return decimal numbers without the zeros that all of them end with; a plain 0 has none.
-
-    >>> _without_zeros(["0.05700", "0.06200", "0"])
-    ['0.057', '0.062', '0']
-    """
-    some = [text for text in texts if "." in text and "e" not in text]
-    if len(some) < sum(text != "0" for text in texts):
-        return list(texts)
-    spare = min((len(text) - len(text.rstrip("0")) for text in some), default=0)
-    return [text[: len(text) - spare].removesuffix(".") if text in some else text for text in texts]

@@ -7,10 +7,10 @@ from math import inf
 
 import numpy as np
 
-from planmethod.note.compared import DRAWN, MAX_PERCENT
-from planmethod.note.numbers import Notation, to_decimals
-from planmethod.note.rounding import as_long, rounded_to, sigma_text
-from planmethod.note.tables.series import Series, motion_series
+from planmethod.note.compared import DRAWN, MAX_PERCENT, Series
+from planmethod.note.numbers import Notation
+from planmethod.note.rounding import as_long, sigma_text
+from planmethod.note.tables.series import motion_series
 from planmethod.note.wording import Language
 from planmethod.plans.legend import MOTION_KINDS
 from planmethod.render.frame.frame import STAMP_WIDTH
@@ -59,34 +59,27 @@ def value_column(
         cells.append(TableCell(written, series.sense(value)))
     if sigma and is_single:
         cells += _read_cells(series, position_indices[0], texts[0], notation)
-    unit = series.quantity.kind.unit
-    return TableColumn(
-        series.quantity.symbol, tuple(cells), unit="" if unit == "1" else notation.units[unit]
-    )
+    return TableColumn(series.symbol, tuple(cells), unit=unit_text(series, notation))
+
+
+def unit_text(series: Series, notation: Notation) -> str:
+    """Return the unit of a quantity below its symbol; empty for a ratio."""
+    return notation.units[series.unit] if series.unit else ""
 
 
 def _read_cells(series: Series, index: int, like: str, notation: Notation) -> list[TableCell]:
     """Return the value read on the plans, its deviation, and the error.
 
-    The read value has as many decimals as the exact one, ``like``, unless that is zero; zeros at
-    its end are not finer than the error.
+    ``like``: the exact value's text, whose decimals the read one has.
     """
     room = 0 if series.turns else None  # for the sign of other values of the column
-    one = series.compared(index, skip_insignificant=True)
-    size = one.read if series.signed else abs(one.read)
-    as_exact = like != "0" and "e" not in like
-    text = to_decimals(size, _decimals(like)) if as_exact else rounded_to(size, one.sigma)
-    while text.endswith("0") and _decimals(text) > _decimals(sigma_text(one.sigma)):
-        text = text[:-1].removesuffix(".")
-    return [
-        TableCell(notation.number(text), series.sense(one.read)),
-        TableCell(notation.number(one.percent_text(limit=MAX_PERCENT)), room),
-        TableCell(notation.number(one.sigma_text), room),
-    ]
-
-
-def _decimals(text: str) -> int:
-    return len(text.partition(".")[2])
+    one = series[index].unless_lost()
+    text, *others = notation.numbers(
+        one.text_beside(like, signed=not series.turns),
+        one.percent_text(limit=MAX_PERCENT),
+        one.sigma_text,
+    )
+    return [TableCell(text, series.sense(one.read)), *(TableCell(other, room) for other in others)]
 
 
 def result_columns(

@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 from functools import cached_property, partial
 
 import numpy as np
-from msgspec import Struct
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
@@ -51,13 +50,6 @@ def angle_label(joint: JointForce | Reaction) -> str:
 def moment_label(joint: JointForce | Reaction) -> str:
     """Return the label of the moment in a prismatic pair, N·m."""
     return f"M_{joint.on}_{joint.by}"
-
-
-class Balances(Struct, frozen=True):
-    """Balance of the driver by the force plans and by the lever, N·m or N, shape (n,)."""
-
-    plans: Reals
-    lever: Reals
 
 
 class DrawnForces(Errors):
@@ -113,18 +105,6 @@ class DrawnForces(Errors):
     def read(self, label: str) -> Reals:
         """Return a quantity as the ruler gives it, shape (n,)."""
         return self._ruler_values[label]
-
-    @property
-    def balance(self) -> Reals:
-        """Balance of the driver by the force plans, as read with the ruler, N·m or N."""
-        return self.read(BALANCE)
-
-    @property
-    def balances(self) -> Balances | None:
-        """Balance by the force plans and by the lever; None if the driver is at rest."""
-        if LEVER not in self.items:
-            return None
-        return Balances(self.balance, self.read(LEVER))
 
     @property
     def discrepancy_sigma(self) -> Reals | None:

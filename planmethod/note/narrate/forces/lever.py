@@ -7,19 +7,17 @@ from math import isfinite
 
 from msgspec import Struct
 
-from planmethod.note.compared import ComparedNumber, marked, percent_text
+from planmethod.note.compared import percent_text
+from planmethod.note.force_series import lever_beside_plans
 from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, signed_sum
 from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.statement import point_name
-from planmethod.note.numbers import MINUS, significant
+from planmethod.note.numbers import MINUS, decimals_of
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
-from planmethod.solved.errors.forces import DIFFERENCE, drawn_forces
 from planmethod.solved.forces.lever import LeverCouple, LeverReading, LeverSegment, LeverShift
-from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.forces.statics import Statics
 
 
 class PairText(Struct, frozen=True):
@@ -34,26 +32,6 @@ class PairText(Struct, frozen=True):
     numbers: str
     segment: str = ""
     length: str = ""
-
-
-def both_balances(reading: ForceReading) -> tuple[float, float | None]:
-    """Return the balancing moment or force as the hand finds it: by the plans, by the lever."""
-    plans = float(drawn_forces(reading.statics).balance[reading.index])
-    hung = reading.statics.lever_plan
-    return plans, None if hung is None else reading.read_number(hung.balance)
-
-
-def compared_balances(statics: Statics, index: int) -> ComparedNumber | None:
-    """Return the result of the lever beside that of the force plans; None if the driver is at rest.
-
-    Sigma is that of their difference; not finite where a drawing cannot give it.
-    """
-    drawn = drawn_forces(statics)
-    if drawn.balances is None:
-        return None
-    plans, lever = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
-    sigma, mark = marked(drawn, DIFFERENCE, index)
-    return ComparedNumber(plans, lever, sigma, mark)
 
 
 def thrust_lines(context: ForceContext) -> list[str]:
@@ -101,6 +79,9 @@ class LeverNarrator:
         self.lever = LeverReading(context.reading)
         self.unit = context.units[context.reading.balancing.unit]
         self.balancing = context.symbol(context.reading.balancing_symbol)
+        series = lever_beside_plans(context.reading.statics)
+        assert series is not None
+        self.compared = series[context.reading.index]
 
     # Formulas --------------------------------------------------------------------------------
 
@@ -170,8 +151,8 @@ class LeverNarrator:
         lines += [text.replace("; ", ";  ") for text in self.segments()]
         lines += [self.shift(one) for one in self.lever.shifts]
         lines.append(texts.lever_found.format(symbol=self.balancing, **self._both()))
-        one = compared_balances(self.reading.statics, self.reading.index)
-        if one is not None and one.percent is not None:
+        one = self.compared
+        if one.percent is not None:
             lines.append(
                 texts.lever_difference.format(share=number(percent_text(one.percent_size)))
             )
@@ -182,9 +163,7 @@ class LeverNarrator:
 
     def _both(self) -> dict[str, str]:
         """Return what balances the driver by both methods."""
-        plans, value = both_balances(self.reading)
-        assert value is not None
-        told = {"plans": plans, "lever": value}
+        told = {"plans": self.compared.exact, "lever": self.compared.read}
         return {by: f"{self.computed(abs(each))} {self.unit}" for by, each in told.items()}
 
     # Sentences -------------------------------------------------------------------------------
@@ -280,8 +259,8 @@ class LeverNarrator:
 
     def _equation(self) -> list[str]:
         """Return the sum of moments, and what balances the driver with numbers."""
-        value = both_balances(self.reading)[1]
-        assert value is not None and self.reading.statics.lever is not None
+        value = self.compared.read
+        assert self.reading.statics.lever is not None
         exact = self.context.exactly(float(self.reading.statics.lever[self.reading.index]))
         end = "."
         if self.reading.balancing.turns and value:
@@ -290,9 +269,8 @@ class LeverNarrator:
 
     def result(self) -> str:
         """Return what balances the driver, with numbers."""
-        value = both_balances(self.reading)[1]
-        assert value is not None
-        return f"{self.balancing} = {self._numbers()} = {self.computed(abs(value))} {self.unit}"
+        value = self.computed(abs(self.compared.read))
+        return f"{self.balancing} = {self._numbers()} = {value} {self.unit}"
 
     def _numbers(self) -> str:
         """Return the sum of the known moments over the arm of the balancing force."""
@@ -316,12 +294,8 @@ class LeverNarrator:
 
     def _compared(self) -> list[str]:
         """Return the difference of lever and force plans, and the one expected of a drawing."""
-        one, number = (
-            compared_balances(self.reading.statics, self.reading.index),
-            self.notation.number,
-        )
-        assert one is not None
-        decimals = len(significant(one.exact).partition(".")[2])  # those of the compared value
+        one, number = self.compared, self.notation.number
+        decimals = decimals_of(one.exact_text)  # those of the compared value
         lines = [
             self.texts.compared.format(
                 symbol=self.balancing,
