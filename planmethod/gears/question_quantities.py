@@ -32,7 +32,7 @@ Rows = list[dict[str, Fraction]]
 
 
 class TrainQuantities:
-    """All quantities of a train that can be asked (`QuestionQuantities`)."""
+    """Quantities of a train for questions (`QuestionQuantities`)."""
 
     count = 1
 

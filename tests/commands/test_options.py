@@ -49,7 +49,7 @@ def test_a_switch_is_not_both_on_and_off_and_may_be_repeated() -> None:
 def test_fields_of_the_title_block_are_given_one_by_one() -> None:
     words = [EX3, "--stamp", "author=Иванов", "--stamp", "group=М-31"]
     context = command_of("sheet").make_context("sheet", words)
-    assert context.params["stamp"] == {"author": "Иванов", "group": "М-31"}
+    assert context.params["title_block_fields"] == {"author": "Иванов", "group": "М-31"}
 
 
 def test_a_word_after_two_dashes_is_not_an_option() -> None:
