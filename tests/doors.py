@@ -377,7 +377,7 @@ from planmethod.note.audit.audit import (
 )
 from planmethod.note.audit.machine import chain
 from planmethod.note.columnar import ColumnarRecords, list_of, record_of, to_builtins
-from planmethod.note.compared import DASH, ComparedNumber, percent_text
+from planmethod.note.compared import DASH, ComparedNumber, measured_series, percent_text
 from planmethod.note.document import (
     Caption,
     Chapter,

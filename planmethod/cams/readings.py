@@ -89,15 +89,8 @@ class CamReadings(Struct, frozen=True, dict=True):
 
     def table(self) -> Table:
         """Return the sizes read off the region beside the exact ones, mm."""
-        rows = [
-            (
-                one.symbol,
-                *self.language.notation.numbers(
-                    one[0].exact_text, one[0].rounded_text, one[0].sigma_text
-                ),
-            )
-            for one in self.sizes()
-        ]
+        numbers = self.language.notation.numbers
+        rows = ([one.symbol, *numbers(*one[0].texts)] for one in self.sizes())
         return table_of(self.language.cam["region_heads"], rows)
 
     def off(self, trace: Trace) -> float:

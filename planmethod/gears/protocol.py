@@ -213,9 +213,7 @@ def _quantity_text(
     if asked.kind == "n" and train.unit != "n":
         formula = f"{fraction('30', 'π')}·{formula}"
     unit = unit_of(answer(drawn.motion, one.name), language)
-    read, exact, sigma = language.notation.numbers(
-        both.rounded_text, both.exact_text, both.sigma_text
-    )
+    exact, read, sigma = language.notation.numbers(*both.texts)
     found: str = language.gears["sheet"]["steps"]["found"]
     return found.format(
         formula=f"{asked.symbol} = {formula}",

@@ -87,9 +87,8 @@ def _hodograph(
     rows = []
     for row, k in enumerate(chords.at):
         one = chords.series[row]
-        texts = (one.exact_text, one.rounded_text, one.sigma_text, one.off_text)
         at = notation.as_input(float(course.marks.columns["t"][k]))
-        rows.append([str(k), at, *notation.numbers(*texts)])
+        rows.append([str(k), at, *notation.numbers(*one.texts, one.off_text)])
     yield table_of(said["chords"], rows, names=0)
 
 

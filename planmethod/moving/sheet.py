@@ -274,7 +274,7 @@ def read_rows(
     ruled, sigma, notation = built.ruled(profile.ruler), built.sigma(profile), language.notation
     for name in built.results:
         one = ComparedNumber(float(marks.columns[name][k]) + 0.0, ruled[name], sigma[name])
-        exact, read, error = notation.numbers(one.exact_text, one.rounded_text, one.sigma_text)
+        exact, read, error = notation.numbers(*one.texts)
         yield head_of(name, notation), exact, read, error
 
 

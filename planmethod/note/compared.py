@@ -167,6 +167,11 @@ class ComparedNumber(Struct, frozen=True):
         return sigma_text(self.sigma) + self.mark if isfinite(self.sigma) else DASH
 
     @property
+    def texts(self) -> tuple[str, str, str]:
+        """Exact value, reading and sigma: a row of a table without Δ."""
+        return self.exact_text, self.rounded_text, self.sigma_text
+
+    @property
     def off_text(self) -> str:
         """Δ in the unit of the number, two digits."""
         return significant(self.off, 2)

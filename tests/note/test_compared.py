@@ -13,7 +13,17 @@ from unittest.mock import patch
 import pytest
 from cases import each, sampled, some
 from click.testing import CliRunner
-from doors import Document, Table, TablePart, cli, get_language, percent_text
+from doors import (
+    ComparedNumber,
+    Document,
+    Table,
+    TablePart,
+    cli,
+    get_language,
+    measured_series,
+    percent_text,
+)
+from hypothesis import given, strategies as st
 from msgspec import Struct
 from worked import PROBLEMS
 
@@ -45,7 +55,7 @@ def written(text: str, sense: int | None = None) -> Range | None:
     """
     plain = text.replace("−", "-").replace(",", ".").replace("*", "").strip()
     plain = plain.replace("\N{NO-BREAK SPACE}", " ").partition(" ")[0]  # without error or unit
-    found = re.fullmatch(r"(-?)(\d+)(\.\d+)?(?:·10\^\{(-?\d+)\})?", plain)
+    found = re.fullmatch(r"([-+]?)(\d+)(\.\d+)?(?:·10\^\{(-?\d+)\})?", plain)
     if found is None:
         return None
     sign, whole, fraction, power = found.groups()
@@ -252,6 +262,43 @@ def test_a_written_number_stands_for_a_range() -> None:
 def test_per_cent_of_neither_sense_is_written_from_the_limit_on() -> None:
     sizes = (199.9, -199.9, 200.0, -200.0, None)
     assert [percent_text(one, limit=200.0) for one in sizes] == ["199.9", "-199.9", *[NONE] * 3]
+
+
+SIZES = st.floats(1e-3, 1e5)
+SENSES = st.sampled_from([1.0, -1.0])
+
+
+@given(SIZES, SENSES, st.floats(-0.9, 0.9), st.floats(1e-4, 1e3))
+def test_the_difference_has_the_sign_and_size_of_the_two_numbers(
+    size: float, sense: float, share: float, sigma: float
+) -> None:
+    one = ComparedNumber(sense * size, sense * size * (1.0 + share), sigma)
+    assert one.percent == pytest.approx(100.0 * share, abs=1e-9)
+    assert one.off == pytest.approx(sense * size * share, abs=1e-9 * size)
+    assert one.size_off == pytest.approx(size * share, abs=1e-9 * size)
+    assert one.unless_lost().percent == (one.percent if size > sigma else None)
+    whole, part = written(one.part_text(one.off, 1)), written(one.percent_text(1))
+    assert whole is not None and part is not None and whole.low == part.low
+
+
+@given(SIZES, SENSES, st.floats(-0.9, 0.9), st.floats(1e-4, 1e3), st.booleans())
+def test_a_reading_beside_the_exact_value_is_written_no_further_off_than_half_a_digit(
+    size: float, sense: float, share: float, sigma: float, signed: bool
+) -> None:
+    one = ComparedNumber(sense * size, sense * size * (1.0 + share), sigma)
+    found = written(one.text_beside(one.exact_text, signed=signed))
+    assert found is not None
+    assert found.low <= (one.read if signed else abs(one.read)) <= found.high
+
+
+def test_measured_values_have_no_zeros_that_the_ruler_does_not_read() -> None:
+    for read, texts in (
+        ((0.057, 0.062, 0.0), ["0.057", "0.062", "0"]),
+        ((-250.0, 125.0, 0.0), ["-250", "125", "0"]),
+        ((0.0571, 0.062, 0.06), ["0.0571", "0.0620", "0.0600"]),
+    ):
+        series = measured_series("v", "m/s", (0.06, 0.06, 0.06), read, (0.0, 0.0, 0.0))
+        assert series.measured_texts(range(3)) == texts
 
 
 @each("path", sampled(SAID, 3))
