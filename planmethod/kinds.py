@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +19,7 @@ from planmethod.moving.kind import MovingPoints
 from planmethod.problem.source import parse, read_source
 
 if TYPE_CHECKING:
-    from planmethod.problem.fields import Faults
+    from planmethod.problem.file_node import FileNode
     from planmethod.problem.model import CamDrive, GearDrive, Problem
     from planmethod.solved.partial_mechanism import MechanismPart
     from planmethod.solved.scaling import Views
@@ -130,7 +130,7 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Mech
     ProblemError
         The file cannot be read at all.
     """
-    from planmethod.problem.fields import Faults
+    from planmethod.problem.file_node import Faults, FileNode
     from planmethod.problem.variants import with_table
     from planmethod.solved.partial_mechanism import MechanismPart, largest_part
 
@@ -140,7 +140,7 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Mech
     except ProblemError as error:
         return "", MechanismPart(None, faults=error.faults, trouble=error)
     part = largest_part(
-        with_table(Faults(), table, path.parent),
+        with_table(FileNode(Faults(), table), path.parent).value,
         source=str(path),
         name=path.stem,
         variant=variant,
@@ -168,13 +168,11 @@ def _posed(problem: Problem) -> Problem:
     return problem
 
 
-def _driven(
-    faults: Faults, document: Mapping[str, Any], driver: Mapping[str, Any]
-) -> GearDrive | CamDrive | None:
-    if "train" in driver:
+def _driven(file: FileNode) -> GearDrive | CamDrive:
+    if "train" in file["driver"]:
         from planmethod.gears.driving import driven
 
-        return driven(faults, document["gears"], driver["train"])
+        return driven(file)
     from planmethod.cams.driving import read_follower_drive
 
-    return read_follower_drive(faults, document["cam"])
+    return read_follower_drive(file)

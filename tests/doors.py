@@ -570,8 +570,7 @@ from planmethod.problem.families import (
     MACHINES,
     template as families_template,
 )
-from planmethod.problem.fields import Faults
-from planmethod.problem.flat_tables import read_flat
+from planmethod.problem.file_node import Faults, FileNode
 from planmethod.problem.formula import (
     DEPTH_LIMIT as FORMULA_DEPTH_LIMIT,
     EXPONENT_LIMIT,

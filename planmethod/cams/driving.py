@@ -9,7 +9,7 @@ from planmethod.cams.reader import read_cam
 from planmethod.cams.text import motion_facts
 from planmethod.note.document import GivenFact
 from planmethod.note.wording import Language
-from planmethod.problem.fields import Faults
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.model import CamDrive, LawPiece
 
 
@@ -28,27 +28,13 @@ class CamFollower(CamDrive, frozen=True, kw_only=True):
         return motion_facts(self.cam, language)
 
 
-def read_follower_drive(faults: Faults, table: object) -> CamDrive | None:
-    """Return the motion that the follower gives the driving link over a turn of the cam.
-
-    Parameters
-    ----------
-    table : object
-        ``[cam]``.
-
-    Returns
-    -------
-    Lifted or None
-        None where the cam is faulty; ``faults`` have the reasons.
-    """
-    before = len(faults)
-    told = read_cam(faults, table)
-    if told is None or len(faults) != before:
-        return None
-    problem = CamProblem(name="", **told)
+def read_follower_drive(file: FileNode) -> CamDrive:
+    """Return the motion that the follower gives the driving link over a turn of the cam."""
+    cam = file["cam"]
+    problem = CamProblem(name="", **read_cam(cam))
     if not problem.n:
-        faults.add("cam.n", "missing", "Give the speed of the cam that drives, rev/min: n = 120.")
-        return None
+        hint = "Give the speed of the cam that drives, rev/min: n = 120."
+        cam["n"].reject("missing", hint=hint)
     return follower_drive(problem)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
@@ -12,8 +12,7 @@ from msgspec import Struct
 
 from planmethod.errors import ExitCode, ProblemError
 from planmethod.languages import translate
-from planmethod.problem import fields
-from planmethod.problem.fields import Faults
+from planmethod.problem.file_node import Faults, FileNode, is_integer, needed
 from planmethod.problem.source import parse, read_source
 
 PROFILES = ("board", "cad", "coarse")
@@ -132,62 +131,63 @@ def load_settings(path: Path) -> Settings:
         table = parse(read_source(path), name=name)
     except ProblemError as error:
         raise SettingsError(name, error.faults) from None
-    faults = Faults()
-    told: dict[str, Any] = {}
-    for key, value in fields.read_keys(faults, "", table, KEYS).items():
-        if key in _NUMBERS:
-            what, low, high, hint = _NUMBERS[key]
-            told[key] = fields.read_number(faults, key, value, what, low=low, high=high, hint=hint)
-        elif key == "policy":
-            told[key] = fields.read_word(faults, key, value, POLICIES)
-        elif key == "profile":
-            told[key] = fields.read_word(faults, key, value, PROFILES)
-        elif key == "values":
-            told[key] = fields.read_word(faults, key, value, VALUES)
-        else:
-            told[key] = _read_marks(faults, value)
-    if not faults and told.get("floor_share", DEFAULT.floor_share) > told.get("cap", DEFAULT.cap):
-        faults.add("cap", "the cap is below floor_share", "No answer could be graded: raise it.")
-    if faults:
-        raise SettingsError(name, faults.listed)
-    return Settings(**told)
+    file = FileNode(Faults(), table)
+    file.allow(KEYS)
+    found: dict[str, Any] = {
+        key: file.read(key, _READERS.get(key, _read_number)) for key in file.value
+    }
+    if not file.faults and found.get("floor_share", DEFAULT.floor_share) > found.get(
+        "cap", DEFAULT.cap
+    ):
+        hint = "No answer could be graded: raise it."
+        file["cap"].note("the cap is below floor_share", hint=hint)
+    if file.faults:
+        raise SettingsError(name, file.faults.listed)
+    return Settings(**found)
 
 
-def _read_marks(faults: Faults, value: object) -> tuple[tuple[float, str], ...]:
+def _read_number(node: FileNode) -> float:
+    what, low, high, hint = _NUMBERS[str(node.key)]
+    return node.number(what, low, high, hint=hint)
+
+
+_MARKS = 'For example: marks = [[0.85, "5"], [0.7, "4"], [0.5, "3"], [0, "2"]]'
+
+
+def _read_marks(node: FileNode) -> tuple[tuple[float, str], ...]:
     """Read marks: pairs of a share and a name, the best first, the last from 0."""
-    example = 'For example: marks = [[0.85, "5"], [0.7, "4"], [0.5, "3"], [0, "2"]]'
-    if not isinstance(value, list) or not 1 <= len(value) <= MARK_LIMIT:
-        faults.expected("marks", translate("1 to {} marks", MARK_LIMIT), value, example)
-        return ()
-    found: list[tuple[float, str]] = []
-    for index, entry in enumerate(value):
-        path = f"marks[{index}]"
-        if not isinstance(entry, list) or len(entry) != 2:
-            faults.expected(path, "[share, mark]", entry, example)
-            continue
-        share = fields.read_number(
-            faults, f"{path}[0]", entry[0], "a share", low=0.0, high=1.0, hint=_FRACTION_HINT
-        )
-        mark = fields.read_text(faults, f"{path}[1]", _unquoted(entry[1]), limit=MARK_LIMIT)
-        if mark is not None and not mark.strip():
-            faults.add(f"{path}[1]", "the mark is empty", example)
-        elif share is not None and mark is not None:
-            found.append((share, mark.strip()))
-    if len(found) < len(value):
-        return ()
-    for index, ((above, _), (below, mark)) in enumerate(pairwise(found)):
+    node.array(translate("1 to {} marks", MARK_LIMIT), _MARKS, low=1, high=MARK_LIMIT)
+    found = node.read_all(_read_mark)
+    for index, ((above, _), (below, mark)) in enumerate(pairwise(found), 1):
         if not below < above:
-            hint = "The best mark comes first."
-            phrase = translate(
-                "'{}' is from {:g}, the mark before it from {:g}", mark, below, above
-            )
-            faults.add(f"marks[{index + 1}]", phrase, hint)
-    if found[-1][0] != 0:
-        hint = translate("Add the lowest mark: [0, \"2\"], or let '{}' start at 0.", found[-1][1])
-        faults.add("marks", translate("the last mark is from {:g}, expected 0", found[-1][0]), hint)
-    return tuple(found)
+            message = "'{}' is from {:g}, the mark before it from {:g}"
+            node[index].note(message, mark, below, above, hint="The best mark comes first.")
+    lowest, mark = found[-1]
+    if lowest != 0:
+        hint = translate("Add the lowest mark: [0, \"2\"], or let '{}' start at 0.", mark)
+        node.note("the last mark is from {:g}, expected 0", lowest, hint=hint)
+    return found
+
+
+def _read_mark(node: FileNode) -> tuple[float, str]:
+    node.array("[share, mark]", _MARKS, low=2, high=2)
+    fraction = node[0].attempt(lambda one: one.number("a share", 0.0, 1.0, hint=_FRACTION_HINT))
+    name = node[1].with_value(_unquoted(node.value[1]))
+    mark = name.text(MARK_LIMIT).strip()
+    if not mark:
+        name.reject("the mark is empty", hint=_MARKS)
+    return needed(fraction), mark
 
 
 def _unquoted(value: object) -> object:
     """Take a whole number for a mark: 5 is "5"."""
-    return str(value) if fields.is_number(value) and isinstance(value, int) else value
+    return str(value) if is_integer(value) else value
+
+
+_READERS: Mapping[str, Callable[[FileNode], object]] = {
+    "policy": lambda policy: policy.word(POLICIES),
+    "profile": lambda profile: profile.word(PROFILES),
+    "values": lambda values: values.word(VALUES),
+    "marks": _read_marks,
+}
+"""Readers of the keys whose values are texts or lists."""

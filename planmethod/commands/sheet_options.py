@@ -123,7 +123,7 @@ def _reader(key: str) -> Callable[[click.Context, click.Parameter, str | None], 
     def read(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
         if value is None:
             return None
-        from planmethod.problem.flat_tables import chosen
+        from planmethod.problem.file_node import chosen
         from planmethod.problem.keys import CHOICES
 
         names = CHOICES[key]
@@ -147,7 +147,7 @@ def read_fields(
     if not value:
         return {}
     from planmethod.problem.common import STAMP_LIMIT
-    from planmethod.problem.fields import Faults, read_text
+    from planmethod.problem.file_node import Faults, FileNode
 
     fields, faults = {}, Faults()
     for field in value:
@@ -156,7 +156,7 @@ def read_fields(
             raise BadParameter("{!r} is not key=text, such as author=Иванов", field)
         fields[key] = text
         text.encode()  # a text that is not UTF-8 is reported as any other argument
-        read_text(faults, key, text, limit=STAMP_LIMIT)
+        FileNode(faults, text, key).attempt(lambda node: node.text(STAMP_LIMIT))
     if faults.listed:
         raise click.BadParameter(" ".join(map(str, faults.listed)))
     return fields

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 from msgspec.structs import replace
 
 from planmethod.errors import ProblemError
@@ -14,10 +11,9 @@ from planmethod.gears.model import GearProblem, Train
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.reader import read_train
 from planmethod.gears.sheet_texts import train_facts
-from planmethod.languages import translate
 from planmethod.note.document import GivenFact
 from planmethod.note.wording import Language
-from planmethod.problem.fields import Faults
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.model import GearDrive
 from planmethod.problem.names import segment
 
@@ -55,36 +51,19 @@ class TrainOutput(GearDrive, frozen=True, kw_only=True):
         return facts
 
 
-def driven(faults: Faults, table: Mapping[str, Any], label: object) -> GearDrive | None:
+def driven(file: FileNode) -> GearDrive:
     """Solve the train of a linkage's file for the body that turns with the crank.
 
-    Parameters
-    ----------
-    table : mapping
-        ``[gears]``.
-    label : object
-        ``train`` of ``[driver]``.
-
-    Returns
-    -------
-    Geared or None
-        None where the train or the label is faulty; ``faults`` say why.
+    That body is ``train`` of ``[driver]``.
     """
-    train = read_train(faults, table)
-    if train is None:
-        return None
-    body = read_label(faults, "driver.train", label, tuple(train.body_of))
-    if body is None:
-        return None
+    train, label = read_train(file["gears"]), file["driver"]["train"]
+    body = read_label(label, tuple(train.body_of))
     if train.body_of[body] in train.racks:
-        faults.add("driver.train", translate("{} is a rack, it does not turn", body))
-        return None
+        label.reject("{} is a rack, it does not turn", body)
     try:
         motion = solve_motion(GearProblem(name="", train=train))
     except ProblemError as error:
-        for fault in error.faults:
-            faults.add(fault.path, fault.message, fault.hint)
-        return None
+        file.reject_all(error.faults)
     speed = motion.speed(body)
     inputs = tuple((name, float(value)) for name, value in train.inputs.items())
     ratio = None

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 from planmethod.errors import ProblemError
 from planmethod.gears.meshes import (
     TrainDraft,
+    check_meshes,
     find_carriers,
     fraction,
+    read_key_label,
     read_label,
     read_labels,
     read_meshes,
@@ -20,12 +22,11 @@ from planmethod.gears.meshes import (
 from planmethod.gears.model import DiagramSettings, GearProblem, Train
 from planmethod.gears.requested_quantities import RequestedQuantityError, parse
 from planmethod.languages import translate
-from planmethod.problem import fields, keys
+from planmethod.problem import keys
 from planmethod.problem.answers import ComputedAnswerNames, read_answers
 from planmethod.problem.common import Published
-from planmethod.problem.fields import Faults
-from planmethod.problem.flat_tables import read_flat
-from planmethod.problem.names import fold, is_label, joined, segment
+from planmethod.problem.file_node import FileNode, needed
+from planmethod.problem.names import fold, is_label
 from planmethod.problem.reader import varied
 from planmethod.problem.selector import read_published
 from planmethod.problem.sheet import read_head
@@ -63,69 +64,63 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
         With every fault of the file: path, what was expected, what was found, the next action.
     """
     path = Path(path)
-    table, variants, faults = varied(path, variant)
-    if "links" in table:
-        table = {key: value for key, value in table.items() if key in SHARED}
-    given = fields.read_keys(faults, "", table, TOP)
-    head = read_head(faults, given)
-    body = fields.read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
-    train = None if body is None else read_train(faults, body)
-    published = _read_published(faults, given.get("published", {}), train)
-    answers = read_answers(faults, given, _scene(train))
-    if faults or train is None:
-        raise ProblemError(str(path), faults.listed)
+    file, variants = varied(path, variant)
+    if "links" in file:
+        file = file.with_value({key: file.value[key] for key in file.value if key in SHARED})
+    file.allow(TOP)
+    head = read_head(file)
+    train = file.get("gears", {}).attempt(read_train)
+    published = file.read("published", partial(_read_published, train=train)) or ()
+    answers = read_answers(file, _scene(train))
+    if file.faults or train is None:
+        raise ProblemError(str(path), file.faults.listed)
     return GearProblem(
         name=path.stem, source_file=str(path), variants=variants, variant=variant, train=train,
         **head, published=published, answers=answers,
     )  # fmt: skip
 
 
-def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
-    """Read the table ``[gears]``; None where it has faults."""
-    before = len(faults)
-    given = fields.read_keys(faults, "gears", table, keys.GEARS)
-    module, modules = _read_module(faults, given)
-    draft = TrainDraft(module, modules)
+def read_train(node: FileNode) -> Train:
+    """Read the table ``[gears]``."""
+    node.table("wheels = { 1 = 20, 2 = 36 }")
+    node.allow(keys.GEARS)
+    draft = TrainDraft(*_read_module(node))
     for key, example in (("wheels", "{ 1 = 20, 2 = 36 }"), ("meshes", "[{ of = [1, 2] }]")):
-        if key not in given:
-            faults.add(f"gears.{key}", "missing", translate("For example: {} = {}", key, example))
-    unknown = read_labels(faults, "gears.unknown", given.get("unknown", []), GROUP_LIMIT)
-    carriers = find_carriers(given.get("meshes"), given.get("bodies"))
-    read_wheels(faults, given.get("wheels", {}), unknown, draft, carriers)
-    meshes = read_meshes(faults, given.get("meshes", []), draft)
-    told_bodies = given.get("bodies", [])
-    draft.names = _further_names(told_bodies)
+        if key not in node:
+            node[key].note("missing", hint=translate("For example: {} = {}", key, example))
+    unknown = node.read("unknown", partial(read_labels, limit=GROUP_LIMIT)) or ()
+    carriers = find_carriers(node["meshes"].value, node["bodies"].value)
+    read = partial(read_wheels, unknown=unknown, draft=draft, carriers=carriers)
+    node.get("wheels", {}).attempt(read)
+    meshes = node.get("meshes", []).attempt(partial(read_meshes, draft=draft))
+    if meshes is not None:
+        check_meshes(node, meshes, draft)
+    meshes = meshes or ()
+    draft.names = _further_names(node["bodies"].value)
     known = draft.labels()
-    groups = _read_groups(faults, "gears.bodies", told_bodies, known)
-    coaxial = _read_groups(faults, "gears.coaxial", given.get("coaxial", []), known)
+    groups = node.read("bodies", partial(_read_groups, known=known)) or ()
+    coaxial = node.read("coaxial", partial(_read_groups, known=known)) or ()
     body_of = draft.merge_labels(groups)
-    fixed = _known(faults, "gears.fixed", given.get("fixed", []), known)
-    unit, inputs = _read_inputs(faults, given, known)
+    fixed = node.read("fixed", partial(read_labels, limit=GROUP_LIMIT, known=known)) or ()
+    unit, inputs = _read_inputs(node, known)
     for label in fixed:
         if body_of.get(label) in {body_of.get(name) for name, speed in inputs.items() if speed}:
-            faults.add("gears.fixed", translate("{} is fixed, and a speed of it is given", label))
-    satellites = _read_planets(faults, given.get("satellites", {}), draft)
-    output = None
-    if "output" in given:
-        output = read_label(faults, "gears.output", given["output"], known)
-        for what, held in (("fixed", fixed), ("an input", tuple(inputs))):
-            if output is not None and body_of[output] in {body_of[label] for label in held}:
-                faults.add(
-                    "gears.output", translate("{} is {}, no power comes out of it", output, what)
-                )
-    picture = _read_picture(faults, given.get("picture", {}))
-    design = _read_design(faults, given["design"]) if "design" in given else None
-    ask = _read_ask(faults, given.get("ask", []), known)
+            node["fixed"].note("{} is fixed, and a speed of it is given", label)
+    satellites = node.read("satellites", partial(_read_planets, draft=draft)) or {}
+    output = node.read("output", partial(read_label, known=known))
+    for what, held in (("fixed", fixed), ("an input", tuple(inputs))):
+        if output is not None and body_of[output] in {body_of[label] for label in held}:
+            node["output"].note("{} is {}, no power comes out of it", output, what)
+    picture = node.read("picture", _read_picture) or DiagramSettings()
+    design = node.read("design", _read_design)
+    ask = node.read("ask", partial(_read_ask, known=known)) or ()
     if any(mesh.eta is not None for mesh in meshes) and "eta" not in ask:
         ask = (*ask, "eta")  # use the given efficiencies, or report why not
-    if len(faults) != before:
-        return None
+    node.require_sound()
     speeds: dict[str, Fraction] = {}
     for label, speed in inputs.items():
         if speeds.setdefault(body_of[label], speed) != speed:
-            faults.add(
-                f"gears.{unit}", translate("{} is given another speed than its own body", label)
-            )
+            node[unit].note("{} is given another speed than its own body", label)
     return Train(
         wheels=draft.wheels,
         meshes=meshes,
@@ -150,30 +145,15 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     )
 
 
-def _read_module(
-    faults: Faults, table: Mapping[str, Any]
-) -> tuple[Fraction | None, dict[str, Fraction]]:
+def _read_module(node: FileNode) -> tuple[Fraction | None, dict[str, Fraction]]:
     """Read ``module``: that of all wheels, or of rows by their meshes, m."""
 
-    def read(path: str, value: object) -> Fraction | None:
-        told = fields.read_number(faults, path, value, "a module in mm", low=0.01, high=1000)
-        return None if told is None else fraction(told) / 1000
+    def read(module: FileNode) -> Fraction:
+        return fraction(module.number("a module in mm", 0.01, 1000)) / 1000
 
-    value = table.get("module")
-    if not isinstance(value, Mapping):
-        return (None if value is None else read("gears.module", value)), {}
-    found = {name: read(f"gears.module.{segment(name)}", one) for name, one in value.items()}
-    return None, {name: one for name, one in found.items() if one is not None}
-
-
-def _known(faults: Faults, path: str, value: object, known: tuple[str, ...]) -> tuple[str, ...]:
-    found = read_labels(faults, path, value, GROUP_LIMIT)
-    for index, label in enumerate(found):
-        if label not in known:
-            fields.report_unknown(
-                faults, f"{path}[{index}]", label, known, message="unknown wheel '{}'"
-            )
-    return tuple(label for label in found if label in known)
+    if isinstance(node["module"].value, Mapping):
+        return None, node["module"].read_each(read)
+    return node.read("module", read), {}
 
 
 def _further_names(value: object) -> list[str]:
@@ -186,100 +166,82 @@ def _further_names(value: object) -> list[str]:
     return [name for name in dict.fromkeys(kept) if name[0].isalpha()]
 
 
-def _read_groups(
-    faults: Faults, path: str, value: object, known: tuple[str, ...]
-) -> list[tuple[str, ...]]:
-    if not isinstance(value, list) or len(value) > GROUP_LIMIT:
-        faults.expected(path, "a list of lists", value, '[["3", "H"]]')
-        return []
-    if value and not any(isinstance(group, list) for group in value):
-        written = ", ".join(f'"{label}"' for label in value)
-        faults.add(
-            path,
-            "expected a list of lists, got one list of labels",
-            translate("Write {} = [[{}]].", path.partition(".")[2], written),
-        )
-        return []
-    return [_known(faults, f"{path}[{i}]", group, known) for i, group in enumerate(value)]
+def _read_groups(node: FileNode, known: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
+    node.array("a list of lists", '[["3", "H"]]', high=GROUP_LIMIT)
+    if node.value and not any(isinstance(group, list) for group in node.value):
+        written = ", ".join(f'"{label}"' for label in node.value)
+        hint = translate("Write {} = [[{}]].", node.key, written)
+        node.reject("expected a list of lists, got one list of labels", hint=hint)
+    return node.read_sound(partial(read_labels, limit=GROUP_LIMIT, known=known))
 
 
 _SPEEDS = {"n": "a rotational speed in rev/min", "omega": "an angular velocity in 1/s"}
 
 
-def _read_inputs(
-    faults: Faults, gears_table: Mapping[str, Any], known: tuple[str, ...]
-) -> tuple[str, dict[str, Fraction]]:
-    if "n" in gears_table and "omega" in gears_table:
-        faults.add("gears.omega", "n and omega are both given", "Keep one of them.")
-    unit = "omega" if "omega" in gears_table else "n"
-    found: dict[str, Fraction] = {}
-    table = (
-        fields.read_table(faults, f"gears.{unit}", gears_table.get(unit, {}), "n = { 1 = 2400 }")
-        or {}
-    )
-    for key, value in table.items():
-        path = joined("gears", unit, segment(key))
-        label = read_label(faults, path, key, known)
-        what = _SPEEDS[unit]
-        speed = fields.read_number(faults, path, value, what, low=-1e6, high=1e6)
-        if label is not None and speed is not None:
-            found[label] = fraction(speed)
-    return unit, found
+def _read_inputs(node: FileNode, known: tuple[str, ...]) -> tuple[str, dict[str, Fraction]]:
+    if "n" in node and "omega" in node:
+        node["omega"].note("n and omega are both given", hint="Keep one of them.")
+    unit = "omega" if "omega" in node else "n"
+
+    def read_speed(speed: FileNode) -> tuple[str, Fraction]:
+        label = speed.attempt(partial(read_key_label, known=known))
+        number = speed.number(_SPEEDS[unit], -1e6, 1e6)
+        return needed(label), fraction(number)
+
+    def read_speeds(speeds: FileNode) -> dict[str, Fraction]:
+        speeds.table("n = { 1 = 2400 }")
+        return dict(speeds.read_each(read_speed).values())
+
+    return unit, node.read(unit, read_speeds) or {}
 
 
-def _read_planets(faults: Faults, value: object, draft: TrainDraft) -> dict[str, int]:
+def _read_planets(node: FileNode, draft: TrainDraft) -> dict[str, int]:
     """Read the number of planets: one for every carrier, or by carrier."""
     carriers = tuple(draft.carriers)
-    if not isinstance(value, Mapping):
-        count = fields.read_integer(faults, "gears.satellites", value, 1, 100)
-        return {} if count is None else dict.fromkeys(carriers, count)
-    found: dict[str, int] = {}
-    for key, number in value.items():
-        path = joined("gears.satellites", segment(key))
-        label = read_label(faults, path, key, carriers)
-        count = fields.read_integer(faults, path, number, 1, 100)
-        if label is not None and count is not None:
-            found[label] = count
-    return found
+
+    def read_count(count: FileNode) -> tuple[str, int]:
+        label = count.attempt(partial(read_key_label, known=carriers))
+        number = count.integer(1, 100)
+        return needed(label), number
+
+    if not isinstance(node.value, Mapping):
+        return dict.fromkeys(carriers, node.integer(1, 100))
+    return dict(node.read_each(read_count).values())
 
 
-def _read_picture(faults: Faults, value: object) -> DiagramSettings:
-    table = fields.read_table(faults, "gears.picture", value, "picture = { pole_mm = 40 }") or {}
-    found = read_flat(faults, "gears.picture", table, PictureSection)
+def _read_picture(node: FileNode) -> DiagramSettings:
+    node.table("picture = { pole_mm = 40 }")
+    found = node.record(PictureSection)
     return DiagramSettings(**{key: fraction(value) for key, value in found.items()})
 
 
-def _read_design(faults: Faults, value: object) -> PlanetaryTask:
-    example = "design = { U = 6.5, k_min = 3, k_max = 5 }"
-    table = fields.read_table(faults, "gears.design", value, example) or {}
-    design = PlanetaryTask(**read_flat(faults, "gears.design", table, PlanetaryTask))
+def _read_design(node: FileNode) -> PlanetaryTask:
+    node.table("design = { U = 6.5, k_min = 3, k_max = 5 }")
+    design = PlanetaryTask(**node.record(PlanetaryTask))
     if design.U == 0:
-        faults.add("gears.design.U", "the ratio is 0", "Leave it out, or give another one.")
+        node["U"].note("the ratio is 0", hint="Leave it out, or give another one.")
     for low, high in (("z_min", "z_max"), ("k_min", "k_max")):
         least, most = getattr(design, low), getattr(design, high)
         if least > most:
-            what = translate("{} = {} is more than {} = {}", low, least, high, most)
-            faults.add(f"gears.design.{low}", what, "Exchange them.")
+            message = "{} = {} is more than {} = {}"
+            node[low].note(message, low, least, high, most, hint="Exchange them.")
     return design
 
 
-def _read_ask(faults: Faults, value: object, known: tuple[str, ...]) -> tuple[str, ...]:
-    if not isinstance(value, list) or len(value) > ASK_LIMIT:
-        faults.expected("gears.ask", "a list of names", value, '["U_1_5", "n_5"]')
-        return ()
-    found: list[str] = []
-    for index, name in enumerate(value):
-        text = fields.read_text(faults, f"gears.ask[{index}]", name, limit=80)
-        if text is not None and _is_requestable(faults, f"gears.ask[{index}]", text, known):
-            found.append(text)
-    return tuple(found)
+def _read_ask(node: FileNode, known: tuple[str, ...]) -> tuple[str, ...]:
+    def read_name(name: FileNode) -> str:
+        return _requestable(name, name.text(80), known)
+
+    node.array("a list of names", '["U_1_5", "n_5"]', high=ASK_LIMIT)
+    return node.read_sound(read_name)
 
 
-def _is_requestable(faults: Faults, path: str, text: str, known: tuple[str, ...]) -> bool:
-    phrase = _fault_of(text, known)
+def _requestable(node: FileNode, name: str, known: tuple[str, ...]) -> str:
+    """Return the name of a quantity that can be requested of a train."""
+    phrase = _fault_of(name, known)
     if phrase:
-        faults.add(path, phrase, _NAMES)
-    return not phrase
+        node.reject(phrase, hint=_NAMES)
+    return name
 
 
 def _fault_of(text: str, known: tuple[str, ...]) -> str:
@@ -300,13 +262,12 @@ def _scene(train: Train | None) -> ComputedAnswerNames:
     )
 
 
-def _read_published(faults: Faults, value: object, train: Train | None) -> tuple[Published, ...]:
+def _read_published(node: FileNode, train: Train | None) -> tuple[Published, ...]:
     """Read the values that the source prints; ``what`` is a name that can be requested."""
 
-    def check(path: str, quantity: str, name: str) -> str:
-        if train is not None:
-            _is_requestable(faults, path, quantity or name, tuple(train.body_of))
-        return quantity or name
+    def check(quantity: FileNode, name: str) -> str:
+        text = quantity.value or name
+        return text if train is None else _requestable(quantity, text, tuple(train.body_of))
 
     example = 'value = -375, what = "n_5"'
-    return read_published(faults, value, check, example=example, without=("per_mm", "position"))
+    return read_published(node, check, example=example, without=("per_mm", "position"))

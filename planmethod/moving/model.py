@@ -8,9 +8,8 @@ from enum import Enum
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.languages import translate
 from planmethod.problem.common import KindProblem
-from planmethod.problem.fields import Faults, is_number
+from planmethod.problem.file_node import FileNode, is_number
 from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, FormulaKind, Operation, Parser
 from planmethod.problem.model import Scales
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short
@@ -48,40 +47,33 @@ class TimeFunction(Struct, frozen=True):
         return replace(self, operations=tuple(told))
 
 
-def read_formula(
-    faults: Faults, path: str, value: object, *, constant: bool = False
-) -> TimeFunction | None:
-    """Read a formula, or a number in its place; None after noting a fault.
+def read_formula(node: FileNode, *, constant: bool = False) -> TimeFunction:
+    """Read a formula, or a number in its place.
 
     Parameters
     ----------
     constant : bool
         It may not contain time.
     """
-    if is_number(value):
-        value = repr(value)
-        if len(value) > LENGTH_LIMIT or value.strip("-") in ("inf", "nan"):
-            faults.add(path, translate("expected a finite number, got {}", short(value)))
-            return None
-    if not isinstance(value, str):
-        faults.expected(path, "a formula", value, 'For example: "3*t*exp(t/2)".')
-        return None
-    if len(value) > LENGTH_LIMIT:
-        faults.add(
-            path,
-            translate("the formula has {} characters, the limit is {}", len(value), LENGTH_LIMIT),
-        )
-        return None
-    if lookalikes(value):
-        faults.add(path, describe_lookalikes(value), "Type formulas in the Latin layout.")
+    text = node.value
+    if is_number(text):
+        text = repr(text)
+        if len(text) > LENGTH_LIMIT or text.strip("-") in ("inf", "nan"):
+            node.reject("expected a finite number, got {}", short(text))
+    if not isinstance(text, str):
+        node.reject_value("a formula", 'For example: "3*t*exp(t/2)".')
+    if len(text) > LENGTH_LIMIT:
+        message = "the formula has {} characters, the limit is {}"
+        node.reject(message, len(text), LENGTH_LIMIT)
+    if lookalikes(text):
+        node.note(describe_lookalikes(text), hint="Type formulas in the Latin layout.")
     try:
-        formula = TimeFunction(value, tuple(Parser(fold(value)).parse()))
+        formula = TimeFunction(text, tuple(Parser(fold(text)).parse()))
     except FormulaError as error:
-        faults.add(path, str(error), error.hint)
-        return None
+        node.reject(str(error), hint=error.hint)
     if constant and not formula.is_constant:
-        faults.add(path, "expected a number or a formula without t", 'For example: "pi/2".')
-        return None
+        hint = 'For example: "pi/2".'
+        node.reject("expected a number or a formula without t", hint=hint)
     return formula
 
 

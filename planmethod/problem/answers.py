@@ -11,10 +11,9 @@ from msgspec import Struct
 
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Revolute
-from planmethod.problem import fields, keys
+from planmethod.problem import keys
 from planmethod.problem.common import AnswerForm, DirectionMode, QuestionSpec
-from planmethod.problem.fields import Faults, Table
-from planmethod.problem.flat_tables import CustomReader, read_flat
+from planmethod.problem.file_node import FileNode, needed, show
 from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import short, split_pair
 from planmethod.problem.selector import ANALOGUES, MACHINE, Selector, check_quantity, read_position
@@ -141,21 +140,22 @@ class ComputedAnswerNames(Struct, frozen=True):
 
 
 def read_answers(
-    faults: Faults, document: Mapping[str, object], scene: AnswerScope | ComputedAnswerNames
+    file: FileNode, scene: AnswerScope | ComputedAnswerNames
 ) -> tuple[QuestionSpec, ...]:
     """Read ``[[answers]]`` of a file, in its order, and check its ``compare``."""
-    if "compare" in document:
-        fields.read_flag(faults, "compare", document["compare"])
-    value = document.get("answers", [])
+    file.read("compare", FileNode.flag)
+    if "answers" not in file:
+        return ()
+    node, faults = file["answers"], file.faults
     names = None if isinstance(scene, ComputedAnswerNames) or faults else scene.names
     global _CACHE
     for table, before, answers in _CACHE:
-        if names is not None and table is value and before == names:
+        if names is not None and table is node.value and before == names:
             return answers
     stated = len(faults.stated)
-    found = _read_each(faults, value, scene)
+    found = node.attempt(partial(_read_each, scene=scene)) or ()
     if names is not None and not faults and len(faults.stated) == stated:
-        _CACHE = ((value, names, found), *_CACHE[:1])
+        _CACHE = ((node.value, names, found), *_CACHE[:1])
     return found
 
 
@@ -166,82 +166,60 @@ replaced, never modified: another thread may be reading it.
 
 
 def _read_each(
-    faults: Faults, value: object, scene: AnswerScope | ComputedAnswerNames
+    node: FileNode, scene: AnswerScope | ComputedAnswerNames
 ) -> tuple[QuestionSpec, ...]:
     """Read the answers in their order."""
-    if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
-        faults.expected("answers", "tables [[answers]]", value)
-        return ()
-    if faults.exceeds("answers", "{} answers, the limit is {}", len(value), keys.ANSWER_LIMIT):
-        return ()
+    node.tables(keys.ANSWER_LIMIT, "{} answers, the limit is {}")
     found: list[QuestionSpec] = []
     ids: dict[str, int] = {}
     letters: dict[tuple[str, int | None], int] = {}
-    for index, body in enumerate(value):
-        path = f"answers[{index}]"
-        answer = _read_answer(faults, path, body, scene)
+    for index, entry in enumerate(node.entries()):
+        answer = entry.attempt(partial(_read_answer, scene=scene))
         if answer is None:
             continue
         found.append(answer)
         if ids.setdefault(answer.id, index) != index:
-            faults.add(
-                path,
-                translate("answers[{}] is called '{}' too", ids[answer.id], short(answer.id)),
-                "Give one of them an id of its own.",
-            )
+            message, hint = "answers[{}] is called '{}' too", "Give one of them an id of its own."
+            entry.note(message, ids[answer.id], short(answer.id), hint=hint)
         for spelling in answer.letters:
             twin = letters.setdefault((spelling, answer.position), index)
             if twin != index:
-                faults.add(
-                    f"{path}.letters",
-                    translate("'{}' denotes answers[{}] too", short(spelling), twin),
-                    "Give each of them letters of its own.",
-                )
+                hint = "Give each of them letters of its own."
+                entry["letters"].note("'{}' denotes answers[{}] too", short(spelling), twin,
+                                      hint=hint)  # fmt: skip
     return tuple(found)
 
 
-def _read_answer(
-    faults: Faults, path: str, body: Table, scene: AnswerScope | ComputedAnswerNames
-) -> QuestionSpec | None:
-    before = len(faults)
+def _read_answer(node: FileNode, scene: AnswerScope | ComputedAnswerNames) -> QuestionSpec:
     positions = scene.positions if isinstance(scene, ComputedAnswerNames) else 0
     if isinstance(scene, AnswerScope) and scene.drive:
         positions = len(scene.drive.positions)
-    own: dict[str, CustomReader] = {
-        "id": _read_id,
-        "letters": _read_letters,
-        "position": partial(read_position, positions=positions),
-        "segment": _read_segment,
-    }
-    given = read_flat(faults, path, body, QuestionSpec, own)
-    if "what" not in given:
-        return None
-    name = fields.read_text(faults, f"{path}.what", given["what"], limit=QUANTITY_LIMIT)
-    if name is None:
-        return None
-    name = " ".join(fields.unmask(faults, f"{path}.what", name).split())
+    given = node.record(
+        QuestionSpec,
+        id=_read_id,
+        letters=_read_letters,
+        position=partial(read_position, positions=positions),
+        segment=_read_segment,
+    )
+    what = node["what"]
+    name = needed(what.attempt(_read_what) if "what" in given else None)
     own_sense, selector, words, kind, usual = None, None, name, "", AnswerForm.BOTH
     if isinstance(scene, ComputedAnswerNames):
         usual = AnswerForm.VALUE
         if phrase := scene.fault(name):
-            faults.add(f"{path}.what", phrase, scene.hint)
+            what.note(phrase, hint=scene.hint)
         else:
             kind, own_sense = name, DirectionMode.TURN if scene.turns(name) else None
     else:
         words = words_of(name, scene.slides.values())
-        selector = _read_quantity(faults, f"{path}.what", name, words, scene)
+        selector = what.attempt(partial(_read_quantity, name=name, words=words, scene=scene))
         if selector is not None:
             kind, own_sense = selector.kind, _quantity_sense(selector, scene.drive)
     if given.get("form") is AnswerForm.MM and selector is not None and _has_no_segment(selector):
-        faults.add(
-            f"{path}.form",
-            translate("'{}' is not a segment of a plan", short(name)),
-            'Leave it, or form = "value".',
-        )
-    sense = given.get("sense", False)
-    given["sense"] = _read_sense(faults, f"{path}.sense", sense, kind, own_sense)
-    if len(faults) != before:
-        return None
+        hint = 'Leave it, or form = "value".'
+        node["form"].note("'{}' is not a segment of a plan", short(name), hint=hint)
+    given["sense"] = node.read("sense", partial(_read_sense, quantity=kind, default=own_sense))
+    node.require_sound()
     if "tolerance" in given:
         given["tolerance"] /= 100.0
     position = given.get("position")
@@ -252,38 +230,26 @@ def _read_answer(
     return QuestionSpec(**usually | given | {"what": words})
 
 
-def _read_quantity(
-    faults: Faults, path: str, name: str, words: str, scene: AnswerScope
-) -> Selector | None:
+def _read_what(node: FileNode) -> str:
+    return " ".join(node.unmask(node.text(QUANTITY_LIMIT)).split())
+
+
+def _read_quantity(node: FileNode, name: str, words: str, scene: AnswerScope) -> Selector | None:
     """Check a quantity, and the joint of a reaction, which its words do not contain."""
     if name in scene.points:
-        faults.add(
-            path,
-            translate("'{}' is a place, which is two numbers", name),
-            translate("Ask for x {0}, y {0}.", name),
-        )
-        return None
-    before = len(faults)
-    selector = check_quantity(faults, path, words, scene.points, scene.links, scene.dynamics)
+        hint = translate("Ask for x {0}, y {0}.", name)
+        node.reject("'{}' is a place, which is two numbers", name, hint=hint)
+    selector = check_quantity(node, words, scene.points, scene.links, scene.dynamics)
     if selector is not None and selector.kind in MACHINE:
-        faults.add(
-            path, translate("'{}' is of the flywheel", words), "Ask for the motion or the forces."
-        )
+        node.note("'{}' is of the flywheel", words, hint="Ask for the motion or the forces.")
     elif selector is not None and selector.kind in ANALOGUES:
-        faults.add(
-            path, translate("'{}' is on no plan", words), "Ask for the motion or the forces."
-        )
+        node.note("'{}' is on no plan", words, hint="Ask for the motion or the forces.")
     reaction = re.match(_REACTION_RE, name)
-    if reaction and scene.points and len(faults) == before:
-        joint, pair = reaction["joint"], {reaction["on"], reaction["by"]}
-        if not _joined(joint, pair, scene):
-            faults.add(
-                path,
-                translate(
-                    "links {} and {} have no joint {}", reaction["on"], reaction["by"], joint
-                ),
-                translate("Without it: '{}'.", words),
-            )
+    if reaction and scene.points and node.is_sound:
+        joint, one, other = reaction["joint"], reaction["on"], reaction["by"]
+        if not _joined(joint, {one, other}, scene):
+            hint = translate("Without it: '{}'.", words)
+            node.note("links {} and {} have no joint {}", one, other, joint, hint=hint)
     return selector
 
 
@@ -298,66 +264,55 @@ def _has_no_segment(selector: Selector) -> bool:
     return selector.kind in _NO_SEGMENT or selector.over is not None
 
 
-def _read_id(faults: Faults, path: str, value: object) -> str:
-    text = fields.read_text(faults, path, value, limit=ID_LIMIT)
-    if text is None:
-        return ""
-    text = fields.unmask(faults, path, text)
+def _read_id(node: FileNode) -> str:
+    text = node.unmask(node.text(ID_LIMIT))
     if text in _RESERVED_NAMES:
-        faults.add(
-            path,
-            translate("'{}' is a row of its own in tables of answers", text),
-            "Take another id.",
-        )
-    elif not re.match(_ID_RE, text):
+        hint = "Take another id."
+        node.reject("'{}' is a row of its own in tables of answers", text, hint=hint)
+    if not re.match(_ID_RE, text):
         hint = "A letter first, then letters, digits and _ . / @ ' - without spaces: v_B3."
-        faults.expected(path, "the id of an answer", text, hint)
+        node.reject("expected {}, got {}", "the id of an answer", show(text), hint=hint)
     return text
 
 
-def _read_letters(faults: Faults, path: str, value: object) -> tuple[str, ...]:
-    entries = [value] if isinstance(value, str) else value
-    if not isinstance(entries, list) or len(entries) > SPELLING_LIMIT:
-        faults.expected(path, translate("a string or up to {} of them", SPELLING_LIMIT), value)
-        return ()
-    found: list[str] = []
-    for index, entry in enumerate(entries):
-        where = path if isinstance(value, str) else f"{path}[{index}]"
-        text = fields.read_text(faults, where, entry, limit=LETTERS_LIMIT)
-        if text is not None and not text.strip():
-            faults.add(where, "the text is empty", "Leave it out.")
-        elif text is not None:
-            found.append(text.strip())
-    return tuple(dict.fromkeys(found))
+def _read_letters(node: FileNode) -> tuple[str, ...]:
+    if not isinstance(node.value, str):
+        expected = partial(translate, "a string or up to {} of them", SPELLING_LIMIT)
+        node.array(expected, high=SPELLING_LIMIT)
+    return tuple(dict.fromkeys(node.read_one_or_all(_read_spelling)))
+
+
+def _read_spelling(node: FileNode) -> str:
+    text = node.text(LETTERS_LIMIT).strip()
+    if not text:
+        node.reject("the text is empty", hint="Leave it out.")
+    return text
 
 
 def _read_sense(
-    faults: Faults, path: str, value: object, quantity: str, default: DirectionMode | None
+    node: FileNode, quantity: str, default: DirectionMode | None
 ) -> DirectionMode | None:
     """Read the form of a sense; ``true`` is the form of the quantity.
 
     ``quantity`` is empty for an unknown quantity.
     """
-    if value is False:
+    if node.value is False:
         return None
-    asked = None
-    if value is not True:
-        if not isinstance(value, str):
+    sense = None
+    if node.value is not True:
+        if not isinstance(node.value, str):
             words = ", ".join(f"'{kind.value}'" for kind in DirectionMode)
-            faults.expected(path, translate("true, false or one of {}", words), value)
-            return None
-        asked = fields.read_member(faults, path, value, DirectionMode)
-        if asked is None:
-            return None
+            node.reject_value(translate("true, false or one of {}", words))
+        sense = node.member(DirectionMode)
     if not quantity:
-        return asked
+        return sense
     if default is None:
         hint = "Leave sense out: the sign of a number, or the size of a load, says all."
-        faults.add(path, translate("'{}' has no sense that could be requested", quantity), hint)
-    elif asked is not None and (asked is DirectionMode.TURN) != (default is DirectionMode.TURN):
+        node.note("'{}' has no sense that could be requested", quantity, hint=hint)
+    elif sense is not None and (sense is DirectionMode.TURN) != (default is DirectionMode.TURN):
         text = "'{}' turns" if default is DirectionMode.TURN else "'{}' is a vector"
-        faults.add(path, translate(text, quantity), translate('Write sense = "{}".', default.value))
-    return asked or default
+        node.note(text, quantity, hint=translate('Write sense = "{}".', default.value))
+    return sense or default
 
 
 def _quantity_sense(selector: Selector, drive: Drive | None) -> DirectionMode | None:
@@ -371,14 +326,13 @@ def _quantity_sense(selector: Selector, drive: Drive | None) -> DirectionMode | 
     return DirectionMode.DIRECTION if selector.kind in _VECTORS else None
 
 
-def _read_segment(faults: Faults, path: str, value: object) -> str:
+def _read_segment(node: FileNode) -> str:
     """Read the letters of a segment, together or apart: ``pb3``, ``p b3``, ``p-b3``."""
-    text = fields.read_text(faults, path, value, limit=SEGMENT_LIMIT)
+    text = node.text(SEGMENT_LIMIT)
     if not text:
         return ""
     ends = tuple(text.replace("-", " ").split())
     ends = (split_pair(text) or ends) if len(ends) == 1 else ends
     if len(ends) != 2 or ends[0] == ends[1]:
-        faults.expected(path, "the two ends of a segment", value, 'For example: "p b3".')
-        return ""
+        node.reject_value("the two ends of a segment", 'For example: "p b3".')
     return "-".join(ends)

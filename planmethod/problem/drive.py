@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
 
 from msgspec.structs import replace
 
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
-from planmethod.problem import fields, keys
-from planmethod.problem.fields import Faults, Table
-from planmethod.problem.flat_tables import read_flat
+from planmethod.problem import keys
+from planmethod.problem.file_node import FileNode, is_integer, is_number, needed
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import (
     ANYWHERE,
@@ -23,17 +23,14 @@ from planmethod.problem.model import (
     Rule,
     Scales,
 )
-from planmethod.problem.names import is_point_name, listed, nearest_name, segment, split_pair
+from planmethod.problem.names import is_point_name, listed, nearest_name, split_pair
 from planmethod.problem.output_positions import is_length, is_place, is_posed, is_rate, read_posed
 
 Span = tuple[float, ...]
-ANGLES = ("phi", "cam")
-"""Keys whose places are angles: a row of them may be a full turn."""
 
 
 def read_drive(
-    faults: Faults,
-    table: object,
+    node: FileNode,
     links: Mapping[str, LinkText],
     fixed: Collection[str],
     hosts: Mapping[str, str],
@@ -45,68 +42,43 @@ def read_drive(
     ``numbered`` is the number of positions of ``[cycle]``: of a crank they override several that
     the driver lists, and replace missing ones.
     """
-    before = len(faults)
-    given = fields.read_table(faults, "driver", table, '[driver] link = "1", phi = 20, omega = 50')
-    if given is None:
-        return None
-    posing = [key for key in given if is_posed(key)]
-    given = fields.read_keys(faults, "driver", given, (*keys.DRIVER, *posing))
-    # a misspelt key is reported once: the key it should have been is not called missing as well
-    whole = len(faults) == before
-    link = _read_link(faults, given, links)
-    if link is None:
-        return None
+    node.table('[driver] link = "1", phi = 20, omega = 50')
+    node.allow((*keys.DRIVER, *filter(is_posed, node.value)))
+    name = node.require(
+        "link", lambda link: link.known_name("the name of a link", links, "unknown link '{}'"),
+        lambda: translate("Name the driving link: {}.", listed(links)),
+    )  # fmt: skip
+    link = links[needed(name)]
     pivots = [point for point in link.points if point in fixed]
     if not pivots and hosts.get(link.name) != FRAME:
         if link.sound:
-            faults.add(
-                "driver.link",
-                translate("link {} is not joined to the frame", link.name),
-                translate(
-                    "A driver turns about a fixed point ({}) or slides on a guide of the frame.",
-                    listed(fixed),
-                ),
-            )
+            hint = "A driver turns about a fixed point ({}) or slides on a guide of the frame."
+            message = "link {} is not joined to the frame"
+            node["link"].note(message, link.name, hint=translate(hint, listed(fixed)))
         return None
     if pivots and hosts.get(link.name) == FRAME:
         return None  # reported with the joints: pivoted to the frame and sliding on it at once
-    own, other = (keys.CRANK, keys.SLIDER) if pivots else (keys.SLIDER, keys.CRANK)
-    kind = "a crank" if pivots else "a driving slider"
-    for key in given:
-        if key in other and key not in own:
-            hint = translate("Link {} is {}: {}.", link.name, kind, listed(own))
-            faults.add(f"driver.{key}", translate("does not go with {}", kind), hint)
-    posed = read_posed(faults, given, link, links, fixed, crank=bool(pivots))
-    counted = bool(numbered and pivots)
-    required: tuple[str, ...] = () if any(map(is_place, given)) else ("phi" if pivots else "s",)
-    if counted:
-        required = ()
-    lifted = "cam" in given
-    acted = lifted or any(is_rate(key) or is_length(key) for key in given)
-    if not pivots and not acted:
-        required += ("v",)
-    if pivots and not acted and not {"n", "train"} & {*given}:
-        required += ("omega",)
-    for key in given:
-        if acted and key in ("omega", "n", "train", "epsilon", "v", "a"):
-            faults.add(f"driver.{key}", _WITH_CAM if lifted else _ACTED)
-    for key in required:
-        if key not in given and whole:
-            faults.add(f"driver.{key}", "missing", _EXAMPLES[key])
+    is_crank = bool(pivots)
+    _note_foreign_keys(node, link, crank=is_crank)
+    posed = read_posed(node, link, links, fixed, crank=is_crank)
+    counted = bool(numbered and is_crank)
+    _note_missing_keys(node, crank=is_crank, counted=counted)
     geared, led = (None, None) if leading is None else _split(leading)
+    lifted = "cam" in node
     if lifted:
-        _check_follower(faults, given, led, crank=bool(pivots))
-    if pivots:
-        _check_crank_axis(faults, link, pivots[0])
-        positions = _read_positions(faults, given, "phi")
-        rate = _read_turning(faults, given, geared)
-        acceleration = _read_rate(faults, given, "epsilon", "an angular acceleration in 1/s²")
+        _check_follower(node, led, crank=is_crank)
+    if is_crank:
+        _check_crank_axis(link, pivots[0])
+        positions = node.read("phi", partial(_read_positions, one=FileNode.angle))
+        rate = _read_turning(node, geared)
+        acceleration = _read_rate(node, "epsilon", "an angular acceleration in 1/s²")
     else:
-        positions = _read_positions(faults, given, "s")
-        rate = _read_rate(faults, given, "v", "a velocity in m/s")
-        acceleration = _read_rate(faults, given, "a", "an acceleration in m/s²")
+        positions = node.read("s", partial(_read_positions, one=FileNode.coordinate))
+        rate = _read_rate(node, "v", "a velocity in m/s")
+        acceleration = _read_rate(node, "a", "an acceleration in m/s²")
     if lifted:
-        lowest, positions = positions, _read_positions(faults, given, "cam")
+        lowest = positions
+        positions = node.read("cam", partial(_read_positions, one=FileNode.angle))
         if led is not None and lowest is not None:
             led = replace(led, lowest=lowest[0])
             rate = abs(led.n) * math.pi / 30.0
@@ -115,14 +87,47 @@ def read_drive(
     judged: Span = ()
     if counted and posed is None and (positions is None or len(positions) > 1):
         judged = positions or ANYWHERE
-        positions = (math.nan,) * numbered if positions or "phi" not in given else None
-    if len(faults) != before or positions is None or rate is None or acceleration is None:
-        return None
-    turns = rate * 30.0 / math.pi if "n" in given else None
-    pivot, geared = (pivots[0], geared) if pivots else (None, None)
+        positions = (math.nan,) * numbered if positions or "phi" not in node else None
+    node.require_sound()
+    if positions is None or rate is None or acceleration is None:
+        return None  # the train, the cam or the crank's own axis has a fault
     return Drive(
-        link.name, pivot, positions, rate, acceleration, geared, turns, posed, judged, cam_drive=led
+        link.name,
+        pivots[0] if is_crank else None,
+        positions,
+        rate,
+        acceleration,
+        geared if is_crank else None,
+        rate * 30.0 / math.pi if "n" in node else None,
+        posed,
+        judged,
+        cam_drive=led,
     )
+
+
+def _note_foreign_keys(node: FileNode, link: LinkText, *, crank: bool) -> None:
+    """Note the keys of a slider that a crank has, and those of a crank that a slider has."""
+    own, other = (keys.CRANK, keys.SLIDER) if crank else (keys.SLIDER, keys.CRANK)
+    kind = "a crank" if crank else "a driving slider"
+    for key in node.value:
+        if key in other and key not in own:
+            hint = translate("Link {} is {}: {}.", link.name, kind, listed(own))
+            node[key].note("does not go with {}", kind, hint=hint)
+
+
+def _note_missing_keys(node: FileNode, *, crank: bool, counted: bool) -> None:
+    """Note a missing position or rate, and rates that a cam or an actuator replaces."""
+    lifted = "cam" in node
+    acted = lifted or any(is_rate(key) or is_length(key) for key in node.value)
+    for key in node.value:
+        if acted and key in ("omega", "n", "train", "epsilon", "v", "a"):
+            node[key].note(_WITH_CAM if lifted else _ACTED)
+    place = "phi" if crank else "s"
+    if not counted and not any(map(is_place, node.value)):
+        node.note_missing(place, _EXAMPLES[place])
+    rates = ("omega", "n", "train") if crank else ("v",)
+    if not acted and not any(rate in node for rate in rates):
+        node.note_missing(rates[0], _EXAMPLES[rates[0]])
 
 
 def _split(leading: GearDrive | CamDrive) -> tuple[GearDrive | None, CamDrive | None]:
@@ -130,41 +135,25 @@ def _split(leading: GearDrive | CamDrive) -> tuple[GearDrive | None, CamDrive | 
     return (leading, None) if isinstance(leading, GearDrive) else (None, leading)
 
 
-def _check_follower(faults: Faults, table: Table, led: CamDrive | None, *, crank: bool) -> None:
+def _check_follower(node: FileNode, led: CamDrive | None, *, crank: bool) -> None:
     """Note why a cam's follower cannot drive: its kind, or several positions."""
-    key = "phi" if crank else "s"
     if led is not None and led.turns is not crank:
         what = "a translating follower moves a slider, an oscillating one a crank"
-        faults.add("driver.cam", what, "Change follower of [cam], or the driving link.")
-    if isinstance(table.get(key), list | Mapping):
+        node["cam"].note(what, hint="Change follower of [cam], or the driving link.")
+    place = node["phi" if crank else "s"]
+    if isinstance(place.value, list | Mapping):
         what = "one place is expected: that of the link while the follower is lowest"
-        faults.add(f"driver.{key}", what, "Give the angles of the cam: cam = [0, 30, 60].")
-    for other in ("stroke", "at", "root", *filter(is_posed, table)):
-        if other in table:
-            faults.add(f"driver.{other}", _WITH_CAM)
+        place.note(what, hint="Give the angles of the cam: cam = [0, 30, 60].")
+    for other in ("stroke", "at", "root", *filter(is_posed, node.value)):
+        if other in node:
+            node[other].note(_WITH_CAM)
 
 
 _ACTED = "does not go with an actuator, whose rate drives"
 _WITH_CAM = "does not go with a cam, whose follower drives"
 
 
-def _read_link(faults: Faults, table: Table, links: Mapping[str, LinkText]) -> LinkText | None:
-    if "link" not in table:
-        faults.add("driver.link", "missing", translate("Name the driving link: {}.", listed(links)))
-        return None
-    value = table["link"]
-    if not isinstance(value, str):
-        hint = translate('Write link = "{}".', value) if isinstance(value, int) else ""
-        faults.expected("driver.link", "the name of a link", value, hint)
-        return None
-    name = value if value in links else fields.unmask(faults, "driver.link", value)
-    if name not in links:
-        fields.report_unknown(faults, "driver.link", name, links, message="unknown link '{}'")
-        return None
-    return links[name]
-
-
-def _check_crank_axis(faults: Faults, link: LinkText, pivot: str) -> None:
+def _check_crank_axis(link: LinkText, pivot: str) -> None:
     """Reject a crank whose own axis, which phi turns, does not start at the pivot."""
     if not link.lengths or link.slides is not None:
         return
@@ -177,138 +166,120 @@ def _check_crank_axis(faults: Faults, link: LinkText, pivot: str) -> None:
         )
     else:
         hint = translate("Put first the length that starts at the pivot {}.", pivot)
-    faults.add(
-        f"{link.path}.{first.key}",
-        translate(
-            "the own axis of the crank starts at {}, phi is measured at the pivot {}",
-            first.a,
-            pivot,
-        ),
-        hint,
-    )
+    message = "the own axis of the crank starts at {}, phi is measured at the pivot {}"
+    link.node[first.key].note(message, first.a, pivot, hint=hint)
 
 
-def _read_positions(faults: Faults, table: Table, key: str) -> Span | None:
-    path = f"driver.{key}"
-    if key not in table:
-        return None
-    value = table[key]
-    if isinstance(value, list):
-        if not value:
-            faults.add(path, "expected at least one position, got an empty list")
-            return None
-        if exceeds_position_limit(faults, path, len(value)):
-            return None
-        read = [_read_position(faults, f"{path}[{i}]", item, key) for i, item in enumerate(value)]
-        kept = [item for item in read if item is not None]
-        return tuple(kept) if len(kept) == len(read) else None
-    if isinstance(value, Mapping):
-        return _read_span(faults, path, value, key)
-    one = _read_position(faults, path, value, key)
-    return None if one is None else (one,)
+def _read_positions(node: FileNode, one: Callable[[FileNode], float]) -> Span:
+    """Read positions: a number, a list, or a row; ``one`` reads one of them."""
+    if isinstance(node.value, list):
+        if not node.value:
+            node.reject("expected at least one position, got an empty list")
+        require_positions(node, len(node.value))
+        return node.read_all(one)
+    if isinstance(node.value, Mapping):
+        return _read_span(node, one)
+    if not is_number(node.value) and not isinstance(node.value, str):
+        node.reject_value("a number, a list, or { from, to, step } or { from, count }")
+    return (one(node),)
 
 
-def _read_position(faults: Faults, path: str, value: object, key: str) -> float | None:
-    if not fields.is_number(value) and not isinstance(value, str) and "[" not in path:
-        want = "a number, a list, or { from, to, step } or { from, count }"
-        faults.expected(path, want, value)
-        return None
-    return (
-        fields.read_angle(faults, path, value)
-        if key in ANGLES
-        else fields.read_coordinate(faults, path, value)
-    )
+def require_positions(node: FileNode, count: int) -> None:
+    """Make sure that there are no more positions than a file may have."""
+    if count > keys.POSITION_LIMIT:
+        shown = f"{count}" if count < 10**9 else "over a billion"
+        node.reject("{} positions, the limit is {}", shown, keys.POSITION_LIMIT)
 
 
-def exceeds_position_limit(faults: Faults, path: str, count: int) -> bool:
-    """Return whether there are more positions than a file may have, noting the fault."""
-    if count <= keys.POSITION_LIMIT:
-        return False
-    shown = f"{count}" if count < 10**9 else "over a billion"
-    faults.add(path, translate("{} positions, the limit is {}", shown, keys.POSITION_LIMIT))
-    return True
-
-
-def _read_span(faults: Faults, path: str, table: Table, key: str) -> Span | None:
+def _read_span(node: FileNode, one: Callable[[FileNode], float]) -> Span:
     """Read a row of positions: ``{ from, count }`` is a full turn."""
-    before = len(faults)
-    given = fields.read_keys(faults, path, table, keys.SPAN)
-    if len(faults) != before:
-        return None
-    names = set(given)
-    full_turn = names == {"from", "count"} and key in ANGLES
+    node.allow(keys.SPAN)
+    node.require_sound()
+    names, turns = set(node.value), one is FileNode.angle
+    full_turn = names == {"from", "count"} and turns
     if not full_turn and names not in ({"from", "to", "count"}, {"from", "to", "step"}):
         ways = "{ from, to, step } or { from, to, count }"
-        if key in ANGLES:
+        if turns:
             ways = translate("{{ from, count }} (a full turn), {}", ways)
-        faults.add(path, translate("expected {}, got {{ {} }}", ways, listed(given)))
-        return None
-    start = _read_position(faults, f"{path}.from", given["from"], key)
-    end = 0.0 if full_turn else _read_position(faults, f"{path}.to", given["to"], key)
-    return spread(faults, path, given, start, end, full_turn=full_turn)
+        node.reject("expected {}, got {{ {} }}", ways, listed(node.value))
+    return read_row(node, one, full_turn=full_turn)
 
 
-def spread(
-    faults: Faults,
-    path: str,
-    table: Table,
-    start: float | None,
-    end: float | None,
+def _read_step(node: FileNode) -> float:
+    return node.number("a step", -1e6, 1e6)
+
+
+def read_row(
+    node: FileNode,
+    one: Callable[[FileNode], float],
+    step_of: Callable[[FileNode], float] = _read_step,
     *,
     full_turn: bool = False,
-) -> Span | None:
-    """Return the row from one place to another by its ``count`` or ``step``; None after a fault."""
-    if "count" in table:
-        count = table["count"]
-        least = 1 if full_turn else 2
-        if not isinstance(count, int) or isinstance(count, bool) or count < least:
-            faults.expected(f"{path}.count", translate("a whole number from {}", least), count)
-            return None
-        if exceeds_position_limit(faults, f"{path}.count", count) or start is None or end is None:
-            return None
+) -> Span:
+    """Read the row from one place to another, by its ``count`` or ``step``.
+
+    ``one`` reads a place, ``step_of`` a step.
+    """
+    start, end = node.read("from", one), node.read("to", one, 0.0)
+    if "count" in node:
+        count = needed(node.read("count", partial(_read_count, least=1 if full_turn else 2)))
+        start, end = needed(start), needed(end)
         if full_turn:
             return tuple(start + 360.0 * k / count for k in range(count))
         return tuple(start + (end - start) * k / (count - 1) for k in range(count))
-    step = fields.read_number(faults, f"{path}.step", table["step"], "a step", low=-1e6, high=1e6)
-    if start is None or end is None or step is None:
-        return None
+    step = node.read("step", step_of)
+    start, end, step = needed(start), needed(end), needed(step)
     if step == 0 or (end - start) / step < 0:
-        faults.add(
-            f"{path}.step",
-            translate("the step {:g} does not lead from {:g} to {:g}", step, start, end),
-        )
-        return None
+        node["step"].reject("the step {:g} does not lead from {:g} to {:g}", step, start, end)
     # a step of 0.1 must reach its end in spite of rounding
     last = math.floor((end - start) / step + 1e-9) if (end - start) / step < 1e9 else 10**9
-    if exceeds_position_limit(faults, path, last + 1):
-        return None
+    require_positions(node, last + 1)
     return tuple(start + step * k for k in range(last + 1))
 
 
-def _read_rate(faults: Faults, table: Table, key: str, expected: str) -> float | None:
+def _read_count(node: FileNode, least: int) -> int:
+    if not is_integer(node.value) or node.value < least:
+        node.reject_value(translate("a whole number from {}", least))
+    require_positions(node, node.value)
+    return node.value
+
+
+def _read_rate(node: FileNode, key: str, expected: str) -> float | None:
     """Read a rate; zero when it is not given."""
-    return fields.read_number(faults, f"driver.{key}", table.get(key, 0.0), expected)
+    return node.read(key, lambda rate: rate.number(expected), 0.0)
 
 
-def _read_turning(faults: Faults, table: Table, geared: GearDrive | None) -> float | None:
+def _read_turning(node: FileNode, geared: GearDrive | None) -> float | None:
     """Angular velocity, 1/s, from omega, n or the train."""
-    if "cam" in table or any(map(is_length, table)):
+    if "cam" in node or any(map(is_length, node.value)):
         return 0.0  # found with the position, or by the cam
-    one, *others = [key for key in ("omega", "n", "train") if key in table] or ["omega"]
+    one, *others = [key for key in ("omega", "n", "train") if key in node] or ["omega"]
     for other in others:
-        faults.add(
-            f"driver.{other}",
-            translate("{} and {} are both given", one, other),
-            "Keep one of them.",
-        )
+        node[other].note("{} and {} are both given", one, other, hint="Keep one of them.")
     if others:
         return None
-    if "train" in table:
+    if "train" in node:
         return None if geared is None else geared.rate
-    if "n" in table:
-        turns = _read_rate(faults, table, "n", "a rotational speed in rev/min")
+    if "n" in node:
+        turns = _read_rate(node, "n", "a rotational speed in rev/min")
         return None if turns is None else turns * math.pi / 30.0
-    return _read_rate(faults, table, "omega", "an angular velocity in 1/s")
+    return _read_rate(node, "omega", "an angular velocity in 1/s")
+
+
+def require_turning(node: FileNode, drive: Drive | None, slides: str, hint_at_rest: str) -> None:
+    """Note that a table needs a rotating crank, with a hint for the actual driver."""
+    if drive is None:
+        return
+    if drive.cam_drive is not None:
+        what = "a cam's follower moves link {}, which does not turn all round"
+        node.note(what, drive.link, hint=slides)
+    elif drive.actuator is not None:
+        what = "the actuator {} moves link {}, which does not turn all round"
+        node.note(what, "".join(drive.actuator), drive.link, hint=slides)
+    elif not drive.is_crank:
+        node.note("link {} slides and has no turn", drive.link, hint=slides)
+    elif drive.is_at_rest:
+        node.note("the crank stands", hint=hint_at_rest)
 
 
 _EXAMPLES = {
@@ -330,10 +301,7 @@ _LINE_WORDS = {"left": AssemblyRelation.LEFT_OF, "right": AssemblyRelation.RIGHT
 
 
 def read_assembly(
-    faults: Faults,
-    table: object,
-    moving: Collection[str],
-    fixed: Collection[str],
+    node: FileNode, moving: Collection[str], fixed: Collection[str]
 ) -> tuple[Rule, ...]:
     """Read ``[assembly]``: one rule for each point.
 
@@ -342,38 +310,29 @@ def read_assembly(
     moving, fixed : collection of str
         Points of the moving links and of the frame.
     """
-    entries = fields.read_table(faults, "assembly", table, 'E = "right of D"')
-    if entries is None:
-        return ()
-    rules: list[Rule] = []
+    node.table('E = "right of D"')
     known = list(dict.fromkeys([*moving, *fixed]))
-    for key, value in entries.items():
-        path = f"assembly.{segment(key)}"
-        name = fields.unmask(faults, path, key)
-        if name in fixed:
-            faults.add(
-                path, translate("point {} is fixed", name), "Rules are for points that move."
-            )
-            continue
-        if name not in moving:
-            fields.report_unknown(faults, path, name, moving, message="unknown point '{}'")
-            continue
-        rule = _read_rule(faults, path, name, value, known)
-        if rule is not None:
-            rules.append(rule)
-    return tuple(rules)
+
+    def read_rule(rule: FileNode) -> Rule:
+        point = rule.unmask(str(rule.key))
+        if point in fixed:
+            rule.reject("point {} is fixed", point, hint="Rules are for points that move.")
+        if point not in moving:
+            rule.reject_unknown(point, moving, "unknown point '{}'")
+        return _read_rule(rule, point, known)
+
+    return tuple(node.read_each(read_rule).values())
 
 
-def _read_rule(
-    faults: Faults, path: str, point: str, value: object, known: list[str]
-) -> Rule | None:
-    if isinstance(value, Mapping):
-        return _read_rule_table(faults, path, point, value, known)
-    want = '"right of D", "left of CB", "above D" or { near = [x, y] }'
-    if not isinstance(value, str) or len(value) > 80:
-        faults.expected(path, want, value)
-        return None
-    words = [fields.unmask(faults, path, word) for word in value.split()]
+_RULE = '"right of D", "left of CB", "above D" or { near = [x, y] }'
+
+
+def _read_rule(node: FileNode, point: str, known: list[str]) -> Rule:
+    if isinstance(node.value, Mapping):
+        return _read_rule_table(node, point, known)
+    if not isinstance(node.value, str) or len(node.value) > 80:
+        node.reject_value(_RULE)
+    words = [node.unmask(word) for word in node.value.split()]
     if len(words) == 3 and words[1] == ("from" if words[0] == "away" else "of"):
         del words[1]
     if len(words) != 2 or words[0] not in _POINT_WORDS:
@@ -382,70 +341,52 @@ def _read_rule(
             guess or "", guess
         )
         hint = translate('Write "{} {}".', meant, words[-1]) if guess and guess != words[0] else ""
-        faults.expected(path, want, value, hint)
-        return None
+        node.reject_value(_RULE, hint)
     side, name = words
     if is_point_name(name):
-        ref = fields.read_known_point(faults, path, name, known, of="the mechanism")
-        if ref == point:
-            faults.add(path, translate("{} cannot be compared with itself", point))
-            return None
-        return None if ref is None else Rule(point, _POINT_WORDS[side], (ref,))
+        node.check_owned(name, "the mechanism", known, near=True)
+        if name == point:
+            node.reject("{} cannot be compared with itself", point)
+        return Rule(point, _POINT_WORDS[side], (name,))
     if split_pair(name) is None:
-        faults.expected(path, want, value)
-        return None
-    line = fields.read_line_name(faults, path, name, known, of="the mechanism")
-    if line is None:
-        return None
+        node.reject_value(_RULE)
+    line = node.split_line(name, "the mechanism", known)
     if side not in _LINE_WORDS:
         hint = translate("A point is above or below one point: {} {}.", side, line[1])
-        faults.add(path, translate("'{}' does not go with the line {}", side, name), hint)
-        return None
+        node.reject("'{}' does not go with the line {}", side, name, hint=hint)
     if point in line:
-        faults.add(path, translate("the line {} goes through {} itself", name, point))
-        return None
+        node.reject("the line {} goes through {} itself", name, point)
     return Rule(point, _LINE_WORDS[side], line)
 
 
-def _read_rule_table(
-    faults: Faults, path: str, point: str, value: Mapping[str, object], known: list[str]
-) -> Rule | None:
-    given = fields.read_keys(faults, path, value, keys.RULE)
-    keep = given.get("keep")
-    if "keep" in given and keep not in keys.ASSEMBLY_FLAGS:
+def _read_rule_table(node: FileNode, point: str, known: list[str]) -> Rule:
+    node.allow(keys.RULE)
+    keep = node["keep"].value
+    if "keep" in node and keep not in keys.ASSEMBLY_FLAGS:
         wanted = translate(" or ").join(f'"{word}"' for word in keys.ASSEMBLY_FLAGS)
-        faults.expected(f"{path}.keep", wanted, keep)
-        return None
-    first = [key for key in ("near", "rule") if key in given]
+        node["keep"].reject_value(wanted)
+    first = [key for key in ("near", "rule") if key in node]
     if keep == "parallel":
         if first:
-            faults.add(f"{path}.{first[0]}", "a parallelogram has one closing", "Delete this key.")
-            return None
+            node[first[0]].reject("a parallelogram has one closing", hint="Delete this key.")
         return Rule(point, AssemblyRelation.PARALLEL)
     if len(first) != 1:
-        said = "give near or rule, not both" if first else "missing"
-        faults.add(
-            f"{path}.near", said, translate("For example: {} = {{ near = [0.1, 0.2] }}", point)
-        )
-        return None
-    if "rule" in given:
-        phrase = given["rule"]
-        if isinstance(phrase, Mapping):
-            faults.expected(f"{path}.rule", "a phrase", phrase)
-            return None
-        found = _read_rule(faults, f"{path}.rule", point, phrase, known)
+        hint = translate("For example: {} = {{ near = [0.1, 0.2] }}", point)
+        node["near"].reject("give near or rule, not both" if first else "missing", hint=hint)
+    if "rule" in node:
+        phrase = node["rule"]
+        if isinstance(phrase.value, Mapping):
+            phrase.reject_value("a phrase")
+        found = _read_rule(phrase, point, known)
     else:
-        at = fields.read_place(faults, f"{path}.near", given["near"])
-        found = None if at is None else Rule(point, AssemblyRelation.NEAR, at=at)
-    return None if found is None else replace(found, continuous=keep is not None)
+        found = Rule(point, AssemblyRelation.NEAR, at=node["near"].place())
+    return replace(found, continuous=keep is not None)
 
 
-def read_scales(faults: Faults, table: object) -> Scales:
+def read_scales(node: FileNode) -> Scales:
     """Read ``[scales]``; the result is unit per millimetre whichever convention the file has."""
-    entries = fields.read_table(faults, "scales", table, "mu_l = 0.002")
-    if not entries:
-        return Scales()
-    found = read_flat(faults, "scales", entries, Scales)
+    node.table("mu_l = 0.002")
+    found = node.record(Scales)
     if found.get("convention") is Convention.MM_PER_UNIT:
         found |= {key: 1.0 / found[key] for key in found if key.startswith("mu_")}
     return Scales(**found)

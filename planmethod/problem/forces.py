@@ -5,15 +5,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
+from functools import partial
+from typing import NoReturn
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
-from planmethod.problem import fields, keys
-from planmethod.problem.fields import Faults, Table
+from planmethod.problem import keys
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import Against, Couple, Fixed, Load, SizeTable
 from planmethod.problem.model import Drive
@@ -44,28 +46,28 @@ class LoadScope(Struct, frozen=True):
     drive: Drive | None
     cycle: float = TURN
 
-    def find_link(self, faults: Faults, path: str, value: object, verb: str) -> LinkText | None:
-        """Return a moving link by its name; ``verb`` names their action in messages."""
-        if not isinstance(value, str):
-            hint = translate('Write link = "{}".', value) if type(value) is int else ""
-            faults.expected(path, "the name of a link", value, hint)
-            return None
-        name = value if value in self.links else fields.unmask(faults, path, value)
+    def link_of(self, node: FileNode, verb: str) -> LinkText:
+        """Read the name of a moving link; ``verb`` names their action in messages."""
+        name = node.any_name("the name of a link", self.links)
+        return self.find_link(node, name, verb)
+
+    def find_link(self, node: FileNode, name: str, verb: str) -> LinkText:
+        """Return a moving link by its name, which is the value of a node or its key."""
         if name == FRAME:
             hint = translate("Moving links {}: {}.", verb, listed(self.links))
-            faults.add(path, "0 is the frame (стойка), which does not move", hint)
-            return None
-        if name not in self.links:
-            if self.links:
-                fields.report_unknown(faults, path, name, self.links, message="unknown link '{}'")
-            return None
-        return self.links[name]
+            node.reject("0 is the frame (стойка), which does not move", hint=hint)
+        if self.links and name not in self.links:
+            node.reject_unknown(name, self.links, "unknown link '{}'")
+        return needed(self.links.get(name))  # without links, that they are missing is a fault
 
-    def find_point(self, faults: Faults, path: str, value: object, link: LinkText) -> str | None:
-        """Return a point of a link by its name."""
-        name = fields.read_point_name(faults, path, value)
-        if name is None or name in link.points or not link.is_complete:
-            return name
+    def point_of(self, node: FileNode, link: LinkText) -> str:
+        """Read the name of a point of a link."""
+        name = node.point_name()
+        if name not in link.points and link.is_complete:
+            self._reject_point(node, name, link)
+        return name
+
+    def _reject_point(self, node: FileNode, name: str, link: LinkText) -> NoReturn:
         others = [other.name for other in self.links.values() if name in other.points]
         points = translate("the points of link {} are {}", link.name, listed(link.points))
         if others:
@@ -75,57 +77,44 @@ class LoadScope(Struct, frozen=True):
             hint = translate("{} is a point of the frame; {}.", name, points)
         else:
             hint = nearest_name_hint(name, link.points, f"{points[:1].upper()}{points[1:]}.")
-        faults.add(path, translate("link {} has no point '{}'", link.name, name), hint)
-        return None
+        node.reject("link {} has no point '{}'", link.name, name, hint=hint)
 
 
-def read_loads(faults: Faults, value: object, scene: LoadScope) -> tuple[Load | Couple, ...]:
+def read_loads(node: FileNode, scene: LoadScope) -> tuple[Load | Couple, ...]:
     """Read ``[[loads]]``, in file order."""
-    if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
-        faults.expected("loads", "tables [[loads]]", value)
-        return ()
-    if faults.exceeds("loads", "{} loads, the limit is {}", len(value), keys.LOAD_LIMIT):
-        return ()
-    names = _read_names(faults, value)
-    taken = {name for name in names if name is not None}
+    node.tables(keys.LOAD_LIMIT, "{} loads, the limit is {}")
+    names: list[str | None] = []
+    for entry in node.entries():
+        names.append(entry.read("name", partial(_read_name, names=names)))
+    used = {name for name in names if name is not None}
     found: dict[int, Load | Couple] = {}
-    for index, (body, name) in enumerate(zip(value, names, strict=True)):
-        load = _read_load(faults, f"loads[{index}]", body, name, taken, scene)
+    for index, (entry, name) in enumerate(zip(node.entries(), names, strict=True)):
+        load = entry.attempt(partial(_read_load, name=name, used=used, scene=scene))
         if load is not None:
             found[index] = load
-            taken.add(load.name)
+            used.add(load.name)
     # the name of a faulty load is not unknown
     known: dict[str, object] = {name: None for name in names if name is not None}
     known |= {load.name: load.size for load in found.values()}
     for index, load in found.items():
         if isinstance(load.size, SizeTable) and load.size.like is not None:
-            where = f"loads[{index}]" if "like" in value[index] else f"loads[{index}].force"
-            size = liken(faults, where, load.name, load.size, known)
+            where = node[index] if "like" in node[index] else node[index]["force"]
+            read = partial(liken, load_name=load.name, size=load.size, known=known)
+            size = where.read("like", read)
             found[index] = load if size is None else replace(load, size=size)
     return tuple(found.values())
 
 
-def _read_names(faults: Faults, tables: Iterable[Table]) -> list[str | None]:
-    """Read the names in the file, which must differ."""
-    names: list[str | None] = []
-    for index, body in enumerate(tables):
-        path, name = f"loads[{index}].name", None
-        if "name" in body:
-            name = fields.read_text(faults, path, body["name"], limit=NAME_LIMIT)
-        if name is not None and not re.match(_NAME_RE, name):
-            faults.expected(
-                path, "a letter with its indices", name, "For example: F_{5}, P, M_{1}^{c}."
-            )
-            name = None
-        if name is not None:
-            name = indexed(name)
-        if name is not None and name in names:
-            twin = names.index(name)
-            faults.add(
-                path, translate("loads[{}] is called {} too", twin, name), "Give it another letter."
-            )
-        names.append(name)
-    return names
+def _read_name(node: FileNode, names: list[str | None]) -> str:
+    """Read a name, which must differ from those before it."""
+    name = node.text(NAME_LIMIT)
+    if not re.match(_NAME_RE, name):
+        node.reject_value("a letter with its indices", "For example: F_{5}, P, M_{1}^{c}.")
+    name = indexed(name)
+    if name in names:
+        hint = "Give it another letter."
+        node.note("loads[{}] is called {} too", names.index(name), name, hint=hint)
+    return name
 
 
 def _default_name(letter: str, link: str, used: Collection[str]) -> str:
@@ -139,126 +128,88 @@ def _default_name(letter: str, link: str, used: Collection[str]) -> str:
 
 
 def _read_load(
-    faults: Faults,
-    path: str,
-    body: Table,
-    name: str | None,
-    used: Collection[str],
-    scene: LoadScope,
-) -> Load | Couple | None:
-    before = len(faults)
-    given = fields.read_keys(faults, path, body, keys.known("load"))
-    # a misspelt key is reported once: the key it should have been is not called missing as well
-    whole = len(faults) == before
-    link = None
-    if "link" in given:
-        link = scene.find_link(faults, f"{path}.link", given["link"], "carry loads")
-    elif whole:
-        faults.add(f"{path}.link", "missing", translate("Name the link: {}.", listed(scene.links)))
-    load: Load | Couple | None = None
-    likened = {key: given[key] for key in keys.LIKE if key in given}
-    if likened and ("force" in given or "couple" in given):
+    node: FileNode, name: str | None, used: Collection[str], scene: LoadScope
+) -> Load | Couple:
+    node.allow(keys.known("load"))
+    link = node.require(
+        "link", lambda link: scene.link_of(link, "carry loads"),
+        lambda: translate("Name the link: {}.", listed(scene.links)),
+    )  # fmt: skip
+    size = node["couple" if "couple" in node else "force"]
+    likened = {key: node.value[key] for key in keys.LIKE if key in node}
+    if likened and ("force" in node or "couple" in node):
         hint = "Keep like and shift, or the size of the load."
-        faults.add(f"{path}.{next(iter(likened))}", "the size of the load is given, too", hint)
+        node[next(iter(likened))].note("the size of the load is given, too", hint=hint)
     elif "like" in likened:
-        given = {**given, "force": likened}
+        size = node.with_value(likened)
     elif likened:
-        faults.add(f"{path}.shift", "goes with like only", LIKE)
-        whole = False
-    if "force" in given and "couple" in given:
+        node["shift"].reject("goes with like only", hint=LIKE)
+    if "force" in node and "couple" in node:
         hint = "Write them as two [[loads]]."
-        faults.add(f"{path}.couple", "force and couple are both given", hint)
-    elif "force" in given:
-        load = _read_force(faults, path, given, link, scene, is_complete=whole)
-    elif "couple" in given:
-        load = _read_couple(faults, path, given, link, scene)
-    elif whole:
+        node["couple"].reject("force and couple are both given", hint=hint)
+    if size.value is None:
         hint = 'For example: link = "5", at = "H", force = 6000, angle = -90.'
-        faults.add(path, "expected force or couple, got neither", hint)
-    if load is None or len(faults) != before:
-        return None
+        if node.is_whole:
+            node.note("expected force or couple, got neither", hint=hint)
+        node.require_sound()
+    read = _read_couple if "couple" in node else _read_force
+    load = read(node, size, link, scene)
     letter = "F" if isinstance(load, Load) else "M"
     return replace(load, name=name or _default_name(letter, load.link, used))
 
 
-def _read_force(
-    faults: Faults,
-    path: str,
-    table: Table,
-    link: LinkText | None,
-    scene: LoadScope,
-    *,
-    is_complete: bool,
-) -> Load | None:
+def _read_force(node: FileNode, size: FileNode, link: LinkText | None, scene: LoadScope) -> Load:
+    """Read a force; ``size`` is where its size is given."""
     at = None
-    if "at" not in table:
-        if is_complete and link is not None:
-            hint = translate(
-                "Name the point of link {} where it acts: {}.", link.name, listed(link.points)
-            )
-            faults.add(f"{path}.at", "missing", hint)
-    elif link is not None:
-        at = scene.find_point(faults, f"{path}.at", table["at"], link)
-    fixed = at in scene.fixed
+    if link is not None:
+        named, points = link.name, link.points
+        hint = "Name the point of link {} where it acts: {}."
+        read_point = partial(scene.point_of, link=link)
+        at = node.require("at", read_point, lambda: translate(hint, named, listed(points)))
+    fixed_point = at if at in scene.fixed else None
     sense: Fixed | Against | None = None
-    if "angle" in table and "against" in table:
-        message = "angle and against are both given"
-        faults.add(f"{path}.against", message, "A force has one direction: keep one of them.")
-    elif "angle" in table:
-        angle = fields.read_angle(faults, f"{path}.angle", table["angle"])
-        sense = None if angle is None else Fixed(angle)
-    elif "against" in table:
-        sense = _read_against(faults, f"{path}.against", table["against"], "velocity")
-        if fixed:
+    if "angle" in node and "against" in node:
+        hint = "A force has one direction: keep one of them."
+        node["against"].note("angle and against are both given", hint=hint)
+    elif "angle" in node:
+        sense = node.read("angle", lambda angle: Fixed(angle.angle()))
+    elif "against" in node:
+        sense = node.read("against", partial(_read_against, expected="velocity"))
+        if fixed_point is not None:
             hint = "Give the direction as an angle."
-            faults.add(
-                f"{path}.against", translate("point {} is fixed and has no velocity", at), hint
-            )
-    elif is_complete:
+            message = "point {} is fixed and has no velocity"
+            node["against"].note(message, fixed_point, hint=hint)
+    elif node.is_whole:
         hint = 'Give angle = -90 (degrees from +x) or against = "velocity".'
-        faults.add(path, "expected a direction, got neither angle nor against", hint)
-    where = path if "like" in table else f"{path}.force"
-    size = read_size(faults, where, table["force"], scene.drive, turn=scene.cycle)
-    phase = None
-    if "phases" in table:
-        still = at if fixed else None
-        phase = read_phase(
-            faults, f"{path}.phases", table["phases"], scene.drive, fixed_point=still
-        )
-    if link is None or at is None or sense is None or size is None:
-        return None
-    return Load("", link.name, at, size, sense, phase)
+        node.note("expected a direction, got neither angle nor against", hint=hint)
+    read = partial(read_size, drive=scene.drive, turn=scene.cycle)
+    force: float | SizeTable | None = size.attempt(read)
+    phase = node.read("phases", partial(read_phase, drive=scene.drive, fixed_point=fixed_point))
+    node.require_sound()
+    assert force is not None and sense is not None, "no fault of it was noted"
+    return Load("", needed(link).name, needed(at), force, sense, phase)
 
 
-def _read_couple(
-    faults: Faults, path: str, table: Table, link: LinkText | None, scene: LoadScope
-) -> Couple | None:
+def _read_couple(node: FileNode, size: FileNode, link: LinkText | None, scene: LoadScope) -> Couple:
     for key, why in (
         ("at", "A couple acts on the whole link."),
         ("angle", "A couple is counter-clockwise when positive."),
     ):
-        if key in table:
-            faults.add(f"{path}.{key}", "does not go with a couple", why)
-    sense = None
-    if "against" in table:
-        sense = _read_against(faults, f"{path}.against", table["against"], "rotation")
-    where = f"{path}.couple"
-    size = read_size(faults, where, table["couple"], scene.drive, couple=True, turn=scene.cycle)
-    phase = None
-    if "phases" in table:
-        where = f"{path}.phases"
-        phase = read_phase(faults, where, table["phases"], scene.drive, couple=True)
-    return None if link is None or size is None else Couple("", link.name, size, sense, phase)
+        if key in node:
+            node[key].note("does not go with a couple", hint=why)
+    sense = node.read("against", partial(_read_against, expected="rotation"))
+    read = partial(read_size, drive=scene.drive, couple=True, turn=scene.cycle)
+    couple: float | SizeTable | None = size.attempt(read)
+    phase = node.read("phases", partial(read_phase, drive=scene.drive, couple=True))
+    node.require_sound()
+    assert couple is not None, "no fault of it was noted"
+    return Couple("", needed(link).name, couple, sense, phase)
 
 
-def _read_against(faults: Faults, path: str, value: object, expected: str) -> Against | None:
-    word = fields.read_word(faults, path, value, ("velocity", "rotation"))
-    if word is None:
-        return None
+def _read_against(node: FileNode, expected: str) -> Against:
+    word = node.word(("velocity", "rotation"))
     if word != expected:
-        message = translate("expected '{}', got '{}'", expected, word)
-        faults.add(path, message, _AGAINST[expected])
-        return None
+        node.reject("expected '{}', got '{}'", expected, word, hint=_AGAINST[expected])
     return Against()
 
 

@@ -7,7 +7,7 @@ from itertools import combinations
 
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
-from planmethod.problem.fields import Faults
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Slide
 from planmethod.problem.names import listed
@@ -15,7 +15,7 @@ from planmethod.problem.slides import FrameText
 
 
 def join(
-    faults: Faults,
+    node: FileNode,
     frame: FrameText,
     links: Mapping[str, LinkText],
     hosts: Mapping[str, str],
@@ -27,6 +27,8 @@ def join(
 
     Parameters
     ----------
+    node : FileNode
+        ``[links]``.
     hosts : mapping of str to str
         Host of each slider.
     complete : bool
@@ -45,11 +47,11 @@ def join(
         for slider, host in hosts.items()
         if links[slider].points
     )
-    _reject_duplicates(faults, revolutes, prismatics)
+    _reject_duplicates(links, revolutes, prismatics)
     if complete:
-        _check_reach(faults, links, revolutes, prismatics, driver)
-    _check_coincident(faults, links_by_point, prismatics)
-    _check_letters(faults, links_by_point)
+        _check_reach(links, revolutes, prismatics, driver)
+    _check_coincident(links, links_by_point, prismatics)
+    _check_letters(node, links_by_point)
     return Mechanism(tuple(links), revolutes, prismatics, driver)
 
 
@@ -69,7 +71,9 @@ def _called(link: str) -> str:
 
 
 def _reject_duplicates(
-    faults: Faults, revolutes: tuple[Revolute, ...], prismatics: tuple[Prismatic, ...]
+    links: Mapping[str, LinkText],
+    revolutes: tuple[Revolute, ...],
+    prismatics: tuple[Prismatic, ...],
 ) -> None:
     shared: dict[tuple[str, str], list[str]] = {}
     for joint in revolutes:
@@ -77,38 +81,31 @@ def _reject_duplicates(
             shared.setdefault(pair, []).append(joint.point)
     for (one, two), points in shared.items():
         if len(points) > 1:
-            faults.add(
-                f"links.{two}.points",
-                translate(
-                    "{} and link {} share the points {}: they make one rigid body",
-                    _called(one),
-                    two,
-                    translate(" and ").join(points),
-                ),
-                "Two links are joined at one point; give the other points other names.",
+            links[two].node["points"].note(
+                "{} and link {} share the points {}: they make one rigid body",
+                _called(one),
+                two,
+                translate(" and ").join(points),
+                hint="Two links are joined at one point; give the other points other names.",
             )
     for slide in prismatics:
         pair = (slide.host, slide.slider)
         points = shared.get(pair) or shared.get(pair[::-1]) or []
         if points:
-            faults.add(
-                f"links.{slide.slider}.slides",
-                translate(
-                    "link {} slides on {} and is pivoted to it in {}: they make one rigid body",
-                    slide.slider,
-                    _called(slide.host),
-                    points[0],
-                ),
-                translate(
-                    "The pin of a slider is not a point of the link that carries its line; "
-                    "remove {} from one of them.",
-                    points[0],
-                ),
+            hint = (
+                "The pin of a slider is not a point of the link that carries its line; "
+                "remove {} from one of them."
+            )
+            links[slide.slider].node["slides"].note(
+                "link {} slides on {} and is pivoted to it in {}: they make one rigid body",
+                slide.slider,
+                _called(slide.host),
+                points[0],
+                hint=translate(hint, points[0]),
             )
 
 
 def _check_reach(
-    faults: Faults,
     links: Mapping[str, LinkText],
     revolutes: tuple[Revolute, ...],
     prismatics: tuple[Prismatic, ...],
@@ -131,57 +128,47 @@ def _check_reach(
                     front.append(name)
     for name, link in links.items():
         if name not in reached:
-            faults.add(
-                link.path,
-                translate("link {} is not joined to the frame through other links", name),
-                translate(
-                    "Links are joined by points of the same name and by slides: check the names "
-                    "{}.",
-                    listed(link.points),
-                ),
-            )
+            hint = "Links are joined by points of the same name and by slides: check the names {}."
+            message = "link {} is not joined to the frame through other links"
+            link.node.note(message, name, hint=translate(hint, listed(link.points)))
         elif name != driver and len(touching[name]) < 2:
             where = next((p for p in link.points if any(j.point == p for j in revolutes)), None)
-            faults.add(
-                link.path,
-                translate("link {} has one joint only{}", name, f", {where}" if where else ""),
+            hint = (
                 "It would move freely: join another of its points, or make them points of the "
-                "link it is joined to.",
+                "link it is joined to."
             )
+            shown = f", {where}" if where else ""
+            link.node.note("link {} has one joint only{}", name, shown, hint=hint)
 
 
 def _check_coincident(
-    faults: Faults, links_by_point: Mapping[str, list[str]], prismatics: tuple[Prismatic, ...]
+    links: Mapping[str, LinkText],
+    links_by_point: Mapping[str, list[str]],
+    prismatics: tuple[Prismatic, ...],
 ) -> None:
     for slide in prismatics:
         name = f"{slide.pin}{slide.host}"
         if slide.host != FRAME and name in links_by_point:
-            faults.add(
-                f"links.{slide.slider}.slides",
-                translate(
-                    "the point of link {} under the pin {} is called {}, and another point has "
-                    "this name",
-                    slide.host,
-                    slide.pin,
-                    name,
-                ),
-                translate("Rename the point {}.", name),
+            links[slide.slider].node["slides"].note(
+                "the point of link {} under the pin {} is called {}, and another point has this "
+                "name",
+                slide.host,
+                slide.pin,
+                name,
+                hint=translate("Rename the point {}.", name),
             )
 
 
-def _check_letters(faults: Faults, points: Iterable[str]) -> None:
+def _check_letters(node: FileNode, points: Iterable[str]) -> None:
     """Reject points that differ only in case: on the plans both have the same small letter."""
     seen: dict[str, str] = {}
     for point in points:
         twin = seen.setdefault(point.casefold(), point)
         if twin != point:
-            faults.add(
-                "links",
-                translate(
-                    "the points {} and {} differ only in case: on the plans both are {}",
-                    twin,
-                    point,
-                    point.lower(),
-                ),
-                translate("Rename the point {}.", point),
+            node.note(
+                "the points {} and {} differ only in case: on the plans both are {}",
+                twin,
+                point,
+                point.lower(),
+                hint=translate("Rename the point {}.", point),
             )

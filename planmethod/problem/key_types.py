@@ -1,7 +1,7 @@
 """Declaration of the keys of flat tables (описание ключей) by the record of a table.
 
 A field of such a record is annotated with a key: ``Annotated[float, NumberKey("mass", ...)]``. The
-reader of the table (`planmethod.problem.flat_tables`), its keys (`planmethod.problem.keys`), its
+reader of the table (`planmethod.problem.file_node`), its keys (`planmethod.problem.keys`), its
 part of ``schema.json`` and its rows in the references follow from that (``make schema``). The
 default of the field holds where the file lacks the key.
 

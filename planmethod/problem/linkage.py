@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypeAlias
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from msgspec.structs import replace
 
@@ -13,26 +14,33 @@ from planmethod.problem import keys
 from planmethod.problem.answers import AnswerScope, read_answers
 from planmethod.problem.cycle import cycle_count, read_cycle, with_cycle_count
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
-from planmethod.problem.fields import Faults, read_keys, read_units
+from planmethod.problem.file_node import FileNode, read_units
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, check_arcs, read_links
-from planmethod.problem.model import Body, CamDrive, GearDrive, Problem, Slide
+from planmethod.problem.model import Body, CamDrive, Drive, GearDrive, Problem, Scales, Slide
 from planmethod.problem.names import listed
 from planmethod.problem.placement import place_points
 from planmethod.problem.project import read_project
 from planmethod.problem.selector import check_quantity, read_published, read_tables
 from planmethod.problem.sheet import read_head
-from planmethod.problem.slides import FrameText, find_host, order_hosts, read_frame, read_slide
+from planmethod.problem.slides import (
+    FrameText,
+    Host,
+    find_host,
+    order_hosts,
+    read_frame,
+    read_slide,
+)
 
-TrainReader: TypeAlias = Callable[
-    [Faults, Mapping[str, Any], Mapping[str, Any]], GearDrive | CamDrive | None
-]
-"""Reader of ``[gears]`` or ``[cam]`` for the driver: faults, the file, ``[driver]``."""
+if TYPE_CHECKING:
+    from planmethod.problem.load_records import Dynamics
+    from planmethod.problem.machine_records import CounterweightTask, Machine
+
+TrainReader: TypeAlias = Callable[[FileNode], GearDrive | CamDrive | None]
+"""Reader of ``[gears]`` or ``[cam]`` of a file for its driver; None after a fault."""
 
 
-def read_parts(
-    faults: Faults, table: Mapping[str, Any], name: str, train: TrainReader | None
-) -> Problem | None:
+def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem | None:
     """Read a linkage; None after noting a fault.
 
     Parameters
@@ -42,133 +50,111 @@ def read_parts(
     train : callable, optional
         Reads the train, or the cam, that drives.
     """
-    given = read_keys(faults, "", table, keys.TOP)
-    read_units(faults, given)
-    head = read_head(faults, given)
-    scales = read_scales(faults, given.get("scales", {}))
-    tables = read_tables(faults, given)
-    if "links" not in given:
-        _report_no_links(faults, given)
-        read_frame(faults, given.get("frame", {}))
+    file.allow(keys.TOP)
+    read_units(file)
+    head = read_head(file)
+    scales = file.read("scales", read_scales) or Scales()
+    tables = read_tables(file)
+    if "links" not in file:
+        _note_no_links(file)
+        file.read("frame", read_frame)
         return None
     for key in ("frame", "driver"):
-        if key not in given:
-            faults.add(key, "missing", _MISSING[key])
-    drivers = _drivers(given)
+        if key not in file:
+            file[key].note("missing", hint=_MISSING[key])
+    drivers = _drivers(file)
     if len(drivers) > 1:
-        given["driver"] = drivers[0]
-    frame = read_frame(faults, given.get("frame", {}))
-    links = read_links(faults, given["links"])
-    if "frame" not in given:
+        file.value["driver"] = drivers[0]
+    frame = file.read("frame", read_frame) or FrameText({}, {}, sound=False)
+    links = file.read("links", read_links) or {}
+    if "frame" not in file:
         return None
     higher: tuple[HigherPair, ...] = ()
-    before = len(faults)
-    if "higher_pairs" in given:
+    if "higher_pairs" in file:
         from planmethod.problem.higher import read_higher  # few files have any
 
-        higher = read_higher(faults, given["higher_pairs"], links, frame)
-    replaced = len(faults) == before
-    check_arcs(faults, links, frame.points)
+        higher = file.read("higher_pairs", partial(read_higher, links=links, frame=frame)) or ()
+    check_arcs(links, frame.points)
     for guide in frame.guides:
         if guide in links:
             hint = "Rename the guide, for instance x-x."
-            faults.add(f"frame.guides.{guide}", translate("link {} has the same name", guide), hint)
-    hosts, guides = _find_hosts(faults, links, frame)
-    bodies = _place(faults, links, frame, hosts)
-    slides = _read_slides(faults, links, frame, hosts, guides, bodies)
+            file["frame"]["guides"][guide].note("link {} has the same name", guide, hint=hint)
+    hosts, guides = _find_hosts(links, frame)
+    bodies = _place(links, frame, hosts)
+    slides = _read_slides(links, frame, hosts, guides, bodies)
     drive = None
-    if "driver" in given and links:
-        geared = _read_geared(faults, given, train)
-        numbered = cycle_count(given)
-        drive = read_drive(faults, given["driver"], links, frame.points, hosts, geared, numbered)
-    driver = drive.link if drive else str(_driver_name(given))
+    if "driver" in file and links:
+        drive = file.read("driver", partial(
+            read_drive, links=links, fixed=frame.points, hosts=hosts,
+            leading=_read_leading(file, train), numbered=cycle_count(file.value),
+        ))  # fmt: skip
+    driver = drive.link if drive else str(_driver_name(file))
     complete = (
         bool(links)
         and frame.sound
-        and replaced
-        and len(links) - len(higher) == len(given["links"])
+        and file["higher_pairs"].is_sound
+        and len(links) - len(higher) == len(file["links"].value)
         and all(link.is_complete for link in links.values())
     )
-    mechanism = join(faults, frame, links, hosts, driver, complete=complete) if links else None
+    mechanism = None
+    if links:
+        mechanism = join(file["links"], frame, links, hosts, driver, complete=complete)
     if frame.number in links:
         hint = "The frame has a number of its own: 0, or one that no link has."
-        faults.add("frame.number", translate("link {} has the same number", frame.number), hint)
+        file["frame"]["number"].note("link {} has the same number", frame.number, hint=hint)
     elif mechanism is not None:
         mechanism = replace(mechanism, frame=frame.number, higher=higher)
     if len(drivers) > 1:
-        _reject_drivers(faults, drivers, mechanism if complete else None)
+        _note_drivers(file["driver"], drivers, mechanism if complete else None)
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
     moving = list(dict.fromkeys(moving))
-    assembly = read_assembly(faults, given.get("assembly", {}), moving, frame.points)
-    dynamics = machine = None
-    if "machine" in given:
+    rules = partial(read_assembly, moving=moving, fixed=frame.points)
+    assembly = file.read("assembly", rules) or ()
+    machine = None
+    if "machine" in file:
         from planmethod.problem.machine import read_machine  # few files have one
 
-        machine = read_machine(faults, given, drive)
-    if "dynamics" in given or "loads" in given:
-        from planmethod.problem.dynamics import read_dynamics  # few files have any
-
-        dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
-    if "balancing_force" in given:
-        from planmethod.problem.dynamics import read_balancing_force  # few files have one
-
-        pushed = read_balancing_force(faults, given, links, drive)
-        drive = None if drive is None else replace(drive, pushed=pushed)
-    if "friction" in given:
-        from planmethod.problem.dynamics import read_friction  # few files have any
-
-        friction = read_friction(faults, given, links, drive, [*frame.points, *moving])
-        dynamics = None if dynamics is None else replace(dynamics, friction=friction)
-    if "bearings" in given:
-        from planmethod.problem.dynamics import read_bearings  # few files have any
-
-        turning = (
-            [one.point for one in mechanism.revolutes if FRAME in one.links] if mechanism else []
-        )
-        bearings = read_bearings(faults, given, turning) if mechanism else {}
-        dynamics = None if dynamics is None else replace(dynamics, bearings=bearings)
-    balancing = None
-    if "balancing" in given:
-        from planmethod.problem.dynamics import read_balancing  # few files have one
-
-        balancing = read_balancing(faults, given, tuple(links), drive, dynamics)
+        machine = file.attempt(partial(read_machine, drive=drive))
+    dynamics, drive, balancing = _read_forces(file, links, frame, drive, machine, mechanism)
     cycle = None
-    if "cycle" in given:
-        count = cycle_count(given)
-        cycle = read_cycle(faults, given["cycle"], bodies, slides, drive, machine, count)
+    if "cycle" in file:
+        read = partial(read_cycle, bodies=bodies, slides=slides, drive=drive, machine=machine)
+        cycle = file.attempt(read)
         if cycle is not None and machine is not None:
-            machine = with_cycle_count(faults, machine, cycle)
-    project = read_project(faults, given["project"]) if "project" in given else None
+            machine = with_cycle_count(file["cycle"], machine, cycle)
+    project = file.read("project", read_project)
     points = [*frame.points, *moving, *coincident_points(slides.values())]
-    named: tuple[Sequence[str], Sequence[str]] = ((), ()) if faults else (points, tuple(links))
+    named: tuple[Sequence[str], Sequence[str]] = ((), ()) if file.faults else (points, tuple(links))
 
-    def checked(path: str, quantity: str, _: str) -> str:
+    def checked(node: FileNode, _: str) -> str:
+        quantity = str(node.value)
         if quantity:
-            check_quantity(faults, path, quantity, *named, dynamics)
+            check_quantity(node, quantity, *named, dynamics)
         return quantity
 
     count = len(drive.positions) if drive else 0
     if project is not None and cycle is not None:  # its positions are those of the cycle
         count = cycle.count if machine is None else cycle.count * round(machine.cycle_deg / 360.0)
-    published = read_published(faults, given.get("published", {}), checked, positions=count)
+    read_values = partial(read_published, check=checked, positions=count)
+    published = file.read("published", read_values) or ()
     scene = AnswerScope(
-        () if faults else points,
-        () if faults else tuple(links),
+        () if file.faults else points,
+        () if file.faults else tuple(links),
         mechanism.revolutes if mechanism else (),
         slides,
         dynamics,
         drive,
     )
-    answers = read_answers(faults, given, scene)
-    if faults or drive is None or mechanism is None:
-        assert faults, "a part was left out without a word"
+    answers = read_answers(file, scene)
+    if file.faults or drive is None or mechanism is None:
+        assert file.faults, "a part was left out without a word"
         return None
     return Problem(
         name=name,
         **head,
-        unit=faults.unit,
-        stated=dict(faults.stated),
-        vanished=dict(faults.vanished),
+        unit=file.faults.unit,
+        stated=dict(file.faults.stated),
+        vanished=dict(file.faults.vanished),
         mechanism=mechanism,
         bodies=bodies,
         slides={link: slides[link] for link in links if link in slides},
@@ -192,6 +178,47 @@ def read_parts(
     )
 
 
+def _read_forces(
+    file: FileNode,
+    links: Mapping[str, LinkText],
+    frame: FrameText,
+    drive: Drive | None,
+    machine: Machine | None,
+    mechanism: Mechanism | None,
+) -> tuple[Dynamics | None, Drive | None, CounterweightTask | None]:
+    """Read the tables of forces: masses and loads, what balances them, friction and bearings."""
+    if not _FORCES.intersection(file.value):
+        return None, drive, None
+    from planmethod.problem import dynamics as forces  # few files have any
+    from planmethod.problem.forces import LoadScope
+    from planmethod.problem.sizes import TURN
+
+    dynamics = balancing = None
+    if "dynamics" in file or "loads" in file:
+        cycle = TURN if machine is None else machine.cycle_deg
+        dynamics = forces.read_dynamics(file, LoadScope(links, frame.points, drive, cycle))
+    if "balancing_force" in file:
+        pushed = file.attempt(partial(forces.read_balancing_force, links=links, drive=drive))
+        drive = None if drive is None else replace(drive, pushed=pushed)
+    if "friction" in file:
+        points = [*frame.points, *(point for link in links.values() for point in link.points)]
+        read = partial(forces.read_friction, links=links, drive=drive, points=points)
+        friction = file.attempt(read)
+        dynamics = None if dynamics is None else replace(dynamics, friction=friction)
+    if "bearings" in file and mechanism is not None:
+        turning = [one.point for one in mechanism.revolutes if FRAME in one.links]
+        bearings = file.attempt(partial(forces.read_bearings, turning=turning)) or {}
+        dynamics = None if dynamics is None else replace(dynamics, bearings=bearings)
+    if "balancing" in file:
+        balancing = file.read("balancing", partial(
+            forces.read_balancing, links=tuple(links), drive=drive, dynamics=dynamics
+        ))  # fmt: skip
+    return dynamics, drive, balancing
+
+
+_FORCES = {"dynamics", "loads", "balancing_force", "friction", "bearings", "balancing"}
+
+
 _MISSING = {
     "frame": "Give the fixed points: [frame] A = [0, 0].",
     "driver": 'Give the driving link: [driver] link = "1", phi = 20, omega = 50.',
@@ -206,49 +233,44 @@ _OTHER_KINDS = {
 }
 
 
-def _report_no_links(faults: Faults, document: Mapping[str, Any]) -> None:
+def _note_no_links(file: FileNode) -> None:
     for key, what in _OTHER_KINDS.items():
-        if key in document:
-            faults.add(
-                "links",
-                translate("missing: the file describes {} ([{}]), not a linkage", what, key),
-                "Plans of a linkage need [frame], [links] and [driver].",
-            )
+        if key in file:
+            hint = "Plans of a linkage need [frame], [links] and [driver]."
+            message = "missing: the file describes {} ([{}]), not a linkage"
+            file["links"].note(message, what, key, hint=hint)
             return
-    faults.add("links", "missing", 'Give the links: [links.1] points = ["A", "B"], AB = 0.1.')
+    hint = 'Give the links: [links.1] points = ["A", "B"], AB = 0.1.'
+    file["links"].note("missing", hint=hint)
 
 
-def _read_geared(
-    faults: Faults, document: Mapping[str, Any], train: TrainReader | None
-) -> GearDrive | CamDrive | None:
+def _read_leading(file: FileNode, train: TrainReader | None) -> GearDrive | CamDrive | None:
     """Read the train that the driver names, or the cam whose follower drives."""
-    driver = document["driver"]
-    if not isinstance(driver, Mapping):
-        return None
-    if "train" in driver and not isinstance(document.get("gears"), Mapping):
-        faults.add("driver.train", "the file has no train", "Describe it in [gears].")
-    elif "cam" in driver and not isinstance(document.get("cam"), Mapping):
-        faults.add("driver.cam", "the file has no cam", "Describe it in [cam].")
+    driver = file["driver"]
+    if "train" in driver and not isinstance(file["gears"].value, Mapping):
+        driver["train"].note("the file has no train", hint="Describe it in [gears].")
+    elif "cam" in driver and not isinstance(file["cam"].value, Mapping):
+        driver["cam"].note("the file has no cam", hint="Describe it in [cam].")
     elif ("train" in driver or "cam" in driver) and train is None:
-        key = "train" if "train" in driver else "cam"
         hint = "Read the file by planmethod.load or planmethod.loads."
-        faults.add(f"driver.{key}", "trains and cams are not read here", hint)
+        key = "train" if "train" in driver else "cam"
+        driver[key].note("trains and cams are not read here", hint=hint)
     elif ("train" in driver or "cam" in driver) and train is not None:
-        return train(faults, document, driver)
+        return file.attempt(train)
     return None
 
 
-def _drivers(document: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+def _drivers(file: FileNode) -> list[Mapping[str, Any]]:
     """Return the drivers: several as a list of tables, or as a list of links."""
-    driver = document.get("driver")
+    driver = file["driver"].value
     listed_links = driver.get("link") if isinstance(driver, Mapping) else None
     if isinstance(driver, Mapping) and isinstance(listed_links, list):
         return [{**driver, "link": link} for link in listed_links]
     return [one for one in driver if isinstance(one, Mapping)] if isinstance(driver, list) else []
 
 
-def _reject_drivers(
-    faults: Faults, drivers: Sequence[Mapping[str, Any]], mechanism: Mechanism | None
+def _note_drivers(
+    node: FileNode, drivers: Sequence[Mapping[str, Any]], mechanism: Mechanism | None
 ) -> None:
     """Note why several drivers are rejected: their names, and the number the mechanism needs."""
     count, names = len(drivers), listed(str(one.get("link", "?")) for one in drivers)
@@ -266,16 +288,15 @@ def _reject_drivers(
                 "give a pair that joins two of the drivers, or take one of them as fixed.",
                 count,
             )
-    faults.add("driver", message, hint)
+    node.note(message, hint=hint)
 
 
-def _driver_name(document: Mapping[str, Any]) -> object:
-    driver = document.get("driver")
-    return driver.get("link") if isinstance(driver, Mapping) else None
+def _driver_name(file: FileNode) -> object:
+    return file["driver"]["link"].value
 
 
 def _find_hosts(
-    faults: Faults, links: Mapping[str, LinkText], frame: FrameText
+    links: Mapping[str, LinkText], frame: FrameText
 ) -> tuple[dict[str, str], dict[str, str | None]]:
     """Host of every slider, and its guide where the host is the frame."""
     hosts: dict[str, str] = {}
@@ -283,7 +304,7 @@ def _find_hosts(
     for name, link in links.items():
         if link.slides is None:
             continue
-        found = find_host(faults, link, links, frame)
+        found = find_host(link, links, frame)
         if found is None:
             link.sound = link.is_complete = False
             continue
@@ -292,28 +313,25 @@ def _find_hosts(
 
 
 def _place(
-    faults: Faults, links: Mapping[str, LinkText], frame: FrameText, hosts: Mapping[str, str]
+    links: Mapping[str, LinkText], frame: FrameText, hosts: Mapping[str, str]
 ) -> dict[str, Body]:
     bodies = {FRAME: Body(dict(frame.points), None)}
     carriers = set(hosts.values())
     for name, link in links.items():
         alone = len(link.points) == 1 and link.slides is None
         if alone and name not in carriers and link.sound:
-            faults.add(
-                link.path,
-                translate("link {} has one point and neither slides nor carries a slide", name),
-                "List its second point, or give slides = { on = ... }.",
-            )
+            message = "link {} has one point and neither slides nor carries a slide"
+            hint = "List its second point, or give slides = { on = ... }."
+            link.node.note(message, name, hint=hint)
             link.sound = link.is_complete = False
             continue
-        body = place_points(faults, link)
+        body = place_points(link)
         if body is not None:
             bodies[name] = body
     return bodies
 
 
 def _read_slides(
-    faults: Faults,
     links: Mapping[str, LinkText],
     frame: FrameText,
     hosts: Mapping[str, str],
@@ -325,22 +343,14 @@ def _read_slides(
     first: dict[str, str] = {}
     for slider, host in hosts.items():
         first.setdefault(host, slider)
-    for slider in order_hosts(faults, hosts):
+    for slider in order_hosts(links, hosts):
         host = hosts[slider]
         turn = turns.get(host)
         body = bodies.get(host) or _placeholder_body(links[host])
         # A mark laid off along the own axis names that axis, and the line is still it.
         free = host != FRAME and host not in hosts and not links[host].lengths
-        slide = read_slide(
-            faults,
-            links[slider],
-            host,
-            guides[slider],
-            body,
-            frame,
-            turn=turn,
-            angle_optional=free and first[host] == slider,
-        )
+        carrier = Host(host, body, guides[slider], turn, free and first[host] == slider)
+        slide = read_slide(links[slider], carrier, frame)
         if slide is not None and host in bodies:
             slides[slider] = slide
             turns[slider] = None if turn is None else turn + slide.angle

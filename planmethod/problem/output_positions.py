@@ -6,21 +6,22 @@ import re
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.languages import translate
-from planmethod.problem import fields, keys
-from planmethod.problem.fields import Faults, Table
+from planmethod.problem import keys
+from planmethod.problem.file_node import FileNode, is_integer, needed
 from planmethod.problem.formula import FormulaError, evaluate_arithmetic, read_decimal
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import OutputPositionKind, OutputPositions
 from planmethod.problem.names import split_pair
 
-_READERS: Mapping[str, Callable[[Faults, str, object], float | None]] = {
-    "x": fields.read_coordinate,
-    "y": fields.read_coordinate,
-    "phi": fields.read_angle,
-    "stroke": partial(
-        fields.read_number, expected="a share of the stroke", low=0.0, high=1.0, hint=""
-    ),
+_READERS: Mapping[str, Callable[[FileNode], float]] = {
+    "x": FileNode.coordinate,
+    "y": FileNode.coordinate,
+    "phi": FileNode.angle,
+    "stroke": lambda node: node.number("a share of the stroke", 0.0, 1.0, hint=""),
 }
 _SIDE = "|".join(keys.EXTREMES)
 _ON = r"(\S+) on (\S+)\Z"
@@ -53,8 +54,7 @@ def is_place(key: str) -> bool:
 
 
 def read_posed(
-    faults: Faults,
-    table: Table,
+    node: FileNode,
     link: LinkText,
     links: Mapping[str, LinkText],
     fixed: Collection[str],
@@ -64,196 +64,161 @@ def read_posed(
     """Read the quantity that gives the positions in place of the driver's coordinate.
 
     None where there is no such key, or after a fault.
+
+    Parameters
+    ----------
+    node : FileNode
+        ``[driver]``.
     """
     foreign = "s" if crank else "phi"  # reported as what does not go with the driver
-    first, *others = [key for key in table if is_place(key) and key != foreign] or [""]
+    first, *others = [key for key in node.value if is_place(key) and key != foreign] or [""]
     for key in others:
-        phrase = translate("{} and {} both give the position", first, key)
-        faults.add(f"driver.{key}", phrase, "Keep one of them.")
-    found = None
+        node[key].note("{} and {} both give the position", first, key, hint="Keep one of them.")
+    found: OutputPositions | None = None
+    root: tuple[str, float | None, int] = ("", None, 0)
     if first and first not in ("phi", "s"):
         kind, _, name = first.partition("_")
+        points = [point for one in links.values() for point in one.points]
         if is_length(first):
-            found = _read_actuator(faults, table, first, links, fixed, crank=crank)
+            found = _read_actuator(node, first, [*fixed, *points], crank=crank)
         else:
-            found = _read(faults, table, kind, name, links, fixed, crank=crank)
+            moving = [point for point in points if point not in fixed]
+            names = _Names(links, dict.fromkeys(moving), fixed)
+            read = partial(_read, kind=kind, name=name, names=names, crank=crank)
+            found = node.read(first, read)
+        way = found.by.value if found else "length" if is_length(first) else kind
+        root = node.read("root", partial(_read_root, kind=way, crank=crank), root) or root
         if kind == "phi" and name == link.name:
             hint = translate("Write phi = ..., the angle of link {} itself.", name)
-            faults.add(f"driver.{first}", translate("link {} drives", name), hint)
-    for key in table:
+            node[first].note("link {} drives", name, hint=hint)
+    for key in node.value:
         if is_rate(key) and key[2:] != first:
             hint = translate("Give the length itself: {} = 0.4.", key[2:])
-            faults.add(
-                f"driver.{key}",
-                translate("is the rate of {}, which gives no position", key[2:]),
-                hint,
-            )
+            node[key].note("is the rate of {}, which gives no position", key[2:], hint=hint)
     counted = first == "at" and (found is None or found.by is not OutputPositionKind.LINE)
-    if "root" in table and (first in ("", "phi", "s") or counted):
-        faults.add("driver.root", "is valid only with a position given by the output", _ROOT)
-    return None if others else found
+    if "root" in node and (first in ("", "phi", "s") or counted):
+        node["root"].note("is valid only with a position given by the output", hint=_ROOT)
+    if found is None or others:
+        return None
+    going, near, number = root
+    return replace(found, going=going, nearest_to=near, number=number)
 
 
-def _read(
-    faults: Faults,
-    table: Table,
-    kind: str,
-    name: str,
-    links: Mapping[str, LinkText],
-    fixed: Collection[str],
-    *,
-    crank: bool,
-) -> OutputPositions | None:
-    path = f"driver.{kind}_{name}" if name else f"driver.{kind}"
-    moving = [p for one in links.values() for p in one.points if p not in fixed]
-    known: Collection[str] = links if kind == "phi" else dict.fromkeys(moving)
+class _Names(Struct, frozen=True):
+    """Names of links, moving points and points of the frame."""
+
+    links: Collection[str]
+    moving: Collection[str]
+    fixed: Collection[str]
+
+
+def _read(node: FileNode, kind: str, name: str, names: _Names, *, crank: bool) -> OutputPositions:
+    known = names.links if kind == "phi" else names.moving
     phrase = "unknown link '{}'" if kind == "phi" else "unknown moving point '{}'"
     pair = name.split("_") if kind == "phi" else [name]
     for one in pair if name else ():
         if one not in known:
-            fields.report_unknown(faults, path, one, known, message=phrase)
-            return None
+            node.reject_unknown(one, known, phrase)
     if len(pair) > 2 or len({*pair}) < len(pair):
-        faults.add(path, "an angle is between two links", "For example: phi_2_3 = 90")
-        return None
+        node.reject("an angle is between two links", hint="For example: phi_2_3 = 90")
     if kind in ("stroke", "at") and not crank:
-        faults.add(path, "a driving slider has no turn", "Give x_B, y_B or phi_1 of a link.")
-        return None
-    value = table[f"{kind}_{name}" if name else kind]
-    items = value if isinstance(value, list) else [value]
-    if not items or len(items) > keys.POSITION_LIMIT:
-        faults.add(
-            path,
-            translate("expected from 1 to {} positions, got {}", keys.POSITION_LIMIT, len(items)),
-        )
-        return None
-    values: list[float] = []
-    extremes: list[str] = []
-    by = OutputPositionKind.BETWEEN if len(pair) == 2 else OutputPositionKind(kind)
-    if kind == "at" and all(isinstance(item, str) and " on " in item for item in items):
-        by = OutputPositionKind.LINE
-    for index, item in enumerate(items):
-        where = f"{path}[{index}]" if isinstance(value, list) else path
-        if by is OutputPositionKind.LINE:
-            line = _read_on(faults, where, item, moving, fixed)
-            extremes += [line or ""]
-            number = 0.0 if line else None
-        elif kind == "at":
-            told = _read_extreme(faults, where, item)
-            number = None if told is None else told[1]
-            extremes += [] if told is None else [told[0]]
-        else:
-            number = _READERS[kind](faults, where, item)
-            if (
-                by is OutputPositionKind.BETWEEN
-                and number is not None
-                and not 0.0 <= number <= 180.0
-            ):
-                faults.expected(where, "an angle of two links from 0 to 180 degrees", item)
-        values += [] if number is None else [number]
-    kind = by.value if by is OutputPositionKind.BETWEEN or by is OutputPositionKind.LINE else kind
-    going, near, chosen = _read_root(faults, kind, table.get("root"), crank=crank)
-    if len(values) != len(items):
-        return None
-    return OutputPositions(by, name, tuple(values), tuple(extremes), going, near, number=chosen)
+        hint = "Give x_B, y_B or phi_1 of a link."
+        node.reject("a driving slider has no turn", hint=hint)
+    values = node.value if isinstance(node.value, list) else [node.value]
+    if not 1 <= len(values) <= keys.POSITION_LIMIT:
+        message = "expected from 1 to {} positions, got {}"
+        node.reject(message, keys.POSITION_LIMIT, len(values))
+    if kind != "at":
+        by = OutputPositionKind.BETWEEN if len(pair) == 2 else OutputPositionKind(kind)
+        read = _read_between if len(pair) == 2 else _READERS[kind]
+        return OutputPositions(by, name, node.read_one_or_all(read))
+    if all(isinstance(value, str) and " on " in value for value in values):
+        lines = node.read_one_or_all(partial(_read_on, names=names))
+        return OutputPositions(OutputPositionKind.LINE, name, (0.0,) * len(lines), lines)
+    extremes, degrees = zip(*node.read_one_or_all(_read_extreme), strict=True)
+    return OutputPositions(OutputPositionKind(kind), name, degrees, extremes)
 
 
-def _read_on(
-    faults: Faults, path: str, value: object, moving: Collection[str], fixed: Collection[str]
-) -> str | None:
+def _read_between(node: FileNode) -> float:
+    degrees = node.angle()
+    if not 0.0 <= degrees <= 180.0:
+        node.reject_value("an angle of two links from 0 to 180 degrees")
+    return degrees
+
+
+def _read_on(node: FileNode, names: _Names) -> str:
     """Read ``B on OC``: a moving point, and the line of two others that it is on."""
-    match = re.match(_ON, " ".join(value.split())) if isinstance(value, str) else None
+    match = re.match(_ON, " ".join(node.value.split()))
     if match is None:
-        faults.expected(path, "a point on a line", value, 'For example: at = "B on OC"')
-        return None
-    points = dict.fromkeys([*fixed, *moving])
-    name = fields.read_known_point(faults, path, match[1], points, of="the mechanism")
-    line = fields.read_line_name(faults, path, match[2], points, of="the mechanism")
-    if name is None or line is None:
-        return None
+        node.reject_value("a point on a line", 'For example: at = "B on OC"')
+    points = dict.fromkeys([*names.fixed, *names.moving])
+    name = node.check_point_name(match[1])
+    node.check_owned(name, "the mechanism", points, near=True)
+    line = node.split_line(match[2], "the mechanism", points)
     if name in line:
-        faults.add(path, translate("the line {} goes through {} itself", match[2], name))
-        return None
-    if {name, *line} <= {*fixed}:
-        faults.add(path, translate("point {} is fixed", name), "Name a point that moves.")
-        return None
+        node.reject("the line {} goes through {} itself", match[2], name)
+    if {name, *line} <= {*names.fixed}:
+        node.reject("point {} is fixed", name, hint="Name a point that moves.")
     return f"{name} on {''.join(line)}"
 
 
 def _read_actuator(
-    faults: Faults,
-    table: Table,
-    pair: str,
-    links: Mapping[str, LinkText],
-    fixed: Collection[str],
-    *,
-    crank: bool,
+    node: FileNode, pair: str, points: Collection[str], *, crank: bool
 ) -> OutputPositions | None:
     """Read an actuator (гидроцилиндр): the distance of two points, and its rate."""
-    before = len(faults)
-    known = dict.fromkeys([*fixed, *(p for one in links.values() for p in one.points)])
-    ends = fields.read_line_name(faults, f"driver.{pair}", pair, known, of="the mechanism")
-    if isinstance(table[pair], list):
-        hint = "Its rate makes another speed in each: write the others as variants."
-        faults.add(f"driver.{pair}", "an actuator has one position", hint)
+
+    def read_length(length: FileNode) -> float:
+        known = dict.fromkeys(points)
+        ends = length.attempt(lambda key: key.split_line(pair, "the mechanism", known))
+        if isinstance(length.value, list):
+            hint = "Its rate makes another speed in each: write the others as variants."
+            length.reject("an actuator has one position", hint=hint)
+        metres = length.length()
+        needed(ends)
+        return metres
+
+    length = node.read(pair, read_length)
+    speed = node.require(
+        f"v_{pair}", lambda rate: rate.number("a velocity in m/s"),
+        translate("How fast {} grows, m/s.", pair),
+    )  # fmt: skip
+    gain = node.read(f"a_{pair}", lambda rate: rate.number("an acceleration in m/s²"), 0.0)
+    if length is None or speed is None or gain is None:
         return None
-    length = fields.read_length(faults, f"driver.{pair}", table[pair])
-    rates = [
-        fields.read_number(faults, f"driver.{key}", table.get(key, 0.0), what)
-        for key, what in (
-            (f"v_{pair}", "a velocity in m/s"),
-            (f"a_{pair}", "an acceleration in m/s²"),
-        )
-    ]
-    if f"v_{pair}" not in table:
-        faults.add(f"driver.v_{pair}", "missing", translate("How fast {} grows, m/s.", pair))
-    _, near, number = _read_root(faults, "length", table.get("root"), crank=crank)
-    if ends is None or length is None or len(faults) != before:
-        return None
-    speed, gain = (rate or 0.0 for rate in rates)
-    return OutputPositions(
-        OutputPositionKind.LENGTH, pair, (length,), (), "", near, (speed, gain), number
-    )
+    return OutputPositions(OutputPositionKind.LENGTH, pair, (length,), rates=(speed, gain))
 
 
-def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float] | None:
+def _read_extreme(node: FileNode) -> tuple[str, float]:
     """Read ``extreme left + 30``: the extreme, and the angle after it, degrees."""
+    value = node.value
     match = re.match(_AT, " ".join(value.split())) if isinstance(value, str) else None
     if match is None or (match[1] and match[2]):
-        faults.expected(path, "an extreme position", value, translate("Known: {}.", _EXAMPLES))
-        return None
+        node.reject_value("an extreme position", translate("Known: {}.", _EXAMPLES))
     after = 0.0
     if match[3]:
         try:
             after = evaluate_arithmetic(match[3].rstrip(" °"))
         except FormulaError as error:
-            faults.add(
-                path, translate("expected degrees after the extreme, got {!r}: {}", match[3], error)
-            )
-            return None
-    degrees = fields.read_angle(faults, path, after)
-    return None if degrees is None else (match[1] or match[2] or "", degrees)
+            node.reject("expected degrees after the extreme, got {!r}: {}", match[3], error)
+    return match[1] or match[2] or "", node.with_value(after).angle()
 
 
-def _read_root(
-    faults: Faults, kind: str, value: object, *, crank: bool
-) -> tuple[str, float | None, int]:
+def _read_root(node: FileNode, kind: str, *, crank: bool) -> tuple[str, float | None, int]:
     """Read the choice among several positions: ``going right``, ``near 40``, or its number."""
-    if value is None or kind == "at":
+    if kind == "at":
         return "", None, 0
-    if isinstance(value, int) and not isinstance(value, bool) and value > 0:
-        return "", None, value
-    words = value.split() if isinstance(value, str) else []
+    if is_integer(node.value) and node.value > 0:
+        return "", None, node.value
+    words = node.value.split() if isinstance(node.value, str) else []
     ways = keys.GOING.get(kind, ())
     if len(words) == 2 and words[0] == "going" and words[1] in ways:
         return words[1], None, 0
     if len(words) == 2 and words[0] == "near":
-        read = fields.read_angle if crank else fields.read_coordinate
         number = read_decimal(words[1])
         if number is not None:
-            return "", read(faults, "driver.root", float(number)), 0
+            place = node.with_value(float(number))
+            return "", place.angle() if crank else place.coordinate(), 0
     example = translate('"near {}" or a number from 1', 40 if crank else 0.1)
     if ways:
         example = translate('"going {}", "going {}", {}', *ways, example)
-    faults.expected("driver.root", example, value)
-    return "", None, 0
+    return node.reject_value(example)

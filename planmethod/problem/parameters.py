@@ -15,8 +15,7 @@ from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
-from planmethod.problem import fields
-from planmethod.problem.fields import Faults, Table, is_number
+from planmethod.problem.file_node import Faults, FileNode, Table, is_number
 from planmethod.problem.model import Body, OutputPositionKind, Problem
 from planmethod.problem.names import UNITS, segment, split_names, split_pair
 from planmethod.problem.reader import read_parsed
@@ -203,20 +202,23 @@ class _Reader(Struct):
 
     unit: str
 
-    def length(self, name: str, key: Key, value: object) -> Iterator[Parameter]:
+    def _node(self, value: object) -> FileNode:
         faults = Faults()
         faults.unit = self.unit
-        metres = fields.read_coordinate(faults, "", value)
+        return FileNode(faults, value)
+
+    def length(self, name: str, key: Key, value: object) -> Iterator[Parameter]:
+        metres = self._node(value).attempt(FileNode.coordinate)
         if metres is not None:
             yield Parameter(name, key, metres, UNITS[self.unit])
 
     def angle(self, name: str, key: Key, value: object) -> Iterator[Parameter]:
-        degrees = fields.read_angle(Faults(), "", value)
+        degrees = self._node(value).attempt(FileNode.angle)
         if degrees is not None:
             yield Parameter(name, key, degrees)
 
     def number(self, name: str, key: Key, value: object, per: float = 1.0) -> Iterator[Parameter]:
-        number = fields.read_number(Faults(), "", value, low=-math.inf, high=math.inf)
+        number = self._node(value).attempt(lambda node: node.number(low=-math.inf, high=math.inf))
         if number is not None:
             yield Parameter(name, key, number / per, per)
 

@@ -6,7 +6,7 @@ import cmath
 import math
 
 from planmethod.languages import translate
-from planmethod.problem.fields import Faults
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.links import Length, LinkText
 from planmethod.problem.model import Body, PointForm
 from planmethod.problem.names import UNITS, format_length, listed
@@ -16,10 +16,6 @@ COLLINEAR = 1e-9
 
 AGREE = 1e-6
 """Relative tolerance within which a redundant length must agree with the others."""
-
-
-class _ContradictionError(Exception):
-    """The data of one point contradict each other; carries path, message and hint."""
 
 
 def rotation(angle_deg: float) -> complex:
@@ -39,33 +35,39 @@ def heading(vector: complex) -> float:
     return math.degrees(cmath.phase(vector))
 
 
-def place_points(faults: Faults, link: LinkText) -> Body | None:
-    """Place every point of a link in the link's own axes.
-
-    Returns
-    -------
-    Body or None
-        None after noting a fault.
-    """
-    if not link.points:
-        return None
-    before = len(faults)
-    placement = _Placement(faults, link)
-    body = placement.solve()
-    return body if len(faults) == before else None
+def place_points(link: LinkText) -> Body | None:
+    """Place every point of a link in the link's own axes; None after noting a fault."""
+    return _Placement(link).solve() if link.points else None
 
 
 class _Placement:
     """Worksheet of one link: points placed so far, in working axes."""
 
-    def __init__(self, faults: Faults, link: LinkText) -> None:
-        self.faults = faults
+    def __init__(self, link: LinkText) -> None:
         self.link = link
         self.placed: dict[str, complex] = {}
         self.failed: set[str] = set(link.faulty)
+        self.agrees = True
         self.base: Length | None = None
         # a slider and a one-point link have no letters for their axis: it is the line itself
         self.axis = link.lengths[0] if link.lengths and link.slides is None else None
+
+    def _note(self, node: FileNode, message: str, *facts: object, hint: str = "") -> None:
+        """Note that the data of the link do not place its points."""
+        node.note(message, *facts, hint=hint)
+        self.agrees = False
+
+    def _fail(
+        self, point: str, node: FileNode, message: str, *facts: object, hint: str = ""
+    ) -> None:
+        """Note that the data of a point contradict each other."""
+        self._note(node, message, *facts, hint=hint)
+        self.failed.add(point)
+
+    @property
+    def unit(self) -> str:
+        """Unit of the lengths of the file."""
+        return self.link.node.faults.unit
 
     def solve(self) -> Body | None:
         link = self.link
@@ -85,6 +87,8 @@ class _Placement:
             return None
         points = self._in_link_axes()
         self._check_lengths(points)
+        if not self.agrees:
+            return None
         placed = {name: points[name] for name in link.points}
         angles = {angle.key: angle.value for angle in link.angles}
         arc = link.arc[1] if link.arc else None
@@ -121,11 +125,9 @@ class _Placement:
                     if self.base
                     else "it is the origin"
                 )
-                self.faults.add(
-                    f"{self.link.path}.{name}",
-                    translate("point {} has its place already: {}", name, why),
-                    "Remove the table, or list another length or point first.",
-                )
+                hint = "Remove the table, or list another length or point first."
+                message = "point {} has its place already: {}"
+                self._note(self.link.node[name], message, name, why, hint=hint)
 
     def _place_all(self) -> None:
         while True:
@@ -135,16 +137,10 @@ class _Placement:
                 return
             moved = False
             for point in pending:
-                try:
-                    place = self._place(point)
-                except _ContradictionError as fault:
-                    self.faults.add(*fault.args)
-                    self.failed.add(point)
-                    moved = True
-                    continue
+                place = self._place(point)
                 if place is not None:
                     self.placed[point] = place
-                    moved = True
+                moved = moved or place is not None or point in self.failed
             if not moved and not (self.link.slides is not None and self._place_on_axis(pending)):
                 return
 
@@ -164,7 +160,7 @@ class _Placement:
         return [(other, length) for other, length in pairs if other in self.placed]
 
     def _place(self, point: str) -> complex | None:
-        """Place of a point, or None while what it depends on is not placed."""
+        """Place of a point; None while what it depends on is not placed, or after a fault."""
         form = self.link.forms.get(point)
         if form is None or form.kind == "side":
             place = self._by_angle(point, form)
@@ -178,23 +174,20 @@ class _Placement:
         if start is None or end is None:
             return None
         if start == end:
-            raise _ContradictionError(
-                f"{self.link.path}.{point}",
-                translate("{} and {} coincide and give no line", form.line[0], form.line[1]),
+            self._fail(
+                point, self.link.node[point], "{} and {} coincide and give no line", *form.line
             )
+            return None
         if form.kind == "on":
             return start + complex(form.at, form.lateral_offset) * _unit(end - start)
         distance = form.distance
         if distance is None:
             given = [n for n in self.link.lengths_of(point) if n.opposite_end(point) == form.point]
             if not given:
-                raise _ContradictionError(
-                    f"{self.link.path}.{point}.distance",
-                    "missing",
-                    translate(
-                        "Give distance = ..., or the length {}{} of the link.", form.point, point
-                    ),
-                )
+                hint = "Give distance = ..., or the length {}{} of the link."
+                hint = translate(hint, form.point, point)
+                self._fail(point, self.link.node[point]["distance"], "missing", hint=hint)
+                return None
             distance = given[0].value
         return start + distance * _unit(end - start) * rotation(form.angle)
 
@@ -227,27 +220,25 @@ class _Placement:
         a, b = r1.value, r2.value
         size = max(a, b, d)
         slack = COLLINEAR * size
-        said = [format_length(length, self.faults.unit, 6) for length in (a, b, d)]
+        said = [format_length(length, self.unit, 6) for length in (a, b, d)]
         given = f"{r1.key} = {said[0]}, {r2.key} = {said[1]}, |{one}{two}| = {said[2]}"
         if d <= slack or d > a + b + slack or d < abs(a - b) - slack:
-            raise _ContradictionError(
-                f"{self.link.path}.{r2.key}",
-                translate("the triangle {}{}{} cannot be closed: {}", one, two, point, given),
-                "Check these lengths.",
-            )
+            message = "the triangle {}{}{} cannot be closed: {}"
+            self._fail(
+                point, self.link.node[r2.key], message, one, two, point, given,
+                hint="Check these lengths.",
+            )  # fmt: skip
+            return None
         along = _unit(q - p)
         if abs(a + b - d) <= slack:
             return p + a * along
         if abs(abs(a - b) - d) <= slack:
             return p + (a if a > b else -a) * along
         if form is None:
-            raise _ContradictionError(
-                f"{self.link.path}.{point}",
-                translate("two places fit {}", given),
-                translate(
-                    'Say on which side: {}.side = "left of {}{}" (or right).', point, one, two
-                ),
-            )
+            hint = 'Say on which side: {}.side = "left of {}{}" (or right).'
+            hint = translate(hint, point, one, two)
+            self._fail(point, self.link.node[point], "two places fit {}", given, hint=hint)
+            return None
         start, end = (self.placed.get(name) for name in form.line)
         if start is None or end is None:
             return None
@@ -266,11 +257,10 @@ class _Placement:
             if not fits:
                 text = "neither of the two places of {} lie {}"
             side = translate("left of {}" if form.left else "right of {}", "".join(form.line))
-            raise _ContradictionError(
-                f"{self.link.path}.{point}.side",
-                translate(text, point, side),
-                translate("Name the side of the line {}{}.", one, two),
-            )
+            hint = translate("Name the side of the line {}{}.", one, two)
+            node = self.link.node[point]["side"]
+            self._fail(point, node, text, point, side, hint=hint)
+            return None
         return fits[0]
 
     def _report_unplaced(self) -> None:
@@ -286,34 +276,26 @@ class _Placement:
             example = f'{point} = {{ on = "{line}", at = ... }}' if line else ""
             form = link.forms.get(point)
             if form is not None and form.kind != "side":
-                self.faults.add(
-                    f"{link.path}.{point}",
-                    translate("point {} is measured from points that are not placed", point),
-                    "Points must not be measured from one another in a circle.",
-                )
+                message = "point {} is measured from points that are not placed"
+                hint = "Points must not be measured from one another in a circle."
+                self._note(link.node[point], message, point, hint=hint)
             elif known:
                 self._report_one_length(point, bases, *known[0])
             else:
                 first = bases[0] if bases else link.points[0]
                 tail = translate(" or {}", example) if example else ""
-                self.faults.add(
-                    f"{link.path}.points",
-                    translate(
-                        "point {} is not placed: no length leads to it from {}",
-                        point,
-                        listed(bases),
-                    ),
-                    translate("Add its lengths ({}{} = ...){}.", first, point, tail),
-                )
+                hint = translate("Add its lengths ({}{} = ...){}.", first, point, tail)
+                message = "point {} is not placed: no length leads to it from {}"
+                self._note(link.node["points"], message, point, listed(bases), hint=hint)
 
     def _report_one_length(self, point: str, bases: list[str], start: str, length: Length) -> None:
         """Note a point with one length, which usually is on the line of two others."""
-        phrase = translate("point {} is not placed: {} alone is given", point, length.key)
         more = next((base for base in bases if base != start), None)
         hint = translate("Add a second distance.")
         if more is not None:
-            stated = self.faults.stated.get(f"{self.link.path}.{length.key}")
-            at = length.value * UNITS[self.faults.unit]
+            node = self.link.node[length.key]
+            stated = node.faults.stated.get(node.path)
+            at = length.value * UNITS[self.unit]
             hint = translate(
                 'If it lies on {0}{1}, write {2} = {{ on = "{0}{1}", at = {3} }}; else add {1}{2} '
                 'and {2}.side = "left of {0}{1}", or angle.{1}{0}{2}.',
@@ -322,7 +304,8 @@ class _Placement:
                 point,
                 f"{at:.10g}" if stated is None else f'"{stated}"',
             )
-        self.faults.add(f"{self.link.path}.points", phrase, hint)
+        message = "point {} is not placed: {} alone is given"
+        self._note(self.link.node["points"], message, point, length.key, hint=hint)
 
     def _in_link_axes(self) -> dict[str, complex]:
         if self.axis is None or self.axis is self.base:
@@ -346,31 +329,20 @@ class _Placement:
             sided = any(form.kind == "side" for form in self.link.forms.values())
             missed = abs(got) - abs(angle.value) if sided else got - angle.value
             if not abs((missed + 180.0) % 360.0 - 180.0) <= AGREE * 180.0:
-                self.faults.add(
-                    f"{self.link.path}.angle.{angle.key}",
-                    translate(
-                        "{} = {:g} degrees, but the other data of the link make it {:g}",
-                        angle.key,
-                        angle.value,
-                        got,
-                    ),
-                    "Angles count counter-clockwise from the first line: correct one of them.",
-                )
+                message = "{} = {:g} degrees, but the other data of the link make it {:g}"
+                hint = "Angles count counter-clockwise from the first line: correct one of them."
+                node = self.link.node["angle"][angle.key]
+                self._note(node, message, angle.key, angle.value, got, hint=hint)
         for length in self.link.lengths:
             got = abs(points[length.a] - points[length.b])
             if abs(got - length.value) > AGREE * max(got, length.value):
-                self.faults.add(
-                    f"{self.link.path}.{length.key}",
-                    translate(
-                        "{} = {}, but the other data of the link put {} and {} {} apart",
-                        length.key,
-                        format_length(length.value, self.faults.unit, 6),
-                        length.a,
-                        length.b,
-                        format_length(got, self.faults.unit, 6),
-                    ),
-                    "Remove or correct one of them.",
-                )
+                message = "{} = {}, but the other data of the link put {} and {} {} apart"
+                own, other = (format_length(one, self.unit, 6) for one in (length.value, got))
+                self._note(
+                    self.link.node[length.key], message,
+                    length.key, own, length.a, length.b, other,
+                    hint="Remove or correct one of them.",
+                )  # fmt: skip
 
 
 def _unit(vector: complex) -> complex:

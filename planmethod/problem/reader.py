@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import current_language, translate
-from planmethod.problem.fields import Faults, read_units
+from planmethod.problem.file_node import Faults, FileNode, read_units
 from planmethod.problem.linkage import TrainReader, read_parts
 from planmethod.problem.model import Problem, SourceTable
 from planmethod.problem.names import fold, listed, nearest_name
@@ -56,37 +56,34 @@ def load_each(
         As of `load`.
     """
     path = Path(path)
-    table, known, faults = _from_file(path)
+    file, known = _open(path)
     names = tuple(known)  # one for all: ten thousand have as many names each
     for variant in variants:
-        varied = _overlay_variant(faults, table, known, str(path), variant)
-        yield _read_varied(faults.copy(), varied, names, str(path), path.stem, variant, train)
+        varied = _overlay_variant(file, known, str(path), variant)
+        yield _read_varied(varied.copy(), names, str(path), path.stem, variant, train)
 
 
-def _from_file(path: Path) -> tuple[Mapping[str, Any], Variants, Faults]:
-    """Return the table of a file, its variants, which may be in a separate table file, and faults.
+def _open(path: Path) -> tuple[FileNode, Variants]:
+    """Return a file and its variants, which may be in a separate table file.
 
     A file that is loaded variant by variant is parsed once.
     """
     text = read_source(path)
     beside = isinstance(parse(text, name=str(path)).get("variants"), str)
     look = _looked_through.__wrapped__ if beside else _looked_through  # that may change alone
-    table, variants, faults = look(text, path, current_language())
-    return table, variants, faults.copy()
+    file, variants = look(text, path, current_language())
+    return file.copy(), variants
 
 
 @lru_cache(maxsize=2)
-def _looked_through(
-    text: str, path: Path, _lang: str
-) -> tuple[Mapping[str, Any], Variants, Faults]:
-    """Return the result of `_from_file`, with faults in a language."""
-    faults = Faults()
-    table = with_table(faults, parse(text, name=str(path)), path.parent)
-    return table, read_variants(faults, table), faults
+def _looked_through(text: str, path: Path, _lang: str) -> tuple[FileNode, Variants]:
+    """Return the result of `_open`, with faults in a language."""
+    file = with_table(FileNode(Faults(), parse(text, name=str(path))), path.parent)
+    return file, read_variants(file)
 
 
-def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], tuple[str, ...], Faults]:
-    """Return the table of a file with a variant's values, the names of all variants, and faults.
+def varied(path: Path, variant: str | None) -> tuple[FileNode, tuple[str, ...]]:
+    """Return a file with a variant's values, and the names of all variants.
 
     So reads a problem of any kind.
 
@@ -95,38 +92,34 @@ def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], tuple[st
     ProblemError
         The file cannot be read, or has no such variant.
     """
-    table, known, faults = _from_file(path)
-    table = _overlay_variant(faults, table, known, str(path), variant)
-    read_units(faults, table)
-    return table, tuple(known), faults
+    file, known = _open(path)
+    file = _overlay_variant(file, known, str(path), variant)
+    read_units(file)
+    return file, tuple(known)
 
 
 def overlay_variant(
-    faults: Faults, table: Mapping[str, Any], source: str, variant: str | None
-) -> tuple[Mapping[str, Any], tuple[str, ...]]:
-    """Return a table with a variant's values, and the names of all variants.
+    file: FileNode, source: str, variant: str | None
+) -> tuple[FileNode, tuple[str, ...]]:
+    """Return a file with a variant's values, and the names of all variants.
 
     Raises
     ------
     ProblemError
         No such variant.
     """
-    variants = read_variants(faults, table)
-    return _overlay_variant(faults, table, variants, source, variant), tuple(variants)
+    variants = read_variants(file)
+    return _overlay_variant(file, variants, source, variant), tuple(variants)
 
 
 def _overlay_variant(
-    faults: Faults,
-    table: Mapping[str, Any],
-    variants: Variants,
-    source: str,
-    variant: str | None,
-) -> Mapping[str, Any]:
+    file: FileNode, variants: Variants, source: str, variant: str | None
+) -> FileNode:
     if variant is None:
-        return table
+        return file
     if variant not in variants:
-        raise ProblemError(source, [*faults.listed, unknown_variant(variant, variants)])
-    return apply_variant(table, variants[variant])
+        raise ProblemError(source, [*file.faults.listed, unknown_variant(variant, variants)])
+    return file.with_value(apply_variant(file.value, variants[variant]))
 
 
 def loads(
@@ -146,9 +139,9 @@ def variant_names(path: str | Path) -> tuple[str, ...]:
         The file cannot be read, or its variants are faulty.
     """
     path = Path(path)
-    _, variants, faults = _from_file(path)
-    if faults:
-        raise ProblemError(str(path), faults.listed)
+    file, variants = _open(path)
+    if file.faults:
+        raise ProblemError(str(path), file.faults.listed)
     return tuple(variants)
 
 
@@ -175,24 +168,23 @@ def read_parsed(
     ------
     ProblemError
     """
-    faults = Faults()
-    table = with_table(faults, table, None)
-    table, variants = overlay_variant(faults, table, source, variant)
-    return _read_varied(faults, table, variants, source, name, variant, train)
+    file = with_table(FileNode(Faults(), table), None)
+    file, variants = overlay_variant(file, source, variant)
+    return _read_varied(file, variants, source, name, variant, train)
 
 
 def _read_varied(
-    faults: Faults,
-    table: Mapping[str, Any],
+    file: FileNode,
     variants: tuple[str, ...],
     source: str,
     name: str,
     variant: str | None,
     train: TrainReader | None,
 ) -> Problem:
-    problem = read_parts(faults, table, name, train)
-    if faults or problem is None:
-        raise ProblemError(source, faults.listed)
+    table = file.value
+    problem = read_parts(file, name, train)
+    if file.faults or problem is None:
+        raise ProblemError(source, file.faults.listed)
     return replace(
         problem,
         source_file=source,

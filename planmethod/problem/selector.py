@@ -13,16 +13,14 @@ from msgspec import Struct
 
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
-from planmethod.problem import fields, keys
+from planmethod.problem import keys
 from planmethod.problem.common import Published
-from planmethod.problem.fields import Faults
-from planmethod.problem.flat_tables import read_flat
+from planmethod.problem.file_node import FileNode, is_integer, needed
 from planmethod.problem.names import (
     indexed,
     listed,
     nearest_name,
     nearest_name_hint,
-    segment,
     short,
 )
 
@@ -277,9 +275,8 @@ def unknown_names(
 
 
 def read_published(
-    faults: Faults,
-    table: object,
-    check: Callable[[str, str, str], str],
+    node: FileNode,
+    check: Callable[[FileNode, str], str],
     *,
     positions: int = 0,
     example: str = 'value = 3, unit = "м/с", what = "v B"',
@@ -290,56 +287,51 @@ def read_published(
     Parameters
     ----------
     check : callable
-        Gets the path, ``what`` (empty where it is absent) and the name, notes faults of the
+        Gets ``what`` (with an empty text where it is absent) and the name, notes faults of the
         quantity, and returns ``what`` as outputs have it.
     positions : int
         How many there are; 0 when not known.
     example, without
         An entry, and the keys that one may not have.
     """
-    entries = fields.read_table(faults, "published", table, f'[published."v_B"] {example}') or {}
-    if faults.exceeds(
-        "published", "{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT
-    ):
-        return ()
-    own = {"position": partial(read_position, positions=positions)}
-    found: list[Published] = []
-    for name, entry in entries.items():
-        path = f"published.{segment(name)}"
-        body = fields.read_table(faults, path, entry, example)
-        if fields.read_text(faults, path, name, limit=80) is None or body is None:
-            continue
-        given = read_flat(faults, path, body, Published, own, without=without)
-        given["what"] = check(f"{path}.what", given.get("what", ""), name)
-        if "value" in given:
-            found.append(Published(name, **given))
-    return tuple(found)
+
+    def read_entry(entry: FileNode) -> Published | None:
+        name = str(entry.key)
+        table = entry.attempt(lambda entry: entry.table(example))
+        entry.check_text(name, _PUBLISHED_NAME_LIMIT)
+        needed(table)
+        position = partial(read_position, positions=positions)
+        given = entry.record(Published, without=without, position=position)
+        what = entry["what"].with_value(given.get("what", ""))
+        given["what"] = check(what, name)
+        return Published(name, **given) if "value" in given else None
+
+    node.table(f'[published."v_B"] {example}')
+    node.require_at_most(keys.PUBLISHED_LIMIT, "{} values, the limit is {}")
+    return tuple(node.read_each(read_entry).values())
 
 
-def read_position(faults: Faults, path: str, value: object, positions: int) -> int | None:
+_PUBLISHED_NAME_LIMIT = 80
+
+
+def read_position(node: FileNode, positions: int) -> int:
     """Read the number of a driver position, from 0; ``positions`` is 0 when not known."""
-    if value is None:
-        return None
-    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
-        faults.expected(path, "a whole number from 0", value)
-        return None
-    if positions and value >= positions:
-        faults.add(
-            path, translate("position {} of {}", value, positions), "The first position is 0."
-        )
-        return None
-    return value
+    if not is_integer(node.value) or node.value < 0:
+        node.reject_value("a whole number from 0")
+    if positions and node.value >= positions:
+        hint = "The first position is 0."
+        node.reject("position {} of {}", node.value, positions, hint=hint)
+    return node.value
 
 
 def check_quantity(
-    faults: Faults,
-    path: str,
+    node: FileNode,
     quantity: str,
     points: Collection[str],
     links: Collection[str],
     dynamics: Dynamics | None,
 ) -> Selector | None:
-    """Parse ``quantity`` and check its names; None where it cannot be parsed.
+    """Parse a quantity that a node has, and check its names; None where it cannot be parsed.
 
     Parameters
     ----------
@@ -349,19 +341,13 @@ def check_quantity(
     try:
         selector = parse_selector(quantity)
     except SelectorError as error:
-        faults.add(path, str(error), 'For example: "v C", "an C B", "omega 2", "F 2 1".')
+        node.note(str(error), hint='For example: "v C", "an C B", "omega 2", "F 2 1".')
         return None
     if not points or not links:
         return selector
     if is_force(selector) and dynamics is None:
-        faults.add(
-            path,
-            translate(
-                "'{}' is of the force analysis, and the file has no masses and no loads",
-                short(quantity),
-            ),
-            "Give [dynamics] or [[loads]].",
-        )
+        message = "'{}' is of the force analysis, and the file has no masses and no loads"
+        node.note(message, short(quantity), hint="Give [dynamics] or [[loads]].")
         return selector
     loads = [load.name for load in dynamics.loads] if dynamics else []
     for name in unknown_names(selector, points, links, loads):
@@ -370,17 +356,11 @@ def check_quantity(
             known += [translate("links: {}", listed(links))]
             known += [translate("loads: {}", listed(loads))] if loads else []
         hint = nearest_name_hint(name, [*points, *links, *loads], f"{'; '.join(known)}.")
-        faults.add(path, translate("the mechanism has no '{}'", name), hint)
+        node.note("the mechanism has no '{}'", name, hint=hint)
     return selector
 
 
-def read_tables(faults: Faults, table: Mapping[str, Any]) -> dict[str, Any]:
+def read_tables(file: FileNode) -> dict[str, Any]:
     """Take over the tables that later parts read, checking no more than their TOML type."""
-    found: dict[str, Any] = {}
-    for key in keys.OF_KINDS:
-        if key not in table:
-            continue
-        value = fields.read_table(faults, key, table[key])
-        if value is not None:
-            found[key] = value
-    return found
+    found = {key: file.read(key, FileNode.table) for key in keys.OF_KINDS}
+    return {key: table for key, table in found.items() if table is not None}

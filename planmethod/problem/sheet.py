@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -27,124 +28,93 @@ from planmethod.problem.common import (
     TITLE_BLOCK_IN,
     SheetSettings,
 )
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    read_keys,
-    read_table,
-    read_text,
-    read_word,
-)
-from planmethod.problem.flat_tables import read_choice, read_flat
-from planmethod.problem.names import TITLE_LIMIT, joined, segment
+from planmethod.problem.file_node import Faults, FileNode
+from planmethod.problem.names import TITLE_LIMIT
 from planmethod.problem.source import parse, read_source
 
 _PAPER_LIMIT = 40
 _READINGS_LIMIT = 10
 
 
-def read_head(faults: Faults, document: Mapping[str, Any]) -> dict[str, Any]:
+def read_head(file: FileNode) -> dict[str, Any]:
     """Read the common head of all files: title, source, title block, sheet settings."""
     return {
-        **{key: _read_heading(faults, document, key) for key in ("title", "source")},
-        **_read_reading(faults, document),
-        **_read_stamps(faults, document.get("stamp", {})),
-        "sheet": read_sheet(faults, document.get("sheet", {})),
+        **{key: file.read(key, _read_heading) or "" for key in ("title", "source")},
+        **_read_reading(file),
+        **_read_stamps(file),
+        "sheet": file.read("sheet", read_sheet) or _DEFAULTS,
     }
 
 
-def _read_heading(faults: Faults, document: Mapping[str, Any], key: str) -> str:
-    return read_text(faults, key, document.get(key, ""), limit=TITLE_LIMIT) or ""
+def _read_heading(node: FileNode) -> str:
+    return node.text(TITLE_LIMIT)
 
 
-def _read_reading(faults: Faults, document: Mapping[str, Any]) -> dict[str, Any]:
+def _read_reading(file: FileNode) -> dict[str, Any]:
     """Read whether the scheme is one of several matching the data, and the others."""
-    if "reading" not in document:
-        if "other_readings" in document:
+    if "reading" not in file:
+        if "other_readings" in file:
             hint = translate('Write reading = "{}".', SEVERAL)
-            faults.add("other_readings", "goes with a reading", hint)
+            file["other_readings"].note("goes with a reading", hint=hint)
         return {}
-    word = read_word(faults, "reading", document["reading"], (SEVERAL,))
-    others = document.get("other_readings", [])
-    if not isinstance(others, list) or len(others) > _READINGS_LIMIT:
-        faults.expected(
-            "other_readings", translate("a list of up to {} texts", _READINGS_LIMIT), others
-        )
-        return {}
-    texts = [
-        read_text(faults, f"other_readings[{k}]", one, limit=TITLE_LIMIT)
-        for k, one in enumerate(others)
-    ]
-    return {"reading": word or "", "other_readings": tuple(text for text in texts if text)}
-
-
-def _read_stamps(faults: Faults, table: object) -> dict[str, Any]:
-    """Read ``[stamp]`` of a problem file, which may have texts for a language."""
-    whole = table if isinstance(table, Mapping) else {}
-    languages = {lang: whole[lang] for lang in TITLE_BLOCK_IN if lang in whole}
-    if languages:
-        table = {key: value for key, value in whole.items() if key not in languages}
     return {
-        "stamp": read_stamp(faults, table),
-        "stamp_in": {
-            lang: read_stamp(faults, texts, f"stamp.{lang}") for lang, texts in languages.items()
-        },
+        "reading": file.read("reading", lambda word: word.word((SEVERAL,))) or "",
+        "other_readings": file.read("other_readings", _read_others) or (),
     }
 
 
-def read_stamp(faults: Faults, table: object, path: str = "stamp") -> dict[str, str]:
+def _read_others(node: FileNode) -> tuple[str, ...]:
+    expected = partial(translate, "a list of up to {} texts", _READINGS_LIMIT)
+    node.array(expected, high=_READINGS_LIMIT)
+    return tuple(text for text in node.read_sound(_read_heading) if text)
+
+
+def _read_stamps(file: FileNode) -> dict[str, Any]:
+    """Read ``[stamp]`` of a problem file, which may have texts for a language."""
+    node, languages = file["stamp"], []
+    if isinstance(node.value, Mapping):
+        languages = [node[lang] for lang in TITLE_BLOCK_IN if lang in node]
+        own = {key: value for key, value in node.value.items() if key not in TITLE_BLOCK_IN}
+        node = node.with_value(own)
+    return {
+        "stamp": (node.attempt(read_stamp) if "stamp" in file else None) or {},
+        "stamp_in": {str(one.key): one.attempt(read_stamp) or {} for one in languages},
+    }
+
+
+def read_stamp(node: FileNode) -> dict[str, str]:
     """Read ``[stamp]`` (основная надпись)."""
-    stamp: dict[str, str] = {}
-    given = _without_astray(faults, path, table, "sheet", 'author = "Иванов"')
-    for key, value in read_keys(faults, path, given, TITLE_BLOCK).items():
-        text = read_text(faults, f"{path}.{key}", value, limit=STAMP_LIMIT)
-        if text is not None:
-            stamp[key] = text
-    return stamp
+    node.table('author = "Иванов"')
+    _reject_astray(node, "stamp", "sheet")
+    node.allow(TITLE_BLOCK)
+    return node.read_each(lambda text: text.text(STAMP_LIMIT))
 
 
-def read_sheet(faults: Faults, table: object) -> SheetSettings:
+def read_sheet(node: FileNode) -> SheetSettings:
     """Read ``[sheet]`` (оформление листов)."""
-    given = _without_astray(faults, "sheet", table, "stamp", "side_columns = true")
-    own = {"paper": _read_paper, "lang": _read_language}
-    return (
-        SheetSettings(**read_flat(faults, "sheet", given, SheetSettings, own))
-        if given
-        else _DEFAULTS
-    )
+    node.table("side_columns = true")
+    _reject_astray(node, "sheet", "stamp")
+    found = node.record(SheetSettings, paper=_read_paper, lang=lambda lang: lang.choice(LANGUAGES))
+    return SheetSettings(**found)
 
 
 _DEFAULTS = SheetSettings()
 
 
-def _without_astray(faults: Faults, path: str, table: object, second: str, example: str) -> Table:
-    """Return a table without the keys that belong to the other one, each of which is a fault."""
-    entries = read_table(faults, path, table, example)
-    if not entries:
-        return {}
-    own = keys.known(path.partition(".")[0])
-    astray = set(entries).intersection(keys.known(second)).difference(own)
-    for key in entries:
-        if key in astray:
-            faults.add(
-                joined(path, segment(key)), "unknown key", translate("It belongs in [{}].", second)
-            )
-    return {key: value for key, value in entries.items() if key not in astray}
+def _reject_astray(node: FileNode, table: str, second: str) -> None:
+    """Reject the keys of a table that belong to another one."""
+    astray = {*keys.known(second)}.difference(keys.known(table))
+    for key in [key for key in node.value if key in astray]:
+        node[key].note("unknown key", hint=translate("It belongs in [{}].", second))
+    node.value = {key: value for key, value in node.value.items() if key not in astray}
 
 
-def _read_language(faults: Faults, path: str, value: object) -> str | None:
-    return read_choice(faults, path, value, LANGUAGES)
-
-
-def _read_paper(faults: Faults, path: str, value: object) -> str | None:
-    text = read_text(faults, path, value, limit=_PAPER_LIMIT)
-    if text is None:
-        return None
+def _read_paper(node: FileNode) -> str:
+    text = node.text(_PAPER_LIMIT)
     try:
         return paper_format(text).name
     except LayoutError as error:
-        faults.add(path, str(error).removesuffix("."))
-        return None
+        node.reject(str(error).removesuffix("."))
 
 
 VARIABLE = "PLANMETHOD_CONFIG"
@@ -216,11 +186,9 @@ def load_config(path: Path) -> Config:
                 )
             ],
         ) from None
-    faults = Faults()
-    given = read_keys(faults, "", table, keys.CONFIG)
-    config = Config(
-        read_stamp(faults, given.get("stamp", {})), read_sheet(faults, given.get("sheet", {}))
-    )
-    if faults:
-        raise ConfigError(name, faults.listed)
-    return config
+    file = FileNode(Faults(), table)
+    file.allow(keys.CONFIG)
+    stamp, sheet = file.read("stamp", read_stamp), file.read("sheet", read_sheet)
+    if file.faults:
+        raise ConfigError(name, file.faults.listed)
+    return Config(stamp or {}, sheet or SheetSettings())

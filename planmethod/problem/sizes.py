@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from itertools import pairwise
 
 from msgspec.structs import replace
 
 from planmethod.languages import translate
-from planmethod.problem import fields, keys
-from planmethod.problem.fields import Faults, Table
-from planmethod.problem.flat_tables import read_flat
+from planmethod.problem import keys
+from planmethod.problem.file_node import FileNode, is_number, needed, show
 from planmethod.problem.load_records import (
     IndicatorDiagram,
     Interpolation,
@@ -39,14 +39,8 @@ Spans = tuple[tuple[float, float], ...]
 
 
 def read_size(
-    faults: Faults,
-    path: str,
-    value: object,
-    drive: Drive | None,
-    *,
-    couple: bool = False,
-    turn: float = TURN,
-) -> float | SizeTable | None:
+    node: FileNode, drive: Drive | None, *, couple: bool = False, turn: float = TURN
+) -> float | SizeTable:
     """Read a force, N, or a couple, N·m: a number or a table.
 
     Parameters
@@ -54,97 +48,174 @@ def read_size(
     turn : float, degrees
         Period of a table over phi.
     """
-    if isinstance(value, dict):
-        return _read_table(faults, path, value, drive, turn, couple=couple)
-    what = "a couple in N·m" if couple else "a force in N"
-    if not fields.is_number(value) and not isinstance(value, str):
-        faults.expected(
-            path, translate("{} or a table", what), value, translate("A table: {}.", _TABLE)
-        )
-        return None
-    return _read_value(faults, path, value, what)
+    expected = "a couple in N·m" if couple else "a force in N"
+    if isinstance(node.value, Mapping):
+        return _TableReader(expected, drive, turn, couple=couple).read(node)
+    if not is_number(node.value) and not isinstance(node.value, str):
+        hint = translate("A table: {}.", _TABLE)
+        node.reject_value(translate("{} or a table", expected), hint)
+    return _read_value(node, expected)
 
 
-def _read_value(faults: Faults, path: str, value: object, expected: str) -> float | None:
-    return fields.read_number(faults, path, value, expected, low=-1e12, high=1e12)
+def _read_value(node: FileNode, expected: str) -> float:
+    return node.number(expected, -1e12, 1e12)
 
 
-def _read_table(
-    faults: Faults, path: str, value: Table, drive: Drive | None, turn: float, *, couple: bool
-) -> SizeTable | None:
-    before = len(faults)
-    given = fields.read_keys(faults, path, value, keys.TABLE)
-    whole = len(faults) == before
-    law = None
-    if "like" in given:
-        return _read_like(faults, path, given, drive, turn, couple=couple)
-    if "law" in given:
-        law = fields.read_member(faults, f"{path}.law", given["law"], LoadLaw)
-        if law is None:
-            return None
-    if law is LoadLaw.INDICATOR:
-        return _read_indicator(faults, path, given, drive, couple=couple, is_complete=whole)
-    for key in keys.INDICATOR:
-        if key in given:
-            hint = LIKE if key in keys.LIKE else ""
-            faults.add(f"{path}.{key}", 'goes with law = "indicator" only', hint)
-    if law is not None:
-        given = {**_LAWS[law], **given}
-    if whole and "over" not in given:
-        hint = translate("Say what the values are over: {}.", listed(_OVERS))
-        faults.add(f"{path}.over", "missing", hint)
-    if whole and "values" not in given:
-        faults.add(f"{path}.values", "missing", translate("For example: {}.", _TABLE))
-    over = None
-    if "over" in given:
-        over = _read_over(faults, f"{path}.over", given["over"], drive, couple=couple)
-    interpolation = _read_interpolation(faults, path, given, over, is_complete=whole)
-    if over is None or "values" not in given:
-        return None
-    what = "a couple in N·m" if couple else "a force in N"
-    rows = _read_rows(faults, f"{path}.values", given["values"], over, what, drive, turn)
-    if rows is None or interpolation is None or len(faults) != before:
-        return None
-    return SizeTable(over, *rows, interpolation, turn)
-
-
-_LAWS = {
+_LAWS: Mapping[LoadLaw | None, Mapping[str, str]] = {
     LoadLaw.TABLE: {"over": "phi", "interpolation": "linear"},
     LoadLaw.PATH: {"over": "path", "interpolation": "linear"},
     LoadLaw.STEPS: {"over": "phi", "interpolation": "step"},
 }
 """Defaults of a law."""
 
-
-def _check_piston(faults: Faults, path: str, drive: Drive | None, *, couple: bool) -> None:
-    """Add the faults of an indicator diagram that is of no piston of a crank."""
-    if couple:
-        faults.add(path, "'indicator' does not go with a couple", "A piston has a force.")
-    if drive is not None and not drive.is_crank:
-        faults.add(path, translate("link {} slides: it has no crank cycle", drive.link))
+Rows = tuple[tuple[float, ...], tuple[float, ...]]
 
 
-def _read_like(
-    faults: Faults, path: str, table: Table, drive: Drive | None, cycle: float, *, couple: bool
-) -> SizeTable | None:
-    """Read an indicator diagram that is another piston's, later; its rows come with `liken`."""
-    before = len(faults)
-    _check_piston(faults, f"{path}.like", drive, couple=couple)
-    for key in table:
-        if key not in (*keys.LIKE, "law") or (key == "law" and table[key] != "indicator"):
-            faults.add(f"{path}.{key}", "does not go with like", LIKE)
-    name = fields.read_text(faults, f"{path}.like", table["like"], limit=40)
-    shift = None
-    if "shift" in table:
-        shift = fields.read_angle(faults, f"{path}.shift", table["shift"])
-    else:
-        faults.add(f"{path}.shift", "missing", LIKE)
-    if shift is not None and not 0.0 <= shift < cycle:
-        message = translate("expected from 0 to less than {:g} degrees, got {:g}", cycle, shift)
-        faults.add(f"{path}.shift", message, _SHIFT)
-    if len(faults) != before or name is None or shift is None:
-        return None
-    return SizeTable(Over.STROKES, (), (), like=indexed(name), shift=shift)
+class _TableReader:
+    """Reader of the table of a size.
+
+    Attributes
+    ----------
+    expected : str
+        What its values are: ``a force in N``.
+    drive : Drive or None
+        None where it has a fault of its own.
+    turn : float, degrees
+        Period of a table over phi.
+    """
+
+    def __init__(self, expected: str, drive: Drive | None, turn: float, *, couple: bool) -> None:
+        self.expected, self.drive, self.turn, self.couple = expected, drive, turn, couple
+
+    def read(self, node: FileNode) -> SizeTable:
+        """Read the table by its law."""
+        node.allow(keys.TABLE)
+        if "like" in node:
+            return self._read_like(node)
+        law = node.read("law", lambda law: law.member(LoadLaw))
+        if "law" in node:
+            needed(law)
+        if law is LoadLaw.INDICATOR:
+            return self._read_indicator(node)
+        for key in keys.INDICATOR:
+            if key in node:
+                hint = LIKE if key in keys.LIKE else ""
+                node[key].note('goes with law = "indicator" only', hint=hint)
+        node.value = {**_LAWS.get(law, {}), **node.value}
+        hint = translate("Say what the values are over: {}.", listed(_OVERS))
+        over = node.require("over", self._read_over, hint)
+        if "values" not in node:
+            node.note_missing("values", translate("For example: {}.", _TABLE))
+        interpolation = _read_interpolation(node, over)
+        rows = None
+        if over is not None:
+            rows = node.read("values", partial(self._read_rows, over=over, expected=self.expected))
+        node.require_sound()
+        return SizeTable(needed(over), *needed(rows), needed(interpolation), self.turn)
+
+    def _check_piston(self, node: FileNode) -> None:
+        """Note the faults of an indicator diagram that is of no piston of a crank."""
+        if self.couple:
+            node.note("'indicator' does not go with a couple", hint="A piston has a force.")
+        if self.drive is not None and not self.drive.is_crank:
+            node.note("link {} slides: it has no crank cycle", self.drive.link)
+
+    def _read_like(self, node: FileNode) -> SizeTable:
+        """Read a diagram that is another piston's, later; its rows come with `liken`."""
+        self._check_piston(node["like"])
+        for key in node.value:
+            if key not in (*keys.LIKE, "law") or (key == "law" and node.value[key] != "indicator"):
+                node[key].note("does not go with like", hint=LIKE)
+        name = node.read("like", lambda like: like.text(40))
+        if "shift" not in node:
+            node["shift"].note("missing", hint=LIKE)
+        shift = node.read("shift", self._read_shift)
+        return SizeTable(Over.STROKES, (), (), like=indexed(needed(name)), shift=needed(shift))
+
+    def _read_shift(self, node: FileNode) -> float:
+        shift = node.angle()
+        if not 0.0 <= shift < self.turn:
+            message = "expected from 0 to less than {:g} degrees, got {:g}"
+            node.reject(message, self.turn, shift, hint=_SHIFT)
+        return shift
+
+    def _read_indicator(self, node: FileNode) -> SizeTable:
+        """Read pressures over strokes: the force on the piston, N, over the strokes done."""
+        self._check_piston(node["law"])
+        for key in ("over", "values", "interpolation"):
+            if key in node:
+                node[key].note('does not go with law = "indicator"', hint=_INDICATOR)
+        if "shift" in node:
+            node["shift"].note("goes with like only", hint=LIKE)
+        for key in ("strokes", "area"):
+            if key not in node:
+                node.note_missing(key, _INDICATOR)
+        area = node.read("area", _read_area)
+        sides = node.read("sides", lambda sides: sides.integer(1, 2), 1)
+        area_2 = node.read("area_2", _read_area, area)
+        if "area_2" in node and sides == 1:
+            node["area_2"].note("is of the other side of the piston", hint="Give sides = 2.")
+        strokes = node.read("strokes", self._read_strokes)
+        node.require_sound()
+        strokes, area, area_2 = needed(strokes), needed(area), needed(area_2)
+        at: list[float] = []
+        pressures: list[float] = []
+        for number, (fractions, values) in enumerate(strokes):
+            if number % 2:  # the way back
+                fractions, values = tuple(1.0 - one for one in reversed(fractions)), values[::-1]
+            at += [float(number), *(number + one for one in fractions), number + 1.0]
+            pressures += [values[0], *values, values[-1]]
+        own = SizeTable(Over.STROKES, tuple(at), tuple(area * p for p in pressures))
+        whole_force = own if sides == 1 else _both_sides(own, area_2 / area, len(strokes))
+        rows = tuple(tuple(zip(*stroke, strict=True)) for stroke in strokes)
+        return replace(whole_force, indicator=IndicatorDiagram(rows, area, area_2, sides or 1))
+
+    def _read_strokes(self, node: FileNode) -> tuple[Rows, ...]:
+        if not isinstance(node.value, list) or len(node.value) not in (2, 4):
+            node.reject("expected 2 or 4 strokes, got {}", show(node.value), hint=_INDICATOR)
+        read = partial(self._read_rows, over=Over.PATH, expected="a pressure in Pa")
+        return node.read_all(read)
+
+    def _read_over(self, node: FileNode) -> Over:
+        over, drive = Over(node.word(_OVERS)), self.drive
+        if over is Over.PATH and drive is not None and not drive.is_crank:
+            node.reject("link {} slides: it has no stroke of a full turn", drive.link)
+        if self.couple and over in (Over.X, Over.Y, Over.PATH):
+            hint = "A couple has no point: give it over phi, s or position."
+            node.reject("'{}' does not go with a couple", over.value, hint=hint)
+        if drive is None:
+            return over
+        own = Over.PHI if drive.goes_round else Over.S
+        if over in (Over.PHI, Over.S) and over is not own:
+            message = "'{}' is not what the driver has: link {} slides"
+            if drive.goes_round:
+                message = "'{}' is not what the driver has: link {} turns"
+            hint = translate("Give the table over {}.", own.value)
+            node.reject(message, over.value, drive.link, hint=hint)
+        return over
+
+    def _read_rows(self, node: FileNode, over: Over, expected: str) -> Rows:
+        """Read the rows of a table: abscissae and values."""
+        node.array("a list", lambda: translate("For example: {}.", _TABLE))
+        node.require_at_most(keys.ROW_LIMIT, "{} values, the limit is {}")
+        if over is Over.POSITION:
+            return self._read_by_position(node, expected)
+        if len(node.value) < 2:
+            hint = translate("For example: {}. A constant load is just a number.", _TABLE)
+            message = "expected at least two rows [{}, value], got {}"
+            node.reject(message, over.value, len(node.value), hint=hint)
+        read_value = partial(_read_value, expected=expected)
+        rows = node.read_all(partial(_read_row, over=over, read_value=read_value))
+        _check_order(node, rows, over, self.turn)
+        return tuple(at for at, _ in rows), tuple(size for _, size in rows)
+
+    def _read_by_position(self, node: FileNode, expected: str) -> Rows:
+        sizes = node.read_all(partial(_read_value, expected=expected))
+        count = len(sizes) if self.drive is None else len(self.drive.positions)
+        if len(sizes) != count:
+            hint = "Give one for each position of the driver, or a table over its motion."
+            node.reject("{} values for {} positions", len(sizes), count, hint=hint)
+        return (), sizes
 
 
 LIKE = (
@@ -155,95 +226,40 @@ _SHIFT = (
     "It is how much later than the other piston this one works; [machine] cycle_deg says how long "
     "the cycle is."
 )
+_INDICATOR = (
+    'For example: { law = "indicator", area = 0.01, strokes = [[[0, 5e5], [0.2, 1e5], [1, 1e5]], '
+    "[[0, 5e5], [0.3, 5e5], [1, 1e5]]] }: the share of the stroke and the pressure in Pa."
+)
 
 
 def liken(
-    faults: Faults, path: str, load_name: str, size: SizeTable, known: Mapping[str, object]
-) -> SizeTable | None:
-    """Return a diagram that is another piston's with the rows of that one; None after a fault.
+    node: FileNode, load_name: str, size: SizeTable, known: Mapping[str, object]
+) -> SizeTable:
+    """Return a diagram that is another piston's with the rows of that one.
 
     Parameters
     ----------
+    node : FileNode
+        The name of the other load.
     load_name : str
-        The name of its load.
+        The name of its own load.
     known : mapping of str to object
         Sizes of the forces of the file by name; None of one that could not be read.
     """
-    assert size.like is not None
-    path = f"{path}.like"
-    if size.like == load_name:
-        faults.add(path, translate("load {} cannot be like itself", load_name), LIKE)
-        return None
-    if size.like not in known:
-        others = [name for name in known if name != load_name]
-        fields.report_unknown(faults, path, size.like, others, message="unknown load '{}'")
-        return None
-    other = known[size.like]
-    if other is None:
-        return None
+    name = needed(size.like)
+    if name == load_name:
+        node.reject("load {} cannot be like itself", load_name, hint=LIKE)
+    if name not in known:
+        others = [one for one in known if one != load_name]
+        node.reject_unknown(name, others, "unknown load '{}'")
+    other = needed(known[name])
     if not isinstance(other, SizeTable) or other.over is not Over.STROKES:
-        message = translate("load {} is not an indicator diagram", size.like)
-        faults.add(path, message, 'It has law = "indicator" and its strokes.')
-        return None
+        hint = 'It has law = "indicator" and its strokes.'
+        node.reject("load {} is not an indicator diagram", name, hint=hint)
     if other.like is not None:
-        message = translate("load {} is like {} itself", size.like, other.like)
-        faults.add(path, message, "Name the load that has the strokes.")
-        return None
-    return replace(other, like=size.like, shift=size.shift)
-
-
-def _read_indicator(
-    faults: Faults,
-    path: str,
-    table: Table,
-    drive: Drive | None,
-    *,
-    couple: bool,
-    is_complete: bool,
-) -> SizeTable | None:
-    """Read pressures over strokes: the force on the piston, N, over the strokes done."""
-    before = len(faults)
-    _check_piston(faults, f"{path}.law", drive, couple=couple)
-    for key in ("over", "values", "interpolation"):
-        if key in table:
-            faults.add(f"{path}.{key}", 'does not go with law = "indicator"', _INDICATOR)
-    if "shift" in table:
-        faults.add(f"{path}.shift", "goes with like only", LIKE)
-    for key in ("strokes", "area"):
-        if key not in table and is_complete:
-            faults.add(f"{path}.{key}", "missing", _INDICATOR)
-    strokes, area = table.get("strokes", []), _read_area(faults, f"{path}.area", table.get("area"))
-    sides = fields.read_integer(faults, f"{path}.sides", table.get("sides", 1), 1, 2)
-    area_2 = _read_area(faults, f"{path}.area_2", table.get("area_2", table.get("area")))
-    if "area_2" in table and sides == 1:
-        faults.add(f"{path}.area_2", "is of the other side of the piston", "Give sides = 2.")
-    if not isinstance(strokes, list) or len(strokes) not in (2, 4):
-        if "strokes" in table:
-            shown = fields.show(strokes)
-            faults.add(
-                f"{path}.strokes", translate("expected 2 or 4 strokes, got {}", shown), _INDICATOR
-            )
-        return None
-    at: list[float] = []
-    pressures: list[float] = []
-    told: list[tuple[tuple[float, float], ...]] = []
-    for number, rows in enumerate(strokes):
-        where = f"{path}.strokes[{number}]"
-        found = _read_rows(faults, where, rows, Over.PATH, "a pressure in Pa", drive, TURN)
-        if found is None:
-            continue
-        shares, values = found
-        told.append(tuple(zip(shares, values, strict=True)))
-        if number % 2:  # the way back
-            shares, values = tuple(1.0 - share for share in reversed(shares)), values[::-1]
-        at += [float(number), *(number + share for share in shares), number + 1.0]
-        pressures += [values[0], *values, values[-1]]
-    if len(faults) != before or area is None or area_2 is None:
-        return None
-    own = SizeTable(Over.STROKES, tuple(at), tuple(area * p for p in pressures))
-    whole_force = own if sides == 1 else _both_sides(own, area_2 / area, len(strokes))
-    diagram = IndicatorDiagram(tuple(told), area, area_2, sides or 1)
-    return replace(whole_force, indicator=diagram)
+        hint = "Name the load that has the strokes."
+        node.reject("load {} is like {} itself", name, other.like, hint=hint)
+    return replace(other, like=name, shift=size.shift)
 
 
 def _both_sides(diagram: SizeTable, fraction: float, count: int) -> SizeTable:
@@ -272,182 +288,86 @@ def _limit(table: SizeTable, at: float, after: bool) -> float:
     return y0 + (y1 - y0) * (at - x0) / (x1 - x0)
 
 
-def _read_area(faults: Faults, path: str, value: object) -> float | None:
-    if value is None:
-        return None
-    return fields.read_number(
-        faults, path, value, "an area in m²", low=1e-9, high=1e3, positive=True
-    )
+def _read_area(node: FileNode) -> float:
+    return node.number("an area in m²", 1e-9, 1e3, positive=True)
 
 
-_INDICATOR = (
-    'For example: { law = "indicator", area = 0.01, strokes = [[[0, 5e5], [0.2, 1e5], [1, 1e5]], '
-    "[[0, 5e5], [0.3, 5e5], [1, 1e5]]] }: the share of the stroke and the pressure in Pa."
-)
-
-
-def _read_over(
-    faults: Faults, path: str, value: object, drive: Drive | None, *, couple: bool
-) -> Over | None:
-    word = fields.read_word(faults, path, value, _OVERS)
-    if word is None:
-        return None
-    over = Over(word)
-    if over is Over.PATH and drive is not None and not drive.is_crank:
-        faults.add(path, translate("link {} slides: it has no stroke of a full turn", drive.link))
-        return None
-    if couple and over in (Over.X, Over.Y, Over.PATH):
-        hint = "A couple has no point: give it over phi, s or position."
-        faults.add(path, translate("'{}' does not go with a couple", over.value), hint)
-        return None
-    if drive is None:
-        return over
-    own = Over.PHI if drive.goes_round else Over.S
-    if over in (Over.PHI, Over.S) and over is not own:
-        message = "'{}' is not what the driver has: link {} slides"
-        if drive.goes_round:
-            message = "'{}' is not what the driver has: link {} turns"
-        hint = translate("Give the table over {}.", own.value)
-        faults.add(path, translate(message, over.value, drive.link), hint)
-        return None
-    return over
-
-
-def _read_interpolation(
-    faults: Faults, path: str, table: Table, over: Over | None, *, is_complete: bool
-) -> Interpolation | None:
-    where = f"{path}.interpolation"
-    if "interpolation" not in table:
+def _read_interpolation(node: FileNode, over: Over | None) -> Interpolation | None:
+    if "interpolation" not in node:
         if over is Over.POSITION:
             return Interpolation.STEP
-        if is_complete:
-            hint = 'Say how to read between the rows: interpolation = "linear" or "step".'
-            faults.add(where, "missing", hint)
-        return None
-    if over is Over.POSITION:
+        hint = 'Say how to read between the rows: interpolation = "linear" or "step".'
+        node.note_missing("interpolation", hint)
+    elif over is Over.POSITION:
         hint = "There is a value for each position."
-        faults.add(where, 'does not go with over = "position"', hint)
-        return None
-    return fields.read_member(faults, where, table["interpolation"], Interpolation)
+        node["interpolation"].note('does not go with over = "position"', hint=hint)
+    else:
+        return node.read("interpolation", lambda word: word.member(Interpolation))
+    return None
 
 
-Rows = tuple[tuple[float, ...], tuple[float, ...]]
+def _read_row(
+    node: FileNode, over: Over, read_value: Callable[[FileNode], float]
+) -> tuple[float, float]:
+    if not isinstance(node.value, list) or len(node.value) != 2:
+        node.reject_value(translate("[{}, value]", over.value))
+    at, value = node[0].attempt(_ABSCISSAE[over]), node[1].attempt(read_value)
+    return needed(at), needed(value)
 
 
-def _read_rows(
-    faults: Faults,
-    path: str,
-    value: object,
-    over: Over,
-    expected: str,
-    drive: Drive | None,
-    turn: float,
-) -> Rows | None:
-    """Read the rows of a table: abscissae and values."""
-    if not isinstance(value, list):
-        faults.expected(path, "a list", value, translate("For example: {}.", _TABLE))
-        return None
-    if faults.exceeds(path, "{} values, the limit is {}", len(value), keys.ROW_LIMIT):
-        return None
-    if over is Over.POSITION:
-        return _read_by_position(faults, path, value, expected, drive)
-    if len(value) < 2:
-        hint = translate("For example: {}. A constant load is just a number.", _TABLE)
-        faults.add(
-            path,
-            translate("expected at least two rows [{}, value], got {}", over.value, len(value)),
-            hint,
-        )
-        return None
-    before = len(faults)
-    read = {Over.PHI: fields.read_angle, Over.PATH: _read_fraction}.get(
-        over, fields.read_coordinate
-    )
-    rows: list[tuple[float, float]] = []
-    for index, row in enumerate(value):
-        where = f"{path}[{index}]"
-        if not isinstance(row, list) or len(row) != 2:
-            faults.expected(where, translate("[{}, value]", over.value), row)
-            continue
-        at = read(faults, f"{where}[0]", row[0])
-        size = _read_value(faults, f"{where}[1]", row[1], expected)
-        if at is not None and size is not None:
-            rows.append((at, size))
-    if len(faults) != before or not _check_order(faults, path, rows, over, turn):
-        return None
-    return tuple(at for at, _ in rows), tuple(size for _, size in rows)
-
-
-def _read_by_position(
-    faults: Faults, path: str, value: list[object], expected: str, drive: Drive | None
-) -> Rows | None:
-    read = [_read_value(faults, f"{path}[{i}]", item, expected) for i, item in enumerate(value)]
-    sizes = tuple(size for size in read if size is not None)
-    if len(sizes) != len(read):
-        return None
-    if drive is not None and len(sizes) != len(drive.positions):
-        count = len(drive.positions)
-        hint = "Give one for each position of the driver, or a table over its motion."
-        faults.add(path, translate("{} values for {} positions", len(sizes), count), hint)
-        return None
-    return (), sizes
-
-
-def _read_fraction(faults: Faults, path: str, value: object) -> float | None:
+def _read_fraction(node: FileNode) -> float:
     hint = "0 is where the stroke begins, 1 where it ends: divide the path by the stroke."
-    return fields.read_number(
-        faults, path, value, "a share of the stroke", low=0.0, high=1.0, hint=hint
-    )
+    return node.number("a share of the stroke", 0.0, 1.0, hint=hint)
+
+
+_ABSCISSAE: Mapping[Over, Callable[[FileNode], float]] = {
+    Over.PHI: FileNode.angle,
+    Over.S: FileNode.coordinate,
+    Over.X: FileNode.coordinate,
+    Over.Y: FileNode.coordinate,
+    Over.PATH: _read_fraction,
+}
 
 
 def _check_order(
-    faults: Faults, path: str, rows: list[tuple[float, float]], over: Over, turn: float
-) -> bool:
-    """Return whether the rows increase, and are within a turn where they repeat."""
+    node: FileNode, rows: tuple[tuple[float, float], ...], over: Over, turn: float
+) -> None:
+    """Make sure that the rows increase, and are within a turn where they repeat."""
     jumps = over is Over.PATH  # two rows of one abscissa, no more
     for index, ((one, _), (two, _)) in enumerate(pairwise(rows), 1):
         if two > one or (jumps and two == one and (index < 2 or rows[index - 2][0] < one)):
             continue
         if two == one:
-            message, hint = (
-                translate("{} = {:g} is in two rows", over.value, two),
-                "Keep one of them.",
+            node[index].reject(
+                "{} = {:g} is in two rows", over.value, two, hint="Keep one of them."
             )
-        else:
-            message = translate("{} = {:g} after {:g}", over.value, two, one)
-            hint = "Put the rows in order."
-        faults.add(f"{path}[{index}]", message, hint)
-        return False
+        node[index].reject(
+            "{} = {:g} after {:g}", over.value, two, one, hint="Put the rows in order."
+        )
     if over is not Over.PHI:
-        return True
+        return
     (start, first), (end, last) = rows[0], rows[-1]
     if end - start > turn:
         message = "the rows span {:g} degrees, a turn has {:g}"
         if turn != TURN:
             message = "the rows span {:g} degrees, a cycle has {:g}"
-        faults.add(
-            path, translate(message, end - start, turn), "The table repeats with every turn."
-        )
-        return False
+        node.reject(message, end - start, turn, hint="The table repeats with every turn.")
     if end - start == turn and first != last:
-        message = translate("{:g} at {:g} degrees and {:g} a turn later", first, start, last)
-        faults.add(path, message, "The table repeats with every turn: its ends are one position.")
-        return False
-    return True
+        message = "{:g} at {:g} degrees and {:g} a turn later"
+        hint = "The table repeats with every turn: its ends are one position."
+        node.reject(message, first, start, last, hint=hint)
 
 
 # Phases ------------------------------------------------------------------------------------------
 
 
 def read_phase(
-    faults: Faults,
-    path: str,
-    value: object,
+    node: FileNode,
     drive: Drive | None,
     *,
     couple: bool = False,
     fixed_point: str | None = None,
-) -> Phase | None:
+) -> Phase:
     """Read ``phases``.
 
     Parameters
@@ -455,50 +375,36 @@ def read_phase(
     fixed_point : str, optional
         Point of application, if it is fixed.
     """
-    if not isinstance(value, dict):
-        faults.expected(path, "a table", value, translate("For example: {}.", _PHASES))
-        return None
-    before = len(faults)
-    found = read_flat(faults, path, value, Phase, {"phi": _read_spans})
-    if not value:
-        hint = translate("For example: {}.", _PHASES)
-        faults.add(path, "expected phi, moving or turning, got an empty table", hint)
-    if "phi" in value and drive is not None and not drive.is_crank:
+    example = translate("For example: {}.", _PHASES)
+    if not isinstance(node.value, Mapping):
+        node.reject_value("a table", example)
+    if not node.value:
+        node.reject("expected phi, moving or turning, got an empty table", hint=example)
+    found = node.record(Phase, phi=_read_spans)
+    if "phi" in node and drive is not None and not drive.is_crank:
         hint = 'Say which way the point moves: phases = { moving = "down" }.'
-        faults.add(f"{path}.phi", translate("link {} slides, it has no phi", drive.link), hint)
-    if "moving" in value and couple:
+        node["phi"].note("link {} slides, it has no phi", drive.link, hint=hint)
+    if "moving" in node and couple:
         hint = 'A couple has no point; it may have turning = "ccw" or "cw".'
-        faults.add(f"{path}.moving", "does not go with a couple", hint)
-    elif "moving" in value and fixed_point is not None:
-        faults.add(f"{path}.moving", translate("point {} is fixed and does not move", fixed_point))
-    return None if len(faults) != before else Phase(**found)
+        node["moving"].note("does not go with a couple", hint=hint)
+    elif "moving" in node and fixed_point is not None:
+        node["moving"].note("point {} is fixed and does not move", fixed_point)
+    return node.build(Phase, found)
 
 
-def _read_spans(faults: Faults, path: str, value: object) -> Spans | None:
+def _read_spans(node: FileNode) -> Spans:
     """Read ``[from, to]`` or a list of such, degrees."""
-    if not isinstance(value, list) or not value:
-        faults.expected(path, "[from, to] in degrees", value)
-        return None
-    if faults.exceeds(path, "{} phases, the limit is {}", len(value), keys.ROW_LIMIT):
-        return None
-    if any(isinstance(item, list) for item in value):
-        read = [_read_span(faults, f"{path}[{i}]", item) for i, item in enumerate(value)]
-    else:
-        read = [_read_span(faults, path, value)]
-    spans = tuple(span for span in read if span is not None)
-    return spans if len(spans) == len(read) else None
+    node.array("[from, to] in degrees", low=1)
+    node.require_at_most(keys.ROW_LIMIT, "{} phases, the limit is {}")
+    if any(isinstance(span, list) for span in node.value):
+        return node.read_all(_read_span)
+    return (_read_span(node),)
 
 
-def _read_span(faults: Faults, path: str, value: object) -> tuple[float, float] | None:
-    if not isinstance(value, list) or len(value) != 2:
-        faults.expected(path, "[from, to] in degrees", value)
-        return None
-    start = fields.read_angle(faults, f"{path}[0]", value[0])
-    end = fields.read_angle(faults, f"{path}[1]", value[1])
-    if start is None or end is None:
-        return None
+def _read_span(node: FileNode) -> tuple[float, float]:
+    node.array("[from, to] in degrees", low=2, high=2)
+    start, end = node.read_all(FileNode.angle)
     if start == end or abs(end - start) > TURN:
-        message = translate("expected a phase within one turn, got {:g} to {:g}", start, end)
-        faults.add(path, message, "A load without phases always acts.")
-        return None
+        hint = "A load without phases always acts."
+        node.reject("expected a phase within one turn, got {:g} to {:g}", start, end, hint=hint)
     return start, end

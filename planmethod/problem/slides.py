@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from functools import partial
 
 from msgspec import Struct
 
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
-from planmethod.problem import fields, keys
-from planmethod.problem.fields import Faults, Table
-from planmethod.problem.links import LinkText, read_label
+from planmethod.problem import keys
+from planmethod.problem.file_node import FileNode, needed
+from planmethod.problem.links import LinkText
 from planmethod.problem.model import Body, Slide
-from planmethod.problem.names import looks_latin, segment, split_pair
+from planmethod.problem.names import looks_latin, split_pair
 from planmethod.problem.placement import heading
 
 Guide = tuple[str | None, complex, float]
@@ -28,106 +29,98 @@ class FrameText(Struct, frozen=True):
     sound: bool = True
 
 
-def read_frame(faults: Faults, table: object) -> FrameText:
+def read_frame(node: FileNode) -> FrameText:
     """Read ``[frame]``."""
-    before = len(faults)
     points: dict[str, complex] = {}
-    entries = fields.read_table(faults, "frame", table, "[frame] A = [0, 0]") or {}
-    if faults.exceeds("frame", "{} points, the limit is {}", len(entries), keys.POINT_LIMIT):
-        return FrameText({}, {}, sound=False)
-    rest: object = {}
-    number = FRAME
-    for key, value in entries.items():
-        if key == "guides":
-            rest = value
-            continue
-        if key == "number":
-            whole = fields.read_integer(faults, "frame.number", value, 0, 99)
-            number = FRAME if whole is None else str(whole)
-            continue
-        path = f"frame.{segment(key)}"
-        if isinstance(value, Mapping):
-            fields.report_unknown(faults, path, key, keys.FRAME)
-            continue
-        name = fields.read_point_name(faults, path, key)
-        place = fields.read_place(faults, path, value)
-        if name is not None and name in points:
-            faults.add(path, translate("point '{}' is given twice", name))
-        elif name is not None:
-            # a point with a faulty place is still a point: others may name it
-            points[name] = 0j if place is None else place
-    guides = _read_guides(faults, rest, points)
-    return FrameText(points, guides, number, sound=len(faults) == before)
+    if isinstance(node.value, Mapping):
+        node.require_at_most(keys.POINT_LIMIT, "{} points, the limit is {}")
+        for entry in node.entries():
+            if entry.key not in keys.FRAME:
+                entry.attempt(partial(_read_fixed, points=points))
+    else:
+        node.attempt(lambda frame: frame.table("[frame] A = [0, 0]"))
+    number = node.read("number", lambda number: str(number.integer(0, 99)))
+    guides = node.read("guides", partial(_read_guides, points=points)) or {}
+    return FrameText(points, guides, number or FRAME, sound=node.is_sound)
 
 
-def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -> dict[str, Guide]:
-    example = 'guides.x-x = { through = "A", angle = 0 }'
-    entries = fields.read_table(faults, "frame.guides", table, example) or {}
+def _read_fixed(node: FileNode, points: dict[str, complex]) -> None:
+    """Read a fixed point; one with a faulty place is still a point: others may name it."""
+    if isinstance(node.value, Mapping):
+        node.reject_unknown(str(node.key), keys.FRAME, "unknown key")
+    name = node.attempt(lambda entry: entry.check_point_name(str(entry.key)))
+    place = node.attempt(FileNode.place)
+    if name is not None and name in points:
+        node.note("point '{}' is given twice", name)
+    elif name is not None:
+        points[name] = place or 0j
+
+
+_GUIDE = 'guides.x-x = { through = "A", angle = 0 }'
+
+
+def _read_guides(node: FileNode, points: Mapping[str, complex]) -> dict[str, Guide]:
+    node.table(_GUIDE)
+    node.require_at_most(keys.POINT_LIMIT, "{} guides, the limit is {}")
     guides: dict[str, Guide] = {}
-    if faults.exceeds("frame.guides", "{} guides, the limit is {}", len(entries), keys.POINT_LIMIT):
-        return guides
-    for key, value in entries.items():
-        path = f"frame.guides.{segment(key)}"
-        name = fields.unmask(faults, path, key) if looks_latin(key) else key
-        if not read_label(faults, path, name, "a guide"):
-            continue
-        guides[name] = (None, 0j, 0.0)
-        body = fields.read_table(faults, path, value, example)
-        if body is None:
-            continue
-        given = fields.read_keys(faults, path, body, keys.GUIDE)
-        for missing in (key for key in keys.GUIDE if key not in given):
-            faults.add(f"{path}.{missing}", "missing", translate("For example: {}", example))
-        through: str | None = None
-        base: complex | None = 0j
-        if isinstance(given.get("through"), str):
-            through = fields.read_known_point(
-                faults, f"{path}.through", given["through"], points, of="the frame"
-            )
-            base = points.get(through, 0j) if through else None
-        elif "through" in given:
-            base = fields.read_place(faults, f"{path}.through", given["through"])
-        angle = fields.read_angle(faults, f"{path}.angle", given.get("angle", 0.0))
-        if base is not None and angle is not None:
-            guides[name] = (through, base, angle)
+    for entry in node.entries():
+        name = entry.attempt(_read_guide_name)
+        if name is not None:
+            guides[name] = entry.attempt(partial(_read_guide, points=points)) or (None, 0j, 0.0)
     return guides
 
 
+def _read_guide_name(node: FileNode) -> str:
+    name = str(node.key)
+    name = node.unmask(name) if looks_latin(name) else name
+    node.check_label(name, "a guide")
+    return name
+
+
+def _read_guide(node: FileNode, points: Mapping[str, complex]) -> Guide:
+    node.table(_GUIDE)
+    node.allow(keys.GUIDE)
+    for key in keys.GUIDE:
+        if key not in node:
+            node[key].note("missing", hint=translate("For example: {}", _GUIDE))
+    through, base = node.read("through", partial(_read_base, points=points)) or (None, 0j)
+    angle = node.read("angle", FileNode.angle)
+    node.require_sound()
+    return through, base, angle or 0.0
+
+
+def _read_base(node: FileNode, points: Mapping[str, complex]) -> tuple[str | None, complex]:
+    """Read the point that a guide goes through: a fixed one by its name, or any by its place."""
+    if isinstance(node.value, str):
+        name = node.point_of("the frame", points)
+        return name, points[name]
+    return None, node.place()
+
+
 def find_host(
-    faults: Faults, link: LinkText, links: Mapping[str, LinkText], frame: FrameText
+    link: LinkText, links: Mapping[str, LinkText], frame: FrameText
 ) -> tuple[str, str | None] | None:
-    """Return the host of a slider and the guide it is on, if it is a guide."""
+    """Return the host of a slider and the guide it is on, if it is a guide; None after a fault."""
     assert link.slides is not None
-    path = f"{link.path}.slides"
-    known = (*frame.guides, *(name for name in links if name != link.name))
-    before = len(faults)
-    link.slides = fields.read_keys(faults, path, link.slides, keys.SLIDES)
-    if "on" not in link.slides:
-        if link.sound and len(faults) == before:
-            faults.add(f"{path}.on", "missing", "Name a guide of the frame or a link.")
-        return None
-    value = link.slides["on"]
-    if not isinstance(value, str):
-        hint = translate('Write on = "{}".', value) if isinstance(value, int) else ""
-        faults.expected(f"{path}.on", "the name of a guide or link", value, hint)
-        return None
-    name = value if value in known else fields.unmask(faults, f"{path}.on", value)
-    if name in frame.guides:
-        return FRAME, name
-    if name == FRAME:
-        return FRAME, None
-    if name == link.name:
-        faults.add(f"{path}.on", translate("link {} cannot slide on itself", name))
-        return None
-    if name not in links:
-        fields.report_unknown(
-            faults, f"{path}.on", name, known, message="unknown guide or link '{}'"
-        )
-        return None
-    return name, None
+    link.slides.allow(keys.SLIDES)
+    if "on" not in link.slides and link.sound:
+        link.slides.note_missing("on", "Name a guide of the frame or a link.")
+
+    def read_host(node: FileNode) -> tuple[str, str | None]:
+        known = (*frame.guides, *(name for name in links if name != link.name))
+        name = node.any_name("the name of a guide or link", known)
+        if name in frame.guides or name == FRAME:
+            return FRAME, name if name in frame.guides else None
+        if name == link.name:
+            node.reject("link {} cannot slide on itself", name)
+        if name not in links:
+            node.reject_unknown(name, known, "unknown guide or link '{}'")
+        return name, None
+
+    return link.slides.read("on", read_host)
 
 
-def order_hosts(faults: Faults, hosts: Mapping[str, str]) -> list[str]:
+def order_hosts(links: Mapping[str, LinkText], hosts: Mapping[str, str]) -> list[str]:
     """Sliders in an order in which every host comes before what slides on it.
 
     ``hosts`` maps each slider to its host. A circle of sliders is a fault.
@@ -142,166 +135,137 @@ def order_hosts(faults: Faults, hosts: Mapping[str, str]) -> list[str]:
         if link in chain:
             circle = chain[chain.index(link) :]
             if start == min(circle, key=list(hosts).index):
-                names = translate(" on ").join([*circle, circle[0]])
-                faults.add(
-                    f"links.{segment(start)}.slides.on",
-                    translate("links slide on each other in a circle: {}", names),
-                    "One of them must carry the line without sliding itself.",
+                links[start].node["slides"]["on"].note(
+                    "links slide on each other in a circle: {}",
+                    translate(" on ").join([*circle, circle[0]]),
+                    hint="One of them must carry the line without sliding itself.",
                 )
             continue
         ordered.extend(reversed(chain))
     return ordered
 
 
-def read_slide(
-    faults: Faults,
-    link: LinkText,
-    host: str,
-    guide: str | None,
-    body: Body,
-    frame: FrameText,
-    *,
-    turn: float | None,
-    angle_optional: bool,
-) -> Slide | None:
-    """Read one prismatic pair: its line, and its length of contact where one is given.
+class Host(Struct, frozen=True):
+    """The link, or the frame, whose line a slider moves along.
 
-    Parameters
+    Attributes
     ----------
+    name : str
     body : Body
-        The host's points (the fixed points when the host is the frame).
+        Its points.
+    guide : str or None
+        The guide, of the frame.
     turn : float or None, degrees
-        Direction of the host's own axis from +x when the host only translates, else None.
+        Direction of its own axis from +x where it only translates, else None.
     angle_optional : bool
-        Whether this line is itself the host's own axis, unless a mark and an angle are given.
+        Whether the line is itself its own axis, unless a mark and an angle are given.
     """
+
+    name: str
+    body: Body
+    guide: str | None
+    turn: float | None
+    angle_optional: bool
+
+    @property
+    def called(self) -> str:
+        """What messages call it."""
+        return "the frame" if self.name == FRAME else translate("link {}", self.name)
+
+
+class _Line(Struct, frozen=True):
+    """Line of a pair, as `Slide` has it."""
+
+    base: complex
+    angle: float
+    label: str
+    through: str | None
+    towards: str | None = None
+
+
+def read_slide(link: LinkText, host: Host, frame: FrameText) -> Slide | None:
+    """Read one prismatic pair, and its length of contact where one is given; None after a fault."""
     assert link.slides is not None
-    path, given, length = f"{link.path}.slides", link.slides, None
-    if "length" in given:
-        length = fields.read_length(faults, f"{path}.length", given["length"])
-    before = len(faults)  # a faulty length does not hide the line
-    offset = fields.read_coordinate(faults, f"{path}.offset", given.get("offset", 0.0)) or 0.0
+    node = link.slides
+    length = node.read("length", FileNode.length)  # a faulty one does not hide the line
+    offset = node.read("offset", FileNode.coordinate, 0.0)
     if not link.points:
         return None
-    pin = link.points[0]
-    if guide is not None:
-        for key in ("along", "through", "angle"):
-            if key in given:
-                hint = translate("The line is given in frame.guides.{}.", guide)
-                faults.add(
-                    f"{path}.{key}", translate("does not go with the guide '{}'", guide), hint
-                )
-        if len(faults) != before:
-            return None
-        fixed, base, direction = frame.guides[guide]
-        return Slide(link.name, FRAME, pin, base, direction, offset, guide, fixed, length=length)
-
-    def owner() -> str:
-        return "the frame" if host == FRAME else translate("link {}", host)
-
-    if "along" in given:
-        for key in ("through", "angle"):
-            if key in given:
-                hint = "The line is given by along, or by through and angle."
-                faults.add(f"{path}.{key}", "does not go with 'along'", hint)
-        line = _read_along(faults, f"{path}.along", given["along"], pin, body, owner)
-        if line is None or len(faults) != before:
-            return None
-        start, end = body.points[line[0]], body.points[line[1]]
-        if start == end:
-            faults.add(f"{path}.along", translate("{} and {} are one place", line[0], line[1]))
-            return None
-        along = heading(end - start)
-        label = "".join(line)
-        return Slide(link.name, host, pin, start, along, offset, label, *line, length)
-    through = _read_through(faults, path, given, body, owner)
-    if "through" not in given:
+    pin, line = link.points[0], None
+    if host.guide is not None:
+        line = _read_guided(node, host.guide, frame)
+    elif "along" in node:
+        line = node.attempt(partial(_read_along, pin=pin, host=host))
+    else:
+        line = node.attempt(partial(_read_through, host=host))
+    if line is None or offset is None:
         return None
-    marked = body.axis is not None
-    angle = _read_slide_angle(
-        faults, path, given, host, turn=turn, angle_optional=angle_optional, marked=marked
-    )
-    if through is None or angle is None or len(faults) != before:
-        return None
-    base = body.points[through]
-    return Slide(link.name, host, pin, base, angle, offset, through, through, length=length)
+    return Slide(
+        link.name, host.name, pin, line.base, line.angle, offset,
+        line.label, line.through, line.towards, length,
+    )  # fmt: skip
 
 
-def _read_along(
-    faults: Faults,
-    path: str,
-    value: object,
-    pin: str,
-    body: Body,
-    owner: Callable[[], str],
-) -> tuple[str, str] | None:
-    """Read the two points of a line; the pin of the sliding block itself is rejected."""
-    pair = split_pair(value) if isinstance(value, str) else None
-    points = list(body.points)
-    if pair is None or pin not in pair or pin in points or len(points) < 2:
-        return fields.read_line_name(faults, path, value, points, of=owner)
-    start = next((point for point in pair if point in points), points[0])
-    faults.add(
-        path,
-        translate("{} is the pin of the stone, no point of {}", pin, owner()),
-        translate(
+def _read_guided(node: FileNode, guide: str, frame: FrameText) -> _Line:
+    """Return the line of a guide of the frame."""
+    for key in ("along", "through", "angle"):
+        if key in node:
+            hint = translate("The line is given in frame.guides.{}.", guide)
+            node[key].note("does not go with the guide '{}'", guide, hint=hint)
+    through, base, angle = frame.guides[guide]
+    return _Line(base, angle, guide, through)
+
+
+def _read_along(node: FileNode, pin: str, host: Host) -> _Line:
+    """Read a line of two points; the pin of the sliding block itself is rejected."""
+    for key in ("through", "angle"):
+        if key in node:
+            hint = "The line is given by along, or by through and angle."
+            node[key].note("does not go with 'along'", hint=hint)
+    along, points = node["along"], list(host.body.points)
+    pair = split_pair(along.value) if isinstance(along.value, str) else None
+    if pair is not None and pin in pair and pin not in points and len(points) > 1:
+        own = next((point for point in pair if point in points), points[0])
+        hint = (
             'A line needs no second point: through = "{0}", angle = 0 is a slot along {1}, angle = '
-            "90 one across it.",
-            start,
-            "".join(points[:2]),
-        ),
-    )
-    return None
+            "90 one across it."
+        )
+        told = translate(hint, own, "".join(points[:2]))
+        along.reject("{} is the pin of the stone, no point of {}", pin, host.called, hint=told)
+    through, towards = along.line_of(lambda: host.called, points)
+    start, end = host.body.points[through], host.body.points[towards]
+    if start == end:
+        along.reject("{} and {} are one place", through, towards)
+    return _Line(start, heading(end - start), f"{through}{towards}", through, towards)
 
 
-def _read_through(
-    faults: Faults, path: str, table: Table, body: Body, owner: Callable[[], str]
-) -> str | None:
-    if "through" not in table:
-        points = list(body.points)
+def _read_through(node: FileNode, host: Host) -> _Line:
+    """Read a line by a point of it and its angle."""
+    points = list(host.body.points)
+    if "through" not in node:
         pair = "".join(points[:2]) if len(points) > 1 else ""
         ways = [f'along = "{pair}"'] if pair else []
         ways += [f'through = "{points[0]}", angle = 0'] if points else []
-        faults.add(
-            path,
-            translate("no line of {} is named", owner()),
-            translate("Add {}.", translate(" or ").join(ways)) if ways else "",
-        )
-        return None
-    return fields.read_known_point(
-        faults, f"{path}.through", table["through"], body.points, of=owner
-    )
+        hint = translate("Add {}.", translate(" or ").join(ways)) if ways else ""
+        node.reject("no line of {} is named", host.called, hint=hint)
+    through = node.read("through", lambda through: through.point_of(lambda: host.called, points))
+    if "angle" not in node and not host.angle_optional:
+        axis = translate("the own axis of link {}", host.name) if host.turn is None else "+x"
+        node["angle"].note("missing", hint=translate("Give it in degrees from {}.", axis))
+    angle = node.read("angle", partial(_read_angle, host=host), 0.0)
+    node["angle"].require_sound()
+    through = needed(through)
+    return _Line(host.body.points[through], needed(angle), through, through)
 
 
-def _read_slide_angle(
-    faults: Faults,
-    path: str,
-    table: Table,
-    host: str,
-    *,
-    turn: float | None,
-    angle_optional: bool,
-    marked: bool,
-) -> float | None:
-    """Angle of the line from the host's own axis, degrees."""
-    if "angle" not in table:
-        if angle_optional:
-            return 0.0
-        axis = "+x" if turn is not None else translate("the own axis of link {}", host)
-        faults.add(f"{path}.angle", "missing", translate("Give it in degrees from {}.", axis))
-        return None
-    angle = fields.read_angle(faults, f"{path}.angle", table["angle"])
-    if angle is None:
-        return None
-    if angle_optional and not marked and angle != 0:
-        faults.add(
-            f"{path}.angle",
-            translate("expected 0 or nothing, got {:g}", angle),
-            translate("Link {} has no axis other than the line it carries.", host),
-        )
-        return None
+def _read_angle(node: FileNode, host: Host) -> float:
+    """Read the angle of the line from the host's own axis, degrees."""
+    angle = node.angle()
+    if host.angle_optional and host.body.axis is None and angle != 0:
+        hint = translate("Link {} has no axis other than the line it carries.", host.name)
+        node.reject("expected 0 or nothing, got {:g}", angle, hint=hint)
     # the file counts from +x where the host cannot turn: that is what the figure shows
-    return _principal(angle - turn) if turn else angle
+    return _principal(angle - host.turn) if host.turn else angle
 
 
 def _principal(angle: float) -> float:

@@ -14,7 +14,7 @@ from unicodedata import combining, normalize
 
 from msgspec import Struct
 
-from planmethod.problem.fields import Faults
+from planmethod.problem.file_node import Faults, FileNode
 from planmethod.problem.source import parse
 from planmethod.problem.variants import apply_variant, read_variants
 
@@ -115,7 +115,7 @@ def text_for(task: ShippedTask, variant: str | None) -> str:
     if variant is None:
         return text
     table = parse(text, name=task.file)
-    overrides = read_variants(Faults(), table)[variant]
+    overrides = read_variants(FileNode(Faults(), table))[variant]
     left_out = {"variants"}
     if apply_variant(table, overrides).get("published") != table.get("published"):
         left_out.add("published")

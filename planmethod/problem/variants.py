@@ -11,6 +11,7 @@ import io
 import re
 import stat
 from collections.abc import Iterator, Mapping
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -18,18 +19,15 @@ from typing import Any
 from planmethod.languages import translate
 from planmethod.problem import keys
 from planmethod.problem.common import TITLE_BLOCK, TITLE_BLOCK_IN
-from planmethod.problem.fields import FAULT_LIMIT, Faults, is_number, read_table
+from planmethod.problem.file_node import FAULT_LIMIT, FileNode, is_number
 from planmethod.problem.formula import read_decimal
-from planmethod.problem.links import read_label
 from planmethod.problem.names import (
     UNITS,
     fold,
     is_point_name,
-    joined,
     listed,
     nearest_name,
     nearest_name_hint,
-    segment,
     short,
     split_names,
     split_pair,
@@ -56,29 +54,38 @@ _FORCES = ("dynamics", "loads")
 """Tables on which the published values of the force analysis depend."""
 
 
-def read_variants(faults: Faults, table: Mapping[str, Any]) -> dict[str, dict[KeyPath, Any]]:
+def read_variants(file: FileNode) -> dict[str, dict[KeyPath, Any]]:
     """Return the overrides of every variant, by path; unknown paths are faults."""
-    entries = read_table(faults, "variants", table.get("variants", {})) or {}
+    return file.read("variants", partial(_read_each, base=file.value)) or {}
+
+
+def _read_each(node: FileNode, base: Mapping[str, Any]) -> dict[str, dict[KeyPath, Any]]:
+    node.table()
+    node.require_at_most(keys.VARIANT_LIMIT, "{} variants, the limit is {}")
     found: dict[str, dict[KeyPath, Any]] = {}
-    if faults.exceeds("variants", "{} variants, the limit is {}", len(entries), keys.VARIANT_LIMIT):
-        return found
-    for name, body in entries.items():
-        path = f"variants.{segment(name)}"
-        if not read_label(faults, path, name, "a variant"):
-            continue
-        found[name] = {}
-        inner: set[KeyPath] = set()
-        overrides = read_table(faults, path, body, "driver.phi = 120")
-        if overrides is None:
-            continue
-        for where, value in _overrides(table, overrides, ()):
-            prefixes = [where[:depth] for depth in range(1, len(where))]
-            if where in found[name] or where in inner or any(p in found[name] for p in prefixes):
-                faults.add(joined(path, *map(segment, where)), "this value is overridden twice")
-            elif _check_path(faults, path, table, where):
-                found[name][where] = value
-                inner.update(prefixes)
+    for entry in node.entries():
+        if entry.attempt(_read_name) is not None:
+            overrides = found[str(entry.key)] = {}
+            entry.attempt(partial(_read_variant, base=base, overrides=overrides))
     return found
+
+
+def _read_name(node: FileNode) -> str:
+    name = str(node.key)
+    node.check_label(name, "a variant")
+    return name
+
+
+def _read_variant(node: FileNode, base: Mapping[str, Any], overrides: dict[KeyPath, Any]) -> None:
+    """Add the overrides of a variant; those of a faulty one are kept as far as they are right."""
+    inner: set[KeyPath] = set()
+    for where, value in _overrides(base, node.table("driver.phi = 120"), ()):
+        prefixes = [where[:depth] for depth in range(1, len(where))]
+        if where in overrides or where in inner or any(p in overrides for p in prefixes):
+            node.at(where).note("this value is overridden twice")
+        elif _check_path(node, base, where):
+            overrides[where] = value
+            inner.update(prefixes)
 
 
 def _overrides(
@@ -182,10 +189,10 @@ def _names_in(table: object) -> list[str]:
     return list(table) if isinstance(table, Mapping) else []
 
 
-def _check_path(faults: Faults, path: str, base: Mapping[str, Any], key_path: KeyPath) -> bool:
-    shown = joined(path, *map(segment, key_path))
+def _check_path(node: FileNode, base: Mapping[str, Any], key_path: KeyPath) -> bool:
+    """Return whether a variant may override a path."""
     if key_path[0] == "variants":
-        faults.add(shown, "a variant cannot hold variants")
+        node.at(key_path).note("a variant cannot hold variants")
         return False
     if key_path[0] in keys.OF_KINDS:
         return True
@@ -196,10 +203,10 @@ def _check_path(faults: Faults, path: str, base: Mapping[str, Any], key_path: Ke
             continue
         table = _get(base, parent)
         names = [*_names_in(table), *known]
-        guess = nearest_name(part[-1], names) if faults.count < FAULT_LIMIT else None
+        guess = nearest_name(part[-1], names) if node.faults.count < FAULT_LIMIT else None
         dotted = ".".join(key_path[:depth])
         hint = translate("Did you mean '{}'?", ".".join((*parent, guess))) if guess else ""
-        faults.add(shown, translate("the file has no '{}' to override", dotted), hint)
+        node.at(key_path).note("the file has no '{}' to override", dotted, hint=hint)
         return False
     return True
 
@@ -275,45 +282,47 @@ _GREEK = str.maketrans(
 )
 
 
-def with_table(faults: Faults, table: Mapping[str, Any], folder: Path | None) -> Mapping[str, Any]:
-    """Return the TOML of a file, with the variants of the table that it names.
+def with_table(file: FileNode, folder: Path | None) -> FileNode:
+    """Return a file with the variants of the table that it names.
 
     Parameters
     ----------
     folder : Path or None
         Folder of the problem file; None for a text without a file.
     """
-    name = table.get("variants")
+    name = file["variants"].value
     if not isinstance(name, str):
-        return table
+        return file
+    variants = file["variants"].attempt(partial(_read_table, folder=folder, base=file.value))
+    return file.with_value({**file.value, "variants": variants or {}})
+
+
+def _read_table(
+    node: FileNode, folder: Path | None, base: Mapping[str, Any]
+) -> dict[str, dict[str, Any]]:
+    """Return the overrides of every row of the table that a node names, by its first cell."""
+    name = node.value
     path = None if folder is None else folder / name
     example = 'For example: variants = "variants.csv", beside the problem file.'
     if path is None or Path(name).name != name or not name.lower().endswith((".csv", ".txt")):
-        faults.add(
-            "variants", translate("expected the name of a CSV file, got '{}'", short(name)), example
-        )
-        return {**table, "variants": {}}
-    data = b""
+        node.reject("expected the name of a CSV file, got '{}'", short(name), hint=example)
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            faults.add("variants", translate("{} is not an ordinary file", name), example)
-        else:
-            with path.open("rb") as stream:
-                data = stream.read(TABLE_LIMIT + 1)
+            node.reject("{} is not an ordinary file", name, hint=example)
+        with path.open("rb") as stream:
+            data = stream.read(TABLE_LIMIT + 1)
     except OSError as error:
-        faults.add("variants", translate("{} cannot be read: {}", name, error.strerror), example)
+        node.reject("{} cannot be read: {}", name, error.strerror, hint=example)
     if len(data) > TABLE_LIMIT:
-        faults.add("variants", translate("{} is larger than {} bytes", name, TABLE_LIMIT))
-        data = b""
-    return {**table, "variants": _variants(faults, table, table_text(data), name) if data else {}}
+        node.reject("{} is larger than {} bytes", name, TABLE_LIMIT)
+    return _read_rows(node, base, table_text(data)) if data else {}
 
 
-def _variants(
-    faults: Faults, table: Mapping[str, Any], text: str, name: str
-) -> dict[str, dict[str, Any]]:
-    """Return the overrides of every row by its first cell."""
+def _read_rows(node: FileNode, base: Mapping[str, Any], text: str) -> dict[str, dict[str, Any]]:
+    """Return the overrides of every row by its first cell; the node has the name of the table."""
     import csv
 
+    name = node.value
     separator = next((one for one in ";\t" if one in text.partition("\n")[0]), ",")
     try:
         rows = [
@@ -322,14 +331,10 @@ def _variants(
             if any(cell.strip() for cell in row)
         ]
     except csv.Error as error:
-        faults.add("variants", translate("{} is no CSV: {}", name, error), "Is a quote left open?")
-        return {}
+        node.reject("{} is no CSV: {}", name, error, hint="Is a quote left open?")
     if not rows:
-        faults.add(
-            "variants", translate("{} has no rows", name), "The first row names the columns."
-        )
-        return {}
-    columns = [_column(faults, table, head, name) for head in rows[0][1:]]
+        node.reject("{} has no rows", name, hint="The first row names the columns.")
+    columns = [node.attempt(partial(_read_column, base=base, head=head)) for head in rows[0][1:]]
     found: dict[str, dict[str, Any]] = {}
     for number, row in enumerate(rows[1:], 2):
         variant = row[0]
@@ -337,18 +342,16 @@ def _variants(
             what = "the variant has no name"
             if variant:
                 what = translate("variant '{}' is there twice", variant)
-            phrase = translate("{}, row {}: {}", name, number, what)
-            faults.add("variants", phrase, "Its name is the first cell.")
-            continue
-        if len(row) > len(columns) + 1:
+            node.note("{}, row {}: {}", name, number, what, hint="Its name is the first cell.")
+        elif len(row) > len(columns) + 1:
             cells = translate("{} cells, {} columns", len(row), len(columns) + 1)
-            phrase = translate("{}, row {}: {}", name, number, cells)
-            faults.add("variants", phrase, "Is a decimal comma read as a separator? Use ';'.")
-            continue
-        found[variant] = {}
-        for column, cell in zip(columns, row[1:], strict=False):
-            if column is not None and cell:
-                _set_override(found[variant], table, *column, cell)
+            hint = "Is a decimal comma read as a separator? Use ';'."
+            node.note("{}, row {}: {}", name, number, cells, hint=hint)
+        else:
+            found[variant] = {}
+            for column, cell in zip(columns, row[1:], strict=False):
+                if column is not None and cell:
+                    _set_override(found[variant], base, *column, cell)
     return found
 
 
@@ -383,28 +386,21 @@ def key_of(table: Mapping[str, Any], written: str) -> tuple[str | None, Mapping[
     return names.get(_folded(written)) or names.get(_folded(written).removeprefix("l")), names
 
 
-def _column(
-    faults: Faults, table: Mapping[str, Any], head: str, name: str
-) -> tuple[str, float] | None:
+def _read_column(node: FileNode, base: Mapping[str, Any], head: str) -> tuple[str, float]:
     """Return the dotted key of a column, and the factor of its numbers."""
     match = re.match(_HEAD, re.sub(_BETWEEN, r"\1\2", head))
     written = match["name"].rstrip() if match else head
-    key, names = key_of(table, written)
+    key, names = key_of(base, written)
     if key is None:
-        hint = nearest_name_hint(
-            _folded(written), names, translate("Known: {}, and dotted keys.", listed(names))
-        )
-        faults.add("variants", translate("{}: no column is called '{}'", name, short(head)), hint)
-        return None
+        hint = translate("Known: {}, and dotted keys.", listed(names))
+        hint = nearest_name_hint(_folded(written), names, hint)
+        node.reject("{}: no column is called '{}'", node.value, short(head), hint=hint)
     unit = (match["unit"] or "").strip() if match else ""
     if not unit or re.match(_SI, unit):
         return key, 1.0
     if unit not in _UNITS or not _is_length(key):
-        faults.add(
-            "variants", translate("{}: '{}' is not in the unit of the file", name, short(head))
-        )
-        return None
-    own = UNITS.get(str(table.get("units", "m")), 1.0)
+        node.reject("{}: '{}' is not in the unit of the file", node.value, short(head))
+    own = UNITS.get(str(base.get("units", "m")), 1.0)
     return key, own / UNITS[_UNITS[unit]]
 
 

@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from planmethod.construct.arithmetic import Float64
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.problem import keys
-from planmethod.problem.fields import Faults
+from planmethod.problem.file_node import Faults, FileNode
 from planmethod.problem.linkage import TrainReader
 from planmethod.problem.model import Problem
 from planmethod.problem.reader import read_parsed
@@ -125,7 +125,7 @@ def largest_part(
 
 
 def _with_variant(table: Mapping[str, Any], variant: str | None) -> Mapping[str, Any]:
-    found = read_variants(Faults(), table)
+    found = read_variants(FileNode(Faults(), table))
     return apply_variant(table, found[variant]) if variant in found else table
 
 

@@ -12,7 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import ExitCode, PlanMethodError
-from planmethod.problem.fields import is_number
+from planmethod.problem.file_node import is_number
 from planmethod.problem.formula import read_decimal
 from planmethod.problem.names import split_names
 from planmethod.problem.variants import key_of

@@ -18,6 +18,7 @@ from doors import (
     LANGUAGES_LANGUAGES as LANGUAGES,
     CamProblem,
     Faults,
+    FileNode,
     ModelProblem as Problem,
     PlanKind,
     Solution,
@@ -252,10 +253,9 @@ def made() -> dict[str, str]:
 def test_the_law_as_data_is_the_law_of_the_cam(follower: str, law: str) -> None:
     size = "stroke = 0.04" if follower == "translating" else "swing = 25\narm = 0.12"
     text = f'follower = "{follower}"\n{size}\nrise = 110\nupper_dwell = 20\nreturn = 95\n{law}'
-    faults = Faults()
-    told = read_cam(faults, tomllib.loads(text) | {"n": 60})
-    assert told is not None and not len(faults)
-    cam = CamProblem(name="", **told)
+    node = FileNode(Faults(), tomllib.loads(text) | {"n": 60}, "cam")
+    cam = CamProblem(name="", **read_cam(node))
+    assert node.is_sound
     degrees = np.concatenate([np.linspace(-400, 800, 1201), [110.0, 130.0, 225.0]])
     exact = cam.at(np.radians(degrees))
     size_of = cam.arm * (-1 if cam.oscillates else 0) or 1.0

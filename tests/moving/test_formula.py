@@ -17,6 +17,7 @@ from doors import (
     LENGTH_LIMIT,
     ExitCode,
     Faults,
+    FileNode,
     ProblemError,
     kind_of,
     read_formula,
@@ -80,8 +81,7 @@ def test_a_faulty_formula_is_reported(formula: str, said: str) -> None:
 
 def test_the_longest_formulas_are_read() -> None:
     for formula in ("-" * 499 + "t", "t" + "+t" * 249, "(" * 40 + "t" + ")" * 40):
-        faults = Faults()
-        made = read_formula(faults, "x", formula)
+        made = FileNode(Faults(), formula, "x").attempt(read_formula)
         assert made is not None
         assert evaluate(made, np.array([1.0])).value.value in ([-1.0], [250.0], [1.0])
 
@@ -166,7 +166,7 @@ def test_a_strangers_formula_gives_faults_or_numbers_only() -> None:
     read = 0
     for _ in range(3000):
         formula = "".join(draw.choice(pieces) for _ in range(draw.randint(1, 9)))
-        made = read_formula(Faults(), "x", formula)
+        made = FileNode(Faults(), formula, "x").attempt(read_formula)
         if made is not None:
             read += 1
             jet = evaluate(made, np.array([0.0, 0.5]))
@@ -203,7 +203,7 @@ def test_errors_of_derivatives_keep_within_their_bounds() -> None:
     looked = 0
     for _ in range(80):
         text = made_up(draw, 3)
-        made = read_formula(Faults(), "x", text)
+        made = FileNode(Faults(), text, "x").attempt(read_formula)
         assert made is not None, text
         jet = evaluate(made, np.array([0.9]))
         with mpmath.workdps(60):

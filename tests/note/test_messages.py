@@ -55,11 +55,15 @@ REFERENCE = {
 """Texts of the reference of keys, which are not messages."""
 
 SAYS = {
-    "translate", "look_up_translation", "Fault", "_fail", "_fault", "_load_fault", "expected",
-    "exceeds",
-    "UsageError",
+    "translate", "look_up_translation", "Fault", "_fail", "_fault", "_load_fault", "UsageError",
 }  # fmt: skip
-"""Calls whose texts a reader sees, beside errors that are raised and ``faults.add``."""
+"""Calls whose texts a reader sees, beside errors that are raised."""
+
+NOTES = {
+    "note", "note_value", "note_missing", "note_unknown", "reject", "reject_value",
+    "reject_unknown", "require_at_most", "tables", "array", "number", "known_name", "any_name",
+}  # fmt: skip
+"""Methods of a `FileNode` that take texts of faults."""
 
 MARKED = re.compile(r"(?m)^# no messages: \w")
 """A comment of a module whose English texts no reader sees as a message, with the reason."""
@@ -81,7 +85,8 @@ PLAIN_ENGLISH = re.compile(r"\b(the|is|are|an|of|not|and|or|with|has|expected|mu
 def is_said(call: ast.Call) -> bool:
     """Return whether the texts of a call are messages."""
     name = call.func.id if isinstance(call.func, ast.Name) else getattr(call.func, "attr", "")
-    return name in SAYS or name.endswith("Error") or ast.unparse(call.func).endswith("faults.add")
+    is_method = isinstance(call.func, ast.Attribute)
+    return name in SAYS or name.endswith("Error") or (is_method and name in NOTES)
 
 
 @cache

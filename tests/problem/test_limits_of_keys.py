@@ -11,20 +11,20 @@ from cases import each
 from doors import (
     AngleKey,
     Faults,
+    FileNode,
     FlagKey,
     IntegerKey,
     NumberKey,
     TextKey,
     declared,
     keys,
-    read_flat,
 )
 
 
 def read(record: type[object], name: str, value: object) -> tuple[dict[str, object], str]:
     """Return the values read from a table of one key, and the fault of that key."""
     faults = Faults()
-    found = read_flat(faults, "table", {name: value}, record)
+    found = FileNode(faults, {name: value}, "table").record(record)
     own = [str(one) for one in faults.listed if one.path == f"table.{name}"]
     assert len(own) <= 1
     return found, "".join(own)
@@ -106,9 +106,9 @@ def test_an_angle_is_read_within_the_same_limits_in_every_table() -> None:
 def test_a_required_key_that_is_missing_is_the_only_fault_of_an_empty_table() -> None:
     for record in keys.FLAT.values():
         faults = Faults()
-        read_flat(faults, "table", {}, record)
+        FileNode(faults, {}, "table").record(record)
         due = [f"table.{one.name}" for one in declared(record) if one.key.required]
         assert [one.path for one in faults.listed] == due
         faults = Faults()
-        read_flat(faults, "table", {"nonsense_key": 1}, record)
+        FileNode(faults, {"nonsense_key": 1}, "table").record(record)
         assert [one.path for one in faults.listed] == ["table.nonsense_key"] or not declared(record)

@@ -13,6 +13,7 @@ from doors import (
     LANGUAGES_LANGUAGES as LANGUAGES,
     LINKAGE,
     Faults,
+    FileNode,
     ProblemProblem as Problem,
     Severity,
     ShippedTask,
@@ -62,7 +63,7 @@ def test_the_index_and_the_documents_are_those_of_the_files() -> None:
 @each("task", [task for task in TASKS.values() if task.variants])
 def test_a_variant_is_written_into_the_text(task: ShippedTask) -> None:
     table = parse(task.text, name=task.file)
-    overrides = read_variants(Faults(), table)
+    overrides = read_variants(FileNode(Faults(), table))
     for variant in thinned(task.variants, 3):
         text = text_for(task, variant)
         due = apply_variant(table, overrides[variant])

@@ -13,9 +13,9 @@ from msgspec.structs import replace
 
 from planmethod.errors import LayoutError, PlanMethodError, ProblemError
 from planmethod.languages import translate
-from planmethod.problem.cycle import report_start
+from planmethod.problem.cycle import check_start
 from planmethod.problem.cycle_records import CycleTask, Zero
-from planmethod.problem.fields import Faults
+from planmethod.problem.file_node import Faults, FileNode
 from planmethod.problem.load_records import TurningSense
 from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.solved.forces.loads import only_in_positions
@@ -53,11 +53,11 @@ def number(problem: Problem) -> Problem:
         return problem
     machine = problem.machine
     if machine is not None:
-        faults = Faults()
+        file = FileNode(Faults(), problem.source_table)
         if machine.start_deg is not None and isinstance(problem.cycle.zero, Zero):
-            report_start(faults, positions[0] % 360.0, machine.start_deg)
-        if faults:
-            raise ProblemError(problem.name, faults.listed)
+            check_start(file["machine"], positions[0] % 360.0, machine.start_deg)
+        if file.faults:
+            raise ProblemError(problem.name, file.faults.listed)
         machine = replace(machine, start_deg=positions[0])
     if not given or len(drive.positions) > 1:
         judged = drive.assembly_positions or drive.positions

@@ -4,32 +4,33 @@
 
 from __future__ import annotations
 
-from functools import cache
+from collections.abc import Collection, Mapping
+from functools import cache, partial
 from pathlib import Path
 
-from planmethod.errors import CompositionError, LayoutError, ProblemError
+from planmethod.errors import CompositionError, Fault, LayoutError, ProblemError
 from planmethod.languages import LANGUAGES, translate
 from planmethod.paper import BASIC, paper_format
 from planmethod.plans.model import PlanKind
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    read_integer,
-    read_keys,
-    read_table,
-)
-from planmethod.problem.names import joined, nearest_name_hint, segment, short
+from planmethod.problem.file_node import Faults, FileNode, needed
+from planmethod.problem.names import nearest_name_hint, short
 from planmethod.problem.source import parse, read_source
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.render.sheets.composer import Sizes
-from planmethod.render.sheets.composition.entries import GROUP, GROUP_DEPTH, OF, read_entries
+from planmethod.render.sheets.composition.entries import (
+    EXAMPLE,
+    GROUP,
+    GROUP_DEPTH,
+    OF,
+    read_entries,
+)
 from planmethod.render.sheets.composition.values import (
     read_choice,
     read_height,
     read_line,
-    read_list,
     read_size,
     read_switch,
+    require_list,
 )
 from planmethod.render.sheets.compositions import SHIPPED, shipped_text
 from planmethod.render.sheets.model import BlockSpec, Composition
@@ -78,9 +79,8 @@ def composition(source: str | Path, lang: str = LANGUAGES[0]) -> Composition:
         hint = nearest_name_hint(
             str(source), SHIPPED, translate("Shipped are {}.", ", ".join(SHIPPED))
         )
-        faults = Faults()
-        faults.add("", "neither a layout nor a file has this name", hint)
-        raise CompositionError(str(source), faults.listed)
+        fault = Fault("", "neither a layout nor a file has this name", hint)
+        raise CompositionError(str(source), [fault])
     try:
         text = read_source(path)
     except ProblemError as error:
@@ -99,133 +99,126 @@ def read_composition(text: str, *, name: str) -> Composition:
         table = parse(text, name=name)
     except ProblemError as error:
         raise CompositionError(name, error.faults) from None
-    faults = Faults()
-    given = read_keys(faults, "", table, TOP)
-    about = read_line(faults, "about", given.get("about", ""))
-    formats = _read_formats(faults, given.get("formats", ["A3", "A2", "A1", "A0"]))
-    smaller = _read_formats(faults, given["smaller"], "smaller") if "smaller" in given else ()
-    per_sheet = _read_per_sheet(faults, given.get("per_sheet", [12, 6, 4, 2, 1]))
-    grow = read_switch(faults, "grow", given.get("grow", False))
-    turn = read_switch(faults, "turn", given.get("turn", False))
-    cycle = read_switch(faults, "cycle", given.get("cycle", turn))
-    sizes = _read_sizes(faults, given.get("sizes", {}), is_complete=name == SHIPPED[0])
-    blocks = read_entries(faults, given.get("blocks"))
-    made = Composition(
+    file = FileNode(Faults(), table)
+    file.allow(TOP)
+    about = file.read("about", read_line, "")
+    formats = file.read("formats", _read_formats, ("A3", "A2", "A1", "A0"))
+    smaller = file.read("smaller", _read_formats, ())
+    per_sheet = file.read("per_sheet", _read_per_sheet, (12, 6, 4, 2, 1))
+    grow = file.read("grow", read_switch, absent=False)
+    turn = file.read("turn", read_switch, absent=False)
+    cycle = file.read("cycle", read_switch, absent=turn)
+    usual = {} if name == SHIPPED[0] else shipped(SHIPPED[0]).sizes
+    sizes = file.get("sizes", {}).attempt(partial(_read_sizes, usual=usual))
+    if "blocks" not in file:
+        file["blocks"].note("missing", hint=EXAMPLE)
+    blocks = file.read("blocks", read_entries) or ()
+    arranged = _read_groups(file, blocks)
+    titles = file.read("sheets", partial(_read_sheets, numbers={one.sheet for one in blocks}), {})
+    if file.faults:
+        raise CompositionError(name, file.faults.listed)
+    return Composition(
         name=name,
-        about=about,
-        formats=formats,
-        smaller=smaller,
-        per_sheet=per_sheet,
-        grow=grow,
-        turn=turn,
-        cycle=cycle,
-        sizes=sizes,
-        arranged=_read_groups(faults, given, blocks),
-        titles=_read_sheets(faults, given.get("sheets", {}), {entry.sheet for entry in blocks}),
+        about=needed(about),
+        formats=needed(formats),
+        smaller=needed(smaller),
+        per_sheet=needed(per_sheet),
+        grow=needed(grow),
+        turn=needed(turn),
+        cycle=needed(cycle),
+        sizes=needed(sizes),
+        arranged=arranged,
+        titles=needed(titles),
         blocks=blocks,
     )
-    if faults:
-        raise CompositionError(name, faults.listed)
-    return made
 
 
-def _read_formats(faults: Faults, value: object, key: str = "formats") -> tuple[str, ...]:
-    found: list[str] = []
-    for k, name in enumerate(read_list(faults, key, value, "paper formats", 20)):
-        path = f"{key}[{k}]"
-        if not isinstance(name, str):
-            faults.expected(path, "a paper format", name, 'For example: "A2".')
-            continue
-        try:
-            found.append(paper_format(name).name)
-        except LayoutError:
-            faults.add(
-                path,
-                translate("unknown paper format '{}'", short(name)),
-                'For example: "A2", "A4x3".',
-            )
-    return tuple(dict.fromkeys(found))
+def _read_formats(node: FileNode) -> tuple[str, ...]:
+    require_list(node, "paper formats", 20)
+    return tuple(dict.fromkeys(node.read_sound(_read_format)))
 
 
-def _read_per_sheet(faults: Faults, value: object) -> tuple[int, ...]:
-    found: list[int] = []
-    for k, item in enumerate(read_list(faults, "per_sheet", value, "numbers of positions", 12)):
-        number = read_integer(faults, f"per_sheet[{k}]", item, 1, MAX_PER_SHEET)
-        if number is not None:
-            found.append(number)
-    if found != sorted(found, reverse=True):
-        faults.add("per_sheet", "expected falling numbers", "For example: [12, 6, 4, 2, 1].")
-    return tuple(found)
+def _read_format(node: FileNode) -> str:
+    if not isinstance(node.value, str):
+        node.reject_value("a paper format", 'For example: "A2".')
+    try:
+        return paper_format(node.value).name
+    except LayoutError:
+        hint = 'For example: "A2", "A4x3".'
+        node.reject("unknown paper format '{}'", short(node.value), hint=hint)
 
 
-def _read_sizes(faults: Faults, value: object, *, is_complete: bool) -> dict[str, Sizes]:
-    """Read the sizes by format; defaults are those of the first shipped composition."""
-    sizes = {} if is_complete else dict(shipped(SHIPPED[0]).sizes)
-    table = read_table(faults, "sizes", value, "A2 = { text = 5 }") or {}
-    for name, asked in read_keys(faults, "sizes", table, BASIC).items():
-        path = f"sizes.{name}"
-        given = read_keys(faults, path, read_table(faults, path, asked) or {}, SIZES)
-        known = sizes.get(name)
-        values = {key: getattr(known, key) for key in SIZES[:4]} if known else {}
-        boxes = dict(known.boxes) if known else {}
-        for key, item in given.items():
-            at = f"{path}.{key}"
-            if key in VIEWS:
-                pair = item if isinstance(item, list) and len(item) == 2 else [None, None]
-                if pair is not item:
-                    faults.expected(at, "[width, height] in mm", item)
-                    continue
-                ends = [
-                    read_size(faults, f"{at}[{k}]", side, "a side", 10.0, 1200.0)
-                    for k, side in enumerate(pair)
-                ]
-                if ends[0] is not None and ends[1] is not None:
-                    boxes[VIEWS[key]] = (ends[0], ends[1])
-            elif key == "column":
-                values[key] = read_size(faults, at, item, "a width", 40.0, 1200.0)
-            else:
-                values[key] = read_height(faults, at, item)
-        if None not in values.values() and len(values) == 4:
-            sizes[name] = Sizes(**values, boxes=tuple(boxes.items()))
-    return sizes
+def _read_per_sheet(node: FileNode) -> tuple[int, ...]:
+    require_list(node, "numbers of positions", 12)
+    found = node.read_sound(lambda number: number.integer(1, MAX_PER_SHEET))
+    if list(found) != sorted(found, reverse=True):
+        node.note("expected falling numbers", hint="For example: [12, 6, 4, 2, 1].")
+    return found
 
 
-def _read_sheets(faults: Faults, value: object, numbers: set[int]) -> dict[int, str]:
-    table = read_table(faults, "sheets", value, '[sheets.2] title = "План ускорений"') or {}
-    known = tuple(str(number) for number in sorted(numbers))
-    titles: dict[int, str] = {}
-    for key, asked in read_keys(faults, "sheets", table, known).items():
-        path = f"sheets.{key}"
-        given = read_keys(faults, path, read_table(faults, path, asked) or {}, SHEET)
-        if "title" in given:
-            titles[int(key)] = read_line(faults, f"{path}.title", given["title"])
-    return titles
+def _read_sizes(node: FileNode, usual: Mapping[str, Sizes]) -> dict[str, Sizes]:
+    """Read the sizes by format; ``usual`` are those that the file does not have."""
+    node.table("A2 = { text = 5 }")
+    node.allow(BASIC)
+    read = node.read_each(lambda sizes: _read_format_sizes(sizes, usual.get(str(sizes.key))))
+    return {**usual, **read}
 
 
-def _read_groups(
-    faults: Faults, document: Table, blocks: tuple[BlockSpec, ...]
-) -> dict[tuple[str, ...], Arrange]:
+def _read_format_sizes(node: FileNode, usual: Sizes | None) -> Sizes | None:
+    node.table()
+    node.allow(SIZES)
+    values = {key: getattr(usual, key) for key in SIZES[:4]} if usual else {}
+    boxes = dict(usual.boxes) if usual else {}
+    for entry in node.entries():
+        key = str(entry.key)
+        if key in VIEWS:
+            box = entry.attempt(_read_box)
+            boxes |= {} if box is None else {VIEWS[key]: box}
+        elif key == "column":
+            values[key] = entry.attempt(lambda column: read_size(column, "a width", 40.0, 1200.0))
+        else:
+            values[key] = entry.attempt(read_height)
+    node.require_sound()
+    return Sizes(**values, boxes=tuple(boxes.items())) if len(values) == 4 else None
+
+
+def _read_box(node: FileNode) -> tuple[float, float]:
+    node.array("[width, height] in mm", low=2, high=2)
+    width, height = node.read_all(lambda side: read_size(side, "a side", 10.0, 1200.0))
+    return width, height
+
+
+def _read_sheets(node: FileNode, numbers: Collection[int]) -> dict[int, str]:
+    node.table('[sheets.2] title = "План ускорений"')
+    node.allow(str(number) for number in sorted(numbers))
+    return {int(key): title for key, title in node.read_each(_read_title).items()}
+
+
+def _read_title(node: FileNode) -> str | None:
+    node.table()
+    node.allow(SHEET)
+    return node.read("title", read_line)
+
+
+def _read_groups(file: FileNode, blocks: tuple[BlockSpec, ...]) -> dict[tuple[str, ...], Arrange]:
     """Read the arrangement of groups: tables nested like the names of groups."""
     arranged: dict[tuple[str, ...], Arrange] = {}
     paths = {entry.group[:depth] for entry in blocks for depth in range(1, GROUP_DEPTH + 1)}
 
-    def read_one(path: str, value: object, group: tuple[str, ...]) -> None:
-        word = read_choice(faults, path, value, ARRANGES)
-        arranged[group] = next((way for way in ARRANGES if way == word), "free")
+    def read_one(node: FileNode) -> Arrange:
+        word = read_choice(node, ARRANGES)
+        return next(way for way in ARRANGES if way == word)
 
-    def read_level(path: str, value: object, group: tuple[str, ...]) -> None:
-        table = read_table(faults, path, value, 'arrange = "row"') or {}
+    def read_level(node: FileNode, group: tuple[str, ...]) -> None:
+        node.table('arrange = "row"')
         inner = {p[-1]: None for p in sorted(paths) if len(p) == len(group) + 1 and p[:-1] == group}
-        known = (*GROUP, *inner) if group else tuple(inner)
-        for key, item in read_keys(faults, path, table, known).items():
-            at = joined(path, segment(key))
-            if key in inner:
-                read_level(at, item, (*group, key))
-            else:
-                read_one(at, item, group)
+        node.allow((*GROUP, *inner) if group else inner)
+        for key in inner:
+            node.read(key, partial(read_level, group=(*group, key)))
+        if "arrange" in node and group:
+            arranged[group] = node.read("arrange", read_one) or "free"
 
-    if "arrange" in document:
-        read_one("arrange", document["arrange"], ())
-    if "groups" in document:
-        read_level("groups", document["groups"], ())
+    if "arrange" in file:
+        arranged[()] = file.read("arrange", read_one) or "free"
+    file.read("groups", partial(read_level, group=()))
     return arranged
