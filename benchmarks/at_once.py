@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.bench.forces import error_of
-from planmethod.bench.speed import ReadSpeed, clock, places
+from planmethod.bench.measurements import ReadSpeed, clock, error_of, places
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.statics import Statics, statics_of

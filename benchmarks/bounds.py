@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from benchmarks.processes import LOADED, Command
 from benchmarks.rivals import Rival
+from planmethod.bench.measurements import ReadSpeed
 from planmethod.bench.report import Table, number, table
-from planmethod.bench.speed import ReadSpeed
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from benchmarks.growth import Chain
 from benchmarks.rivals import Rival
-from planmethod.bench.speed import ReadSpeed
+from planmethod.bench.measurements import ReadSpeed
 
 MARKS = (
     ("sweep, float64", "o", "#1f5aa6"),

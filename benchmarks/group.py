@@ -13,10 +13,10 @@ from pathlib import Path
 
 from msgspec.structs import replace
 
-from planmethod.bench.checking import places_of
-from planmethod.check.group import Variants
+from planmethod.bench.fairness import places_of
+from planmethod.check.checking import Variants
 from planmethod.check.key import key_of_task
-from planmethod.check.mistakes.model import Change
+from planmethod.check.mistakes.plans import Change
 from planmethod.check.model import Sense, Submission, WrittenAnswer
 from planmethod.check.simulation import simulate_submissions
 from planmethod.check.task import Task

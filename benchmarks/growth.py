@@ -13,7 +13,7 @@ from msgspec import Struct
 
 from benchmarks.bounds import Bound
 from benchmarks.scenes import chain, slotted, train, with_loads
-from planmethod.bench.speed import clock, crank_angles
+from planmethod.bench.measurements import clock, crank_angles
 from planmethod.check.checking import check
 from planmethod.check.simulation import simulate_submissions
 from planmethod.check.task import Task

@@ -14,10 +14,9 @@ from enum import Enum
 
 import numpy as np
 
-from planmethod.construct.condition import UNIT_ROUNDOFF
-from planmethod.construct.multiprecision import DIGITS
+from planmethod.construct.condition import DIGITS, UNIT_ROUNDOFF
 from planmethod.errors import PlanMethodError
-from planmethod.plans.legend import QuantityKind
+from planmethod.plans.build import QuantityKind
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.solved.accuracy import AccuracyVerdict, Refereed, examine

@@ -12,10 +12,14 @@ from statistics import fmean
 
 from planmethod.errors import PlanMethodError
 from planmethod.problem import load
-from planmethod.render.control.misleading import box_contains, is_of_point, measure_letter_distances
-from planmethod.render.control.texts import writings_of
+from planmethod.render.control.texts import (
+    box_contains,
+    is_of_point,
+    measure_letter_distances,
+    writings_of,
+)
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.label_density import SIDE, densest
+from planmethod.solved.legibility import SIDE, densest
 
 PROBLEMS = Path(__file__).parent.parent / "problems"
 

@@ -78,7 +78,7 @@ def by_positions(counts: Sequence[int]) -> list[Grown]:
         said = run_python(
             "import time\n"
             "from benchmarks.scenes import slotted\n"
-            "from planmethod.bench.speed import turn\n"
+            "from planmethod.bench.measurements import turn\n"
             "from planmethod.solved.many.sweep import Sweep\n"
             f"sweep, at, times = Sweep(slotted()), turn({count}), []\n"
             "for _ in range(5):\n"

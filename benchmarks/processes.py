@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path
 
 from benchmarks.scenes import MANY_LOADS
-from planmethod.bench.speed import Timing, clock
+from planmethod.bench.measurements import Timing, clock
 from planmethod.kinds import part_of
 from planmethod.note.wording import get_language
 from planmethod.problem import load, template
@@ -204,7 +204,7 @@ def memory() -> list[tuple[str, float]]:
     head = (
         "import numpy as np\n"
         "from benchmarks.scenes import slotted\n"
-        "from planmethod.bench.speed import turn\n"
+        "from planmethod.bench.measurements import turn\n"
         "def sweep(n):\n"
         "    from planmethod.solved.many.sweep import Sweep\n"
         "    Sweep(slotted()).run(turn(n))\n"

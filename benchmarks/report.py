@@ -15,9 +15,9 @@ from benchmarks.figure import draw
 from benchmarks.many import many_section
 from benchmarks.peers import PEERS, missing
 from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
-from planmethod.bench import speed
+from planmethod.bench import measurements
+from planmethod.bench.measurements import Timing
 from planmethod.bench.report import Table, load, number, span, speed_section, table
-from planmethod.bench.speed import Timing
 
 NAME = "speed-and-error"
 
@@ -239,13 +239,13 @@ class Measured:
         self.sizes = (12, 10_000) if quick else rivals.SIZES
 
     @cached_property
-    def readings(self) -> list[speed.ReadSpeed]:
+    def readings(self) -> list[measurements.ReadSpeed]:
         """Time beside error of two mechanisms."""
         return [
-            *speed.sweeps(fourbar(), self.sizes, FOURBAR_ROWS),
-            *speed.sweeps(slotted(), self.sizes),
-            *speed.single_readings(fourbar()),
-            *speed.single_readings(slotted()),
+            *measurements.sweeps(fourbar(), self.sizes, FOURBAR_ROWS),
+            *measurements.sweeps(slotted(), self.sizes),
+            *measurements.single_readings(fourbar()),
+            *measurements.single_readings(slotted()),
         ]
 
     @cached_property

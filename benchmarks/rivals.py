@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from benchmarks.peers import peers
 from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
-from planmethod.bench.speed import (
+from planmethod.bench.measurements import (
     Timing,
     clock,
     crank_angles,

@@ -23,17 +23,17 @@ from planmethod.errors import PlanMethodError
 from planmethod.paper import paper_format
 from planmethod.problem import load
 from planmethod.problem.model import Problem
-from planmethod.render.control.sheet import inspect
-from planmethod.render.control.unused import (
+from planmethod.render.control.sheet import (
     FRAME,
     area_percentage,
     ink_points,
     inked_percentage,
+    inspect,
     largest_empty,
 )
-from planmethod.render.frame.frame import MARGIN_NOTE
+from planmethod.render.frame import MARGIN_NOTE
 from planmethod.render.ink.drawing import Bounds, Drawing
-from planmethod.render.ink.extent import ink_bounds, overlap
+from planmethod.render.ink.typeset import ink_bounds, overlap
 from planmethod.render.sheets.controlled import paper_of
 from planmethod.render.sheets.kinematics import kinematics_sheets
 

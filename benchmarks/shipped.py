@@ -24,11 +24,7 @@ from planmethod.note.records.solution import record
 from planmethod.problem import variant_names
 from planmethod.problem.tasks import home
 from planmethod.render.control.remarks import REMARKS
-from planmethod.render.sheets.controlled import (
-    CheckedSheet,
-    check_drawings,
-    controlled_kinematics,
-)
+from planmethod.render.sheets.controlled import CheckedSheet, check_drawings, controlled_kinematics
 from planmethod.solved.solution import Solution
 
 HEAD = ("| files | positions | sheets | errors | warnings | of them |", "| --- " * 6 + "|")

@@ -9,8 +9,8 @@ from benchmarks.hard_report import hard_section
 from benchmarks.random_report import random_section
 from benchmarks.random_run import Tally, run, wrong_branches
 from benchmarks.scenes import loaded
-from planmethod.bench import forces
-from planmethod.bench.drafting import compare_all
+from planmethod.bench import measurements
+from planmethod.bench.measurements import compare_all
 from planmethod.bench.report import Table, drafting_section, forces_section, machine_section
 from planmethod.problem.model import Problem
 
@@ -75,8 +75,8 @@ def make(
 
 def _forces(problems: Sequence[Problem], counts: Sequence[int]) -> Table:
     scene = loaded()
-    readings = [*forces.readings(scene, counts), *at_once.readings(scene, counts)]
-    lever = [forces.discrepancy(one) for one in problems if one.dynamics is not None]
+    readings = [*measurements.readings(scene, counts), *at_once.readings(scene, counts)]
+    lever = [measurements.discrepancy(one) for one in problems if one.dynamics is not None]
     more = "; the linear system starts from a motion that is known"
     return forces_section(readings, lever, more=more)
 

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
-from planmethod.problem.common import KindProblem
+from planmethod.problem.records import KindProblem
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
-    from planmethod.note.audit.audit import Audited
+    from planmethod.note.audit import Audited
     from planmethod.note.document import Document, GivenFact
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.note.wording import Language
-    from planmethod.problem.question_quantities import QuestionQuantities
+    from planmethod.problem.records import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
 
 P = TypeVar("P", bound=KindProblem)

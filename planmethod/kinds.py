@@ -131,7 +131,7 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Mech
         The file cannot be read at all.
     """
     from planmethod.problem.file_node import Faults, FileNode
-    from planmethod.problem.variants import with_table
+    from planmethod.problem.reader import with_table
     from planmethod.solved.partial_mechanism import MechanismPart, largest_part
 
     text = read_source(path)
@@ -162,17 +162,17 @@ def _posed(problem: Problem) -> Problem:
 
         problem = pose(problem)
     if problem.cycle is not None:
-        from planmethod.solved.turn.numbering import number
+        from planmethod.solved.turn.extremes import number_positions
 
-        problem = number(problem)
+        problem = number_positions(problem)
     return problem
 
 
 def _driven(file: FileNode) -> GearDrive | CamDrive:
     if "train" in file["driver"]:
-        from planmethod.gears.driving import driven
+        from planmethod.gears.results import driven
 
         return driven(file)
-    from planmethod.cams.driving import read_follower_drive
+    from planmethod.cams.results import read_follower_drive
 
     return read_follower_drive(file)

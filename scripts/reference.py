@@ -20,8 +20,8 @@ from msgspec import NODEFAULT
 from msgspec.structs import fields
 
 from planmethod.problem import keys
-from planmethod.problem.common import STAMP_LIMIT, TITLE_BLOCK, TITLE_BLOCK_IN
-from planmethod.problem.key_types import (
+from planmethod.problem.records import STAMP_LIMIT, TITLE_BLOCK, TITLE_BLOCK_IN
+from planmethod.problem.tables import (
     AngleKey,
     ChoiceKey,
     CustomKey,

@@ -15,7 +15,7 @@ from itertools import pairwise
 from math import ceil, radians, tan, tau
 from typing import TypeAlias
 
-from planmethod.render.ink.lettering.proportions import TYPES, Proportions
+from planmethod.render.ink.lettering import TYPES, Proportions
 from scripts import shapes
 
 Strokes: TypeAlias = tuple[tuple[complex, ...], ...]

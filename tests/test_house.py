@@ -27,5 +27,5 @@ def test_no_module_imports_itself_through_others() -> None:
     # Import-linter looks at siblings; a package and its own modules are seen here.
     graph = grimp.build_graph("planmethod", cache_dir=None)
     found = {module: graph.find_modules_directly_imported_by(module) for module in graph.modules}
-    assert len(found) > 500
+    assert len(found) > 300
     TopologicalSorter(found).prepare()  # raises CycleError, with the circle

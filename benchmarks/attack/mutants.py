@@ -261,7 +261,7 @@ def _drawings() -> dict[str, bytes]:
     import ezdxf
     from click.testing import CliRunner
 
-    from planmethod.check.measured.svg_file import read_svg
+    from planmethod.check.measured.files import read_svg
     from planmethod.cli import cli
 
     library: Any = ezdxf
@@ -276,7 +276,7 @@ def _drawings() -> dict[str, bytes]:
             ends = [(end.real, end.imag) for end in (line.start, line.end)]
             space.add_line(*ends, dxfattribs={"layer": line.layer})
         block = file.blocks.new("LETTERS")
-        for one in seen.texts:
+        for one in seen.inscriptions:
             block.add_text(
                 one.text, height=one.high, dxfattribs={"insert": (one.at.real, one.at.imag)}
             )

@@ -9,8 +9,8 @@ import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
-from planmethod.bench import checking, confusion, cycle, forces, speed
-from planmethod.bench.drafting import DRAWS, Compared, compare_all
+from planmethod.bench import fairness, measurements
+from planmethod.bench.measurements import DRAWS, Compared, compare_all
 from planmethod.check.key import Key
 from planmethod.problem.model import Problem
 from planmethod.solved.machine.flywheel import Flywheel
@@ -53,7 +53,7 @@ def load() -> str:
     return f"{os.getloadavg()[0]:.1f} processes were busy on {os.cpu_count()} cores"
 
 
-def timed(readings: Sequence[speed.ReadSpeed]) -> Table:
+def timed(readings: Sequence[measurements.ReadSpeed]) -> Table:
     """Return the table of times and errors."""
     rows = [
         (
@@ -71,14 +71,14 @@ def timed(readings: Sequence[speed.ReadSpeed]) -> Table:
     )
 
 
-def speed_section(readings: Sequence[speed.ReadSpeed]) -> Table:
+def speed_section(readings: Sequence[measurements.ReadSpeed]) -> Table:
     """Return times and errors of the motion."""
     return [
         "## Time against error",
         "",
         "Position, velocity and acceleration of every point and link. The error is the largest one "
-        f"against a referee of {speed.RIGHT} digits: of a sweep, each row in units of its own "
-        f"largest value (at most {speed.CHECKED_POSITIONS} positions, evenly spread); of "
+        f"against a referee of {measurements.RIGHT} digits: of a sweep, each row in units of its "
+        f"own largest value (at most {measurements.CHECKED_MOTIONS} positions, evenly spread); of "
         "one position and of the hand, in units of the largest result of its kind. The hand "
         "reads the plans at the "
         "scales that planmethod chooses; its error is that of reading alone. Sweeps take turns, "
@@ -89,7 +89,10 @@ def speed_section(readings: Sequence[speed.ReadSpeed]) -> Table:
 
 
 def forces_section(
-    readings: Sequence[speed.ReadSpeed], lever: Sequence[forces.Discrepancy], *, more: str = ""
+    readings: Sequence[measurements.ReadSpeed],
+    lever: Sequence[measurements.Discrepancy],
+    *,
+    more: str = "",
 ) -> Table:
     """Return times and errors of the force plans, and the comparison with the lever.
 
@@ -111,9 +114,9 @@ def forces_section(
         "## Forces",
         "",
         "All reactions and the balancing moment. The error is the largest one against a referee of "
-        f"{speed.RIGHT} digits, in units of the largest reaction of its position; that of the hand "
-        "is the error of the sizes it reads. The force plans continue the program of the motion "
-        f"and are timed together with it{more}.",
+        f"{measurements.RIGHT} digits, in units of the largest reaction of its position; that of "
+        "the hand is the error of the sizes it reads. The force plans continue the program of the "
+        f"motion and are timed together with it{more}.",
         "",
         *timed(readings),
     ]
@@ -121,9 +124,9 @@ def forces_section(
         lines += [
             "",
             "Lever minus force plans of a board draughtsman: the expected size, to first order "
-            f"through every stroke, over that of {forces.DRAWS} random sheets (half of the middle "
-            "68 %), position by position; and the expected size as a part of the largest balancing "
-            "moment.",
+            f"through every stroke, over that of {measurements.DRAWS} random sheets (half of the "
+            "middle 68 %), position by position; and the expected size as a part of the "
+            "largest balancing moment.",
             "",
             *table(
                 ("problem", "positions", "expected over drawn", "expected, of the largest"), rows
@@ -165,7 +168,7 @@ def _percent(part: float, total: float) -> str:
     return f"{100 * part / total:.1f} %" if total else "—"
 
 
-def faultless_table(results: Sequence[checking.FaultlessStats]) -> Table:
+def faultless_table(results: Sequence[fairness.FaultlessStats]) -> Table:
     """Return the rates of false alarms, next to flat tolerances on the same submissions."""
     rows = [
         (
@@ -175,12 +178,12 @@ def faultless_table(results: Sequence[checking.FaultlessStats]) -> Table:
             _percent(one.faulted, one.answers),
             _percent(one.hurt, one.works),
             _percent(one.named, one.works),
-            *(_percent(one.flat[share], one.answers) for share in checking.FLAT),
-            *(_percent(one.flat_hurt[share], one.works) for share in checking.FLAT),
+            *(_percent(one.flat[share], one.answers) for share in fairness.FLAT),
+            *(_percent(one.flat_hurt[share], one.works) for share in fairness.FLAT),
         )
         for one in results
     ]
-    flat = [f"{share:.0%}".replace("%", " %") for share in checking.FLAT]
+    flat = [f"{share:.0%}".replace("%", " %") for share in fairness.FLAT]
     header = (
         "problem, hand", "works", "not shown", "answers faulted", "works faulted", "named",
         *(f"answers, flat {share}" for share in flat), *(f"works, flat {share}" for share in flat),
@@ -188,13 +191,13 @@ def faultless_table(results: Sequence[checking.FaultlessStats]) -> Table:
     return table(header, rows)
 
 
-def _codes(results: Sequence[checking.Detected]) -> list[str]:
+def _codes(results: Sequence[fairness.Detected]) -> list[str]:
     """Return the codes of mistakes: of plans, of scales and numbers, of forces."""
     families = "VANESPFZ"
     return sorted({o.code for o in results}, key=lambda c: (f"{families}{c[0]}".index(c[0]), c))
 
 
-def mistakes_table(results: Sequence[checking.Detected]) -> Table:
+def mistakes_table(results: Sequence[fairness.Detected]) -> Table:
     """Return the detection of planted mistakes, over all problems together."""
     rows = []
     for code in [*_codes(results), ""]:
@@ -214,7 +217,7 @@ def mistakes_table(results: Sequence[checking.Detected]) -> Table:
     )
 
 
-def power_table(results: Sequence[checking.Detected]) -> Table:
+def power_table(results: Sequence[fairness.Detected]) -> Table:
     """Return the percentages of planted mistakes noticed and named, by mistake and problem."""
     problems = list(dict.fromkeys(one.problem for one in results))
     rows = []
@@ -243,7 +246,7 @@ FAMILIES = {"levers": "levers", "forces": "with forces", "gears": "trains", "poi
 """Families of problems as the tables call them; others by their own table."""
 
 
-def confusion_tables(results: confusion.Confusion) -> Table:
+def confusion_tables(results: fairness.Confusion) -> Table:
     """Return by families whom the checking faults, what it names, and what it inherits."""
     families = list(dict.fromkeys(family for family, _ in results.faultless))
     mistaken = {
@@ -284,7 +287,7 @@ def confusion_tables(results: confusion.Confusion) -> Table:
     ]  # fmt: skip
 
 
-def _named_row(results: Sequence[checking.Detected]) -> list[str]:
+def _named_row(results: Sequence[fairness.Detected]) -> list[str]:
     works = sum(one.works for one in results)
     counts = (
         sum(getattr(one, name) for one in results)
@@ -293,7 +296,7 @@ def _named_row(results: Sequence[checking.Detected]) -> list[str]:
     return [str(works), *(_percent(count, works) for count in counts)]
 
 
-def checking_speed(timings: Sequence[checking.Speed]) -> Table:
+def checking_speed(timings: Sequence[fairness.Speed]) -> Table:
     """Return how long the checking takes."""
     rows = [
         (
@@ -306,7 +309,7 @@ def checking_speed(timings: Sequence[checking.Speed]) -> Table:
     return table(
         (
             "problem", "answers", "first submission", "further, without a mistake",
-            "further, with a mistake", "key", f"group of {checking.GROUP} with pages",
+            "further, with a mistake", "key", f"group of {fairness.GROUP} with pages",
         ),
         rows,
     )  # fmt: skip
@@ -315,7 +318,7 @@ def checking_speed(timings: Sequence[checking.Speed]) -> Table:
 def checking_section(
     problems: Sequence[Problem],
     works: int = WORKS,
-    computed: Sequence[confusion.Computed] = (),
+    computed: Sequence[fairness.Computed] = (),
 ) -> Table:
     """Return the results of checking simulated submissions, drawn and computed.
 
@@ -327,13 +330,13 @@ def checking_section(
         Problems other than linkages, with their kinds.
     """
     mistaken = max(1, works // 10)
-    confused = confusion.confused(problems, computed, works)
+    confused = fairness.confused(problems, computed, works)
     together = [
         "## By families",
         "",
         "Works of the board's profile; of trains and points, numbers computed and rounded to three "
-        f"digits or four. Two mistakes: at most {confusion.PAIRS} pairs in each linkage, of which "
-        f"neither mistake alone gives {confusion.MIN_DIFFERENT_ANSWERS} of the answers; *named*: "
+        f"digits or four. Two mistakes: at most {fairness.PAIRS} pairs in each linkage, of which "
+        f"neither mistake alone gives {fairness.MIN_DIFFERENT_ANSWERS} of the answers; *named*: "
         "both, *among*: one of them, or a right one among two or three. Inherited: one number "
         "is wrong, and the "
         "plans, another formula of the textbook or the formulas of a train go on with it.",
@@ -354,12 +357,12 @@ def checking_section(
         "what loses points; *named*: works in which a mistake is named, or several that it may "
         "be. Flat tolerances reject answers of the same works, those that are nothing left out.",
         "",
-        *faultless_table(checking.check_all_faultless(problems, works)),
+        *faultless_table(fairness.check_all_faultless(problems, works)),
         "",
         "## Submissions with a mistake",
         "",
         f"Works of the board's profile, {mistaken} with each mistake at each of at most "
-        f"{checking.PLACES} places, where it shows. *Seen*: an answer is faulted, or follows from "
+        f"{fairness.PLACES} places, where it shows. *Seen*: an answer is faulted, or follows from "
         "a faulted one; *named*: the mistake is named, or one that gives the same answers; *among "
         'several*: "one of" two or three; *not named*: "not recognised", or more than three; '
         "*wrongly*: another one is named.",
@@ -375,7 +378,7 @@ def checking_section(
         "Places (link, point, pair) where a mistake can be made without any answer being "
         "off by more than drafting errors: the key states them in advance.",
         "",
-        *hidden_table(checking.hidden(problems)),
+        *hidden_table(fairness.hidden(problems)),
         "",
         "## Speed",
         "",
@@ -383,22 +386,22 @@ def checking_section(
         "explaining a mistake; pages are HTML and PDF, every other submission of the group "
         "has the mistake.",
         "",
-        *checking_speed([checking.speed(problem) for problem in problems]),
+        *checking_speed([fairness.speed(problem) for problem in problems]),
     ]
 
 
 def _speed(problems: Sequence[Problem]) -> Table:
-    found: list[speed.ReadSpeed] = []
+    found: list[measurements.ReadSpeed] = []
     for problem in problems:
-        found += [*speed.sweeps(problem, COUNTS), *speed.single_readings(problem)]
+        found += [*measurements.sweeps(problem, COUNTS), *measurements.single_readings(problem)]
     return speed_section(found)
 
 
 def _forces(problems: Sequence[Problem]) -> Table:
     """Return the section on problems with loads; empty if none has loads."""
     loaded = [problem for problem in problems if problem.dynamics is not None]
-    found = [one for problem in loaded for one in forces.readings(problem, COUNTS)]
-    lever = [forces.discrepancy(problem) for problem in loaded]
+    found = [one for problem in loaded for one in measurements.readings(problem, COUNTS)]
+    lever = [measurements.discrepancy(problem) for problem in loaded]
     return forces_section(found, lever) if loaded else []
 
 
@@ -406,26 +409,26 @@ def _cycle(problems: Sequence[Problem]) -> Table:
     """Return the section on cycles of a crank; empty if no crank rotates fully."""
     rows, said, cost = [], [], []
     for problem in problems:
-        turn = cycle.turn_for(problem)
+        turn = measurements.turn_for(problem)
         if turn is None or turn.is_stationary:
             continue
-        found = [cycle.calculus(turn, count) for count in cycle.COUNTS]
+        found = [measurements.calculus(turn, count) for count in measurements.COUNTS]
         for one in found:
             errors = (part for off in (one.v, one.a, one.s) for part in (off.maximum, off.rms))
             moved = (part for pair in one.ruler_effect for part in pair)
             rows.append((problem.name, str(one.count), *(f"{x:.3g}" for x in (*errors, *moved))))
-        for which, ruler in enumerate(cycle.RULERS):
-            first = cycle.ruler_limit_count(found, which)
+        for which, ruler in enumerate(measurements.RULERS):
+            first = measurements.ruler_limit_count(found, which)
             text = f"from {first} positions on" if first else "at none of these counts"
             said.append(f"- {problem.name}: the ruler of {ruler:g} mm limits v {text}.")
         cost += [
             (what, problem.name, str(count), span(seconds), span(seconds / count))
-            for what, count, seconds in cycle.costs(problem)
+            for what, count, seconds in measurements.costs(problem)
         ]
     if not rows:
         return []
     head = [f"{letter} {kind}" for letter in ("v", "a", "s") for kind in ("max", "rms")]
-    head += [f"{letter} ± {ruler:g}" for ruler in cycle.RULERS for letter in "va"]
+    head += [f"{letter} ± {ruler:g}" for ruler in measurements.RULERS for letter in "va"]
     return [
         "## Graphical differentiation and integration",
         "",
@@ -450,15 +453,16 @@ def machine_section(problems: Sequence[Problem]) -> Table:
         wheel = Flywheel(problem)
         if wheel.exact.inertia <= 0.0:
             continue
-        for one in cycle.constructed(wheel):
+        for one in measurements.constructed(wheel):
             count = "all" if one.count is None else str(one.count)
             rows.append((problem.name, count, *(f"{off:+.3f}" for off in one.off)))
         cost += [
-            (what, problem.name, span(seconds)) for what, seconds in cycle.flywheel_costs(problem)
+            (what, problem.name, span(seconds))
+            for what, seconds in measurements.flywheel_costs(problem)
         ]
     if not rows:
         return []
-    head = [f"{method}, {way.value}" for way, method in cycle.METHODS]
+    head = [f"{method}, {way.value}" for way, method in measurements.METHODS]
     return [
         "## Flywheels by construction",
         "",

@@ -1,17 +1,10 @@
-"""The smallest cam within the allowed pressure angles (синтез кулачка): exact, for every angle.
-
-A pressure angle is allowed where the axis is between two lines through the end D of the analogue of
-the velocity, laid off from the roller and rotated by a right angle in the sense of the cam. So the
-axis must be in the intersection of all these half-planes, and the smallest cam has its axis at the
-point of it that is nearest to the roller at rest. The half-planes of the binding angles are found
-exactly and added until none is violated.
-"""
+"""The smallest cam within the allowed pressure angles (синтез кулачка), for every angle."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import cached_property, partial
-from math import floor, sqrt, tan
+from math import floor, radians, sqrt, tan
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -19,12 +12,138 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from planmethod.cams.geometry import CamGeometry, Complexes
-from planmethod.cams.laws import Reals
-from planmethod.cams.model import CamPhase, CamProblem, Closure, Contact, Jump, Stretch
-from planmethod.cams.peaks import first_nonpositive, minimize, nearest_to_origin, peak
+from planmethod.cams.model import (
+    TURN,
+    CamGeometry,
+    CamPhase,
+    CamProblem,
+    Closure,
+    Complexes,
+    Contact,
+    Jump,
+    Reals,
+    Stretch,
+)
+from planmethod.construct.scale import Scale, angle_scale, series_near
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
+
+SAMPLES, FINER, REFINEMENTS = 257, 17, 12
+
+RealFunction = Callable[[Reals], Reals]
+
+
+def peak(of: RealFunction, start: float, end: float) -> tuple[float, float]:
+    """Return the argument and the value of a smooth function's maximum on an interval.
+
+    Every peak of the samples is refined, so that the greater of two nearly equal ones is found.
+    """
+    x = np.linspace(start, end, SAMPLES)
+    with np.errstate(all="ignore"):
+        y = np.nan_to_num(of(x), nan=-np.inf)
+        padded = np.concatenate([[-np.inf], y, [-np.inf]])
+        tops = np.flatnonzero((y >= padded[:-2]) & (y >= padded[2:]))
+        tops = tops[np.argsort(-y[tops])][:8]
+        low, high = x[np.maximum(tops - 1, 0)], x[np.minimum(tops + 1, SAMPLES - 1)]
+        rows = np.arange(len(tops))
+        best, value = x[tops], y[tops]
+        for _ in range(REFINEMENTS):
+            fine = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, FINER)
+            found = np.nan_to_num(of(fine), nan=-np.inf)
+            at = np.argmax(found, axis=1)
+            better = found[rows, at] > value
+            best = np.where(better, fine[rows, at], best)
+            value = np.maximum(value, found[rows, at])
+            low, high = fine[rows, np.maximum(at - 1, 0)], fine[rows, np.minimum(at + 1, FINER - 1)]
+    k = int(np.argmax(value))
+    return float(best[k]), float(value[k])
+
+
+def nearest_to_origin(normals: Reals, bounds: Reals) -> Reals | None:
+    """Return the point nearest to the origin with ``normals @ z <= bounds``, or None.
+
+    The few binding ones are found one by one, the most violated first: a law of a hundred parts has
+    thousands of them, and millions of corners.
+
+    Parameters
+    ----------
+    normals : array of float, shape (n, 2)
+    bounds : array of float, shape (n,)
+    """
+    length = np.hypot(*normals.T)
+    unit, off = normals / length[:, None], bounds / length
+    slack = 1e-12 * np.max(np.abs(off))
+    point: Reals | None = np.zeros(2)
+    binding: list[int] = []
+    while point is not None:
+        broken = unit @ point - off
+        k = int(np.argmax(broken))
+        if broken[k] <= slack:
+            return point
+        binding.append(k)
+        point = _nearest_corner(unit[binding], off[binding], slack)
+    return None
+
+
+def _nearest_corner(unit: Reals, off: Reals, tolerance: float) -> Reals | None:
+    """Return the nearest foot or corner of a few lines that keeps to all of them, or None."""
+    i, j = np.triu_indices(len(unit), 1)
+    det = unit[i, 0] * unit[j, 1] - unit[i, 1] * unit[j, 0]
+    with np.errstate(all="ignore"):
+        corners = np.array(
+            [
+                (off[i] * unit[j, 1] - off[j] * unit[i, 1]) / det,
+                (unit[i, 0] * off[j] - unit[j, 0] * off[i]) / det,
+            ]
+        ).T
+    tried = np.concatenate([unit * off[:, None], corners])
+    tried = tried[np.all(np.isfinite(tried), axis=1)]
+    kept = tried[np.all(tried @ unit.T <= off + tolerance, axis=1)]
+    return np.asarray(kept[np.argmin(np.hypot(*kept.T))]) if len(kept) else None
+
+
+def first_nonpositive(
+    rough: Callable[[float], float], exact: Callable[[float], float], candidates: Reals
+) -> float | None:
+    """Return the first number at which a function is not positive; None if it is positive.
+
+    Parameters
+    ----------
+    rough, exact : callable
+        The function from below, and as it is: where the rough one is positive, so is the other.
+    candidates : array of float
+        Numbers in order, the steps of the search.
+    """
+    for k, x in enumerate(candidates):
+        if rough(float(x)) > 0 or exact(float(x)) > 0:
+            continue
+        if not k:
+            return float(x)
+        low, high = float(candidates[k - 1]), float(x)
+        above, below = exact(low), exact(high)
+        for _ in range(100):  # regula falsi; an end that stays weighs half
+            middle = high - below * (high - low) / (below - above)
+            if not low < middle < high:
+                break
+            value = exact(middle)
+            if value <= 0:
+                high, below, above = middle, value, above / 2
+            else:
+                low, above, below = middle, value, below / 2
+        return high
+    return None
+
+
+def minimize(
+    of: Callable[[float], float], start: float, end: float, *, samples: int = 121
+) -> float:
+    """Return the minimizer of a function of one number, by finer and finer grids."""
+    for _ in range(14):
+        x = np.linspace(start, end, samples)
+        k = int(np.argmin([of(float(one)) for one in x]))
+        start, end, samples = x[max(k - 1, 0)], x[min(k + 1, samples - 1)], 9
+    return float((start + end) / 2)
+
 
 Flags: TypeAlias = NDArray[np.bool_]
 
@@ -392,3 +511,133 @@ class CamDesign(Struct, frozen=True, dict=True):
         at = self.geometry.at(np.array([phi]))
         point = complex((at.outer if outer else at.actual)[0])
         return Undercut(phi, phi - reach(-1), phi + reach(1), rho, point, outer)
+
+
+BOX_S, BOX_V, BOX_A = 50.0, 45.0, 60.0
+"""Greatest ordinates of the diagrams, mm."""
+
+MIN_S_HEIGHT = 25.0
+"""Least height of the diagram of s, mm: from it the profile is laid off."""
+
+
+class CamNode(Struct, frozen=True):
+    """A division of the axis of angles (точка деления): its number, phase and angle, rad."""
+
+    number: int
+    phase: CamPhase
+    phi: float
+    starts: bool
+
+
+class CamScales(Struct, frozen=True):
+    """Scales of the diagrams (масштабы): degrees per mm; m per mm of s, v_q, a_q.
+
+    ``region``: m per mm of s over v_q; ``profile``: of the profile. ``pole_v`` and ``pole_a`` are
+    the pole distances that follow, mm.
+    """
+
+    degree: float
+    s: float
+    v: float
+    a: float
+    region: float
+    profile: float
+
+    @property
+    def phi(self) -> float:
+        """Radians per mm."""
+        return radians(self.degree)
+
+    @property
+    def pole_a(self) -> float:
+        """Pole distance of the first integration, mm."""
+        return self.v / (self.a * self.phi)
+
+    @property
+    def pole_v(self) -> float:
+        """Pole distance of the second one, mm."""
+        return self.s / (self.v * self.phi)
+
+    def scale(self, name: str) -> Scale:
+        """Return the scale of s, v or a."""
+        return Scale(f"mu_{name}", float(getattr(self, name)), "m")
+
+
+def scales_of(
+    design: CamDesign, fraction: float = 1.0, region: float = 150.0, profile: float = 220.0
+) -> CamScales:
+    """Return scales from the series: diagrams by a factor, region and profile by size in mm."""
+    sizes = np.abs(
+        np.concatenate([ends(design.problem, one) for one in design.problem.stretches], 1)
+    )
+    s, v, a = sizes.max(axis=1)
+    boxes = ((s, fraction * BOX_S), (v, fraction * BOX_V), (a or s, fraction * BOX_A))
+    mu_s, mu_v, mu_a = (series_near(float(x) / mm, up=True) for x, mm in boxes)
+    mu_s = min(mu_s, series_near(float(s) / MIN_S_HEIGHT, up=False))
+    geometry = design.geometry
+    room = max(geometry.r_min + s, 2 * (a if is_plate(design) else v))
+    if design.problem.oscillates:
+        room = max(room, design.problem.arm + v, geometry.centre * is_plate(design))
+    wide = 2 * geometry.centre + geometry.roller if design.problem.oscillates else 0.0
+    line = outline(design)
+    wide = max(
+        wide, *(float(np.ptp(part)) + 2 * geometry.roller for part in (line.real, line.imag))
+    )
+    return CamScales(
+        angle_scale(180.0 / fraction), mu_s, mu_v, mu_a,
+        region=series_near(float(room) / region, up=True),
+        profile=series_near(wide / profile, up=True),
+    )  # fmt: skip
+
+
+def ends(problem: CamProblem, stretch: Stretch) -> Reals:
+    """Return s, v_q, a_q along a smooth part, its ends from within, shape (3, 33)."""
+    return problem.on(stretch, np.linspace(stretch.start, stretch.end, 33))
+
+
+def outline(design: CamDesign) -> Complexes:
+    """Return the theoretical profile and the outer side of a groove, in the frame of the cam, m."""
+    at = design.geometry.at(np.linspace(0.0, TURN, 721))
+    return np.concatenate([at.theoretical, at.outer])
+
+
+def is_plate(design: CamDesign) -> bool:
+    """Return whether the follower is flat-faced."""
+    return design.problem.contact is Contact.FLAT
+
+
+def nodes_of(problem: CamProblem) -> tuple[CamNode, ...]:
+    """Return the divisions of rise and return, numbered; a dwell has none of its own."""
+    found: list[CamNode] = []
+    for phase in (CamPhase.RISE, CamPhase.RETURN):
+        start, length = problem.starts[phase], problem.length(phase)
+        shared = bool(found) and problem.length(CamPhase.UPPER) == 0
+        for k in range(shared, problem.parts + 1):
+            phi = start + length * k / problem.parts
+            found.append(CamNode(len(found), phase, phi, starts=k == 0))
+    if problem.length(CamPhase.LOWER) == 0:
+        found.pop()  # the next turn begins
+    return tuple(found)
+
+
+def stretch_of(problem: CamProblem, node: CamNode) -> Stretch:
+    """Return the smooth part that a division ends, of the first one of a phase that it begins."""
+    own = [one for one in problem.stretches if one.phase is node.phase]
+    return next(one for one in own if node.starts or node.phi <= one.end + 1e-9)
+
+
+def motion_in_division(problem: CamProblem, node: CamNode) -> Reals:
+    """Return s, v_q, a_q in a division, m, from within its phase."""
+    return problem.on(stretch_of(problem, node), np.array(node.phi))
+
+
+def step_between(problem: CamProblem, start: float, end: float) -> float:
+    """Return the height of the step that replaces a_q between two divisions, m.
+
+    The ordinate in the middle; where a_q jumps between them, that of the same area.
+    """
+    slack = 1e-9
+    inside = [one.start for one in problem.stretches if start + slack < one.start < end - slack]
+    places = np.array([start, *inside, end])
+    heights = problem.at((places[1:] + places[:-1]) / 2)[2]
+    return float((heights * np.diff(places)).sum() / (end - start))

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.note.wording import Language
-    from planmethod.problem.question_quantities import QuestionQuantities
+    from planmethod.problem.records import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
 
 
@@ -31,13 +31,13 @@ class Cams(ProblemKind["CamProblem"]):
 
     def record(self, problem: CamProblem, lang: str) -> dict[str, Any]:
         """Return the record of ``solve --json``."""
-        from planmethod.cams.record import record
+        from planmethod.cams.text import record
 
         return record(problem, lang)
 
     def spreadsheet(self, problem: CamProblem) -> SpreadsheetRows:
         """Return the text of ``solve --csv``."""
-        from planmethod.cams.record import spreadsheet
+        from planmethod.cams.text import spreadsheet
 
         return spreadsheet(problem)
 
@@ -51,7 +51,7 @@ class Cams(ProblemKind["CamProblem"]):
         self, problem: CamProblem, language: Language, profile: Profile
     ) -> Document:
         """Return the document of ``protocol``."""
-        from planmethod.cams.protocol import protocol_document
+        from planmethod.cams.results import protocol_document
 
         return Document.of(protocol_document(problem, language, profile))
 
@@ -83,6 +83,6 @@ class Cams(ProblemKind["CamProblem"]):
 
     def question_quantities(self, problem: CamProblem) -> QuestionQuantities:
         """Return the quantities for questions to students."""
-        from planmethod.cams.question_quantities import CamQuantities
+        from planmethod.cams.results import CamQuantities
 
         return CamQuantities(problem)

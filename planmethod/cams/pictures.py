@@ -12,10 +12,8 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.cams.construction import CamConstruction
-from planmethod.cams.divisions import CamNode, is_plate
-from planmethod.cams.geometry import Complexes
-from planmethod.cams.laws import Reals
-from planmethod.cams.model import TURN, CamPhase, Closure, Contact
+from planmethod.cams.design import CamNode, is_plate
+from planmethod.cams.model import TURN, CamPhase, Closure, Complexes, Contact, Reals
 from planmethod.construct.scale import series_near
 from planmethod.construct.steps import IntersectLines, PointName
 from planmethod.note.wording import Language
@@ -33,7 +31,7 @@ from planmethod.render.pictures.diagram import (
 )
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead, fixed_pivot, guide_plates, revolute, turn_arrow
-from planmethod.render.symbols.dimensions import dimension
+from planmethod.render.symbols.marks import dimension
 
 PROFILE = "cam profile"
 """Tag of the actual profile; the theoretical one is ``cam profile theoretical``."""

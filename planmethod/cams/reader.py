@@ -9,17 +9,25 @@ from math import isclose, pi, radians
 from pathlib import Path
 from typing import Any
 
-from planmethod.cams.laws import CamLawName, UnitLaw, law_of
-from planmethod.cams.model import ArmSense, CamProblem, Closure, Contact, Follower
+from planmethod.cams.model import (
+    ArmSense,
+    CamLawName,
+    CamProblem,
+    Closure,
+    Contact,
+    Follower,
+    UnitLaw,
+    law_of,
+)
 from planmethod.errors import ProblemError
 from planmethod.languages import translate
 from planmethod.problem.answers import ComputedAnswerNames, read_answers
 from planmethod.problem.file_node import Faults, FileNode, needed
+from planmethod.problem.formula import measured
 from planmethod.problem.names import short
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
 from planmethod.problem.tables import CAM_EXAMPLE, CHOOSE, CamSection
-from planmethod.problem.units import measured
 
 TOP = ("title", "source", "units", "stamp", "sheet", "answers", "compare", "variants", "cam")
 """Tables of the file that a cam may have."""

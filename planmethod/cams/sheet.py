@@ -9,12 +9,10 @@ from itertools import product
 from msgspec import Struct
 from msgspec.structs import asdict, replace
 
-from planmethod.cams.construction import CamConstruction, construct
-from planmethod.cams.design import CamDesign
-from planmethod.cams.divisions import CamScales, scales_of
+from planmethod.cams.construction import CamConstruction, CamReadings, construct
+from planmethod.cams.design import CamDesign, CamScales, scales_of
 from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture, region_picture
-from planmethod.cams.readings import CamReadings
 from planmethod.cams.text import MM, checks, forces, given_facts, positions, sizes
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import Scale
@@ -25,11 +23,11 @@ from planmethod.note.formula import Rich
 from planmethod.note.wording import Language, get_language
 from planmethod.paper import STAMP_WIDTH
 from planmethod.problem.model import Scales
-from planmethod.render.frame.furniture import Furniture
+from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
-from planmethod.render.layout.cuttings import Group, LayoutItem
-from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.layout.pack import Group, LayoutItem
+from planmethod.render.layout.text_blocks import TableColumn, table_block
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
     Packing,

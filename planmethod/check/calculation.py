@@ -14,18 +14,19 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from planmethod.check.copied import detect_copied_variant
 from planmethod.check.explain import Explanation, ExplanationFit
-from planmethod.check.following import propagate_mistake
-from planmethod.check.grading import ExaminedAnswer, assign_verdicts, distance
-from planmethod.check.letters import normalize
+from planmethod.check.following import METRES, PLACES, UNITS, propagate_mistake
+from planmethod.check.grading import (
+    ExaminedAnswer,
+    assign_verdicts,
+    detect_copied_variant,
+    distance,
+)
 from planmethod.check.marks import Settings
 from planmethod.check.model import Diagnosis, Unread, Verdict, WrittenAnswer
-from planmethod.check.questions import Question, Sign
+from planmethod.check.questions import Question, Sign, normalize
 from planmethod.check.sheet import Sheet
-from planmethod.check.slips import METRES, PLACES, UNITS
-from planmethod.check.submissions.cells import mark_unreadable
-from planmethod.check.submissions.units import ratio
+from planmethod.check.submissions.cells import mark_unreadable, ratio
 from planmethod.check.task import Task, TaskItem
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
@@ -33,9 +34,15 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.kind import ProblemKind
 from planmethod.languages import translate
 from planmethod.plans.model import Plan
-from planmethod.problem.common import AnswerForm, KindProblem, QuestionSpec
-from planmethod.problem.question_quantities import AnswerValue, Mistaken, QuestionQuantities
-from planmethod.problem.selector import Selector
+from planmethod.problem.answers import Selector
+from planmethod.problem.records import (
+    AnswerForm,
+    AnswerValue,
+    KindProblem,
+    Mistaken,
+    QuestionQuantities,
+    QuestionSpec,
+)
 from planmethod.solved.selectors.steps import NoValue, NoValueError
 
 READ = "read"

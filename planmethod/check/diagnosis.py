@@ -8,7 +8,6 @@ from itertools import combinations
 
 from msgspec.structs import replace
 
-from planmethod.check.copied import detect_copied_variant
 from planmethod.check.explain import (
     ONE_MISTAKE,
     WIDE,
@@ -18,15 +17,29 @@ from planmethod.check.explain import (
     Fact,
     StudentNumbers,
 )
-from planmethod.check.following import follows, idle, propagate_mistake, rank, repoint, values_of
-from planmethod.check.grading import ExaminedAnswer, collect_student_values, facts_of
+from planmethod.check.following import (
+    Slip,
+    explain_by_value,
+    follows,
+    idle,
+    propagate_mistake,
+    rank,
+    repoint,
+    slips,
+    values_of,
+)
+from planmethod.check.grading import (
+    ExaminedAnswer,
+    collect_student_values,
+    detect_copied_variant,
+    facts_of,
+)
 from planmethod.check.key import SEGMENT_CODES
-from planmethod.check.mistakes.model import MistakeContext
+from planmethod.check.mistakes.plans import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Sheet
-from planmethod.check.slips import Slip, explain_by_value, slips
 from planmethod.check.task import Task
 from planmethod.plans.model import MOTION
 

@@ -17,7 +17,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.check.mistakes import changes
-from planmethod.check.mistakes.model import Change, MistakeContext
+from planmethod.check.mistakes.plans import Change, MistakeContext
 from planmethod.check.sheet import Local, Sheet, StudentValues
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program

@@ -1,21 +1,435 @@
-"""Consequences of a recognised mistake: it is counted once, where it begins (что следует)."""
+"""Slips with one number, and consequences of an answer: a mistake is counted once."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import NamedTuple, TypeVar
 
 from msgspec.structs import replace
 
 from planmethod.check.explain import Explanation, ExplanationFit
 from planmethod.check.grading import ExaminedAnswer, distance, usable
+from planmethod.check.key import SEGMENT_CODES
+from planmethod.check.mistakes.plans import Change, times
 from planmethod.check.model import Diagnosis, Verdict
-from planmethod.check.questions import RATES, Sign
-from planmethod.check.sheet import Sheet, single_point
-from planmethod.check.slips import completed
+from planmethod.check.questions import RATES, Question, Sign
+from planmethod.check.sheet import Sheet, single_float, single_point
 from planmethod.check.task import Task
-from planmethod.construct.steps import Name, PointName, operands, result_kind
-from planmethod.plans.model import FACTS
+from planmethod.construct.steps import (
+    Compute,
+    Name,
+    NumberName,
+    PointName,
+    Step,
+    operands,
+    result_kind,
+)
+from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.problem.answers import Selector
+
+METRES = (1e3, 1e-3)
+DEGREES = (180.0 / math.pi, math.pi / 180.0)
+TURNS = (30.0 / math.pi, math.pi / 30.0, 1.0 / math.pi, math.pi)
+UNITS = {"1/s": METRES + DEGREES + TURNS, "1/s²": METRES + DEGREES, "deg": METRES + DEGREES}
+"""Factors between units that are mixed up: mm and m, rev/min and 1/s, degrees and radians."""
+
+PLACES = (10.0, 0.1, 100.0, 0.01, 1e4, 1e-4)
+
+CLOSE = 0.03
+
+READ = 0.15
+"""Maximum relative error of misreading another segment; its likelihood follows from its errors."""
+
+
+ONE_END = 4.0
+"""Prior of reading a whole segment for its last part, relative to any other segment."""
+
+
+class Slip(NamedTuple):
+    """A possible slip in one number (описка).
+
+    Attributes
+    ----------
+    code, mistake_at : str
+    value : float
+        The number then, SI.
+    prior : float
+    of : float
+        The base value: the right one, or that from the student's own earlier numbers; 0 if the slip
+        has no base value.
+    segment : NumberName or None
+        Segment that is read in place of the right one.
+    """
+
+    code: str
+    mistake_at: str
+    value: float
+    prior: float
+    of: float = 0.0
+    segment: NumberName | None = None
+
+    def change(self, sheet: Sheet, one: ExaminedAnswer) -> Change | None:
+        """Return it as a mistake of the program; None if no step there computes the number."""
+        question = one.item.question
+        step = None if question.name is None else sheet.steps_by_name.get(question.name)
+        if not isinstance(step, Compute) or not self.of:
+            return None
+        steps: tuple[Step, ...] = times(step, float(f"{self.value / self.of:.9g}"))
+        read, last = self.segment, sheet.order[step.out]
+        earlier = read is not None and sheet.order.get(read, last) < last  # so it can be read
+        if read is not None and earlier and (question.length, 1) in step.powers:
+            steps = (read_in_place(sheet, step, question.length, read),)
+        return Change(self.code, self.mistake_at, {step.out: steps}, prior=self.prior)
+
+
+def read_in_place(
+    sheet: Sheet, step: Compute, right: NumberName | None, misread: NumberName
+) -> Compute:
+    """Return what a number is computed by when another segment is read; its sign stays."""
+    powers = tuple((misread if name == right else name, power) for name, power in step.powers)
+    turn = 1.0
+    for name in (right, misread):
+        if name is not None and single_float(sheet.exact_trace.value[name]) < 0:
+            turn = -turn
+    return replace(step, factor=step.factor * turn, powers=powers)
+
+
+def slips(sheet: Sheet, one: ExaminedAnswer) -> Iterator[Slip]:
+    """Yield what may have been done with one number."""
+    base = one.limit.exact if one.local is None else one.local
+    if one.value_from_mm:  # their own millimetres are the best evidence
+        base = math.copysign(one.value_from_mm, base)
+    if not base or not one.value:
+        return
+    ratio = abs(one.value / base)
+    slack = max(CLOSE, 1.5 * one.limit.tolerance() / abs(one.limit.exact or base))
+    slack = 0.5 * CLOSE if one.value_from_mm else slack
+
+    def matches(factor: float) -> bool:
+        return abs(ratio / factor - 1.0) <= min(slack, 0.3)
+
+    for factor in UNITS.get(one.item.question.unit, METRES):
+        if matches(factor):
+            yield Slip("S2", "", base * factor, 6.0, base)
+    for factor in PLACES:
+        if matches(factor):
+            yield Slip("S4", "", base * factor, 6.0, base)
+    for swapped in _swaps(one):
+        if abs(abs(swapped / base) - 1.0) <= min(slack, 0.05) and abs(ratio - 1.0) > slack:
+            yield Slip("S4", "", base * one.value / swapped, 0.2, base)
+    for where, factor in _operations(sheet, one):
+        if matches(factor):
+            yield Slip("slip", where, base * factor, 0.5, base)
+    yield from _scales(sheet, one, base)
+    if not one.slip:
+        yield from _segments(sheet, one, base, min(slack, 0.05))
+    question = one.item.question
+    if question.is_mm and question.plan is PlanKind.POSITION:
+        true = sheet.scales[FACTS[PlanKind.POSITION].scale] * 1000.0
+        if matches(true):
+            yield Slip("true_mm", "", base * true, 1.0, base)
+
+
+OPERATIONS = {"omega": ("v", "/"), "epsilon": ("a^{τ}", "/"), "v": ("ω", "·")}
+"""Quantity multiplied or divided by an arm: its letter, and the right operation."""
+
+
+def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]]:
+    """Yield what one wrong operation with the arm makes of a number: ``v·l ≠ v/l``, factor."""
+    kind = one.item.question.selector.kind
+    name = one.item.question.name
+    step = None if name is None else sheet.steps_by_name.get(name)
+    if kind not in OPERATIONS or not isinstance(step, Compute) or len(step.powers) < 2:
+        return
+    letter, operation = OPERATIONS[kind]
+    (first, power), *arm = step.powers
+    right = math.prod(abs(single_float(sheet.exact_trace.value[n])) ** p for n, p in arm)
+    if power != 1 or not right or (kind == "v" and not first.startswith("omega")):
+        return
+    length = right if operation == "·" else 1.0 / right
+    value = abs(one.local or one.limit.exact) / right
+    other = {"·": "/", "/": "·"}[operation]
+    text = f"{letter}{operation}l"
+    yield f"{letter}{other}l ≠ {text}", right**-2
+    if value:
+        yield f"l/{letter} ≠ {text}", length / value / (value * right)
+
+
+def _swaps(one: ExaminedAnswer) -> Iterator[float]:
+    """Yield the student's number with two neighbouring digits swapped back, SI."""
+    written, value = one.written.raw, one.written.value
+    digits = [m.start() for m in re.finditer(r"\d", written)]
+    if not value or not written or len(digits) > 8:
+        return
+    try:
+        shown = float(written.replace(",", "."))
+    except ValueError:
+        return
+    if not shown:
+        return
+    for first, second in pairwise(digits):
+        letters = list(written)
+        letters[first], letters[second] = letters[second], letters[first]
+        if letters != list(written):
+            yield float("".join(letters).replace(",", ".")) * value / shown
+
+
+def _scales(sheet: Sheet, one: ExaminedAnswer, base: float) -> Iterator[Slip]:
+    """Yield the value of the student's own millimetres at another scale."""
+    question, mm = one.item.question, one.mm
+    if not mm or question.is_mm or question.plan not in MOTION or one.value_from_mm is None:
+        return
+    own = sheet.scales[question.scale]
+    sign = math.copysign(1.0, base)
+    if abs(abs(one.value) * own / mm - 1.0) <= 0.01 and own != 1.0:
+        yield Slip("S1", question.scale, sign * mm / own, 20.0, base)
+    for plan in MOTION:
+        other = sheet.scales[FACTS[plan].scale]
+        share = abs(one.value_from_mm) / own * other
+        if other != own and abs(abs(one.value) / share - 1.0) <= 0.01:
+            yield Slip("S3", question.scale, sign * share, 20.0, base)
+
+
+def _segments(sheet: Sheet, one: ExaminedAnswer, base: float, tolerance: float) -> Iterator[Slip]:
+    """Yield the values of the other segments of the plan, read in place of the right one."""
+    question = one.item.question
+    length = sheet.length(question)
+    if not length or question.plan not in SEGMENT_CODES or question.sign is Sign.STRICT:
+        return
+    if one.foreign and one.value_from_mm is not None and not one.slip:
+        yield Slip(SEGMENT_CODES[question.plan], one.foreign, one.value, 200.0)
+        return
+    for name, other, read in [*_listed(sheet, question), *_wholes(sheet, question)]:
+        share = other / length
+        off = abs(abs(one.value / base) - share)
+        if (
+            abs(share - 1.0) > tolerance
+            and off <= (tolerance if one.value_from_mm else READ) * share > 0
+        ):
+            prior = ONE_END if read is None else 0.5
+            yield Slip(SEGMENT_CODES[question.plan], name, base * share, prior, base, read)
+
+
+def _listed(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, NumberName | None]]:
+    """Yield the segments of a plan that are measured: letters, length, what it is called."""
+    for segment in sheet.questions.construction.segments:
+        if segment.kind is question.plan and segment.length in sheet.exact_trace.value:
+            read = NumberName(segment.length)
+            yield segment.name, abs(single_float(sheet.exact_trace.value[read])), read
+
+
+def _wholes(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, NumberName | None]]:
+    """Yield what the right segment is the end of: of (nc), which is a^τ, (bc)."""
+    if question.ends is None:
+        return
+    part, head = question.ends
+    for plan in sheet.plans:
+        for vector in plan.vectors if plan.kind is question.plan else ():
+            if vector.head == part and vector.tail in sheet.exact_trace.value:
+                ends = (sheet.exact_trace.value[end] for end in (vector.tail, head))
+                yield (
+                    f"{vector.tail}-{head}",
+                    abs(single_point(next(ends)) - single_point(next(ends))),
+                    None,
+                )
+
+
+def explain_by_value(
+    sheet: Sheet,
+    one: ExaminedAnswer,
+    code: str,
+    mistake_at: str,
+    value: float,
+    prior: float,
+    *,
+    free: bool,
+) -> Explanation:
+    """Return an explanation by one changed number; its consequences are found by `completed`."""
+    question = one.item.question
+    return Explanation(
+        code,
+        mistake_at,
+        {**sheet.exact_answers, question.id: value},
+        sheet.exact_trace,
+        sheet,
+        first_answers=(one.item.id,),
+        free=question.id if free else "",
+        fixed="" if free else question.id,
+        sigma=_misread_sigma(one, value) if code in SEGMENT_CODES.values() else None,
+        prior=prior,
+    )
+
+
+def _misread_sigma(one: ExaminedAnswer, value: float) -> float:
+    """Return the sigma of a segment read in place of the right one."""
+    exact = abs(one.limit.exact)
+    return one.limit.sigma * (abs(value) / exact if exact else 1.0)
+
+
+def completed(explanation: Explanation, one: ExaminedAnswer) -> Explanation:
+    """Return an explanation of one number with all that follows from it on the right plans."""
+    if one.slot is None or explanation.change is not None:
+        return explanation
+    sheet, name = explanation.sheet, one.item.question.id
+    _, trace = sheet.replayed({one.slot: (abs(explanation.values[name]) / one.per_slot, False)})
+    values = {**sheet.evaluate_answers(trace), name: explanation.values[name]}
+    if not all(math.isfinite(number) for number in values.values()):
+        return explanation
+    return replace(explanation, values=values, trace=trace)
+
+
+Powers = Mapping[str, int]
+
+ROUTES: Mapping[str, tuple[Powers, ...]] = {
+    "v": ({"omega": 1}, {"v_q": 1}, {"v'": 1}),  # ω·l, v_q·ω₁; v'·l/l' of two points of a link
+    "omega": ({"v": 1}, {"u": 1}),  # v/l, u·ω₁
+    "an": ({"v": 2}, {"omega": 2}, {"v": 1, "omega": 1}),  # v²/l, ω²·l, v·ω
+    "at": ({"epsilon": 1},),  # ε·l
+    "epsilon": ({"at": 1},),  # a^τ/l
+    "a": ({"a'": 1},),  # a'·l/l'
+    "a=an": ({"v": 2}, {"omega": 2}, {"v": 1, "omega": 1}, {"an": 1}),  # only aⁿ
+    "ak": ({"omega": 1, "vs": 1},),  # 2·ω·v_r
+    "v_q": ({"v": 1},),  # v/ω₁
+    "u": ({"omega": 1},),  # ω/ω₁
+}
+"""Routes to a quantity of an arm, a point of a link that turns about a pivot or two points of one.
+
+A quantity with a prime is that of another arm of the same link. No route leads back: velocities do
+not follow from accelerations.
+"""
+
+Answer = TypeVar("Answer")
+
+QuantityKey = tuple[str, str, tuple[str, ...]]
+"""Kind, link, arm; empty arm for a quantity of a link."""
+
+
+def follow_routes(sheet: Sheet, examined: list[ExaminedAnswer], floor: float) -> None:
+    """Let a number that is not as the plans find it follow the ones that it was computed from.
+
+    Parameters
+    ----------
+    floor : float
+        Least share of a computed number that it may be off.
+    """
+    keys_of_answers = {
+        id(one): list(quantity_keys_of(sheet, one.item.question.selector)) for one in examined
+    }
+    told: dict[QuantityKey, ExaminedAnswer] = {}
+    for one in examined:
+        for quantity_key in keys_of_answers[id(one)]:
+            if one.limit.exact and one.value and not one.limit.zero:
+                told.setdefault(quantity_key, one)
+    for one in examined:
+        if not one.limit.exact or one.follows or (one.right and not one.contradicts):
+            continue
+        for quantity_key in keys_of_answers[id(one)]:
+            for powers in find_routes(sheet, quantity_key, told):
+                if one.routed or _would_circle(one, powers, examined):
+                    continue
+                try_powers(one, powers, floor)
+
+
+def try_powers(one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]], floor: float) -> None:
+    """Let an answer follow some others, if their product gives it to the digits written."""
+    if all(parent.right for parent, _ in powers):
+        return
+    local, rounding = one.limit.exact, 0.0
+    for parent, power in powers:
+        ratio = parent.value / parent.limit.exact
+        signed = parent.signed and one.item.question.sign is not Sign.SIZE
+        local *= (ratio if signed else abs(ratio)) ** power
+        rounding += abs(power) * parent.step / 2 / abs(parent.value)
+    slack = max(floor, rounding) * abs(local) + one.step / 2
+    turned = one.signed and one.value * local < 0
+    if turned or distance(one.item, one.value, local, signed=one.signed) > slack:
+        return
+    one.local, one.local_tolerance = local, slack
+    one.parents = {parent.item.id: abs(local) for parent, _ in powers}
+    one.follows = one.closely = one.computed = one.routed = True
+    one.contradicts = False
+
+
+def _would_circle(
+    one: ExaminedAnswer, powers: list[tuple[ExaminedAnswer, int]], examined: list[ExaminedAnswer]
+) -> bool:
+    """Return whether an answer would follow from its own consequence."""
+    by_id = {other.item.id: other for other in examined}
+    todo, seen = [parent for parent, _ in powers], set[str]()
+    while todo:
+        parent = todo.pop()
+        if parent is one:
+            return True
+        if parent.item.id not in seen:
+            seen.add(parent.item.id)
+            todo += [by_id[name] for name in parent.parents]
+    return False
+
+
+def find_routes(
+    sheet: Sheet, quantity_key: QuantityKey, answers: Mapping[QuantityKey, Answer]
+) -> Iterator[list[tuple[Answer, int]]]:
+    """Yield the answers with their powers by which a quantity can be computed."""
+    kind, link, arm = quantity_key
+    routes = ROUTES.get(kind, ())
+    if kind == "a" and _all_normal(sheet, link):
+        routes += ROUTES["a=an"]
+    for powers in routes:
+        found: list[list[tuple[Answer, int]]] = [[]]
+        for of, power in powers.items():
+            at = [
+                other
+                for (what, at_link, points), other in answers.items()
+                if what == of.rstrip("'")
+                and at_link == link
+                and (
+                    len(points) == len(arm) == 1 and points != arm
+                    if of.endswith("'")
+                    else points in ((), arm)
+                )
+            ]
+            found = [[*way, (other, power)] for way in found for other in at]
+        yield from found
+
+
+def _all_normal(sheet: Sheet, link: str) -> bool:
+    """Return whether the acceleration of a link's points is purely normal: ε is zero."""
+    kinematics = sheet.questions.construction.kinematics
+    return (
+        link not in kinematics.epsilon and not sheet.questions.solution.problem.drive.acceleration
+    )
+
+
+def quantity_keys_of(sheet: Sheet, selector: Selector) -> Iterator[QuantityKey]:
+    """Yield what a quantity is on its links."""
+    kind, names = selector.kind, selector.names
+    if selector.over is not None or not names:
+        return
+    if kind in RATES or kind == "u":
+        if len(names) == 1:
+            yield kind, names[0], ()
+        return
+    construction = sheet.questions.construction
+    if kind in ("vs", "ak"):
+        label = construction.kinematics.velocity.label
+        for relative in construction.kinematics.relatives.values():
+            pair = {label(relative.of, relative.point), label(relative.to, relative.point)}
+            if pair == {*names}:
+                yield kind, relative.to, tuple(sorted(names))
+        return
+    if kind not in ("v", "a", "an", "at", "v_q"):
+        return
+    for link, points in sheet.questions.links().items():
+        if not {*names} <= {*points}:
+            continue
+        free = tuple(sorted(name for name in names if not points[name]))
+        turns = any(points.values()) and bool(free)
+        if turns or len(names) == 2:
+            yield kind, link, free
+
 
 CLOSING = ("at", "epsilon", "vs")
 """Closing vectors of a plan: their error is that of the longer vectors, however short they are."""

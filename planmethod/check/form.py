@@ -16,8 +16,8 @@ from planmethod.check.submissions.gather import is_of
 from planmethod.check.submissions.xlsx_file import META
 from planmethod.note.wording import MessageTable, get_language
 from planmethod.note.writers.workbook import saved
-from planmethod.problem.common import KindProblem
-from planmethod.problem.units import ratio_of, read_unit
+from planmethod.problem.formula import ratio_of, read_unit
+from planmethod.problem.records import KindProblem
 
 SCHEMA = 1
 

@@ -27,10 +27,8 @@ from planmethod.construct.dual import angle, as_dual
 from planmethod.construct.evaluate import Substitution, Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName, Step
-from planmethod.plans.model import Plan
-from planmethod.plans.segments import Ends
-from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
-from planmethod.solved.errors.spread import Errors
+from planmethod.plans.model import Ends, Plan
+from planmethod.solved.errors.spread import RADIAN, Drafted, DrawnKind, DrawnQuantity, Errors
 from planmethod.solved.solution import at_positions
 
 DRAWS = 1000

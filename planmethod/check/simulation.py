@@ -13,14 +13,14 @@ import numpy as np
 import numpy.typing as npt
 from msgspec.structs import replace
 
+from planmethod.check.following import read_in_place
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes import changes
-from planmethod.check.mistakes.model import Change, MistakeContext, times
+from planmethod.check.mistakes.plans import Change, MistakeContext, times
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Sense, Submission, WrittenAnswer
 from planmethod.check.questions import Sign
 from planmethod.check.sheet import DIRECTIONS, Sheet
-from planmethod.check.slips import read_in_place
 from planmethod.check.task import Task, TaskItem
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import Sampled

@@ -12,22 +12,20 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.check.explain import Explanation, Explanations
-from planmethod.check.letters import normalize
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import Unread, WrittenAnswer
-from planmethod.check.questions import Question, Questions, Sign
+from planmethod.check.questions import Question, Questions, Sign, normalize
 from planmethod.check.sheet import Sheet
-from planmethod.check.submissions.cells import mark_unreadable
-from planmethod.check.submissions.units import ratio
+from planmethod.check.submissions.cells import mark_unreadable, ratio
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.plans.forces.board import SCALE
-from planmethod.plans.forces.loads import LoadKind
+from planmethod.plans.forces.polygons import LoadKind
 from planmethod.plans.model import PlanKind
-from planmethod.problem.common import DirectionMode, KindProblem, QuestionSpec
-from planmethod.problem.selector import Selector, SelectorError, is_force, parse_selector
-from planmethod.problem.units import ratio_of, read_unit
+from planmethod.problem.answers import Selector, SelectorError, is_force, parse_selector
+from planmethod.problem.formula import ratio_of, read_unit
+from planmethod.problem.records import DirectionMode, KindProblem, QuestionSpec
 from planmethod.solved.selectors.steps import NoValue, NoValueError
 from planmethod.solved.solution import Solution
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import LocalizedCommand
 from planmethod.commands.problems import (
     LoadedProblem,
     basename,
@@ -84,7 +84,7 @@ def animate(
         for fmt in formats:
             path = out / f"{basename(problem)}-animated.{fmt}"
             if fmt == "gif":
-                from planmethod.render.live.gif import gif
+                from planmethod.render.live.animation import gif
 
                 made[path] = gif(film, seconds, dpi)
             else:

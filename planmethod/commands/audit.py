@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import write_text
+from planmethod.commands.output import LocalizedCommand, write_text
 from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, guarded
 from planmethod.options import UsageError, lang_option, problem_options, ruler_option
 
 if TYPE_CHECKING:
-    from planmethod.problem.common import KindProblem
+    from planmethod.problem.records import KindProblem
 
 
 @click.command(cls=LocalizedCommand)
@@ -37,7 +36,7 @@ def audit(
     file: str | None,
 ) -> None:
     """Compare what the sources print with the exact values and with the ruler's."""
-    from planmethod.note.audit.audit import AuditDocument, audit as examine
+    from planmethod.note.audit import AuditDocument, audit as examine
 
     if file is not None and file.lower().endswith(".toml"):
         raise UsageError("-o would write over the problem file {}; name another one", file)

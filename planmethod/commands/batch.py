@@ -15,7 +15,7 @@ import click
 from msgspec import Struct, convert
 from msgspec.structs import asdict, replace
 
-from planmethod.commands.helptext import LocalizedCommand, answering
+from planmethod.commands.output import LocalizedCommand, answering
 from planmethod.commands.problems import (
     AT_ONCE_DRAWN,
     LoadedProblem,
@@ -207,7 +207,7 @@ def batch(
             raise UsageError(NEEDS) from None
     from planmethod.check.marks import DEFAULT, load_settings
     from planmethod.problem.sheet import Config
-    from planmethod.render.sheets.composition.reader import composition
+    from planmethod.render.sheets.composition import composition
     from planmethod.render.sheets.compositions import SHIPPED
 
     if not sheets and not keys:

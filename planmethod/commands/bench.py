@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import LocalizedCommand
 from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, guarded
 from planmethod.languages import translate
 from planmethod.options import UsageError, problem_options

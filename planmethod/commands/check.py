@@ -11,8 +11,7 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import bar, json_text
+from planmethod.commands.output import LocalizedCommand, bar, json_text
 from planmethod.commands.problems import (
     LoadedProblem,
     basename,
@@ -29,8 +28,8 @@ from planmethod.languages import current_language, translate
 from planmethod.options import PathType, UsageError, jobs_option, out_option, problem_lang_option
 
 if TYPE_CHECKING:
-    from planmethod.check.exchange.cloze import QuizQuestion
-    from planmethod.check.group import Variants
+    from planmethod.check.checking import Variants
+    from planmethod.check.exchange.quiz import QuizQuestion
     from planmethod.check.key import Key
     from planmethod.check.marks import Settings
     from planmethod.check.model import CheckFailure, GradedSubmission, Submission
@@ -147,15 +146,15 @@ def check(
     problem, *paths = files
     if not paths:
         raise UsageError("name a WORK after the PROBLEM, or ask for its --key")
-    from planmethod.check.group import Variants
+    from planmethod.check.checking import Variants
 
     variants = Variants(problem, settings, variant)
     found = _read(variants, paths, columns, layers)
     works = found.works
     checked = _checked(variants, works, jobs)
-    from planmethod.check.pages.compared import unread_lines
     from planmethod.check.pages.files import hidden_name
-    from planmethod.check.pages.overrides import apply_overrides, read_overrides
+    from planmethod.check.pages.listing import apply_overrides, read_overrides
+    from planmethod.check.pages.student import unread_lines
     from planmethod.note.wording import get_language
 
     hidden = {hidden_name(work.student, salt): work.student for work in works} if anonymize else {}
@@ -198,7 +197,7 @@ def check(
 def _reject_names(path: Path, hidden: Mapping[str, str]) -> None:
     """Reject hidden names beside a file of the instructor that has them."""
     from planmethod.check.pages.folder import RunFolder
-    from planmethod.check.pages.overrides import students_of
+    from planmethod.check.pages.listing import students_of
 
     named = students_of(path) - hidden.keys()
     if named and not RunFolder(path.parent).owns(path.name):
@@ -283,7 +282,7 @@ def _read(
     """Read the submissions of files; an unreadable one is reported and the others continue."""
     from planmethod.check.checking import failure_of
     from planmethod.check.exchange.responses import read_columns
-    from planmethod.check.measured.layers import read_layers
+    from planmethod.check.measured.drawing import read_layers
     from planmethod.check.model import CheckFailure
     from planmethod.check.submissions import SubmissionError
 
@@ -334,8 +333,8 @@ def _read_file(
 
 
 def _checked(variants: Variants, works: list[Submission], jobs: int) -> list[GradedSubmission]:
-    from planmethod.check.copied import mark_similar_submissions
-    from planmethod.check.group import check_works
+    from planmethod.check.checking import check_works
+    from planmethod.check.grading import mark_similar_submissions
 
     if jobs > 1 and len(works) > jobs:
         parts = _in_processes(variants, works, jobs)
@@ -393,7 +392,7 @@ def check_part(
     settings: Settings,
 ) -> list[GradedSubmission]:
     """Check some of the submissions of a group."""
-    from planmethod.check.group import Variants, check_works
+    from planmethod.check.checking import Variants, check_works
 
     return list(check_works(Variants(problem, settings, variant), part))
 
@@ -436,8 +435,8 @@ def _write_results(
 
     Returns whether any of it failed.
     """
+    from planmethod.check.checking import keys_of
     from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
-    from planmethod.check.group import keys_of
     from planmethod.check.pages.files import anonymous, write_all
     from planmethod.note.wording import get_language
 
@@ -522,7 +521,7 @@ def _write_keys(
         if found and not as_questions and not files_wanted.as_json:
             _write_key(path, [one.key for one in found], files_wanted)
     if files_wanted.as_json:
-        from planmethod.check.exchange.keyrecord import key_record
+        from planmethod.check.exchange.quiz import key_record
 
         click.echo(json_text([key_record(one.key) for one in whole]))
     questions = [one.question for one in whole if one.question is not None]
@@ -533,8 +532,7 @@ def _write_keys(
 
 def _write_questions(questions: list[QuizQuestion], key_files: KeyFiles) -> None:
     """Write the questions for a learning management system."""
-    from planmethod.check.exchange.cloze import moodle_xml
-    from planmethod.check.exchange.gift import gift
+    from planmethod.check.exchange.quiz import gift, moodle_xml
     from planmethod.note.wording import get_language
     from planmethod.render.backends.output import write
 
@@ -566,7 +564,7 @@ def key_question(
 
     Without ``mistakes`` it has none, which saves half of the time.
     """
-    from planmethod.check.group import task_of_problem
+    from planmethod.check.checking import task_of_problem
     from planmethod.check.key import key_of_task
 
     task = task_of_problem(item.kind, item.problem, settings)
@@ -575,7 +573,7 @@ def key_question(
     key = key_of_task(task, named=None if mistakes else lambda _: ())
     if lang is None:
         return KeyQuestion(key, None)
-    from planmethod.check.exchange.variant import question_of
+    from planmethod.check.exchange.quiz import question_of
     from planmethod.note.wording import get_language
 
     return KeyQuestion(key, question_of(task, item.kind, get_language(lang)))
@@ -583,7 +581,7 @@ def key_question(
 
 def keys_ahead(items: Sequence[LoadedProblem], settings: Settings) -> dict[int, KeyQuestion]:
     """Return the keys of linkages with the same questions, by their numbers."""
-    from planmethod.check.batch import compute_keys
+    from planmethod.check.key import compute_keys
 
     keys = of_linkages(items, lambda problems: compute_keys(problems, settings))
     return {k: KeyQuestion(key, None) for k, key in keys.items()}

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from planmethod.check.group import Variants, check_works
-from planmethod.check.pages.compared import compared_document, unread_lines
+from planmethod.check.checking import Variants, check_works
+from planmethod.check.pages.student import compared_document, unread_lines
 from planmethod.check.submissions import read_works
 from planmethod.commands.problems import language_of_file
 from planmethod.errors import Fault, ProblemError

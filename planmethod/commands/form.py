@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import LocalizedCommand
 from planmethod.commands.problems import basename, finish, for_each_problem, guarded, language_of
 from planmethod.options import (
     PathType,
@@ -94,8 +94,8 @@ def form(
 
 def _read_names(path: Path) -> list[str]:
     """Return the names of the students, one in each line of a text."""
-    from planmethod.check.submissions.csv_file import decoded
-    from planmethod.check.submissions.faults import read_bytes
+    from planmethod.check.submissions.cells import read_bytes
+    from planmethod.check.submissions.table import decoded
 
     lines = decoded(read_bytes(path), path).splitlines()
     found = [" ".join(line.split()) for line in lines if line.strip()]

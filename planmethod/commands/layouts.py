@@ -6,8 +6,7 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import reject_unknown, write_new
+from planmethod.commands.output import LocalizedCommand, reject_unknown, write_new
 from planmethod.commands.problems import guarded
 from planmethod.options import PathType, lang_option
 

@@ -10,8 +10,7 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import json_text
+from planmethod.commands.output import LocalizedCommand, json_text
 from planmethod.commands.problems import (
     LoadedProblem,
     basename,
@@ -92,7 +91,7 @@ def lint(
     project draws. Exit code 0 if the sheets need no correction, 1 if there are errors. The codes:
     docs/normcontrol.md.
     """
-    from planmethod.render.sheets.composition.reader import composition
+    from planmethod.render.sheets.composition import composition
 
     if structural and (phi is not None or errors or sigma or layout is not None):
         raise UsageError(
@@ -129,7 +128,7 @@ def lint(
 def inspect_problem(item: LoadedProblem, options: LintOptions) -> tuple[dict[str, Any] | None, int]:
     """Inspect the sheets of a problem; return the record, if requested, and the error count."""
     from planmethod.render.control.remarks import Severity
-    from planmethod.render.sheets.control_report import control_record, control_text, counted
+    from planmethod.render.sheets.controlled import control_record, control_text, counted
 
     problem = options.request.over(item.problem)
     what, sheets = _inspected_sheets(replace(item, problem=problem), options)

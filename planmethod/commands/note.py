@@ -6,8 +6,7 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import show
+from planmethod.commands.output import LocalizedCommand, show
 from planmethod.commands.problems import basename, guarded
 from planmethod.commands.project_context import load_project, note_options
 from planmethod.commands.sheet_options import PaperRequest, sheet_options

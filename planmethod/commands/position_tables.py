@@ -21,8 +21,7 @@ from planmethod.languages import translate
 from planmethod.options import Positions, UsageError, drawn_by
 
 if TYPE_CHECKING:
-    from planmethod.note.records.npz import SolvedArrays
-    from planmethod.note.records.spreadsheet import SpreadsheetRows
+    from planmethod.note.records.spreadsheet import SolvedArrays, SpreadsheetRows
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.many.positions import Gaps
@@ -151,7 +150,7 @@ def reject_huge_array(sweep: GappedSweep) -> None:
 
 def write_arrays_file(sweeps: list[GappedSweep | SolvedArrays], file: str) -> None:
     """Write sweeps into one file; names of several begin with the variant or the problem."""
-    from planmethod.note.records.npz import SolvedArrays, swept_arrays, write_arrays
+    from planmethod.note.records.spreadsheet import SolvedArrays, swept_arrays, write_arrays
     from planmethod.render.backends.output import opened
 
     prefixes = _prefixes([made.problem for made in sweeps])

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.kind import ProblemKind
     from planmethod.options import Positions
-    from planmethod.problem.common import KindProblem
     from planmethod.problem.model import Problem
+    from planmethod.problem.records import KindProblem
     from planmethod.solved.machine.flywheel import Flywheel
     from planmethod.solved.solution import Solution
 
@@ -149,7 +149,7 @@ def _read(path: Path, variant: str | None, all_variants: bool) -> Iterator[Probl
 
 def _warn_of_working_stroke(problem: Problem) -> None:
     """Warn of a working stroke on which the loads do not do their work."""
-    from planmethod.note.plaintext import plain_text
+    from planmethod.note.document import plain_text
     from planmethod.solved.solution import Solution
     from planmethod.solved.turn.cycle import crank_cycle_of
 

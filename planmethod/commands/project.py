@@ -11,8 +11,7 @@ import click
 import msgspec
 from msgspec import Struct
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import bar, json_text, show
+from planmethod.commands.output import LocalizedCommand, bar, json_text, show
 from planmethod.commands.problems import basename, guarded, message_name, warn_of_wide_flywheel
 from planmethod.commands.project_context import load_project, note_options
 from planmethod.commands.sheet_options import PaperRequest, sheet_options
@@ -27,12 +26,11 @@ from planmethod.options import (
     out_option,
     position_option,
 )
-from planmethod.problem.cycle_records import PROJECT_PARTS
+from planmethod.problem.machine_records import PROJECT_PARTS
 
 if TYPE_CHECKING:
-    from planmethod.project.model import Project, ProjectPart, SheetEntry
     from planmethod.project.notes import NoteOptions
-    from planmethod.project.record import PartFiles
+    from planmethod.project.settle import PartFiles, Project, ProjectPart, SheetEntry
     from planmethod.render.ink.drawing import Drawing
 
 Files = dict[str, bytes]
@@ -122,7 +120,7 @@ def project(
     them or none. Files of an earlier project of that name that are not made again are removed.
     """
     from planmethod.project.notes import NoteOptions
-    from planmethod.project.record import project_record
+    from planmethod.project.settle import project_record
     from planmethod.render.backends.output import write_all
 
     settled = request.resolve()
@@ -185,8 +183,7 @@ def _make_parts(
     All sheets are drawn, whichever are requested: they are numbered as one set. An unrequested one
     that cannot be drawn does not stop the others, and is not counted.
     """
-    from planmethod.project.model import PartName
-    from planmethod.project.record import PartFiles
+    from planmethod.project.settle import PartFiles, PartName
     from planmethod.project.sheets import numbered_set, sheet_list
 
     parts = chosen.parts

@@ -15,7 +15,7 @@ from planmethod.options import UsageError, drawn_by
 
 if TYPE_CHECKING:
     from planmethod.commands.sheet_options import ResolvedRequest
-    from planmethod.project.model import Project
+    from planmethod.project.settle import Project
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -51,9 +51,8 @@ def load_project(
         It is not a linkage.
     """
     from planmethod.kinds import kind_of
-    from planmethod.problem.cycle_records import ProjectTask
-    from planmethod.project.settle import settle
-    from planmethod.project.train import warn_of_separate_train
+    from planmethod.problem.machine_records import ProjectTask
+    from planmethod.project.settle import settle, warn_of_separate_train
 
     kind = kind_of(path)
     if kind is not None:

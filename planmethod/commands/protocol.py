@@ -6,8 +6,7 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import write_text
+from planmethod.commands.output import LocalizedCommand, write_text
 from planmethod.commands.problems import (
     LoadedProblem,
     basename,

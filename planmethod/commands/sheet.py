@@ -10,8 +10,13 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import show, write_drawings, write_set
+from planmethod.commands.output import (
+    LocalizedCommand,
+    show,
+    watch_option,
+    write_drawings,
+    write_set,
+)
 from planmethod.commands.problems import (
     LoadedProblem,
     basename,
@@ -27,7 +32,6 @@ from planmethod.commands.problems import (
     warn_of_wide_flywheel,
 )
 from planmethod.commands.sheet_options import PaperRequest, ResolvedRequest, sheet_options
-from planmethod.commands.watch import watch_option
 from planmethod.errors import LayoutError
 from planmethod.languages import translate
 from planmethod.options import (
@@ -95,7 +99,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
         There are more positions than fit on small paper.
     """
     from planmethod.problem.model import Scales
-    from planmethod.solved.sheet_estimate import FEW
+    from planmethod.solved.legibility import FEW
 
     asked = problem.drive.positions if positions is None else positions
     if len(asked) > FEW:
@@ -166,7 +170,7 @@ def sheet(
     shown: bool,
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
-    from planmethod.render.sheets.composition.reader import composition
+    from planmethod.render.sheets.composition import composition
 
     if compact:
         if layout is not None:
@@ -266,19 +270,19 @@ def _drawn_positions(problem: Problem, options: SheetOptions) -> list[float] | N
         return [float(place) for place in options.phi]
     if options.layout is None or not problem.drive.goes_round:
         return None
-    from planmethod.render.sheets.composition.reader import composition
+    from planmethod.render.sheets.composition import composition
 
     if not composition(options.layout).cycle:
         return None
     from planmethod.solved.solution import Solution
-    from planmethod.solved.turn.numbering import numbered_positions
+    from planmethod.solved.turn.extremes import numbered_positions
 
     return [float(place) for place in numbered_positions(Solution(problem))]
 
 
 def _warn_of_unused_positions(problem: Problem, layout: str) -> None:
     """Warn that the sheets of the cycle leave the positions of a file without [cycle] out."""
-    from planmethod.render.sheets.composition.reader import composition
+    from planmethod.render.sheets.composition import composition
 
     drive = problem.drive
     if problem.cycle is not None or not drive.goes_round or len(drive.positions) < 2:
@@ -287,7 +291,7 @@ def _warn_of_unused_positions(problem: Problem, layout: str) -> None:
         return
     from planmethod.problem.model import SAME_DEG
     from planmethod.solved.solution import Solution
-    from planmethod.solved.turn.numbering import numbered_positions
+    from planmethod.solved.turn.extremes import numbered_positions
 
     positions = numbered_positions(Solution(problem)).tolist()
     apart = [abs((a - b + 180.0) % 360.0 - 180.0)
@@ -311,7 +315,7 @@ def _warn_of_unused_positions(problem: Problem, layout: str) -> None:
 def _has_forces(layout: str | None) -> bool:
     """Return whether the sheets show forces, or results of them."""
     from planmethod.render.sheets.blocks import has_forces
-    from planmethod.render.sheets.composition.reader import composition
+    from planmethod.render.sheets.composition import composition
 
     return layout is not None and any(
         has_forces(entry.kind) for entry in composition(layout).blocks
@@ -320,7 +324,7 @@ def _has_forces(layout: str | None) -> bool:
 
 def _has_flywheel(layout: str | None) -> bool:
     """Return whether the sheets show the sizes of a flywheel."""
-    from planmethod.render.sheets.composition.reader import composition
+    from planmethod.render.sheets.composition import composition
 
     return layout is not None and any(
         entry.kind == "flywheel" for entry in composition(layout).blocks
@@ -352,7 +356,7 @@ def drawn_for(
         return kind.drawings(
             item.problem, fields=fields, profile=profile, before=before, total=total
         )
-    from planmethod.render.frame.furniture import Furniture
+    from planmethod.render.frame import Furniture
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
     problem, positions = item.linkage, None if phi is None else phi.tolist()

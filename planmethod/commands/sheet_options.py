@@ -17,7 +17,7 @@ from planmethod.languages import current_language, named_language
 from planmethod.options import BadParameter, PathType, UsageError
 
 if TYPE_CHECKING:
-    from planmethod.problem.common import KindProblem, SheetSettings
+    from planmethod.problem.records import KindProblem, SheetSettings
     from planmethod.problem.sheet import Config
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -61,8 +61,8 @@ class PaperRequest(Struct, frozen=True):
         LayoutError
             A field of the options is unknown.
         """
-        from planmethod.problem.common import SheetSettings
-        from planmethod.render.frame.titleblock import check_fields
+        from planmethod.problem.records import SheetSettings
+        from planmethod.render.frame import check_fields
 
         check_fields(self.fields)
         return ResolvedRequest(self.fields, self._config(), SheetSettings(**self.sheet))  # type: ignore[arg-type]
@@ -99,7 +99,7 @@ class ResolvedRequest(Struct, frozen=True):
         The title of the problem outranks one of the config file: it is what the sheets show. The
         language is the one that the user names, else that of the files, else that of messages.
         """
-        from planmethod.render.frame.titleblock import merged
+        from planmethod.render.frame import merged
 
         config = self.config
         own = {"title": problem.title} if problem.title else {}
@@ -146,8 +146,8 @@ def read_fields(
     """Return the fields of the title block given as ``author=Иванов``."""
     if not value:
         return {}
-    from planmethod.problem.common import STAMP_LIMIT
     from planmethod.problem.file_node import Faults, FileNode
+    from planmethod.problem.records import STAMP_LIMIT
 
     fields, faults = {}, Faults()
     for field in value:

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import show, write_drawings
+from planmethod.commands.output import LocalizedCommand, show, watch_option, write_drawings
 from planmethod.commands.problems import (
     fail,
     finish,
@@ -16,7 +15,6 @@ from planmethod.commands.problems import (
     names_of,
     variants_of,
 )
-from planmethod.commands.watch import watch_option
 from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
 from planmethod.languages import translate
 from planmethod.options import (

@@ -12,8 +12,13 @@ from typing import TYPE_CHECKING, Any
 import click
 from msgspec import Struct
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import JsonTexts, json_text, write_parts
+from planmethod.commands.output import (
+    JsonTexts,
+    LocalizedCommand,
+    json_text,
+    watch_option,
+    write_parts,
+)
 from planmethod.commands.position_tables import (
     HINT,
     MAX_SHOWN_ROWS,
@@ -38,7 +43,6 @@ from planmethod.commands.problems import (
     solution_of,
     warn_of_change_points,
 )
-from planmethod.commands.watch import watch_option
 from planmethod.errors import ExitCode
 from planmethod.languages import translate
 from planmethod.options import (
@@ -59,10 +63,9 @@ from planmethod.options import (
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.kind import ProblemKind
-    from planmethod.note.records.npz import SolvedArrays
-    from planmethod.note.records.spreadsheet import SpreadsheetRows
-    from planmethod.problem.common import KindProblem
+    from planmethod.note.records.spreadsheet import SolvedArrays, SpreadsheetRows
     from planmethod.problem.model import Problem
+    from planmethod.problem.records import KindProblem
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.many.variants import Batch
     from planmethod.solved.solution import Solution
@@ -270,7 +273,7 @@ def solve(
     found: list[Any] = []
     code = run(on_result=found.append)
     if found and covariance_file is not None:
-        from planmethod.note.records.covariance import covariance_text
+        from planmethod.note.records.solution import covariance_text
 
         write_parts([covariance_text(found)], covariance_file)
     if found and csv_file is not None:
@@ -324,7 +327,7 @@ def _convert_batch(options: SolveOptions, batch: Batch) -> Iterator[Any]:
 
         return batch_records(batch)
     if options.npz:
-        from planmethod.note.records.npz import batch_arrays
+        from planmethod.note.records.spreadsheet import batch_arrays
 
         return batch_arrays(batch)
     from planmethod.note.records.spreadsheet import batch_tables
@@ -356,7 +359,7 @@ def _computed(
     phi, referee = options.phi, options.referee
     hand = drawn_by(options.profile, options.ruler)  # a train needs no arrays
     if options.npz and _batch_solver(options) is not None and _is_short(problem):
-        from planmethod.note.records.npz import solved_arrays
+        from planmethod.note.records.spreadsheet import solved_arrays
 
         return solved_arrays(solution_of(problem, None, hand, hint=HINT, forces=True))
     if options.npz or options.quantities is not None:

@@ -7,8 +7,7 @@ from typing import Literal
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import write_drawings
+from planmethod.commands.output import LocalizedCommand, write_drawings
 from planmethod.commands.problems import guarded
 from planmethod.commands.sheet_options import lettering_option, stamp_option
 from planmethod.languages import translate

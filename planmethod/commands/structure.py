@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import json_text, write_drawings
+from planmethod.commands.output import LocalizedCommand, json_text, write_drawings
 from planmethod.commands.problems import (
     LoadedProblem,
     basename,
@@ -29,7 +28,7 @@ from planmethod.options import (
 
 if TYPE_CHECKING:
     from planmethod.kind import ProblemKind
-    from planmethod.problem.common import KindProblem
+    from planmethod.problem.records import KindProblem
 
 
 @click.command(cls=LocalizedCommand)
@@ -56,7 +55,7 @@ def structure(
     from planmethod.note.wording import get_language
     from planmethod.note.writers.terminal import plain_document
     from planmethod.solved.aligned.schemes import self_aligning
-    from planmethod.solved.analysed import structure_of
+    from planmethod.solved.assembly_modes import structure_of
 
     drawn = not as_json and not no_drawing
     settled = request.resolve() if drawn else None
@@ -69,7 +68,7 @@ def structure(
         found = structure_of(problem)
         aligned = self_aligning(problem, found)
         if as_json:
-            from planmethod.note.records.aligned import structure_in_full
+            from planmethod.note.records.solution import structure_in_full
 
             head = {"schema": 1, "problem": problem.name}
             whole = {**head, "structure": structure_in_full(found, problem.mechanism, aligned)}

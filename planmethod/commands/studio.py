@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 from msgspec.structs import replace
 
-from planmethod.commands.helptext import LocalizedCommand
+from planmethod.commands.output import LocalizedCommand
 from planmethod.commands.problems import guarded
 from planmethod.languages import translate
 from planmethod.options import NumberRange, PathType, UsageError, lang_option
@@ -141,7 +141,7 @@ def settings_of(
     import secrets
 
     from planmethod.render.sheets.compositions import SHIPPED
-    from planmethod.studio.limits import LOCAL_LIMITS, PUBLIC_LIMITS
+    from planmethod.studio.requests import LOCAL_LIMITS, PUBLIC_LIMITS
     from planmethod.studio.server import StudioSettings
     from planmethod.studio.sessions import Desk
 
@@ -171,7 +171,7 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
     import uvicorn
 
     from planmethod.commands.studio_jobs import act
-    from planmethod.studio.connections import PatientProtocol
+    from planmethod.studio.door import PatientProtocol
     from planmethod.studio.server import application
     from planmethod.studio.sessions import served_folder
 

@@ -1,8 +1,4 @@
-"""Worker side of the studio, which runs the commands in a separate process (работа студии).
-
-Every function gets its request as plain data and returns plain data; files go into the folder of
-the request, which the server chose.
-"""
+"""Worker side of the studio, which runs the commands in a separate process (работа студии)."""
 
 from __future__ import annotations
 
@@ -11,18 +7,62 @@ import json
 import re
 from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout, suppress
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from planmethod.commands.capture import run
-from planmethod.commands.helptext import answering
+from planmethod.commands.output import answering
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.languages import translate
 
 if TYPE_CHECKING:
     from planmethod.solved.partial_mechanism import MechanismPart
+
+
+_BAR = re.compile(r"planmethod\s+\[[^\]\r\n]*+\]\s+(\d++)%[^\r\n]*")
+_ORDERS = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]")
+MAX_TEXT = 400_000
+"""Maximum number of characters that are kept of a command's output."""
+
+
+class _ProgressReader(io.StringIO):
+    """Standard error of a command with a progress bar, which is reported, not kept."""
+
+    def __init__(self, on_progress: Callable[[float], None]) -> None:
+        super().__init__()
+        self._told = on_progress
+
+    def isatty(self) -> bool:
+        """Return True, as for a terminal."""
+        return True
+
+    def write(self, text: str) -> int:
+        """Report the progress of the bar; keep all other text."""
+        text = _ORDERS.sub("", text)
+        for share in _BAR.findall(text):
+            self._told(int(share) / 100)
+        super().write(_BAR.sub("", text).replace("\r", ""))
+        return len(text)
+
+
+def run(name: str, *args: str, on_progress: Callable[[float], None]) -> dict[str, Any]:
+    """Run a command as the command line does; return its output and exit code."""
+    command = getattr(import_module(f"planmethod.commands.{name}"), name)
+    printed, errors, code = io.StringIO(), _ProgressReader(on_progress), 0
+    with redirect_stdout(printed), redirect_stderr(errors):
+        try:
+            found = command.main(list(args), standalone_mode=False, prog_name=f"planmethod {name}")
+            code = found if isinstance(found, int) else 0
+        except SystemExit as end:
+            code = end.code if isinstance(end.code, int) else 1
+    return {
+        "code": int(code),
+        "output": printed.getvalue()[:MAX_TEXT],
+        "errors": errors.getvalue().strip()[:MAX_TEXT],
+    }
+
 
 StudioRequest = dict[str, Any]
 StudioResponse = dict[str, Any]
@@ -93,7 +133,7 @@ def _reject_unsupported(request: StudioRequest) -> None:
 
 
 def _report_faults(request: StudioRequest, faults: Any, *, placed: bool = True) -> StudioResponse:
-    from planmethod.studio.places import place_of
+    from planmethod.studio.requests import place_of
 
     text, told = request.get("text", ""), []
     for fault in faults:
@@ -280,7 +320,7 @@ def sheets(job: StudioRequest, _: ProgressCallback) -> StudioResponse:
 
 
 def _page(drawing: Any, lang: str) -> dict[str, Any]:
-    from planmethod.note.plaintext import plain_text
+    from planmethod.note.document import plain_text
     from planmethod.note.wording import get_language
     from planmethod.plans.model import FACTS
 
@@ -361,8 +401,8 @@ def command(request: StudioRequest, on_progress: ProgressCallback) -> StudioResp
 
 def questions(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     """Return the questions without the answers."""
+    from planmethod.check.checking import key_of_problem
     from planmethod.check.form import list_form_rows, unit_factor
-    from planmethod.check.group import key_of_problem
     from planmethod.check.marks import DEFAULT
     from planmethod.commands.problems import for_each_problem
     from planmethod.note.wording import get_language
@@ -411,13 +451,15 @@ def verdicts(request: StudioRequest, on_progress: ProgressCallback) -> StudioRes
 
 def checked(request: StudioRequest, on_progress: ProgressCallback) -> StudioResponse:
     """Check the uploaded submissions, with the manually set scores."""
-    from planmethod.check.pages.listing import safe
-    from planmethod.check.pages.overrides import COLUMNS
+    from planmethod.check.pages.listing import OVERRIDE_COLUMNS, safe
 
     path, folder = _file(request), Path(request["folder"])
     out = folder / OUT
     by_hand = folder / "overrides.csv"
-    rows = [COLUMNS, *([str(row.get(key, "")) for key in COLUMNS] for row in request["by_hand"])]
+    rows = [
+        OVERRIDE_COLUMNS,
+        *([str(row.get(key, "")) for key in OVERRIDE_COLUMNS] for row in request["by_hand"]),
+    ]
     by_hand.write_bytes(_csv(rows))
     variant = ["--variant", request["variant"]] if request.get("variant") else []
     found = run(

@@ -12,8 +12,13 @@ from typing import Any, Literal
 import click
 from click.core import ParameterSource
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import json_text, reject_unknown, write_drawings, write_new
+from planmethod.commands.output import (
+    LocalizedCommand,
+    json_text,
+    reject_unknown,
+    write_drawings,
+    write_new,
+)
 from planmethod.commands.problems import finish, guarded
 from planmethod.commands.sheet_options import PaperRequest, sheet_options
 from planmethod.errors import ExitCode

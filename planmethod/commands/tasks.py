@@ -7,8 +7,7 @@ from itertools import groupby
 import click
 from msgspec.structs import asdict
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import json_text
+from planmethod.commands.output import LocalizedCommand, json_text
 from planmethod.commands.problems import guarded
 from planmethod.options import UsageError, lang_option
 

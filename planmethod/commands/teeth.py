@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import reject_unknown, write_new
+from planmethod.commands.output import LocalizedCommand, reject_unknown, write_new
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
 from planmethod.options import BadParameter, PathType, UsageError, lang_option
@@ -139,8 +138,12 @@ def teeth(
     U_1_2 for pair, U_1_3 for two-stage. Exit code 1 if no set fits. More: docs/gears.md.
     """
     from planmethod.gears.teeth import SCHEMES, TeethSpecification
-    from planmethod.gears.teeth_report import problem_text, selection_document, selection_record
-    from planmethod.gears.teeth_selection import choose
+    from planmethod.gears.teeth_selection import (
+        choose,
+        problem_text,
+        selection_document,
+        selection_record,
+    )
     from planmethod.note.document import Document
     from planmethod.note.wording import get_language
     from planmethod.note.writers.terminal import plain_document

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.helptext import LocalizedCommand
-from planmethod.commands.output import bar
+from planmethod.commands.output import LocalizedCommand, bar
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
 from planmethod.languages import translate
@@ -91,9 +90,8 @@ def variants(
     from planmethod.note.wording import get_language
     from planmethod.note.writers.terminal import plain_document
     from planmethod.render.backends.output import write
-    from planmethod.varying.candidates import csv_of
-    from planmethod.varying.choice import choose
-    from planmethod.varying.report import report_choice
+    from planmethod.varying.choice import choose, report_choice
+    from planmethod.varying.parameters import csv_of
 
     if out is not None and out.suffix.lower() not in (".csv", ".toml"):
         raise UsageError("{}: a table *.csv or a problem file *.toml is written", out)

@@ -5,7 +5,6 @@ it does is known to the modules below alone.
 """
 
 from planmethod.compiled.runner import FEW, Array, Runner
-from planmethod.compiled.symbolic import Symbol, TapeProgram, write
-from planmethod.compiled.tape import Ref
+from planmethod.compiled.tape import Ref, Symbol, TapeProgram, write
 
 __all__ = ["FEW", "Array", "Ref", "Runner", "Symbol", "TapeProgram", "write"]

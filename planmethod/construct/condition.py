@@ -1,10 +1,4 @@
-"""Condition numbers: how much the data's last bit moves a result (числа обусловленности).
-
-The reach of a result y on data d is ``|y| + sum |∂y/∂d_i · d_i|``: u times it is what one rounding
-of every datum and of the result costs, whatever formulas are used. The reach over ``|y|`` is the
-condition number κ; a result good to a few u·κ·|y| is as good as its data let it be. Zeros and
-scales are exact and do not count; of a complex datum both coordinates count.
-"""
+"""Condition numbers: how much the data's last bit moves a result; the multiprecision reading."""
 
 from __future__ import annotations
 
@@ -14,12 +8,71 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.construct.arithmetic import Number
+from planmethod.construct.arithmetic import Exact, Number
 from planmethod.construct.dual import Dual, Duals, as_dual
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.multiprecision import Precise
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name
+
+DIGITS = 50
+"""Default number of decimal digits of the high-precision check."""
+
+
+class Precise(Exact):
+    """Numbers of mpmath, one position at a time.
+
+    It has its own context, so that a precision set elsewhere does not change its results.
+
+    Parameters
+    ----------
+    digits : int
+        Decimal digits carried.
+    """
+
+    __slots__ = ("_right", "context", "digits")
+
+    def __init__(self, digits: int = DIGITS) -> None:
+        from mpmath import MPContext
+
+        self.digits = digits
+        self.context: Any = MPContext()
+        self.context.dps = digits
+        self._right = self.context.pi / 180
+
+    def lift(self, value: Number) -> Number:
+        """Turn given data, binary fractions taken as they are, into a number of the context."""
+        return self.context.convert(value.item() if hasattr(value, "item") else value)
+
+    def root(self, value: Number) -> Number:
+        """Return the square root, 0 of a negative number."""
+        return self.context.sqrt(value) if value > 0 else self.context.zero
+
+    def guard(self, margin: Number, limit: float, value: Number) -> Number:
+        """Return the value if ``margin > limit``, else NaN."""
+        return value if margin > limit else value * self.context.nan
+
+    def nonzero(self, value: Number) -> Number:
+        """Return the value, NaN in place of zero."""
+        return self.context.nan if value == 0 else value
+
+    def direction_margin(self, length: Number) -> Number:
+        """Return 1 if a length is not zero, else 0."""
+        return self.context.one if length != 0 else self.context.zero
+
+    def unless_zero(self, size: Number, value: Number, fallback: Number) -> Number:
+        """Return ``fallback`` if ``size`` is zero, else ``value``."""
+        return fallback if size == 0 else value
+
+    def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
+        """Return the smaller and the larger of two real numbers."""
+        return (one, two) if one < two else (two, one)
+
+    def direction(self, degrees: Number) -> Number:
+        """Return the unit complex number at an angle; exact at quadrants."""
+        quadrant = int(self.context.nint(degrees / 90))
+        cosine, sine = self.context.cos_sin((degrees - 90 * quadrant) * self._right)
+        return self.context.mpc(cosine, sine) * (1, 1j, -1, -1j)[quadrant % 4]
+
 
 UNIT_ROUNDOFF = 2.0**-53
 """u: half the distance of 1 to the next float64."""

@@ -1,20 +1,4 @@
-"""Drafting errors: random deviations of every stroke and their sizes (чертёжник).
-
-The strokes and their standard deviations are those of a `Profile`. One set of strokes is read in
-two ways: with dual numbers, which carry every error to every result to first order and keep all
-correlations (`Propagated`), and with random draws, its check (`Sampled`).
-
-How each step errs, sigma by sigma:
-
-- a given point, a point where lines meet, a similar point: pricked ``point`` off in x and in y;
-- a line through two points: the ruler lies ``point`` off across at either of them, so that its
-  direction errs by sqrt(2)·point/length;
-- a line through a point: ``point`` off across at the point, turned by ``parallel`` from the line it
-  is parallel or perpendicular to, or from the angle of the protractor;
-- an arc: its centre errs like a pricked point, its radius is taken off the ruler to ``lay_off``;
-- a length: laid off to ``lay_off`` and pricked ``point`` beside its line; read to ``measure`` and
-  rounded to the ruler's step.
-"""
+"""Draughtsmen: random and expected deviations of every stroke; the ruler (чертёжник)."""
 
 from __future__ import annotations
 
@@ -26,13 +10,46 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from msgspec import Struct
+from msgspec import Struct, field
 
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.dual import CauseRows, Dual, Duals, as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Program
-from planmethod.construct.ruler import RulerArithmetic
+
+# no messages: mistakes in a program
+
+
+class RulerArithmetic(Float64, Struct, frozen=True):
+    """Draughtsman who draws exactly and reads with a ruler (чертёжник с линейкой).
+
+    Every length read on the drawing is rounded to the nearest ``ruler`` step, ties away from zero
+    as a person reads; values computed from it propagate along the construction.
+
+    Attributes
+    ----------
+    ruler : float, mm
+        Step of the ruler (цена деления).
+    enlargements : mapping of str to Number
+        Enlargement of a length relative to its scale, by its name: it is read on an enlarged view
+        or on a plan with its own scale, where the ruler's step is that many times finer.
+    """
+
+    ruler: float = 0.5
+    enlargements: Mapping[str, Number] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.ruler) and self.ruler > 0):
+            raise ValueError(f"ruler step must be positive, got {self.ruler}")
+
+    def ruled(self, length: Number) -> Number:
+        """Return the length rounded to the ruler step, keeping its sign."""
+        return np.sign(length) * np.floor(np.abs(length) / self.ruler + 0.5) * self.ruler
+
+    def read(self, out: str, length: Number) -> Number:
+        """Return the length rounded to the ruler step, which is finer where it is enlarged."""
+        times = self.enlargements.get(out)
+        return self.ruled(length) if times is None else self.ruled(length * times) / times
 
 
 class Profile(Struct, frozen=True):

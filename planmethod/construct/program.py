@@ -1,10 +1,8 @@
-"""Program of construction steps: single assignment, checked when it is made."""
-
-# no messages: mistakes in a program
+"""Program of construction steps: single assignment, checked when it is made, and rewritten."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from itertools import islice
 
@@ -44,6 +42,8 @@ from planmethod.construct.steps import (
     result_kind,
 )
 from planmethod.errors import ProgramError
+
+# no messages: mistakes in a program
 
 
 class Program(Struct, frozen=True):
@@ -310,3 +310,59 @@ class Builder(Struct):
         name = NumberName(out)
         self.steps.append(Compute(name, factor, powers, size))
         return name
+
+
+# no messages: mistakes in a program
+
+
+def substituted(program: Program, names: Iterable[Name]) -> Program:
+    """Return a program in which some points and numbers are given instead of made.
+
+    Their values are then data of the program, beside its own: points in mm, numbers in their unit.
+
+    Raises
+    ------
+    ProgramError
+        No step makes a name, or the step makes a line: a line is determined by its points.
+    """
+    given = set(names)
+    unknown = given - {step.out for step in program.steps}
+    if unknown:
+        raise ProgramError(f"no step makes {', '.join(sorted(unknown))}")
+
+    def change(step: Step) -> Step:
+        if step.out not in given:
+            return step
+        if result_kind(step) is PointName:
+            return GivenPoint(PointName(step.out))
+        if result_kind(step) is NumberName:
+            return GivenNumber(NumberName(step.out))
+        raise ProgramError(f"{step.out} is a line: give a point of it, or a number")
+
+    return rewritten(program, change)
+
+
+def rewritten(program: Program, change: Callable[[Step], Step | tuple[Step, ...]]) -> Program:
+    """Return a program with every step changed or kept.
+
+    Parameters
+    ----------
+    change : callable
+        Takes a step and returns its replacement: the same step, or another one that makes the same
+        name of the same kind from earlier results; or several, the last of which does.
+
+    Raises
+    ------
+    ProgramError
+        A step makes another name or kind than the one it replaces, or uses a name that is made
+        later.
+    """
+    steps: list[Step] = []
+    for before in program.steps:
+        changed = change(before)
+        several = changed if isinstance(changed, tuple) else (changed,)
+        after = several[-1]
+        if (after.out, result_kind(after)) != (before.out, result_kind(before)):
+            raise ProgramError(f"{after.out} cannot replace {before.out}")
+        steps.extend(several)
+    return Program(tuple(steps))

@@ -8,10 +8,10 @@ from fractions import Fraction
 from msgspec import Struct
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.gears.conditions import max_planets
 from planmethod.gears.meshes import fraction
 from planmethod.gears.model import GearProblem, Train
 from planmethod.gears.motion import TrainMotion
+from planmethod.gears.solution import max_planets
 from planmethod.gears.teeth import SCHEMES, TeethSet, TeethSpecification, TrainScheme
 from planmethod.languages import translate
 from planmethod.problem.tables import PlanetaryTask

@@ -16,23 +16,22 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.drafting import Profile, sigmas
+from planmethod.construct.drafting import Profile, RulerArithmetic, sigmas
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Builder, Program
-from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.errors import PlanMethodError
-from planmethod.gears.motion import TrainMotion
-from planmethod.gears.requested_quantities import parse
-from planmethod.gears.velocity_diagrams import (
+from planmethod.gears.model import parse
+from planmethod.gears.motion import (
     ContactKind,
     ContactPoint,
+    TrainMotion,
     VelocityDiagrams,
     carrier_of,
 )
 from planmethod.languages import translate
 from planmethod.note.compared import ComparedNumber
-from planmethod.solved.detail_views import SHORT, WIDEST, DetailView, min_enlarged, ratio_for
+from planmethod.solved.legibility import SHORT, WIDEST, DetailView, min_enlarged, ratio_for
 
 LETTERS = "abcdefghklmnqrstuvwxz"
 """Letters of contact points, in the order of the meshes; ``p`` is the pole."""

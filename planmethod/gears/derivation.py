@@ -15,9 +15,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import PlanMethodError
-from planmethod.gears.model import Mesh, MeshKind
+from planmethod.gears.model import Mesh, MeshKind, RequestedQuantity, parse
 from planmethod.gears.motion import TrainMotion, mesh_row
-from planmethod.gears.requested_quantities import RequestedQuantity, parse
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import Language, MessageTable

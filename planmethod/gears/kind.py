@@ -12,9 +12,9 @@ from planmethod.note.document import Document, GivenFact
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.gears.model import GearProblem
-    from planmethod.note.audit.audit import Audited
+    from planmethod.note.audit import Audited
     from planmethod.note.wording import Language
-    from planmethod.problem.question_quantities import QuestionQuantities
+    from planmethod.problem.records import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
 
 
@@ -84,7 +84,7 @@ class GearTrains(ProblemKind["GearProblem"]):
 
     def audited(self, problem: GearProblem, ruler: float) -> list[Audited]:
         """Return printed values beside the exact ones and those read with a ruler."""
-        from planmethod.gears.audit import audited
+        from planmethod.gears.results import audited
 
         return audited(problem, ruler)
 
@@ -97,12 +97,12 @@ class GearTrains(ProblemKind["GearProblem"]):
 
     def scheme(self, problem: GearProblem) -> Drawing | None:
         """Return the side view; None where it cannot be drawn."""
-        from planmethod.gears.drawn.side_view_only import draw_scheme
+        from planmethod.gears.side_view import draw_scheme
 
         return draw_scheme(problem)
 
     def question_quantities(self, problem: GearProblem) -> QuestionQuantities:
         """Return the quantities that students can be asked for."""
-        from planmethod.gears.question_quantities import TrainQuantities
+        from planmethod.gears.results import TrainQuantities
 
         return TrainQuantities(problem)

@@ -23,11 +23,10 @@ from msgspec.structs import replace
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import Fault, ProblemError
 from planmethod.gears.construction import construct, read
-from planmethod.gears.drawn.views import angular, linear
 from planmethod.gears.model import DiagramSettings, GearProblem, Mesh, MeshKind
-from planmethod.gears.motion import solve_motion
+from planmethod.gears.motion import draw, solve_motion
 from planmethod.gears.scheme import Rim, SchemeData
-from planmethod.gears.velocity_diagrams import draw
+from planmethod.gears.views import angular, linear
 from planmethod.languages import translate
 from planmethod.note.wording import get_language
 from planmethod.render.backends.canvas import Options

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 
 from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
-from planmethod.gears.answers import answer
 from planmethod.gears.comparison import compare
 from planmethod.gears.construction import (
     POLE,
@@ -17,16 +16,16 @@ from planmethod.gears.construction import (
     construct,
     read,
 )
-from planmethod.gears.model import GearProblem
-from planmethod.gears.requested_quantities import parse
+from planmethod.gears.model import GearProblem, parse
+from planmethod.gears.motion import ContactKind, draw
 from planmethod.gears.sheet import as_drawn
 from planmethod.gears.sheet_texts import calculation, measured_quantities, train_facts, unit_of
+from planmethod.gears.solution import answer
 from planmethod.gears.text import compared_sentences, compared_table
-from planmethod.gears.velocity_diagrams import ContactKind, draw
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
 from planmethod.note.formula import Rich, escape, fraction
-from planmethod.note.narrate.formulas import view_name
+from planmethod.note.narrate.naming import view_name
 from planmethod.note.narrate.narrator import Line, StepNarrator
 from planmethod.note.numbers import Notation, half_up, raised
 from planmethod.note.wording import Language, MessageTable

@@ -19,16 +19,20 @@ from planmethod.gears.meshes import (
     read_meshes,
     read_wheels,
 )
-from planmethod.gears.model import DiagramSettings, GearProblem, Train
-from planmethod.gears.requested_quantities import RequestedQuantityError, parse
+from planmethod.gears.model import (
+    DiagramSettings,
+    GearProblem,
+    RequestedQuantityError,
+    Train,
+    parse,
+)
 from planmethod.languages import translate
 from planmethod.problem import keys
-from planmethod.problem.answers import ComputedAnswerNames, read_answers
-from planmethod.problem.common import Published
+from planmethod.problem.answers import ComputedAnswerNames, read_answers, read_published
 from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.names import fold, is_label
 from planmethod.problem.reader import varied
-from planmethod.problem.selector import read_published
+from planmethod.problem.records import Published
 from planmethod.problem.sheet import read_head
 from planmethod.problem.tables import PictureSection, PlanetaryTask
 

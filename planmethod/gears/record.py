@@ -7,16 +7,13 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from planmethod.gears.answers import Answer, answer, named, rack_speed
 from planmethod.gears.comparison import PlanetaryComparison, compare
-from planmethod.gears.conditions import conditions, sentence
-from planmethod.gears.model import GearProblem
-from planmethod.gears.motion import TrainMotion, analyse, solve_motion
-from planmethod.gears.requested_quantities import parse
-from planmethod.gears.velocity_diagrams import draw
+from planmethod.gears.model import GearProblem, parse
+from planmethod.gears.motion import TrainMotion, analyse, draw, solve_motion
+from planmethod.gears.solution import Answer, answer, conditions, named, rack_speed, sentence
 from planmethod.note.records.legend import legend_record
 from planmethod.note.wording import get_language
-from planmethod.problem.common import KindProblem, reading_record
+from planmethod.problem.records import KindProblem, reading_record
 
 
 def record(problem: GearProblem, lang: str) -> dict[str, Any]:

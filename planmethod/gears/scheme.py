@@ -1,12 +1,13 @@
-"""Content of the scheme of a train: wheels in columns, axes at their heights (данные схемы)."""
+"""Content of the side view of a train, and its layout along the axes (компоновка схемы)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from enum import Enum
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, permutations
 
-from msgspec import Struct
+from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
@@ -338,3 +339,339 @@ def _has_no_overlap(column: Mapping[str, Rim], *rims: Rim) -> bool:
         if (b - a < EPS or d - c < EPS) and low + EPS < point < high - EPS:
             return False
     return True
+
+
+# Costs of an arrangement
+_IMPOSSIBLE = 100.0  # two bodies of one axis in each other's way
+_CROSSED = 30.0  # a shaft runs through a wheel, a web or an arm
+_HOLLOW = 3.0  # a body about another one's shaft
+_HIDDEN = 1.0  # an input or an output that does not come out at an end
+_LONG = 0.2  # a shaft, for each station that it passes
+_BACK = 0.3  # a pair of columns in another order than in the file
+
+
+class AxisPart(Enum):
+    """The part at a station (что на месте)."""
+
+    RIMS = "rims"
+    WEB = "web"
+    ARM = "arm"
+    APEX = "apex"  # where the axis of a bevel wheel across the others meets them
+
+
+class Station(Struct, frozen=True):
+    """A place along the axes: the rims of a column, a web of a ring, an arm, an apex.
+
+    ``offset`` is its place from the apex of its column, mm.
+    """
+
+    part: AxisPart
+    column: int
+    rims: tuple[Rim, ...] = ()
+    body: str = ""
+    offset: float = 0.0
+    transverse: TransverseBody | None = None
+
+
+class Stub(Struct, frozen=True):
+    """Place where a body meets the frame: a bearing, or the ground of a fixed body (опора).
+
+    Attributes
+    ----------
+    gap : int
+        After the station of this number; -1 is left of all.
+    rank : float
+        Order of the stubs of one axis in the gap.
+    """
+
+    body: str
+    gap: int
+    rank: float
+
+
+class Arrangement(Struct, frozen=True, dict=True):
+    """Ordered stations, and the layout that follows from their order (расстановка).
+
+    Attributes
+    ----------
+    stations : tuple of Station
+        From left to right.
+    """
+
+    scheme: SchemeData
+    stations: tuple[Station, ...]
+
+    @cached_property
+    def at(self) -> Mapping[str, tuple[int, ...]]:
+        """Stations that a body has on its own axis, by number, sorted."""
+        found: dict[str, set[int]] = {}
+        over, fixed = self.scheme.over, self.scheme.motion.train.fixed
+        for number, station in enumerate(self.stations):
+            if station.part is not AxisPart.RIMS and station.body:
+                found.setdefault(station.body, set()).add(number)
+            for rim in station.rims if station.part is AxisPart.RIMS else ():
+                if not rim.ring:
+                    found.setdefault(rim.body, set()).add(number)
+        for number, station in enumerate(self.stations):
+            if station.part is AxisPart.ARM:
+                for body, carrier in over.items():
+                    if carrier == station.body:
+                        found.setdefault(body, set()).add(number)
+        for body in fixed:  # a ring alone is held by its rim
+            if not found.get(body, True):
+                found.pop(body)
+        return {body: tuple(sorted(numbers)) for body, numbers in found.items()}
+
+    @cached_property
+    def blocked(self) -> frozenset[int]:
+        """Gaps that the frame does not reach: within a rotating set, or within a ring."""
+        spans: list[set[int]] = []
+        for number, station in enumerate(self.stations):
+            if station.part is AxisPart.WEB:
+                rims = next(
+                    k
+                    for k, other in enumerate(self.stations)
+                    if other.part is AxisPart.RIMS and other.column == station.column
+                )
+                spans.append({number, rims})
+            if station.part is AxisPart.APEX:
+                own = [k for k, s in enumerate(self.stations) if s.column == station.column]
+                spans.append(set(own))
+            if station.part is AxisPart.ARM:
+                carried = {b for b, c in self.scheme.over.items() if c == station.body}
+                own = [
+                    k
+                    for k, other in enumerate(self.stations)
+                    if any(rim.body in carried for rim in other.rims)
+                ]
+                spans.append({number, *own})
+        return frozenset(gap for span in spans for gap in range(min(span), max(span)))
+
+    @cached_property
+    def stubs(self) -> Mapping[str, Stub]:
+        """Bearing or ground of each body that turns about a fixed axis."""
+        train, found = self.scheme.motion.train, {}
+        last = len(self.stations) - 1
+        free = [gap for gap in range(-1, last + 1) if gap not in self.blocked]
+        for body, numbers in self.at.items():
+            if body in self.scheme.over:
+                continue
+            low, high = numbers[0], numbers[-1]
+            near = [gap for gap in free if low - 1 <= gap <= high]
+            near = near or [max(g for g in free if g < low), min(g for g in free if g > high)]
+            ends = last if body == train.output and body not in train.inputs else -1
+            far = {gap: self._stub_cost(body, gap) + 0.2 * (gap != ends) for gap in near}
+            gap = min(near, key=far.__getitem__)
+            passed = 0.02 * max(low - 1 - gap, gap - high, 0)
+            inside = low <= gap < high
+            rank = 0.5 if inside else 0.7 - passed if gap < low else 0.3 + passed
+            found[body] = Stub(body, gap, rank)
+        return found
+
+    def _stub_cost(self, body: str, gap: int) -> float:
+        """Return the cost of a stub of a body in a gap: other bodies block its way."""
+        low, high = self.at[body][0], self.at[body][-1]
+        start, end = min(low, gap + 0.5), max(high, gap + 0.5)
+        passed = sum(
+            any(start < k < end for k in self.at[other])
+            for other in self.scheme.coaxial_bodies[body]
+            if other in self.at
+        )
+        return max(low - 1 - gap, gap - high, 0) + 3 * passed + 0.1 * (low <= gap < high)
+
+    @cached_property
+    def reach(self) -> Mapping[str, tuple[float, float]]:
+        """Both ends of each body's shaft, in stations."""
+        found = {}
+        for body, numbers in self.at.items():
+            ends: list[float] = list(numbers)
+            if body in self.stubs:
+                ends.append(self.stubs[body].gap + self.stubs[body].rank)
+            found[body] = min(ends), max(ends)
+        return found
+
+    def inner(self, body: str) -> list[str]:
+        """Return the bodies whose shafts pass through a body of the same axis."""
+        same = (other for other in self.scheme.coaxial_bodies[body] if other in self.reach)
+        return [other for other in same if self._is_about(body, other)]
+
+    def _is_about(self, body: str, inner: str) -> bool:
+        """Return whether a body can turn about the shaft of another one."""
+        low, high = self.reach[body]
+        a, b = self.reach[inner]
+        return a < low and high < b and not any(low <= k <= high for k in self.at[inner])
+
+    def verticals(self) -> Iterator[tuple[int, float, float, str]]:
+        """Yield the parts perpendicular to the axes: station, lower and upper height, body."""
+        for number, station in enumerate(self.stations):
+            match station.part:
+                case AxisPart.ARM:
+                    heights = [self.scheme.heights[station.body], *self.arms(station.body)]
+                    yield number, min(heights), max(heights), station.body
+                case AxisPart.WEB:
+                    (ring,) = station.rims
+                    for way in ring.mesh_sides:
+                        ends = sorted((ring.centre, ring.centre + way * ring.reach(way)))
+                        yield number, ends[0], ends[1], ring.body
+                case AxisPart.APEX:
+                    assert station.transverse is not None
+                    tops = [cone.rim.centre + cone.rim.radius for cone in station.transverse.cones]
+                    feet = [cone.rim.centre for cone in station.transverse.cones]
+                    yield number, min(feet), max(tops), station.body or station.transverse.body
+                case AxisPart.RIMS:
+                    for rim in station.rims:
+                        yield from ((number, a, b, rim.body) for a, b in rim.spans() if b > a)
+
+    def arms(self, carrier: str) -> list[float]:
+        """Return the heights of the axes that a carrier carries."""
+        return [self.scheme.heights[b] for b, c in self.scheme.over.items() if c == carrier]
+
+    def crosses(self, number: int, low: float, high: float, body: str) -> Iterator[str]:
+        """Yield the bodies whose shafts pass through a part perpendicular to the axes."""
+        for other, (a, b) in self.reach.items():
+            inside = low + EPS < self.scheme.heights[other] < high - EPS
+            carried = self.scheme.over.get(other) == body
+            if other != body and not carried and inside and a < number < b:
+                yield other
+
+    @cached_property
+    def cost(self) -> float:
+        """Cost that the search minimizes."""
+        cost = 0.0
+        for one, other in combinations(self.reach, 2):
+            (a, b), (c, d) = self.reach[one], self.reach[other]
+            if other not in self.scheme.coaxial_bodies[one] or b < c or d < a:
+                continue
+            about = self._is_about(one, other) or self._is_about(other, one)
+            cost += _HOLLOW if about else _IMPOSSIBLE
+        for vertical in self.verticals():
+            cost += _CROSSED * sum(1 for _ in self.crosses(*vertical))
+        train = self.scheme.motion.train
+        last = len(self.stations) - 1
+        for body, stub in self.stubs.items():
+            if body in train.inputs or body == train.output:
+                cost += _HIDDEN * (stub.gap not in (-1, last))
+        cost += _LONG * sum(b - a for a, b in self.reach.values())
+        order = [s.column for s in self.stations if s.part is AxisPart.RIMS]
+        return cost + _BACK * sum(one > two for one, two in combinations(order, 2))
+
+
+MAX_ORDERS = 24
+"""Orders of the columns that the search begins from."""
+
+
+class ColumnOrder(Struct, frozen=True):
+    """A candidate order: columns, and the column and side of each web and arm."""
+
+    order: tuple[int, ...]
+    webs: tuple[tuple[int, str, int], ...] = field(default=())
+    arms: tuple[tuple[str, int, int], ...] = field(default=())
+    turns: tuple[int, ...] = ()
+
+    def stations(self, scheme: SchemeData) -> tuple[Station, ...]:
+        """Return the stations from left to right."""
+        stations: list[Station] = []
+        for column in self.order:
+            if column >= len(scheme.columns):
+                across = scheme.transverse_bodies[column - len(scheme.columns)]
+                stations += _apex(column, across, self.turns[column - len(scheme.columns)])
+                continue
+            left: list[Station] = []
+            right: list[Station] = []
+            for carrier, at, side in self.arms:
+                if at == column:
+                    (right if side > 0 else left).append(Station(AxisPart.ARM, column, (), carrier))
+            for at, label, side in self.webs:
+                if at == column:
+                    ring = next(rim for rim in scheme.columns[column] if rim.label == label)
+                    station = Station(AxisPart.WEB, column, (ring,), ring.body)
+                    (right if side > 0 else left).append(station)
+            rims = Station(AxisPart.RIMS, column, scheme.columns[column])
+            stations += [*left[::-1], rims, *right]
+        return tuple(stations)
+
+    def neighbours(self, scheme: SchemeData) -> Iterator[ColumnOrder]:
+        """Yield the orders that differ in one thing."""
+        for i, j in combinations(range(len(self.order)), 2):
+            for start, end in ((i, j), (j, i)):
+                order = list(self.order)
+                order.insert(end, order.pop(start))
+                yield replace(self, order=tuple(order))
+        for k, turn in enumerate(self.turns):
+            yield replace(self, turns=(*self.turns[:k], -turn, *self.turns[k + 1 :]))
+        for k, (at, label, side) in enumerate(self.webs):
+            yield replace(self, webs=_with_item(self.webs, k, (at, label, -side)))
+        for k, (carrier, at, side) in enumerate(self.arms):
+            for column in _columns_of(scheme, carrier):
+                for turned in (side, -side):
+                    if (column, turned) != (at, side):
+                        yield replace(
+                            self, arms=_with_item(self.arms, k, (carrier, column, turned))
+                        )
+
+
+def _apex(column: int, transverse: TransverseBody, turn: int) -> list[Station]:
+    """Return the stations of a body across: level wheels on both sides of the apex."""
+    stations = [
+        Station(AxisPart.RIMS, column, (cone.rim,), offset=cone.side * turn * cone.radius)
+        for cone in transverse.cones
+    ]
+    stations.append(
+        Station(AxisPart.APEX, column, (), transverse.carrier or "", transverse=transverse)
+    )
+    return sorted(stations, key=lambda station: station.offset)
+
+
+def _with_item(items: tuple, k: int, one: tuple) -> tuple:  # type: ignore[type-arg]
+    return (*items[:k], one, *items[k + 1 :])
+
+
+def _columns_of(scheme: SchemeData, carrier: str) -> list[int]:
+    return [
+        number
+        for number, column in enumerate(scheme.columns)
+        if any(scheme.over.get(rim.body) == carrier for rim in column)
+    ]
+
+
+def best_order(scheme: SchemeData) -> ColumnOrder:
+    """Return the best order of the stations, by local search from several initial orders."""
+    train, columns = scheme.motion.train, scheme.columns
+    webs = tuple(
+        (number, rim.label, -1)
+        for number, column in enumerate(columns)
+        for rim in column
+        if rim.ring and rim.body not in train.fixed
+    )
+    arms = tuple(
+        (carrier, _columns_of(scheme, carrier)[-1], 1)
+        for carrier in train.carriers
+        if _columns_of(scheme, carrier)
+    )
+    best: ColumnOrder | None = None
+    costs: dict[ColumnOrder, float] = {}
+
+    def cost(order: ColumnOrder) -> float:
+        if order not in costs:
+            costs[order] = Arrangement(scheme, order.stations(scheme)).cost
+        return costs[order]
+
+    blocks = range(len(columns) + len(scheme.transverse_bodies))
+    turns = (1,) * len(scheme.transverse_bodies)
+    count = MAX_ORDERS // max(1, len(blocks) - 3) ** 2
+    for first, _ in zip(permutations(blocks), range(max(count, 1)), strict=False):
+        order = ColumnOrder(first, webs, arms, turns)
+        while True:
+            better = min(order.neighbours(scheme), key=cost, default=order)
+            if cost(better) >= cost(order) - EPS:
+                break
+            order = better
+        if best is None or cost(order) < cost(best) - EPS:
+            best = order
+    assert best is not None
+    return best
+
+
+def arrange(scheme: SchemeData, order: ColumnOrder | None = None) -> Arrangement:
+    """Return the stations of a scheme in an order, in the best one where none is given."""
+    return Arrangement(scheme, (order or best_order(scheme)).stations(scheme))

@@ -12,11 +12,15 @@ from msgspec.structs import replace
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale, series_near
 from planmethod.errors import LayoutError
-from planmethod.gears.arrangement import ColumnOrder, arrange, best_order
 from planmethod.gears.comparison import PlanetaryComparison, compare
 from planmethod.gears.construction import GearDrawing, GearReading, construct, read
-from planmethod.gears.drawn.side import SideView
-from planmethod.gears.drawn.views import (
+from planmethod.gears.model import DiagramSettings, GearProblem
+from planmethod.gears.motion import TrainMotion, draw, solve_motion
+from planmethod.gears.scheme import ColumnOrder, SchemeData, arrange, best_order
+from planmethod.gears.sheet_texts import calculation, results, train_facts
+from planmethod.gears.side_view import SideView
+from planmethod.gears.text import compared_sentences, compared_table
+from planmethod.gears.views import (
     RAYS_POLE,
     angular,
     angular_spans,
@@ -25,30 +29,20 @@ from planmethod.gears.drawn.views import (
     linear,
     linear_spans,
 )
-from planmethod.gears.model import DiagramSettings, GearProblem
-from planmethod.gears.motion import TrainMotion, solve_motion
-from planmethod.gears.scheme import SchemeData
-from planmethod.gears.sheet_texts import calculation, results, train_facts
-from planmethod.gears.text import compared_sentences, compared_table
-from planmethod.gears.velocity_diagrams import draw
 from planmethod.languages import LANGUAGES, translate
-from planmethod.note.narrate.formulas import detail_view_letter, view_name
+from planmethod.note.narrate.naming import detail_view_letter, view_name
 from planmethod.note.narrate.statement import unbroken
 from planmethod.note.numbers import half_up
 from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH
-from planmethod.render.frame.furniture import Furniture
+from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Item, Span, View, shifted
-from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.ink.typeset import typeset
+from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Line, Picture, Row, heading, paragraph
-from planmethod.render.layout.cuttings import Group, LayoutItem
-from planmethod.render.layout.equations import formula_block
-from planmethod.render.layout.pack import EDGE
-from planmethod.render.layout.tables import TableColumn, table_block
-from planmethod.render.pictures.detail_views import ENLARGED
-from planmethod.render.pictures.lettered import lettered
+from planmethod.render.layout.pack import EDGE, Group, LayoutItem
+from planmethod.render.layout.text_blocks import TableColumn, formula_block, table_block
+from planmethod.render.pictures.lettered import ENLARGED, lettered
 from planmethod.render.sheets.composer import (
     NoFitAdvice,
     Packing,

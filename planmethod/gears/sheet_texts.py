@@ -5,15 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from planmethod.gears.answers import Answer, answer, named
-from planmethod.gears.conditions import conditions, judgement
 from planmethod.gears.construction import GearDrawing, GearReading
 from planmethod.gears.derivation import DerivationLine, derivation
-from planmethod.gears.model import Mesh, MeshKind, Train
+from planmethod.gears.model import Mesh, MeshKind, Train, parse
 from planmethod.gears.motion import TrainMotion
-from planmethod.gears.requested_quantities import parse
-from planmethod.gears.text import equation_of, fraction_text, kind_of, mobility
-from planmethod.gears.velocities import by_velocities
+from planmethod.gears.solution import Answer, answer, conditions, judgement, named
+from planmethod.gears.text import by_velocities, equation_of, fraction_text, kind_of, mobility
 from planmethod.note.compared import DASH, ComparedNumber
 from planmethod.note.document import GivenFact
 from planmethod.note.numbers import raised

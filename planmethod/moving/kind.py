@@ -11,10 +11,10 @@ from planmethod.note.document import Document, GivenFact
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
-    from planmethod.moving.model import PointProblem
-    from planmethod.note.audit.audit import Audited
+    from planmethod.moving.motion import PointProblem
+    from planmethod.note.audit import Audited
     from planmethod.note.wording import Language
-    from planmethod.problem.question_quantities import QuestionQuantities
+    from planmethod.problem.records import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
 
 
@@ -32,7 +32,7 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
     def record(self, problem: PointProblem, lang: str) -> dict[str, Any]:
         """Return the record of ``solve --json``."""
-        from planmethod.moving.record import record
+        from planmethod.moving.text import record
 
         return record(problem, lang)
 
@@ -46,7 +46,7 @@ class MovingPoints(ProblemKind["PointProblem"]):
         self, problem: PointProblem, language: Language, profile: Profile
     ) -> Document:
         """Return the document of ``protocol``."""
-        from planmethod.moving.protocol import protocol_document
+        from planmethod.moving.results import protocol_document
 
         return Document.of(protocol_document(problem, language, profile))
 
@@ -66,7 +66,7 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
     def audited(self, problem: PointProblem, ruler: float) -> list[Audited]:
         """Return printed values beside the exact ones and those read with a ruler."""
-        from planmethod.moving.audit import audited
+        from planmethod.moving.results import audited
 
         return audited(problem, ruler)
 
@@ -78,6 +78,6 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
     def question_quantities(self, problem: PointProblem) -> QuestionQuantities:
         """Return the quantities for questions to students."""
-        from planmethod.moving.question_quantities import PointQuantities
+        from planmethod.moving.results import PointQuantities
 
         return PointQuantities(problem)

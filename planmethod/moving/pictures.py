@@ -13,22 +13,25 @@ from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.construct.steps import PointName
-from planmethod.moving.construction import POLES, MomentConstruction
-from planmethod.moving.interval import Complexes, DrawnInterval, places_of
-from planmethod.moving.model import Law, PointProblem
-from planmethod.moving.motion import Motion
+from planmethod.moving.construction import (
+    POLES,
+    Complexes,
+    DrawnInterval,
+    MomentConstruction,
+    places_of,
+)
+from planmethod.moving.motion import Law, Motion, PointProblem
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.problem.model import Convention
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
-from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.ink.typeset import typeset, vector_markup
+from planmethod.render.ink.typeset import ink_bounds, typeset, vector_markup
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.labels.merged_labels import merge_letters
+from planmethod.render.labels.label_column import merge_letters
 from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.diagram import HODOGRAPH
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.paths import TRAJECTORY
 from planmethod.render.pictures.planview import POLE
-from planmethod.render.pictures.polar import HODOGRAPH
 from planmethod.render.symbols import arrowhead, revolute, vector_arrow
 
 AXIS = "axis of coordinates"

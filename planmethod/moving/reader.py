@@ -12,18 +12,25 @@ from msgspec.structs import replace
 
 from planmethod.errors import ProblemError
 from planmethod.languages import translate
-from planmethod.moving.model import FORMULAS, Law, PointProblem, TimeFunction, Wheel, read_formula
-from planmethod.moving.series import ROUNDOFF, evaluate
+from planmethod.moving.motion import (
+    FORMULAS,
+    ROUNDOFF,
+    Law,
+    PointProblem,
+    TimeFunction,
+    Wheel,
+    evaluate,
+    read_formula,
+)
 from planmethod.problem import keys
-from planmethod.problem.answers import ComputedAnswerNames, read_answers
-from planmethod.problem.common import Published
+from planmethod.problem.answers import ComputedAnswerNames, read_answers, read_published
 from planmethod.problem.drive import read_row, read_scales, require_positions
 from planmethod.problem.file_node import Faults, FileNode, needed
 from planmethod.problem.formula import is_exact
 from planmethod.problem.model import Scales
 from planmethod.problem.names import listed, nearest_name_hint, short
 from planmethod.problem.reader import overlay_variant, varied
-from planmethod.problem.selector import read_published
+from planmethod.problem.records import Published
 from planmethod.problem.sheet import read_head
 from planmethod.problem.source import parse
 

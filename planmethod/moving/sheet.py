@@ -13,10 +13,14 @@ from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, translate
-from planmethod.moving.construction import MomentConstruction, construct, read_hodograph
-from planmethod.moving.interval import DrawnInterval, drawn_interval
-from planmethod.moving.model import PointProblem
-from planmethod.moving.motion import COLUMNS, LEGEND, Motion
+from planmethod.moving.construction import (
+    DrawnInterval,
+    MomentConstruction,
+    construct,
+    drawn_interval,
+    read_hodograph,
+)
+from planmethod.moving.motion import COLUMNS, LEGEND, Motion, PointProblem
 from planmethod.moving.pictures import (
     hodograph_picture,
     length_scale,
@@ -26,21 +30,18 @@ from planmethod.moving.pictures import (
 )
 from planmethod.moving.text import given_facts, head_of, moment, textbook
 from planmethod.note.compared import ComparedNumber
-from planmethod.note.document import Formula, Note
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.document import Formula, Note, plain_text
+from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.narrate.statement import unbroken
 from planmethod.note.numbers import format_column, significant
-from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language, get_language
 from planmethod.paper import DEFAULT_SERIES, STAMP_WIDTH
-from planmethod.render.frame.furniture import Furniture
+from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
-from planmethod.render.layout.cuttings import Group, LayoutItem
-from planmethod.render.layout.nodes import blocks_of
-from planmethod.render.layout.pack import EDGE
-from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.layout.pack import EDGE, Group, LayoutItem
+from planmethod.render.layout.text_blocks import TableColumn, blocks_of, table_block
 from planmethod.render.pictures.planview import POLE
 from planmethod.render.sheets.composer import (
     NoFitAdvice,

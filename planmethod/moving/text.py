@@ -1,14 +1,24 @@
-"""A moving point in formulas and numbers (документы движения точки)."""
+"""A moving point in formulas, numbers and as a JSON record."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
-from planmethod.moving.model import Law, PointProblem
-from planmethod.moving.motion import COLUMNS, LEGEND, POLAR, ROLLED, Motion, Undefined, move
+from planmethod.moving.motion import (
+    COLUMNS,
+    LEGEND,
+    POLAR,
+    ROLLED,
+    Law,
+    Motion,
+    PointProblem,
+    Undefined,
+    move,
+)
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import (
     Caption,
@@ -24,8 +34,38 @@ from planmethod.note.document import (
     table_of_columns,
 )
 from planmethod.note.formula import Rich, escape, fraction, root
-from planmethod.note.numbers import MINUS, Notation, format_column, significant, with_unit
+from planmethod.note.numbers import (
+    MINUS,
+    Notation,
+    finite_or_none,
+    format_column,
+    significant,
+    with_unit,
+)
+from planmethod.note.records.legend import legend_record
 from planmethod.note.wording import Language
+
+SCHEMA = 1
+"""Version of the record's shape."""
+
+
+def record(problem: PointProblem, lang: str = "ru") -> dict[str, Any]:
+    """Return the motion of a point as plain data; a missing value is null, with a reason."""
+    motion = move(problem)
+    rows: list[dict[str, Any]] = []
+    for k, why in enumerate(motion.reasons):
+        row: dict[str, Any] = {
+            name: finite_or_none(column[k]) for name, column in motion.columns.items()
+        }
+        if why is not None:
+            row["reason"] = why.value
+        rows.append(row)
+    found: dict[str, Any] = {"schema": SCHEMA, "problem": problem.name}
+    if problem.variant is not None:
+        found["variant"] = problem.variant
+    legend = ((name, LEGEND[name].symbol, LEGEND[name].unit) for name in motion.columns)
+    return {**found, "point": rows, "legend": legend_record(legend)}
+
 
 FEW = 3
 """Most moments that are written with formulas; more are rows of a table."""

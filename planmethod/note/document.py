@@ -1,24 +1,36 @@
-"""A document for a reader, as data (документ).
-
-Every kind of problem makes documents of these nodes; the writers of `planmethod.note.writers`, the
-blocks of sheets and the pages of checking print them. Nothing here knows of pens, of line widths
-or of a file format. Texts are rich text (`planmethod.note.formula`).
-"""
-
-# no messages: mistakes in a program
+"""A document for a reader, as data; rich text made plain."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, assert_never
 
 from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
 from planmethod.languages import choose_language
-from planmethod.note.formula import Rich
+from planmethod.note.formula import (
+    SPECIAL,
+    Fraction,
+    Index,
+    Letters,
+    Node as FormulaNode,
+    Overline,
+    Rich,
+    Root,
+    inline,
+    parse,
+)
+from planmethod.note.numbers import rich_number, significant, trimmed
+
+if TYPE_CHECKING:
+    from planmethod.note.wording import MessageTable
+
+
+# no messages: mistakes in a program
+
 
 _REFERENCE = r"\\ref\{([^{}]*)\}"
 
@@ -471,3 +483,67 @@ def steps_of(sentences: Iterable[Rich]) -> Iterator[Step]:
     """Yield a step for each sentence."""
     for sentence in sentences:
         yield Step((sentence,))
+
+
+NO_BREAK = "\N{NO-BREAK SPACE}"
+"""Space at which a line is not cut; the finished text has plain spaces."""
+
+_SUPER = dict(zip("0123456789-−nkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵏʳ", strict=True))
+_SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
+_RATIO = "U"
+"""Above it stands the carrier that a ratio is seen from, ``U^{H}_{13}``: no power of it."""
+
+
+def plain_text(rich: str) -> str:
+    """Return rich text as plain: ``ω_{2}`` gives ``ω₂``, ``a^{n}_{CB}`` gives ``aⁿ_CB``.
+
+    A letter that has no raised one, ``τ``, follows a sign: ``a^τ_CB``.
+    """
+    return _nodes_text(inline(parse(rich))) if any(c in SPECIAL for c in rich) else rich
+
+
+def _nodes_text(nodes: Iterable[FormulaNode]) -> str:
+    text = ""
+    for node in nodes:
+        text += _node_text(node, is_ratio=text.endswith(_RATIO))
+    return text
+
+
+def _node_text(node: FormulaNode, *, is_ratio: bool = False) -> str:
+    match node:
+        case Letters(text):
+            return text
+        case Index(below, above, is_power):
+            low = _nodes_text(below)
+            lowered = "".join(_SUB[c] for c in low) if set(low) <= set(_SUB) else f"_{low}"
+            high = _nodes_text(above)
+            is_carrier = high.startswith("(") or (is_ratio and high.isalnum())
+            is_said = is_carrier or any(c.isalpha() and c not in _SUPER for c in high)
+            raised = f"^{high}" if is_said else "".join(_SUPER.get(c, c) for c in high)
+            return lowered + raised if is_power else raised + lowered
+        case Overline(body):
+            return _nodes_text(body)
+        case Fraction() | Root():
+            raise AssertionError  # the formula is in one line
+        case _:
+            assert_never(node)
+
+
+def localized(text: str, texts: MessageTable) -> str:
+    """Return a number with a decimal point as the language writes it."""
+    return plain_text(rich_number(text, texts.decimal))
+
+
+def computed_text(value: float, texts: MessageTable) -> str:
+    """Return a result, four significant digits."""
+    return localized(significant(value), texts)
+
+
+def input_text(value: float, texts: MessageTable, digits: int | None = None) -> str:
+    """Return a given number, no more digits than it has."""
+    return localized(trimmed(value, digits), texts)
+
+
+def fixed(value: float, texts: MessageTable, places: int = 2) -> str:
+    """Return a number with ``places`` digits after the decimal sign."""
+    return localized(f"{value + 0.0:.{places}f}", texts)

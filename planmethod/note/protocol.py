@@ -19,24 +19,23 @@ from planmethod.note.document import (
     Part,
     Step,
     Title,
+    input_text,
     step_of,
     steps_of,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.narrate.equations import direction_note, equation_of
-from planmethod.note.narrate.forces.common import closed
-from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.forces.loads import closed
+from planmethod.note.narrate.naming import Names, direction_note, equation_of
 from planmethod.note.narrate.statement import drawn, given_facts as given_facts, given_paragraph
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.narrate.structure import group_title
 from planmethod.note.narrate.transfers import TransferNarrator
-from planmethod.note.plaintext import input_text
 from planmethod.note.tables.results import position_line, position_tables, scale_texts
 from planmethod.note.wording import Language, get_language
 from planmethod.plans.build import Section
 from planmethod.plans.model import PlanKind
+from planmethod.solved.quantities import transfers_of
 from planmethod.solved.solution import Solution
-from planmethod.solved.transfers import transfers_of
 
 
 def document_of(solution: Solution, *, lang: str = "ru", position: int = 0) -> Document:
@@ -115,7 +114,7 @@ class _Protocol:
             yield from self._section(section)
         yield from self._transfers()
         if self.solution.problem.dynamics is not None:
-            from planmethod.note.narrate.forces.protocol import force_chapters
+            from planmethod.note.narrate.forces.plan import force_chapters
 
             yield from force_chapters(self.narrator.formulas, self.index)
         yield from self._results()
@@ -179,7 +178,7 @@ class _Protocol:
             yield from machine_steps(solution, language)
             yield from machine_tables(solution, language)
         if solution.problem.balancing is not None:
-            from planmethod.note.tables.balancing import balancing_tables
+            from planmethod.note.tables.machine import balancing_tables
 
             yield from balancing_tables(solution, language)
 

@@ -1,25 +1,430 @@
-"""Construction of a problem: position, velocity and acceleration plans as one program."""
+"""Construction of a problem as one program, and every quantity once with its step."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from enum import Enum, unique
 from functools import cached_property
 
 from msgspec import Struct, field
 
 from planmethod.construct.program import Program
-from planmethod.construct.steps import Name, PointName, Step
+from planmethod.construct.steps import Compute, LayOffLength, Name, NumberName, PointName, Step
 from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import Structure
-from planmethod.plans.assembly_mode import Choice
 from planmethod.plans.draft import Draft
-from planmethod.plans.legend import PlanSegment, Quantity, motion_quantities, plan_segments
-from planmethod.plans.model import Plan, PlanKind
-from planmethod.plans.motion.board import MotionBoard
-from planmethod.plans.motion.dyads import drive_motion, group_motion
-from planmethod.plans.motion.legs import Kinematics
+from planmethod.plans.model import FACTS, RATES, Choice, Plan, PlanKind
+from planmethod.plans.motion.groups import drive_motion, group_motion
+from planmethod.plans.motion.legs import Kinematics, MotionBoard, Turning, plan_letter
 from planmethod.plans.motion.position import place_driver, place_frame, place_group
+from planmethod.problem.machine_records import ratio_of
 from planmethod.problem.model import Problem
+
+ZERO = "0"
+"""Name of the number zero, which no object of a problem can have."""
+
+
+class KindFacts(Struct, frozen=True):
+    """Properties of a kind of quantity.
+
+    Attributes
+    ----------
+    letter : str
+        Beginning of its label: ``omega``.
+    unit : str
+        In SI; degrees of a direction.
+    plan : PlanKind
+        Plan on which it is found.
+    columns : tuple of str
+        Endings of the names of table columns; none if the label is the name.
+    sign : str
+        Letter of the symbol, ``ω``; empty where it is ``letter``.
+    is_number : bool
+        True if it is one number and not a vector.
+    is_size : bool
+        True if the drawing gives only its size, without a sign.
+    """
+
+    letter: str
+    unit: str
+    plan: PlanKind
+    columns: tuple[str, ...] = ()
+    sign: str = ""
+    is_number: bool = False
+    is_size: bool = False
+
+
+_P, _V, _A, _F = PlanKind.POSITION, PlanKind.VELOCITY, PlanKind.ACCELERATION, PlanKind.FORCE
+
+
+@unique
+class QuantityKind(Enum):
+    """Kind of a quantity (вид величины): its letters, unit, plan, columns."""
+
+    PLACE = KindFacts("", "m", _P, (".x", ".y"))
+    VELOCITY = KindFacts("v", "m/s", _V, (".vx", ".vy"), is_size=True)
+    ACCELERATION = KindFacts("a", "m/s²", _A, (".ax", ".ay"), is_size=True)
+    DIRECTION = KindFacts("phi", "deg", _P, (".phi_deg",), "φ")
+    UNIT = KindFacts("u", "1", _P, (".cos", ".sin"))  # the direction as a unit vector
+    OMEGA = KindFacts("omega", "1/s", _V, (".omega",), "ω", is_number=True)
+    EPSILON = KindFacts("epsilon", "1/s²", _A, (".epsilon",), "ε", is_number=True)
+    # Of sliding in a pair: the relative velocity and acceleration are signed along the slide line.
+    SLIDING = KindFacts("v", "m/s", _V, is_number=True, is_size=True)
+    CORIOLIS = KindFacts("ak", "m/s²", _A, is_number=True, is_size=True)
+    RELATIVE = KindFacts("ar", "m/s²", _A, is_number=True, is_size=True)
+    # Derivatives by the angle of the crank: of places, and of angles of links.
+    TRANSFER = KindFacts("v_q", "m", _V, is_number=True, is_size=True)
+    RATIO = KindFacts("u", "1", _V, is_number=True)
+    TRANSFER_2 = KindFacts("a_q", "m", _A, is_number=True, is_size=True)
+    RATIO_2 = KindFacts("epsilon_q", "1", _A, sign="ε", is_number=True)
+    REACTION = KindFacts("F", "N", _F, (".x", ".y", ""), is_size=True)
+    # Of a reaction or on the crank; on the driving slider, along its guide.
+    MOMENT = KindFacts("M", "N·m", _F, ("",), is_number=True)
+    THRUST = KindFacts("F", "N", _F, ("",), is_number=True)
+
+    def __init__(self, facts: KindFacts) -> None:
+        self.letter, self.sign = facts.letter, facts.sign or facts.letter
+        self.unit, self.plan, self.columns = facts.unit, facts.plan, facts.columns
+        self.is_number, self.is_size = facts.is_number, facts.is_size
+        self.is_force = facts.plan is PlanKind.FORCE
+
+
+PLAN_OF = {kind.letter: kind.plan for kind in QuantityKind}
+"""Plans by the letters at the beginning of labels."""
+
+
+TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
+"""Kinds of quantities of links."""
+
+TRANSFERS = (
+    QuantityKind.TRANSFER,
+    QuantityKind.RATIO,
+    QuantityKind.TRANSFER_2,
+    QuantityKind.RATIO_2,
+)
+"""Kinds of transfer functions, in the order in which tables have them."""
+
+TURNINGS = tuple(kind for kind in TURNING if kind.is_number)
+"""The kinds among them that the plans give."""
+
+MOTION_KINDS = tuple(
+    kind
+    for plan in RATES
+    for kind in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION, *TURNINGS)
+    if kind.plan is plan
+)
+"""Kinds of quantities of points and links that the plans give, in the order in which tables have
+them."""
+
+
+def kinds_on(plan: PlanKind) -> tuple[QuantityKind, ...]:
+    """Return the quantities among them that a plan gives."""
+    return tuple(kind for kind in MOTION_KINDS if kind.plan is plan)
+
+
+class Quantity(Struct, frozen=True):
+    """One quantity of a solved problem (величина).
+
+    Attributes
+    ----------
+    kind : QuantityKind
+    name : Name
+        Step that makes it: a point of a plan (its vector is from the pole), a number, or for a
+        direction the line of the link's own axis; `ZERO` if it is zero by nature.
+    of : str
+        Point, link, or pair; of a reaction its joint and links, ``B_2/1`` (on link 2 from 1).
+    size : NumberName or None
+        Number that the drawing gives for it; None for places and directions.
+    row : str
+        Beginning of the names of its columns, if not ``of``: ``F.B.2-1``.
+    shown : str
+        Symbol as rich text, if not the letter of its kind with ``of`` as an index.
+    opposite : str
+        Symbol of the opposite reaction.
+    """
+
+    kind: QuantityKind
+    name: Name
+    of: str
+    size: NumberName | None = None
+    row: str = ""
+    shown: str = ""
+    opposite: str = ""
+
+    @property
+    def label(self) -> str:
+        """Label by which it is requested.
+
+        ``B`` (a place), ``v_B``, ``a_B``, ``phi_2``, ``omega_2``, ``epsilon_2``, ``v_B3/2``,
+        ``ak_B3/2``, ``ar_B3/2``; ``u_2``, the direction ``phi_2`` as a unit vector. Transfer
+        functions are ``v_q_B``, ``u_21``, ``a_q_B``, ``epsilon_q_2``. Of forces
+        ``F_B_2/1``, ``M_B_2/1`` (its moment), ``M_dr`` or ``F_dr``, ``M_lever`` or ``F_lever``.
+        """
+        return f"{self.kind.letter}_{self.of}" if self.kind.letter else self.of
+
+    @property
+    def symbol(self) -> str:
+        """Symbol as rich text: ``ω_{2}``."""
+        sign = self.kind.sign
+        return self.shown or (f"{sign}_{{{self.of}}}" if sign else self.of)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of its columns in a table of numbers: ``B.vx``, ``B.vy``; ``v_B3/2``."""
+        stem = self.row or self.of
+        return tuple(stem + end for end in self.kind.columns) or (self.label,)
+
+
+class PlanSegment(Struct, frozen=True):
+    """Segment of a plan that is measured on paper (отрезок плана).
+
+    Attributes
+    ----------
+    kind : PlanKind
+    name : str
+        ``p-b3``.
+    length : NumberName
+        What the draughtsman knows of it, mm: laid off, or read.
+    drawn : NumberName
+        What the ruler gives on the finished drawing, mm; the same where it was read.
+    """
+
+    kind: PlanKind
+    name: str
+    length: NumberName
+    drawn: NumberName
+
+    @property
+    def label(self) -> str:
+        """Label of its drafting error: ``velocity.p-b3``."""
+        return f"{self.kind.value}.{self.name}"
+
+
+def motion_quantities(kinematics: Kinematics, draft: Draft) -> Iterator[Quantity]:
+    """Yield the quantities of the motion: of points, links and sliding.
+
+    Parameters
+    ----------
+    draft : Draft
+        Receives the own axes of links that have no line yet.
+    """
+    velocity, acceleration = kinematics.velocity, kinematics.acceleration
+    zero = draft.known(ZERO, 0.0)
+    for name, at in velocity.named.items():
+        yield Quantity(QuantityKind.PLACE, PointName(at[1]), name)
+        for motion, kind in (
+            (velocity, QuantityKind.VELOCITY),
+            (acceleration, QuantityKind.ACCELERATION),
+        ):
+            yield Quantity(kind, motion.point[at], name, motion.size(at) or zero)
+    for link in draft.problem.mechanism.links:
+        axis = draft.axis(link)
+        yield Quantity(QuantityKind.DIRECTION, axis, link)
+        yield Quantity(QuantityKind.UNIT, axis, link)
+        omega, epsilon = kinematics.omega.get(link, zero), kinematics.epsilon.get(link, zero)
+        yield Quantity(QuantityKind.OMEGA, omega, link, omega)
+        yield Quantity(QuantityKind.EPSILON, epsilon, link, epsilon)
+    values = acceleration.segments.values
+    for r in kinematics.relatives.values():
+        assert r.a_start is not None and r.a_coriolis is not None and r.a_head is not None
+        yield Quantity(QuantityKind.SLIDING, r.speed, r.name, r.speed)
+        # A guide that does not turn makes no Coriolis acceleration.
+        turned = values.get((r.a_start, r.a_coriolis), zero)
+        yield Quantity(QuantityKind.CORIOLIS, turned, r.name, turned)
+        along = values[r.a_coriolis, r.a_head]
+        yield Quantity(QuantityKind.RELATIVE, along, r.name, along)
+
+
+def plan_segments(draft: Draft, motions: tuple[MotionBoard, MotionBoard]) -> Iterator[PlanSegment]:
+    """Yield the segments that are measured on the plans; adds the readings of those laid off."""
+    b = draft.b
+    computed = {step.out for step in b.steps if isinstance(step, Compute)}
+    steps = [step for step in b.steps if isinstance(step, LayOffLength)]
+    laid = {frozenset((step.origin, step.out)): step.length for step in steps}
+    for p, q in draft.segments():
+        drawn = draft.measured(p, q)
+        length = laid.get(frozenset((PointName(p), PointName(q))), drawn)
+        yield PlanSegment(PlanKind.POSITION, f"{p}-{q}", length, drawn)
+    for motion in motions:
+        for vector in motion.vectors:
+            ends = (vector.tail, vector.head)
+            length = motion.segments.drawn(ends)
+            drawn = b.measure(f"{length} drawn", *ends) if length in computed else length
+            tail, head = (plan_letter(motion, end) for end in ends)
+            yield PlanSegment(motion.kind, f"{tail}-{head}", length, drawn)
+
+
+Powers = tuple[tuple[NumberName, int], ...]
+
+
+class TransferSteps:
+    """Steps of the transfer functions, which continue those of the plans.
+
+    Parameters
+    ----------
+    kinematics : Kinematics
+        Of a mechanism with a crank.
+    draft : Draft
+        Construction that is continued.
+    by_values : bool
+        Computed from the velocities and rates found from the segments, v_C/ω₁, not from the
+        segments: the numbers are the same but follow substituted values.
+
+    Attributes
+    ----------
+    pin : str
+        Point of the crank with whose segments all others are compared; empty if there is none.
+    """
+
+    def __init__(self, kinematics: Kinematics, draft: Draft, *, by_values: bool = False) -> None:
+        self.kinematics, self.draft, self.b, self.by_values = kinematics, draft, draft.b, by_values
+        self.drive = draft.problem.drive
+        assert self.drive.pivot is not None
+        points = draft.problem.bodies[self.drive.link].points
+        self.pin = next((p for p in points if points[p] != points[self.drive.pivot]), "")
+        self.omega = kinematics.omega[self.drive.link]
+        self.even = self.drive.acceleration == 0.0
+        self._made: dict[tuple[str, PlanKind], NumberName] = {}
+
+    @property
+    def normal(self) -> PointName:
+        """End of the normal acceleration of the crank's pin on the plan, ``n_A``."""
+        motion = self.kinematics.acceleration
+        if self.even:
+            return motion.point[self.drive.link, self.pin]
+        return PointName(f"{FACTS[motion.kind].prefix}n_{self.pin}{self.drive.pivot}")
+
+    def per_mm(self, kind: PlanKind) -> Powers:
+        """Return the value of a millimetre of a plan, as factors: l_OA/(pa), l_OA/(πn_A)."""
+        motion, power = self._motion(kind), self.order(kind)
+        if not self.pin:
+            return ((motion.segments.scale, 1), (self.omega, -power))
+        assert self.drive.pivot is not None
+        end = self.normal if power == 2 else motion.point[self.drive.link, self.pin]
+        length = self.draft.length(self.drive.link, self.drive.pivot, self.pin)
+        return ((length, 1), (motion.segments.drawn((motion.pole, end)), -1))
+
+    @staticmethod
+    def order(kind: PlanKind) -> int:
+        """Return of which order the derivatives are that a plan gives."""
+        return 1 if kind is PlanKind.VELOCITY else 2
+
+    def _motion(self, kind: PlanKind) -> MotionBoard:
+        return (
+            self.kinematics.velocity if kind is PlanKind.VELOCITY else self.kinematics.acceleration
+        )
+
+    def of_point(self, point: str, kind: PlanKind) -> NumberName:
+        """Return v_q or a_q of a named point, m."""
+        if (f"point {point}", kind) not in self._made:
+            self._made[f"point {point}", kind] = self._of_point(point, kind)
+        return self._made[f"point {point}", kind]
+
+    def _of_point(self, point: str, kind: PlanKind) -> NumberName:
+        motion = self._motion(kind)
+        head, name = motion.point[motion.named[point]], f"{FACTS[kind].letter}_q_{point}"
+        if head == motion.pole:
+            return self.draft.known(ZERO, 0.0)
+        if self.by_values and (kind is PlanKind.VELOCITY or self.even):
+            power, value = self.order(kind), motion.segments.known((motion.pole, head))
+            return self.b.compute(name, (value, 1), (self.omega, -power), size=True)
+        if kind is PlanKind.VELOCITY or self.even:
+            length = motion.segments.drawn((motion.pole, head))
+        elif self.of_crank(point):
+            assert self.drive.pivot is not None
+            place = motion.named[point][1]
+            radius = self.draft.length(self.drive.link, self.drive.pivot, place)
+            return self.b.compute(name, (radius, 1))
+        else:
+            head = self.uniform_end(point)
+            length = self.b.measure(f"|{name}|", motion.pole, head)
+        return self.b.compute(name, (length, 1), *self.per_mm(kind), size=True)
+
+    def of_crank(self, point: str) -> bool:
+        """Return whether a named point is on the crank itself: its a_q is its radius."""
+        link, place = self.kinematics.velocity.named[point]
+        return link == self.drive.link and place in self.draft.problem.bodies[link].points
+
+    def uniform_end(self, point: str) -> PointName:
+        """Carry the part of the crank's ε off the end of an acceleration: -v_q·ε, along (pc)."""
+        v, a = self.kinematics.velocity, self.kinematics.acceleration
+        tail, head = v.pole, v.point[v.named[point]]
+        epsilon = self.kinematics.epsilon[self.drive.link]
+        times = self.b.compute(
+            f"times_q_{point}",
+            *((v.segments.scale, 1), (epsilon, 1), (self.omega, -1), (a.segments.scale, -1)),
+            factor=-1.0,
+        )
+        length = None if head == tail else v.segments.drawn((tail, head))
+        out = f"{FACTS[a.kind].prefix}{point}_q"
+        return self.b.carry(out, a.point[a.named[point]], tail, head, length, times=times)
+
+    def of_link(self, link: str, kind: PlanKind) -> NumberName:
+        """Return u or ε_q of a link, with its sign: positive in the sense of growing φ."""
+        if (link, kind) not in self._made:
+            self._made[link, kind] = self._of_link(link, kind)
+        return self._made[link, kind]
+
+    def _of_link(self, link: str, kind: PlanKind) -> NumberName:
+        first = kind is PlanKind.VELOCITY
+        name = f"u_{link}" if first else f"epsilon_q_{link}"
+        if first or self.even:
+            rates = self.kinematics.rates(kind)
+            if link not in rates:
+                return self.draft.known(ZERO, 0.0)
+            turning = None if self.by_values else self.turning(link, kind)
+            if turning is None:  # it turns as the crank, if not
+                return self.b.compute(name, (rates[link], 1), (self.omega, -self.order(kind)))
+            length = self._motion(kind).segments.drawn((turning.start, turning.head))
+            inverse = tuple((factor, -power) for factor, power in turning.arm)
+            return self.b.compute(name, (length, 1), *self.per_mm(kind), *inverse)
+        own, crank = self.kinematics.epsilon.get(link), self.kinematics.epsilon[self.drive.link]
+        u = self.of_link(link, PlanKind.VELOCITY)
+        terms = [self.b.compute(f"{name}*", (u, 1), (crank, 1), (self.omega, -2), factor=-1.0)]
+        if own is not None:
+            terms.insert(0, self.b.compute(f"{name}**", (own, 1), (self.omega, -2)))
+        return self.b.total(name, *terms)
+
+    def turning(self, link: str, kind: PlanKind) -> Turning | None:
+        """Return the segment that gives a link's rotation; None if it turns with the crank."""
+        rates = self.kinematics.rates(kind)
+        if rates[link] == rates.get(self.drive.link):
+            return None
+        for (of, other), turning in self.kinematics.turnings.items():
+            if of is kind and rates[other] == rates[link]:
+                return turning
+        return None
+
+
+def transfer_quantities(kinematics: Kinematics, draft: Draft) -> Iterator[Quantity]:
+    """Yield the transfer functions of all moving points and links; none for a driving slider.
+
+    Parameters
+    ----------
+    draft : Draft
+        Gets their steps.
+    """
+    drive, problem = draft.problem.drive, draft.problem
+    if not drive.revolves:
+        return
+    steps, orders = TransferSteps(kinematics, draft), (PlanKind.VELOCITY, PlanKind.ACCELERATION)
+    moving = [
+        n
+        for n, at in kinematics.velocity.named.items()
+        if kinematics.velocity.point[at] != kinematics.velocity.pole
+    ]
+    driven = [link for link in problem.mechanism.links if link not in (drive.link, FRAME)]
+    for kind, of in zip(orders, (QuantityKind.TRANSFER, QuantityKind.TRANSFER_2), strict=True):
+        for point in moving:
+            name = steps.of_point(point, kind)
+            yield Quantity(of, name, point, name, shown=f"{FACTS[kind].letter}_{{q{point}}}")
+    for link in driven:
+        name, pair = steps.of_link(link, orders[0]), ratio_of(link, drive.link, driven)
+        yield Quantity(QuantityKind.RATIO, name, pair, name)
+    for link in driven:
+        name = steps.of_link(link, orders[1])
+        yield Quantity(QuantityKind.RATIO_2, name, link, name, shown=f"ε_{{q{link}}}")
 
 
 class Section(Struct, frozen=True):

@@ -10,9 +10,7 @@ from typing import NamedTuple
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, LineSense, Name, NumberName, PointName, Side
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.assembly_mode import AssemblyMode, Choice, Start
-from planmethod.plans.dimensions import Dimension, DimensionKind
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import AssemblyMode, Choice, Dimension, DimensionKind, PlanKind, Start
 from planmethod.problem.model import Body, Problem, Slide
 from planmethod.problem.names import angle_lines
 

@@ -1,13 +1,19 @@
-"""Parts of a plan besides its steps: vectors, vector equations, letters."""
+"""Parts of a plan besides its steps: vectors, equations, segments, dimensions, assembly modes."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from enum import Enum
+from typing import TypeAlias
 
-from msgspec import Struct
+import numpy as np
+import numpy.typing as npt
+from msgspec import Struct, field
+from msgspec.structs import replace
 
-from planmethod.construct.steps import PointName
+from planmethod.construct.program import Builder
+from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.problem.model import Convention, Problem
 
 
@@ -181,3 +187,263 @@ class Plan(Struct, frozen=True):
     letters: Mapping[PointName, str]
     vectors: tuple[Vector, ...]
     equations: tuple[VectorEquation, ...] = ()
+
+
+class DimensionKind(Enum):
+    """Kind of a given number (вид размера); the value is the beginning of its name."""
+
+    LENGTH = "l_"  # distance of two points
+    ALONG = "x_"  # from a point along a line
+    ACROSS = "y_"  # and across it
+    OFFSET = "e_"  # of a point from a guide
+    ANGLE = "angle_"  # of a link or of a guide, degrees
+    TRAVEL = "s"  # of the driving slider
+
+
+class Dimension(Struct, frozen=True):
+    """Given number of a construction, in metres or in millimetres of the drawing (размер).
+
+    Attributes
+    ----------
+    kind : DimensionKind
+    of : tuple of str
+        Points that it places or lies between; the link or guide that an angle turns.
+    letters : str
+        What its length on the drawing is called.
+    """
+
+    kind: DimensionKind
+    of: tuple[str, ...]
+    letters: str
+
+
+Ends: TypeAlias = tuple[PointName, PointName]
+
+
+class Segments(Struct):
+    """Segments of one plan, or of plans with one scale.
+
+    Attributes
+    ----------
+    b : Builder
+    scale : NumberName
+        Scale of the plan.
+    prefix : str
+        Beginning of the names of its values.
+    lengths : dict of (PointName, PointName) to NumberName
+        Length of a segment, mm.
+    values : dict of (PointName, PointName) to NumberName
+        Value of a segment, in the unit of the plan: computed before it was laid off, or from its
+        length. Lengths and values are signed if a segment lies on a line along which the sign is
+        needed.
+    """
+
+    b: Builder
+    scale: NumberName
+    prefix: str = ""
+    lengths: dict[Ends, NumberName] = field(default_factory=dict)
+    values: dict[Ends, NumberName] = field(default_factory=dict)
+    _measured: set[NumberName] = field(default_factory=set)
+
+    def on(self, b: Builder) -> Segments:
+        """Return the same segments for a construction that continues from here."""
+        return replace(
+            self,
+            b=b,
+            lengths=dict(self.lengths),
+            values=dict(self.values),
+            _measured=set(self._measured),
+        )
+
+    def compute(
+        self, name: str, *powers: tuple[NumberName, int], factor: float = 1.0, size: bool = False
+    ) -> NumberName:
+        """Compute a number under an unused name."""
+        name = self.prefix + name
+        while self.b.has(name):
+            name += "*"
+        return self.b.compute(name, *powers, factor=factor, size=size)
+
+    def length(self, tail: PointName, head: PointName) -> NumberName:
+        """Return the length of a segment, mm; it is measured if it is not known yet."""
+        if (tail, head) in self.lengths or (head, tail) in self.lengths:
+            return self.drawn((tail, head))
+        name = self.b.measure(f"|{tail}–{head}|", tail, head)
+        self.lengths[tail, head] = name
+        self._measured.add(name)
+        return name
+
+    def value(self, tail: PointName, head: PointName, name: str) -> NumberName:
+        """Return the value of a segment; ``name`` is used if the value is new."""
+        if (tail, head) in self.values or (head, tail) in self.values:
+            return self.known((tail, head))
+        length = self.length(tail, head)
+        self.values[tail, head] = self.compute(name, (self.scale, 1), (length, 1))
+        return self.values[tail, head]
+
+    def read(self, ends: Ends) -> NumberName | None:
+        """Return the ruler's reading of a segment, mm; None if it was laid off."""
+        length = self.length(*ends)
+        return length if length in self._measured else None
+
+    def drawn(self, ends: Ends) -> NumberName:
+        """Return the length of a segment that has been drawn and read, mm."""
+        return self.lengths[ends] if ends in self.lengths else self.lengths[ends[::-1]]
+
+    def known(self, ends: Ends) -> NumberName:
+        """Return the value of a segment that has been drawn and read."""
+        return self.values[ends] if ends in self.values else self.values[ends[::-1]]
+
+    def read_signed(
+        self, tail: PointName, head: PointName, line: LineName, name: str
+    ) -> NumberName:
+        """Read a segment along its line, with a sign, and return its value."""
+        length = self.b.measure_along(f"|{tail}–{head}|{line}", tail, head, line)
+        value = self.compute(name, (self.scale, 1), (length, 1))
+        self.lengths[tail, head], self.values[tail, head] = length, value
+        self._measured.add(length)
+        return value
+
+    def lay_off_vector(
+        self, out: str, start: PointName, line: LineName, value: NumberName
+    ) -> PointName:
+        """Lay off a vector of a computed size along a line."""
+        length = self.b.compute(f"|{out}|", (value, 1), (self.scale, -1))
+        end = self.b.lay_off_length(out, start, line, length)
+        self.lengths[start, end], self.values[start, end] = length, value
+        return end
+
+    def same(self, tail: PointName, head: PointName, of: Ends) -> None:
+        """Note that a segment is another one, carried to its place."""
+        self.lengths[tail, head] = self.drawn(of)
+        self.values[tail, head] = self.known(of)
+
+
+Reals: TypeAlias = npt.NDArray[np.float64]
+
+
+class TrackedAssembly(Struct, frozen=True):
+    """Assembly of a triad, tracked from a chosen position (сборка группы III класса).
+
+    No formula gives it: it is continued from one position to the next. Interpolation between two
+    tracked positions is a good enough start for Newton's method.
+
+    Attributes
+    ----------
+    places : tuple of float
+        Positions of the driver, rising, degrees or m.
+    x, y : tuple of float
+        Coordinates of the base link's origin, m.
+    turn : tuple of float
+        Direction of its axis, degrees.
+    period : float
+        Period of the driver's motion after which the assembly repeats; 0 if it does not. Outside
+        the positions there is no such assembly.
+    """
+
+    places: tuple[float, ...] = (0.0,)
+    x: tuple[float, ...] = (math.nan,)
+    y: tuple[float, ...] = (math.nan,)
+    turn: tuple[float, ...] = (math.nan,)
+    period: float = 0.0
+
+    def at(self, coordinate: str, positions: Reals) -> Reals:
+        """Return ``x``, ``y`` or ``turn``, shape (n,); NaN where there is no such assembly."""
+        low, high = self.places[0], self.places[-1]
+        here = np.asarray(positions, dtype=float)
+        if self.period:
+            here = low + np.mod(here - low, self.period)
+        found = np.interp(here, self.places, getattr(self, coordinate))
+        return np.where((here < low) | (here > high), np.nan, found)
+
+
+class Start(Struct, frozen=True):
+    """One of the numbers that locate an assembly (``x``, ``y`` or ``turn``)."""
+
+    tracked: TrackedAssembly
+    coordinate: str
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """Values in the tracked positions."""
+        found: tuple[float, ...] = getattr(self.tracked, self.coordinate)
+        return found
+
+    def branch(self, positions: Reals) -> Reals:
+        """Return the value in some positions of the driver, m or degrees."""
+        return self.tracked.at(self.coordinate, positions)
+
+
+class AssemblyMode(Struct, frozen=True):
+    """Assembly mode of a group: which of its two ways it closes (способ сборки).
+
+    Attributes
+    ----------
+    side : int
+        +1 or -1, in all positions unless it changes.
+    parallel : bool
+        The group closes a parallelogram, on no side of its line of centres for good.
+    start : float
+        Driver position that ``side`` belongs to, degrees or m.
+    changes : tuple of float
+        Change points: driver positions in which a motion that goes on smoothly changes sides.
+    period : float
+        After which the changes come again: 360 of a crank; of a slider out of all reach.
+    tracked : TrackedAssembly
+        Of a triad, the assembly that is meant; ``other_places`` are the places of ``point`` in the
+        rest, m, at ``start``.
+    third : int
+        Of a triad, the leg whose line does not go through the special point that is used.
+    only_at : tuple of float
+        The only driver positions in which the mode is known, because both modes coincide there;
+        empty if it is known in all.
+    """
+
+    side: int = 1
+    parallel: bool = False
+    start: float = 0.0
+    changes: tuple[float, ...] = ()
+    period: float = 1e12
+    tracked: TrackedAssembly = TrackedAssembly()
+    third: int = 2
+    other_places: tuple[complex, ...] = ()
+    point: str = ""
+    only_at: tuple[float, ...] = ()
+
+    def branch(self, positions: Reals) -> Reals:
+        """Return +1 where the side is the first one, else -1; it depends on the position alone."""
+        passed = np.zeros(np.shape(positions))
+        for change in self.changes:
+            for sign, place in ((1, positions), (-1, np.asarray(self.start))):
+                passed += sign * np.floor((place - change) / self.period)
+        return np.where(passed % 2 == 0, 1.0, -1.0)
+
+
+Choice = Mapping[tuple[str, ...], AssemblyMode]
+
+
+def assembly_period(choice: Choice, turn: float) -> float:
+    """Return the degrees of the driver after which all groups close as before.
+
+    A group that passes an odd number of change points in its own period is then in its other mode,
+    and in the first one after two periods. Infinite if a group never closes as before.
+
+    Parameters
+    ----------
+    turn : float, degrees
+        Period of the driver itself.
+    """
+    found = 1
+    for one in choice.values():
+        period = turn
+        if one.changes:
+            period = one.period * (1 + len(one.changes) % 2)
+        if one.tracked != AssemblyMode().tracked:
+            period = one.tracked.period
+        if not period:
+            return math.inf
+        found = math.lcm(found, max(round(period / turn), 1))
+    return turn * found
+
+
+"""Assembly mode of each group that has two, by its links."""

@@ -23,19 +23,12 @@ from typing import Any, NoReturn, TypeAlias, TypeGuard, TypeVar, assert_never
 
 from planmethod.errors import Fault
 from planmethod.languages import HIDDEN, translate
-from planmethod.problem.formula import FormulaError, evaluate_arithmetic
-from planmethod.problem.key_types import (
-    LENGTH_HINT,
-    AngleKey,
-    ChoiceKey,
-    CustomKey,
-    FlagKey,
-    FlatField,
-    IntegerKey,
-    NumberKey,
-    TextKey,
-    WordKey,
-    declared,
+from planmethod.problem.formula import (
+    FormulaError,
+    evaluate_arithmetic,
+    expected_unit,
+    measured,
+    read_unit,
 )
 from planmethod.problem.names import (
     NAME_LIMIT,
@@ -52,8 +45,20 @@ from planmethod.problem.names import (
     short,
     split_pair,
 )
-from planmethod.problem.typos import INSTEAD, value_hint
-from planmethod.problem.units import expected_unit, measured, read_unit
+from planmethod.problem.source import INSTEAD, value_hint
+from planmethod.problem.tables import (
+    LENGTH_HINT,
+    AngleKey,
+    ChoiceKey,
+    CustomKey,
+    FlagKey,
+    FlatField,
+    IntegerKey,
+    NumberKey,
+    TextKey,
+    WordKey,
+    declared,
+)
 
 FAULT_LIMIT = 100
 """More faults than this are counted, not listed."""
@@ -158,7 +163,7 @@ def is_integer(value: object) -> TypeGuard[int]:
     return isinstance(value, int) and not isinstance(value, bool)
 
 
-def _made(text: LazyText) -> str:
+def _as_text(text: LazyText) -> str:
     return text if isinstance(text, str) else text()
 
 
@@ -343,7 +348,7 @@ class FileNode:
     def require(self, key: str, reader: Callable[[FileNode], R], hint: LazyText = "") -> R | None:
         """Return the value of a key that must be present; None after a fault."""
         if key not in self:
-            self.note_missing(key, _made(hint))
+            self.note_missing(key, _as_text(hint))
         return self.read(key, reader)
 
     def read_each(self, reader: Callable[[FileNode], R | None]) -> dict[str, R]:
@@ -385,7 +390,7 @@ class FileNode:
     ) -> None:
         """Make sure that this is a list of ``low`` to ``high`` values."""
         if not isinstance(self.value, list) or not low <= len(self.value) <= high:
-            self.reject_value(_made(expected), _made(hint))
+            self.reject_value(_as_text(expected), _as_text(hint))
 
     def tables(self, limit: int, message: str) -> None:
         """Make sure that this is a list of at most ``limit`` tables, ``[[loads]]``."""
@@ -726,7 +731,7 @@ class FileNode:
         hint = translate("Its points are {}.", listed(points)) if points else ""
         if near and points:
             hint = nearest_name_hint(name, points, hint)
-        self.reject("{} has no point '{}'", _made(owner), name, hint=hint)
+        self.reject("{} has no point '{}'", _as_text(owner), name, hint=hint)
 
 
 def read_units(file: FileNode) -> None:

@@ -8,18 +8,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from planmethod.languages import LANGUAGES
-from planmethod.problem.common import (
+from planmethod.problem.machine_records import (
+    CounterweightTask,
+    CycleTask,
+    FlywheelTask,
+    KlossSection,
+    LineSection,
+    Machine,
+    MotorSection,
+    PoleDistances,
+    ProjectTask,
+)
+from planmethod.problem.model import Scales
+from planmethod.problem.records import (
     LETTERINGS,
     TITLE_BLOCK,
     TITLE_BLOCK_IN,
     TITLE_FORMS,
-    Published,
-    QuestionSpec,
-    SheetSettings,
-)
-from planmethod.problem.cycle_records import CycleTask, PoleDistances, ProjectTask
-from planmethod.problem.key_types import declared
-from planmethod.problem.load_records import (
     BalancingForceTask,
     BearingSection,
     Dynamics,
@@ -28,16 +33,10 @@ from planmethod.problem.load_records import (
     Mass,
     PairFriction,
     Phase,
+    Published,
+    QuestionSpec,
+    SheetSettings,
 )
-from planmethod.problem.machine_records import (
-    CounterweightTask,
-    FlywheelTask,
-    KlossSection,
-    LineSection,
-    Machine,
-    MotorSection,
-)
-from planmethod.problem.model import Scales
 from planmethod.problem.tables import (
     CamSection,
     GearWheelSection,
@@ -45,6 +44,7 @@ from planmethod.problem.tables import (
     MeshingSection,
     PictureSection,
     PlanetaryTask,
+    declared,
 )
 
 OF_KINDS = ("gears", "point", "meshing", "cam")

@@ -11,30 +11,35 @@ from msgspec.structs import replace
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, HigherPair, Mechanism
 from planmethod.problem import keys
-from planmethod.problem.answers import AnswerScope, read_answers
-from planmethod.problem.cycle import cycle_count, read_cycle, with_cycle_count
+from planmethod.problem.answers import (
+    AnswerScope,
+    check_quantity,
+    read_answers,
+    read_published,
+    read_tables,
+)
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.file_node import FileNode, read_units
-from planmethod.problem.joints import coincident_points, join
-from planmethod.problem.links import LinkText, check_arcs, read_links
-from planmethod.problem.model import Body, CamDrive, Drive, GearDrive, Problem, Scales, Slide
-from planmethod.problem.names import listed
-from planmethod.problem.placement import place_points
-from planmethod.problem.project import read_project
-from planmethod.problem.selector import check_quantity, read_published, read_tables
-from planmethod.problem.sheet import read_head
-from planmethod.problem.slides import (
+from planmethod.problem.joints import (
     FrameText,
     Host,
+    coincident_points,
     find_host,
+    join,
     order_hosts,
     read_frame,
     read_slide,
 )
+from planmethod.problem.links import LinkText, check_arcs, read_links
+from planmethod.problem.machine import cycle_count, read_cycle, read_project, with_cycle_count
+from planmethod.problem.model import Body, CamDrive, Drive, GearDrive, Problem, Scales, Slide
+from planmethod.problem.names import listed
+from planmethod.problem.placement import place_points
+from planmethod.problem.sheet import read_head
 
 if TYPE_CHECKING:
-    from planmethod.problem.load_records import Dynamics
     from planmethod.problem.machine_records import CounterweightTask, Machine
+    from planmethod.problem.records import Dynamics
 
 TrainReader: TypeAlias = Callable[[FileNode], GearDrive | CamDrive | None]
 """Reader of ``[gears]`` or ``[cam]`` of a file for its driver; None after a fault."""
@@ -71,7 +76,7 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
         return None
     higher: tuple[HigherPair, ...] = ()
     if "higher_pairs" in file:
-        from planmethod.problem.higher import read_higher  # few files have any
+        from planmethod.problem.joints import read_higher  # few files have any
 
         higher = file.read("higher_pairs", partial(read_higher, links=links, frame=frame)) or ()
     check_arcs(links, frame.points)
@@ -190,7 +195,7 @@ def _read_forces(
     if not _FORCES.intersection(file.value):
         return None, drive, None
     from planmethod.problem import dynamics as forces  # few files have any
-    from planmethod.problem.forces import LoadScope
+    from planmethod.problem.dynamics import LoadScope
     from planmethod.problem.sizes import TURN
 
     dynamics = balancing = None

@@ -18,16 +18,16 @@ from msgspec.structs import replace
 
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Mechanism
-from planmethod.problem.common import KindProblem
-from planmethod.problem.cycle_records import CycleTask, ProjectTask
-from planmethod.problem.key_types import FlagKey, NumberKey, WordKey
+from planmethod.problem.machine_records import CycleTask, ProjectTask
 from planmethod.problem.names import format_length, split_pair
+from planmethod.problem.records import KindProblem
+from planmethod.problem.tables import FlagKey, NumberKey, WordKey
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from planmethod.problem.load_records import BalancingForceTask, Dynamics
     from planmethod.problem.machine_records import CounterweightTask, Machine
+    from planmethod.problem.records import BalancingForceTask, Dynamics
 
 
 class Body(Struct, frozen=True):
@@ -222,7 +222,7 @@ class GearDrive(Struct, frozen=True):
     def given_facts(self, words: Any) -> Sequence[Any]:
         """Return the given facts of the train, in a language (`Language`).
 
-        The subclass of a train (`gears/driving.py`) has them.
+        The subclass of a train (`gears/results.py`) has them.
         """
         return ()
 
@@ -264,7 +264,7 @@ class CamDrive(Struct, frozen=True):
     def given_facts(self, words: Any) -> Sequence[Any]:
         """Return the given facts of the cam, in a language (`Language`).
 
-        The subclass of a cam (`cams/driving.py`) has them.
+        The subclass of a cam (`cams/results.py`) has them.
         """
         return ()
 
@@ -350,7 +350,7 @@ class Drive(Struct, frozen=True):
     rate, acceleration : float
         omega, 1/s and epsilon, 1/s² (counter-clockwise positive); or v, m/s and a, m/s². For a
         cam's follower those of the cam in its sense: the link's own are in
-        `planmethod.solved.driving`.
+        `planmethod.solved.reading`.
     gear_drive : GearDrive or None
         The train that drives a crank, where one is given.
     turns : float or None, rev/min
@@ -539,7 +539,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         positions and scales are those of all sheets; None for a problem as read.
     numbered : tuple of float
         Positions of the cycle in the order of their numbers, degrees, over all turns of a cycle
-        of several; empty without ``[cycle]`` (`planmethod.solved.turn.numbering`).
+        of several; empty without ``[cycle]`` (`planmethod.solved.turn.extremes`).
     machine : Machine or None
         Data for the flywheel; None when the file has no ``[machine]``.
     balancing : CounterweightTask or None

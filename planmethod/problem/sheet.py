@@ -21,15 +21,15 @@ from planmethod.errors import ConfigError, Fault, LayoutError, ProblemError
 from planmethod.languages import LANGUAGES, translate
 from planmethod.paper import paper_format
 from planmethod.problem import keys
-from planmethod.problem.common import (
+from planmethod.problem.file_node import Faults, FileNode
+from planmethod.problem.names import TITLE_LIMIT
+from planmethod.problem.records import (
     SEVERAL,
     STAMP_LIMIT,
     TITLE_BLOCK,
     TITLE_BLOCK_IN,
     SheetSettings,
 )
-from planmethod.problem.file_node import Faults, FileNode
-from planmethod.problem.names import TITLE_LIMIT
 from planmethod.problem.source import parse, read_source
 
 _PAPER_LIMIT = 40

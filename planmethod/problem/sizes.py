@@ -12,7 +12,9 @@ from msgspec.structs import replace
 from planmethod.languages import translate
 from planmethod.problem import keys
 from planmethod.problem.file_node import FileNode, is_number, needed, show
-from planmethod.problem.load_records import (
+from planmethod.problem.model import Drive
+from planmethod.problem.names import indexed, listed
+from planmethod.problem.records import (
     IndicatorDiagram,
     Interpolation,
     LoadLaw,
@@ -20,8 +22,6 @@ from planmethod.problem.load_records import (
     Phase,
     SizeTable,
 )
-from planmethod.problem.model import Drive
-from planmethod.problem.names import indexed, listed
 
 TURN = 360.0
 """Period of a table over phi, degrees."""

@@ -13,11 +13,10 @@ from planmethod.note.writers.pdfnote import pdf_note
 from planmethod.note.writers.word import word_document
 from planmethod.note.writers.wordframe import fields_of_note
 from planmethod.paper import FRAME_OTHER, paper_format
-from planmethod.project.model import Project, SheetEntry
 from planmethod.project.report import note_document
+from planmethod.project.settle import Project, SheetEntry
 from planmethod.render.backends.view import DrawingView
-from planmethod.render.frame.forms import FORM_2, FORM_2A
-from planmethod.render.frame.titleblock import merged, rectangle, title_block
+from planmethod.render.frame import FORM_2, FORM_2A, merged, rectangle, title_block
 from planmethod.render.ink.drawing import Drawing, Pen, shifted
 
 FORMATS = ("docx", "pdf")

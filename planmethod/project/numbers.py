@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from planmethod.note.plaintext import plain_text
+from planmethod.note.document import plain_text
 from planmethod.note.records.spreadsheet import csv_columns, driver_of
-from planmethod.note.tables.series import motion_series
+from planmethod.note.tables.errors import motion_series
 from planmethod.note.wording import MessageTable, get_language
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
-from planmethod.plans.legend import MOTION_KINDS
-from planmethod.project.model import Project
+from planmethod.plans.build import MOTION_KINDS
+from planmethod.project.settle import Project
 from planmethod.solved.reading import Reals
 
 KINDS = (

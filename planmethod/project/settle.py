@@ -1,42 +1,406 @@
-"""Decisions of a project (решения проекта), all made once.
-
-Positions are those of the cycle, scales those of sheet 1 at these positions; both are written into
-the problem, so that every output has them without knowing of projects.
-"""
+"""Decisions of a project (решения проекта), all made once, and their record."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import contextlib
+from collections.abc import Iterator, Mapping, Sequence
+from enum import Enum
+from fractions import Fraction
+from functools import cached_property, partial
 from math import pi
 from pathlib import Path
-from typing import assert_never
+from typing import Any, assert_never
 
 import numpy as np
+from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.arguments import of_type
 from planmethod.cams.model import CamProblem
-from planmethod.errors import Fault, ProblemError
+from planmethod.construct.scale import choose_scale, series_near
+from planmethod.errors import Fault, LayoutError, ProblemError
+from planmethod.gears.involute.geometry import MeshingProblem
+from planmethod.gears.model import HALF_MODULES, DiagramSettings, GearProblem, MeshKind, Train
+from planmethod.gears.motion import TrainMotion, solve_motion
+from planmethod.kind import ProblemKind
 from planmethod.kinds import KINDS
 from planmethod.languages import LANGUAGES, translate
-from planmethod.problem.cycle_records import CycleTask, ProjectTask
-from planmethod.problem.load_records import TurningSense
-from planmethod.problem.model import SAME_DEG, Problem
+from planmethod.mechanism.model import FRAME
+from planmethod.note.document import plain_text
+from planmethod.paper import Format
+from planmethod.problem.machine_records import CycleTask, ProjectTask
+from planmethod.problem.model import SAME_DEG, Problem, Scales
+from planmethod.problem.records import KindProblem, SizeTable, TurningSense
 from planmethod.problem.source import parse, read_source
-from planmethod.project.decided import (
-    calculated_position,
-    force_scale,
-)
-from planmethod.project.first import first_scales
-from planmethod.project.model import PartName, Project, ProjectPart
-from planmethod.project.train import in_mesh
-from planmethod.render.frame.titleblock import merged
-from planmethod.solved.forces.loads import only_in_positions
+from planmethod.render.frame import merged
+from planmethod.render.ink.drawing import Drawing
+from planmethod.render.sheets.composition import composition
+from planmethod.render.sheets.kinematics import kinematics_sheets, sheet_scales
+from planmethod.render.sheets.model import Composition
+from planmethod.render.sheets.views import clearest_position, is_clear
+from planmethod.solved.forces.loads import external, only_in_positions
+from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.legibility import Box
+from planmethod.solved.reading import Flags
 from planmethod.solved.scaling import MAX_DRAWN
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import TURN
-from planmethod.solved.turn.numbering import number, strokes_of
+from planmethod.solved.turn.extremes import number_positions, strokes_of
+from planmethod.solved.turn.output import Strokes
+
+
+class PartName(Enum):
+    """Parts of a project in the order of their sheets, as options and records name them."""
+
+    KINEMATICS = "kinematics"
+    FORCES = "forces"
+    FLYWHEEL = "flywheel"
+    BALANCING = "balancing"
+    GEARS = "gears"
+    MESHING = "meshing"
+    CAM = "cam"
+    NOTE = "note"
+
+
+class ProjectPart(Struct, frozen=True):
+    """A part of a project that the file has (часть проекта).
+
+    Attributes
+    ----------
+    name : PartName
+    problem : KindProblem
+        Its subject: the linkage with its decisions, the train, the meshing, the cam.
+    kind : ProblemKind or None
+        Kind of the problem; None for the linkage.
+    """
+
+    name: PartName
+    problem: KindProblem
+    kind: ProblemKind[Any] | None = None
+
+
+class SheetEntry(Struct, frozen=True):
+    """A sheet in the list of the note (запись перечня листов).
+
+    Attributes
+    ----------
+    part : PartName
+    number : int
+        In the set of all sheets.
+    title : str
+        As in the title block.
+    paper : Format
+    """
+
+    part: PartName
+    number: int
+    title: str
+    paper: Format
+
+
+class Project(Struct, frozen=True, dict=True):
+    """Decisions of a project (решения курсового проекта): every output uses them.
+
+    Attributes
+    ----------
+    problem : Problem
+        The linkage with the decisions written in: positions in `drive`, scales in `scales`, the
+        cycle that they are positions of, language and paper in `sheet`.
+    positions : tuple of float
+        Driver positions by their numbers, from 0: degrees, or m of a slider.
+    calculated : int
+        Number of the calculated position (расчётное положение): bold, loaded, described in full.
+    strokes : Strokes or None
+        Phases of the strokes; None where the output has none.
+    scales : Scales
+        One scale for each kind of plan, unit per mm; ``mu_F`` is None without forces.
+    frame : str
+        Number of the frame (номер стойки).
+    language : str
+    paper : str or None
+        Requested format.
+    parts : tuple of ProjectPart
+        Those that the file has, in the order of `PartName`; the note is none of them.
+    """
+
+    problem: Problem
+    positions: tuple[float, ...]
+    calculated: int
+    strokes: Strokes | None
+    scales: Scales
+    frame: str
+    language: str
+    paper: str | None
+    parts: tuple[ProjectPart, ...]
+
+    def part(self, name: PartName) -> ProjectPart | None:
+        """Return a part; None if the file does not have it."""
+        return next((part for part in self.parts if part.name is name), None)
+
+    @property
+    def places(self) -> tuple[float, ...]:
+        """Driver positions as sheets write them: an angle of a full crank within its turn."""
+        if not self.problem.goes_round:
+            return self.positions
+        return tuple(round(position % 360.0, 9) % 360.0 for position in self.positions)
+
+    @cached_property
+    def solution(self) -> Solution:
+        """The linkage in all positions, at the scales of the project."""
+        return Solution(self.problem)
+
+    @cached_property
+    def loaded(self) -> Solution:
+        """The linkage in the calculated position alone, at the same scales."""
+        return self.solution.with_positions([self.positions[self.calculated]])
+
+
+SPEED_TOLERANCE = 5e-3
+"""Relative difference from the crank's speed within which a link of the train turns with it."""
+
+RPM = 30.0 / pi
+"""Revolutions per minute of 1 rad/s."""
+
+
+def meshed(train: Train, pair: MeshingProblem) -> tuple[str, str] | None:
+    """Return the wheels of a train that a meshing is of, its wheel 1 first (колёса зацепления).
+
+    They are the only ones that mesh so and have its numbers of teeth; else None.
+    """
+    kind = MeshKind.INTERNAL if pair.cutter else MeshKind.EXTERNAL
+    ends = [(mesh.first, mesh.second) for mesh in train.meshes if mesh.kind is kind]
+    ways = [[e for e in (end, end[::-1]) if [train.wheels[x].size for x in e] == [*pair.z]]
+            for end in ends]  # fmt: skip
+    found = [way[0] for way in ways if way]
+    return found[0] if len(found) == 1 else None
+
+
+def in_mesh(parts: Sequence[ProjectPart]) -> tuple[ProjectPart, ...]:
+    """Return the parts of a project, its train with the decisions of the meshing.
+
+    Wheels that mesh there are cut with its shifts and have its module, which is that of the train
+    where the train has none; the scale of the scheme grows with it then.
+
+    Raises
+    ------
+    ProblemError
+        The train gives the row of these wheels, or one of them, another module.
+    """
+    pair = next((x.problem for x in parts if isinstance(x.problem, MeshingProblem)), None)
+    return tuple(
+        replace(part, problem=_cut(part.problem, pair))
+        if isinstance(part.problem, GearProblem) and pair is not None
+        else part
+        for part in parts
+    )
+
+
+def _cut(problem: GearProblem, pair: MeshingProblem) -> GearProblem:
+    train = problem.train
+    ends = meshed(train, pair)
+    if ends is None:
+        return problem
+    shifts = dict(zip(ends, pair.x, strict=True))
+    wheels = {
+        label: wheel if wheel.shift or label not in shifts
+        else replace(wheel, shift=Fraction(repr(shifts[label])))
+        for label, wheel in train.wheels.items()
+    }  # fmt: skip
+    module = Fraction(repr(pair.m)) / 1000
+    for label in ends:
+        told = wheels[label].module
+        if told is not None and told != module:
+            what = translate(
+                "wheels {} and {} have the module {:g} mm, and {:g} mm in [meshing]",
+                *ends, float(told * 1000), pair.m,
+            )  # fmt: skip
+            fault = Fault("gears.module", what, "Keep one of them.")
+            raise ProblemError(problem.source_file, [fault])
+        if train.module is not None:
+            wheels[label] = replace(wheels[label], module=module)
+    train = replace(train, wheels=wheels)
+    if train.module is None and not any(wheel.is_pulley for wheel in wheels.values()):
+        picture = train.picture
+        if picture.mu_l == DiagramSettings().mu_l:
+            wanted = float(picture.mu_l * module * HALF_MODULES / 2)
+            mu_l = series_near(wanted, up=False)
+            picture = replace(picture, mu_l=Fraction(repr(mu_l)))
+        train = replace(train, module=module, picture=picture)
+    return replace(problem, train=train)
+
+
+def output_of(motion: TrainMotion) -> str | None:
+    """Return the output of a train with one input: the last moving body except planets."""
+    train = motion.train
+    others = {*train.inputs, *(x for some in motion.roles.planets.values() for x in some)}
+    moving = [body for body in train.bodies if motion.speeds.get(body) and body not in others]
+    return train.output or (moving[-1] if moving else None)
+
+
+def _driving_speeds(project: Project) -> tuple[TrainMotion, Mapping[str, float], bool] | None:
+    """Return the train of a project, the speeds of its bodies, 1/s, whether one is the crank's.
+
+    None where the project has no train, or no crank that turns.
+    """
+    part, drive = project.part(PartName.GEARS), project.problem.drive
+    if part is None or not isinstance(part.problem, GearProblem):
+        return None
+    if not drive.is_crank or not drive.rate:
+        return None
+    motion = solve_motion(part.problem)
+    train, crank = motion.train, abs(drive.rate)
+    turning = [body for body in train.bodies if body not in train.racks]
+    speeds = {body: abs(float(motion.speeds.get(body, 0)) * train.rate) for body in turning}
+    return motion, speeds, any(abs(x - crank) <= SPEED_TOLERANCE * crank for x in speeds.values())
+
+
+def quick_shaft(project: Project) -> tuple[str, float] | None:
+    """Return the input of the train that turns the crank, and its speed ratio to it; else None.
+
+    The crank turns with a link of the train; of several inputs the quickest one is meant.
+    """
+    found = _driving_speeds(project)
+    if found is None:
+        return None
+    motion, speeds, turns_crank = found
+    inputs = [body for body in motion.train.inputs if body in speeds]
+    if not inputs or not turns_crank:
+        return None
+    quickest = max(inputs, key=speeds.__getitem__)
+    ratio = speeds[quickest] / abs(project.problem.drive.rate)
+    return (quickest, ratio) if ratio > 1.0 + SPEED_TOLERANCE else None
+
+
+def warn_of_separate_train(project: Project) -> str | None:
+    """Return a warning of a train without a link as fast as the crank; else None."""
+    found = _driving_speeds(project)
+    if found is None:
+        return None
+    motion, speeds, turns_crank = found
+    output = output_of(motion)
+    if output is None or output not in speeds or turns_crank:
+        return None
+    return translate(
+        "the crank makes {:.4g} rev/min, link {} of the train {:.4g} rev/min, and no other link of "
+        'it turns with the crank. Change n or the train, or write train = "{}" in [driver].',
+        RPM * abs(project.problem.drive.rate),
+        output,
+        RPM * speeds[output],
+        output,
+    )
+
+
+FORCES_BOX: Box = (170.0, 130.0)
+"""Box of the largest force plan of a project at the common scale, mm."""
+
+
+CONSIDERABLE, SLIGHT = 1.0 / 3.0, 0.05
+"""Shares of its largest size from which a load is considerable, and acts at all, in a position."""
+
+
+def calculated_position(solution: Solution) -> int:
+    """Return the default calculated position (расчётное положение).
+
+    The clearest of those in which a load is considerable; if none of them is clear, a clear one in
+    which a load acts.
+    """
+    chosen = [clearest_position(solution, loaded_positions(solution, share))
+              for share in (CONSIDERABLE, SLIGHT)]  # fmt: skip
+    return next((number for number in chosen if is_clear(solution)[number]), chosen[0])
+
+
+def loaded_positions(solution: Solution, fraction: float = CONSIDERABLE) -> tuple[int, ...]:
+    """Return the positions in which a varying load is considerable; all where none varies.
+
+    A load is considerable from a ``fraction`` of its largest size on: in other positions weights
+    and inertia would hide it.
+    """
+    count, dynamics = len(solution.positions), solution.problem.dynamics
+    acts: Flags = np.zeros(count, dtype=bool)
+    if dynamics is not None:
+        tables = {load.name: load.size.values for load in dynamics.loads
+                  if isinstance(load.size, SizeTable)}  # fmt: skip
+        for link in (FRAME, *solution.problem.mechanism.links):
+            for one in external(solution, dynamics, link):
+                size = np.abs(np.broadcast_to(one.force if one.point else one.couple, acts.shape))
+                largest = max(float(size.max()), *map(abs, tables.get(one.name, ())), 1e-300)
+                large = size >= fraction * largest
+                acts |= large & (not large.all())  # one that is there always says nothing
+    return tuple(np.flatnonzero(acts).tolist()) if acts.any() else tuple(range(count))
+
+
+def force_scale(solution: Solution) -> float:
+    """Return one scale for all force plans of a position, N per mm."""
+    statics, asked = statics_of(solution), solution.problem.scales
+    if asked.mu_F is not None:
+        return asked.mu_F
+    whole = np.max([statics.extent(plan) for plan in statics.board.plans], axis=0)
+    box = float(whole[0]), float(whole[1])
+    return choose_scale(box, FORCES_BOX, mm_per_unit=asked.in_mm_per_unit)
+
+
+SEVERAL = "project-kinematics"
+"""Composition where a crank turns through its cycle."""
+
+PAPER = "A1"
+"""Default format."""
+
+FEW = 6
+"""Maximum number of positions whose plans, diagrams and tables are tried on one sheet."""
+
+
+def first_sheet(problem: Problem, **more: Any) -> list[Drawing]:
+    """Return sheet 1 of a project: plans on one, diagrams and tables on the next.
+
+    With a few positions all are on one, if they fit; small paper needs more sheets.
+
+    Parameters
+    ----------
+    problem : Problem
+        With its decisions: its scales are those of `first_scales`.
+    more
+        Taken by `kinematics_sheets`.
+
+    Raises
+    ------
+    LayoutError
+        The content does not fit on any number of sheets.
+    """
+    positions = problem.drive.positions
+    if problem.cycle is None:
+        return kinematics_sheets(problem, positions=positions, **more)
+    made, paper = _composition(problem), problem.sheet.paper or PAPER
+    draw = partial(kinematics_sheets, problem, paper=paper, positions=positions, **more)
+    if len(positions) <= FEW:
+        blocks = tuple(replace(entry, sheet=1) for entry in made.blocks)
+        with contextlib.suppress(LayoutError):
+            one = draw(layout=replace(made, blocks=blocks))
+            if len(one) == 1:
+                return one
+    return draw(layout=made)
+
+
+def first_scales(problem: Problem) -> Scales:
+    """Return the scales of a project: those of scheme and plans on a sheet of their own.
+
+    Raises
+    ------
+    LayoutError
+    """
+    positions = problem.drive.positions
+    if problem.cycle is None:
+        return sheet_scales(problem, positions=positions)
+    made = _composition(problem)
+    plans = tuple(entry for entry in made.blocks if entry.sheet == 1)
+    paper = replace(problem.sheet, paper=problem.sheet.paper or PAPER)
+    one = replace(problem, sheet=paper)
+    return sheet_scales(one, replace(made, blocks=plans), positions)
+
+
+def _composition(problem: Problem) -> Composition:
+    return composition(SEVERAL, problem.sheet.lang or LANGUAGES[0])
+
 
 MAX_COUNT = 72
 """Most positions of the construction of a flywheel."""
@@ -121,7 +485,7 @@ def in_positions(problem: Problem) -> Problem:
     """Return a problem whose positions, cycle and flywheel have the same numbering."""
     if problem.drive.is_crank and problem.cycle is None:
         cycle = _default_cycle(problem)
-        problem = problem if cycle is None else number(replace(problem, cycle=cycle))
+        problem = problem if cycle is None else number_positions(replace(problem, cycle=cycle))
     positions, drive, machine = problem.numbered, problem.drive, problem.machine
     if not positions:
         return problem
@@ -260,3 +624,57 @@ def _check_other_file(problem: Problem, table: str, file: Path) -> None:
     else:
         return
     raise ProblemError(problem.name, [Fault(f"project.{table}", text, hint)])
+
+
+SCHEMA = 1
+
+STROKES = ("working_deg", "idle_deg", "K_v", "by")
+
+
+class PartFiles(Struct, frozen=True):
+    """Files of a part in the order of its sheets, and how many sheets it has."""
+
+    name: PartName
+    files: tuple[str, ...]
+    sheets: int
+
+
+def project_record(project: Project, parts: Sequence[PartFiles], basename: str) -> dict[str, Any]:
+    """Return the decisions of a project and its files.
+
+    Parameters
+    ----------
+    parts : sequence of PartFiles
+        Those that were made.
+    basename : str
+        Base name of its files.
+    """
+    column, scales = project.problem.drive.coordinate.column, project.scales
+    strokes = project.strokes
+    return {
+        "schema": SCHEMA,
+        "problem": basename,
+        "positions": [{"number": number, column: at} for number, at in enumerate(project.places)],
+        "calculated": project.calculated,
+        "strokes": None
+        if strokes is None
+        else {key: _to_json_value(getattr(strokes, key)) for key in STROKES},
+        "scales": {
+            "mu_l": scales.mu_l,
+            "mu_v": scales.mu_v,
+            "mu_a": scales.mu_a,
+            "mu_F": scales.mu_F,
+        },
+        "frame": project.frame,
+        "parts": [
+            {"name": part.name.value, "files": list(part.files), "sheets": part.sheets}
+            if part.name is not PartName.NOTE
+            else {"name": part.name.value, "files": list(part.files)}
+            for part in parts
+        ],
+    }
+
+
+def _to_json_value(value: float | str | None) -> float | str | None:
+    """Return a number without its last bits, a text without markup."""
+    return plain_text(value) if isinstance(value, str) else value and round(value, 9)

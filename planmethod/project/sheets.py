@@ -11,12 +11,10 @@ from planmethod.construct.drafting import PROFILES
 from planmethod.note.tables.forces import rubbed
 from planmethod.note.wording import Language, get_language
 from planmethod.paper import FORMATS
-from planmethod.project.first import PAPER, first_sheet
-from planmethod.project.model import PartName, Project, ProjectPart, SheetEntry
-from planmethod.render.frame.furniture import Furniture
-from planmethod.render.frame.numbered import numbered
+from planmethod.project.settle import PAPER, PartName, Project, ProjectPart, SheetEntry, first_sheet
+from planmethod.render.frame import Furniture, numbered
 from planmethod.render.ink.drawing import Drawing
-from planmethod.render.sheets.composition.reader import composition
+from planmethod.render.sheets.composition import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.model import Composition
 

@@ -11,20 +11,26 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.condition import UNIT_ROUNDOFF, as_scalar, measured_reach, reach
+from planmethod.construct.condition import (
+    DIGITS,
+    UNIT_ROUNDOFF,
+    Precise,
+    as_scalar,
+    measured_reach,
+    reach,
+)
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.multiprecision import DIGITS, Precise
 from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
 from planmethod.languages import translate
+from planmethod.plans.build import Quantity, QuantityKind
 from planmethod.plans.forces.board import SCALE
-from planmethod.plans.forces.loads import DOWN, numbers_of
-from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.plans.forces.polygons import DOWN, numbers_of
 from planmethod.problem.model import Problem
-from planmethod.solved.impossible import failing
+from planmethod.solved.conditioning import SCALES, error_bound
+from planmethod.solved.failures import failing
 from planmethod.solved.quantities import Quantities, natural_size, quantities_of
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import SCALES, error_bound
 
 ZERO_FRACTION = 1e-14
 """Share of the largest result of its kind below which one is zero by nature, and not measured in
@@ -83,7 +89,7 @@ class Refereed(Struct, frozen=True):
         existing steps are checked in any case.
     warned : float
         Bound of the relative error as reported to the user:
-        `planmethod.solved.trust.conditioning.error_bound`.
+        `planmethod.solved.conditioning.error_bound`.
     warned_forces : float or None
         The same of the forces: `planmethod.solved.forces.statics.Statics.bound`. None of a problem
         without loads.
@@ -157,7 +163,7 @@ def _with_data(solution: Solution) -> tuple[Quantities, dict[str, Any]]:
     loaded = solution.problem.dynamics is not None
     if not loaded or not _moves(solution):
         return results, {**solution.data(), **results.numbers}
-    from planmethod.solved.forces.quantities import with_forces
+    from planmethod.solved.forces.reading import with_forces
 
     results = with_forces(solution, results)
     data: dict[str, Any] = {**solution.data(), **results.numbers}

@@ -15,15 +15,14 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Single
-from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.evaluate import Trace, evaluate, place, solve_pose
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Leg, PointName, TriadPose
-from planmethod.construct.triad_pose import place, solve_pose
 from planmethod.errors import Fault
 from planmethod.languages import translate
 from planmethod.mechanism.groups import AssurGroup, Triad
-from planmethod.plans.assembly_mode import AssemblyMode, TrackedAssembly
 from planmethod.plans.draft import Draft
+from planmethod.plans.model import AssemblyMode, TrackedAssembly
 from planmethod.plans.motion.position import axis_of_link, base_points
 from planmethod.problem.model import AssemblyRelation, Rule
 from planmethod.problem.names import format_place

@@ -1,12 +1,4 @@
-"""Choice of the assembly mode of each group (способ сборки групп).
-
-A rule compares the two candidate places of its point; the side that it selects at the first
-requested position that can be assembled (if none is given, at the first of 0, 10, ... degrees)
-holds for every position, or selects the branch of the motion. So a position gives the same result
-alone and in a batch, and its assembly does not depend on the position before it.
-"""
-
-# no messages: rules, in the words of the file
+"""Choice of the assembly mode of each group (способ сборки групп)."""
 
 from __future__ import annotations
 
@@ -22,30 +14,27 @@ from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import GivenNumber, GivenPoint, PointName, Step
-from planmethod.errors import Fault, ProblemError
+from planmethod.errors import Fault, ProblemError, StructureError
 from planmethod.languages import translate
 from planmethod.mechanism.groups import AssurGroup, triad_of
-from planmethod.mechanism.structure import Structure
-from planmethod.plans.assembly_mode import AssemblyMode, assembly_period
+from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, add_group, begin_positions, build
 from planmethod.plans.draft import Draft
+from planmethod.plans.model import AssemblyMode, assembly_period
 from planmethod.plans.motion.position import (
     has_two_modes,
     inner_point,
 )
 from planmethod.problem.model import AssemblyRelation, Problem, Rule
 from planmethod.problem.names import format_length, format_place
-from planmethod.solved.analysed import structure_of
 from planmethod.solved.assemblies import Assembled, best_third, choose
-from planmethod.solved.changes import changes
-from planmethod.solved.driving import driven
-from planmethod.solved.failures import Cause, Failure, Place, PositionError
-from planmethod.solved.impossible import explain
-from planmethod.solved.reading import Reading, Reals
+from planmethod.solved.failures import Cause, Failure, Place, PositionError, explain
+from planmethod.solved.reading import Reading, Reals, driven
 from planmethod.solved.rules import (
     TIE,
     Tried,
     ambiguous_fault,
+    changes,
     distinguishing_rules,
     from_joint,
     late_fault,
@@ -54,6 +43,33 @@ from planmethod.solved.rules import (
     slotted_rule,
     unkept_fault,
 )
+
+
+def structure_of(problem: Problem) -> Structure:
+    """Return the groups of the mechanism of a problem.
+
+    Raises
+    ------
+    StructureError
+        As of `analyse`; also for wheels on links, whose meshes are not pairs here.
+    """
+    try:
+        return analyse(problem.mechanism)
+    except StructureError as error:
+        wheels = problem.tables.get("gears", {}).get("wheels")
+        named = [name for name in problem.mechanism.links if name in (wheels or {})]
+        if not isinstance(wheels, Mapping) or len(named) < 2:
+            raise
+        text = translate(
+            "Wheels {} of [gears] have the names of links: a mesh of two wheels on links of "
+            "a linkage is not supported as a pair yet and is not counted. Give the linkage "
+            "one crank, and give other names to a train that turns it.",
+            ", ".join(named),
+        )
+        raise StructureError(f"{error} {text}") from error
+
+
+# no messages: rules, in the words of the file
 
 
 def drive_data(

@@ -19,10 +19,8 @@ from planmethod.problem import keys
 from planmethod.problem.file_node import Faults, FileNode
 from planmethod.problem.linkage import TrainReader
 from planmethod.problem.model import Problem
-from planmethod.problem.reader import read_parsed
-from planmethod.problem.variants import apply_variant, read_variants
-from planmethod.solved.failures import Failure, PositionError
-from planmethod.solved.impossible import explain, failing
+from planmethod.problem.reader import apply_variant, read_parsed, read_variants
+from planmethod.solved.failures import Failure, PositionError, explain, failing
 from planmethod.solved.reading import Reals
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution

@@ -1,21 +1,30 @@
-"""Every quantity of a construction by its label, and the program that makes it (величины)."""
+"""Every quantity of a construction by its label (величины), and its transfer functions."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from msgspec import Struct
 
+from planmethod.construct.arithmetic import Float64
 from planmethod.construct.program import Program
-from planmethod.construct.steps import NumberName
+from planmethod.construct.steps import NumberName, Step
 from planmethod.errors import PlanMethodError
 from planmethod.languages import translate
-from planmethod.plans.build import Construction
+from planmethod.plans.build import (
+    TRANSFERS,
+    Construction,
+    Quantity,
+    QuantityKind,
+    TransferSteps,
+    transfer_quantities,
+)
 from planmethod.plans.draft import Draft
-from planmethod.plans.legend import TRANSFERS, Quantity, QuantityKind
-from planmethod.plans.transfers import transfer_quantities
+from planmethod.solved.reading import Reading, Reals, memoized
+from planmethod.solved.solution import PointMotion, Solution
 
 BY_NAME = (QuantityKind.UNIT, QuantityKind.CORIOLIS, QuantityKind.RELATIVE, *TRANSFERS)
 """Kinds of quantities that are given only when requested by name."""
@@ -123,3 +132,105 @@ def quantities_of(construction: Construction, *, transfers: bool = False) -> Qua
     if transfers:
         found = (*found, *transfer_quantities(construction.kinematics, draft))
     return Quantities(draft.b.program(), draft.numbers, found, draft)
+
+
+class Transfers:
+    """Transfer functions through segments of the plans (передаточные функции по планам).
+
+    Their drafting errors are listed with those of the plans, by label.
+
+    Parameters
+    ----------
+    solution : Solution
+        With a crank that turns; others have no such plans.
+
+    Attributes
+    ----------
+    quantities : tuple of Quantity
+        Quantities of points and links, velocities before accelerations; those that are zero by
+        nature are left out.
+    program : Program
+        Program of the construction with their steps.
+    added : tuple of Step
+        These.
+    numbers : mapping of str to Number
+        Data of the construction and of these steps.
+    """
+
+    def __init__(self, solution: Solution) -> None:
+        self.solution, construction = solution, solution.construction
+        kinematics = construction.kinematics
+        self.draft, found = _planned(construction)
+        self.numbers = solution.numbers_of(lambda made: _planned(made)[0].numbers)
+        turning = {
+            QuantityKind.RATIO: {f"u_{link}" for link in kinematics.omega},
+            QuantityKind.RATIO_2: {
+                f"epsilon_q_{link}" for link in (*kinematics.omega, *kinematics.epsilon)
+            },
+        }
+        self.quantities = tuple(q for q in found if str(q.name) in turning.get(q.kind, {q.name}))
+        self.program = self.draft.b.program()
+        self.added: tuple[Step, ...] = self.program.steps[len(construction.program.steps) :]
+
+    @cached_property
+    def steps(self) -> TransferSteps:
+        """Steps of the formulas, on a separate draft."""
+        return TransferSteps(self.solution.construction.kinematics, self.draft.copy())
+
+    @cached_property
+    def si(self) -> Reading:
+        """Exact reading, SI."""
+        return self.solution.si.extend(self.added, self.numbers, Float64())
+
+    @cached_property
+    def paper(self) -> Reading:
+        """Exact reading in millimetres of the plans."""
+        return self.solution.paper.extend(self.added, self.numbers, Float64())
+
+    @cached_property
+    def ruler_reading(self) -> Reading:
+        """Reading with the draughtsman's ruler."""
+        return self.solution.ruler_reading.extend(
+            self.added, self.numbers, self.solution.ruler_arithmetic
+        )
+
+    def exact(self, quantity: Quantity) -> Reals:
+        """Return a transfer function, m and radians of a radian of the crank, shape (n,)."""
+        return self.si.number(quantity.name)
+
+    def read_off(self, quantity: Quantity) -> Reals:
+        """Return a transfer function as found by hand, shape (n,)."""
+        return self.ruler_reading.number(quantity.name)
+
+    def some(self, *kinds: QuantityKind) -> list[Quantity]:
+        """Return the transfer functions of some kinds."""
+        return [q for q in self.quantities if q.kind in (kinds or TRANSFERS)]
+
+
+def _planned(construction: Construction) -> tuple[Draft, list[Quantity]]:
+    """Return a construction that continues with the steps of the transfer functions, and these."""
+    draft = construction.draft.copy()
+    return draft, list(transfer_quantities(construction.kinematics, draft))
+
+
+def transfers_of(solution: Solution) -> Transfers | None:
+    """Return the transfer functions of a solution, once; None without a crank that turns."""
+    drive = solution.problem.drive
+    if not drive.revolves or drive.rate == 0.0 or np.isnan(drive.rate):
+        return None
+    return solution.compute_once(Transfers)
+
+
+@memoized
+def analogues(solution: Solution) -> tuple[dict[str, PointMotion], dict[str, tuple[Reals, Reals]]]:
+    """Return first and second transfer functions in the positions of a solution (аналоги).
+
+    Returns
+    -------
+    points : dict
+        Motions at one radian (or metre) a second: velocity dx/dφ, acceleration d²x/dφ².
+    links : dict
+        dφ_i/dφ and d²φ_i/dφ², ndarrays of shape (n,).
+    """
+    unit = solution.at_unit_rate()
+    return unit.points, {name: (one.omega, one.epsilon) for name, one in unit.links.items()}

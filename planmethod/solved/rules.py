@@ -1,30 +1,34 @@
-"""Rules that select the assembly mode of a group (правила сборки).
-
-The score of a mode under a rule, the rule's text in the file, and its faults.
-"""
-
-# no messages: rules, in the words of the file
+"""Rules that select the assembly mode of a group, and change points (правила сборки)."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TypeAlias, assert_never
 
 import numpy as np
 from msgspec.structs import replace
 
-from planmethod.construct.steps import PointName
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.evaluate import evaluate
+from planmethod.construct.program import Program
+from planmethod.construct.steps import PointName, Touch
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import Prismatic, Revolute
 from planmethod.plans.draft import Draft, cis
 from planmethod.plans.motion.position import (
+    inner_point,
     outer_point,
     parallelogram,
+    rpr_parts,
 )
 from planmethod.problem.model import AssemblyRelation, Problem, Rule
 from planmethod.problem.names import format_length, format_place
 from planmethod.solved.reading import Complexes, Reading, Reals
+
+# no messages: rules, in the words of the file
+
 
 Tried: TypeAlias = tuple[Draft, Reading]
 """An assembly mode of a group, and its reading."""
@@ -242,3 +246,90 @@ def slotted_rule(problem: Problem, group: AssurGroup) -> Rule | None:
         for point in (point for point, at in body.items() if at != body[joint]):
             return Rule(point, AssemblyRelation.TOWARDS, (ends[other], joint))
     return None
+
+
+Data = Callable[[Reals], dict[str, complex | float | Reals]]
+
+TOUCHING = 1e-9
+"""Squared distance of two modes, relative to the group's size, at which they coincide."""
+
+SAMPLES = 721
+"""Number of samples of the driver's range: every half degree of a turn."""
+
+_ROUNDS, _PARTS = 8, 32  # the interval between two samples is subdivided again and again
+
+
+def changes(
+    draft: Draft,
+    program: Program,
+    data: Data,
+    group: AssurGroup,
+    low: float,
+    high: float,
+    *,
+    around: bool = True,
+) -> tuple[float, ...]:
+    """Return the driver positions from ``low`` to ``high`` in which a group's modes coincide.
+
+    Only positions that the driver can pass through are found: the group closes on both sides.
+
+    Parameters
+    ----------
+    draft, program
+        A position plan that has the group.
+    data : callable
+        Returns the plan's data at unit scales for some positions, ndarray of shape (n,).
+    around : bool
+        The driver goes round: every turn is sampled equally.
+    """
+
+    def mode_distance(positions: Reals) -> Reals:
+        with np.errstate(all="ignore"):
+            return _mode_distance(draft, program, data(positions), group, positions)
+
+    count = (SAMPLES - 1) * max(round((high - low) / 360.0), 1) + 1 if around else SAMPLES
+    looks = np.linspace(low, high, count)
+    there = np.array([np.inf, *mode_distance(looks), np.inf])
+    least = (there[1:-1] <= there[:-2]) & (there[1:-1] < there[2:])
+    found = []
+    for i in map(int, np.flatnonzero(least & (np.abs(there[1:-1]) < 0.1))):
+        one, two = looks[max(i - 1, 0)], looks[min(i + 1, count - 1)]
+        for _ in range(_ROUNDS):
+            fine = np.linspace(one, two, _PARTS + 1)
+            here = mode_distance(fine)
+            k = int(np.nanargmin(here))
+            one, two = fine[max(k - 1, 0)], fine[min(k + 1, _PARTS)]
+        if abs(here[k]) <= TOUCHING:
+            found.append(float(fine[k]))
+    return tuple(found)
+
+
+def _mode_distance(
+    draft: Draft,
+    program: Program,
+    data: dict[str, complex | float | Reals],
+    group: AssurGroup,
+    positions: Reals,
+) -> Reals:
+    """Return the squared distance of both modes, relative to the group's size."""
+    trace = evaluate(program, data, Float64())
+
+    def gap(p: str, q: str) -> Reals:
+        ends = trace.value[PointName(q)] - trace.value[PointName(p)]
+        return np.asarray(np.abs(ends), dtype=float)
+
+    if group.signature == "RPR":
+        _, host, slider = rpr_parts(draft, group)
+        p, q = outer_point(host), outer_point(slider)
+        feet = [step.out for step in program.steps if isinstance(step, Touch) and step.source == q]
+        span = gap(p, q)
+        found = trace.margin[feet[0]] if feet else (span / np.max(span)) ** 2
+    else:
+        c = inner_point(group)
+        found = trace.margin[PointName(c)]
+        if group.signature == "RRR":
+            # Of two equal arcs about one place it is the line of centres that has no direction.
+            p, q = (outer_point(lead) for lead in group.legs)
+            span = gap(p, q)
+            found = np.where(span == 0, 0.0, found * (span / gap(p, c)) ** 2)
+    return np.broadcast_to(np.asarray(found, dtype=float), positions.shape)

@@ -17,10 +17,18 @@ from planmethod.paper import DEFAULT_SERIES, FORMATS, paper_format
 from planmethod.plans.build import Construction
 from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.problem.model import Problem, Scales
-from planmethod.solved.detail_views import AROUND, NAMED, enlargement_of
-from planmethod.solved.label_density import is_too_dense
+from planmethod.solved.legibility import (
+    AROUND,
+    FEW,
+    NAMED,
+    BlockSizes,
+    Box,
+    Texts,
+    enlargement_of,
+    fits_format,
+    is_too_dense,
+)
 from planmethod.solved.reading import Reading, Reals
-from planmethod.solved.sheet_estimate import FEW, BlockSizes, Box, Texts, fits_format
 
 
 class Views(Struct, frozen=True):

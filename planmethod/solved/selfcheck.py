@@ -18,7 +18,7 @@ from planmethod.plans.motion.position import inner_point, parallelogram
 from planmethod.problem.model import SAME_DEG
 from planmethod.problem.plausibility import unlikely
 from planmethod.solved.assembly_modes import drive_data
-from planmethod.solved.changes import changes
+from planmethod.solved.conditioning import SPOILT, WARN_RELATIVE_ERROR, error_bound
 from planmethod.solved.failures import (
     NOT_REACHED,
     TURN,
@@ -34,8 +34,8 @@ from planmethod.solved.failures import (
 )
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.reading import Complexes, Flags, Reals
+from planmethod.solved.rules import changes
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import SPOILT, WARN_RELATIVE_ERROR, error_bound
 
 if TYPE_CHECKING:
     from planmethod.solved.forces.statics import Statics

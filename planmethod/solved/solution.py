@@ -24,31 +24,26 @@ from planmethod.arguments import (
     of_type,
 )
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
-from planmethod.construct.drafting import PROFILES, Profile
+from planmethod.construct.drafting import PROFILES, Profile, RulerArithmetic
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import ArgumentError
 from planmethod.mechanism.structure import Structure
-from planmethod.plans.assembly_mode import assembly_period
-from planmethod.plans.build import Construction
-from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.plans.model import RATES, PlanKind
+from planmethod.plans.build import Construction, Quantity, QuantityKind
+from planmethod.plans.model import RATES, PlanKind, assembly_period
 from planmethod.plans.motion.legs import Relative
 from planmethod.problem.model import Problem, Scales
 from planmethod.solved.assembly_modes import construct, drive_data, reject_ambiguous
-from planmethod.solved.detail_views import (
+from planmethod.solved.failures import PositionError, explain, failing
+from planmethod.solved.legibility import (
     DetailView,
     find_detail_views,
     measured,
     min_enlarged,
     small_plans,
 )
-from planmethod.solved.driving import driven
-from planmethod.solved.failures import PositionError
-from planmethod.solved.impossible import explain, failing
-from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, fixed
+from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, driven, fixed
 from planmethod.solved.scaling import (
     MAX_DRAWN,
     Extents,

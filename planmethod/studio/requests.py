@@ -1,9 +1,9 @@
-"""Possible requests, with a server or without, and starting files (запросы)."""
+"""Possible requests, their limits, starting files, and the location of a fault in a file."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,10 +11,146 @@ from msgspec import Meta, MsgspecError, Struct
 from msgspec.json import Decoder
 from msgspec.structs import asdict
 
-from planmethod.errors import ArgumentError
+from planmethod.errors import ArgumentError, Fault
 from planmethod.note.wording import get_language
 from planmethod.problem import FAMILIES, OTHER_FAMILIES, template
 from planmethod.problem.tasks import tasks, text_for
+
+MB = 1 << 20
+
+NO_MEMORY = "This takes more memory than is available. Request less."
+NESTING_TOO_DEEP = "This is nested too deep to be computed. Request less."
+"""Reasons for a missing result, with a server or without."""
+
+
+class StudioLimits(Struct, frozen=True, kw_only=True):
+    """Limits of requests (пределы студии).
+
+    Attributes
+    ----------
+    seconds, slow_seconds, trusted_seconds : float
+        Processor time for one computation; for a note or a project; for a request of an
+        instructor.
+    memory : int or None
+        Address space of a worker process, bytes; if the system can bound it.
+    text, upload, uploads : int
+        Bytes of a problem file with its request, of one submission, of all those of a session.
+    written : int
+        Bytes of a file that a computation writes.
+    waiting, session_waiting : int
+        Computations that wait, of all and of one session.
+    works : int
+        Maximum number of submissions of a session.
+    sessions : int
+        Concurrent sessions: a new one replaces the oldest that has no computation.
+    idle : float
+        Seconds without a request after which a session is deleted.
+    stored_results : int
+        Computations of a session whose files are kept.
+    rate, burst : float
+        Computations a second that a session gets in the long run, and at once.
+    entries : float
+        Sessions a second that one address gets in the long run; ``entered``: at once.
+    """
+
+    seconds: float = 10.0
+    slow_seconds: float = 120.0
+    trusted_seconds: float = 120.0
+    memory: int | None = 500 * MB
+    text: int = 512 * 1024
+    upload: int = 5 * MB
+    uploads: int = 20 * MB
+    works: int = 2000
+    written: int = 64 * MB
+    waiting: int = 200
+    session_waiting: int = 4
+    sessions: int = 500
+    idle: float = 2 * 3600.0
+    stored_results: int = 6
+    rate: float = 4.0
+    burst: float = 40.0
+    entries: float = 1.0
+    entered: float = 120.0
+
+
+PUBLIC_LIMITS = StudioLimits()
+LOCAL_LIMITS = StudioLimits(
+    seconds=600.0, slow_seconds=600.0, trusted_seconds=600.0, memory=None, idle=24 * 3600.0,
+    rate=50.0,
+)  # fmt: skip
+"""On one's own machine: its user stops what takes too long."""
+
+
+class Bucket(Struct):
+    """Leaky bucket: a limited burst, and a limited rate in the long run (частота запросов)."""
+
+    level: float = 0.0
+    then: float = 0.0
+
+    def admit(self, now: float, *, rate: float, burst: float) -> bool:
+        """Take one more at a time, s, unless it is too soon."""
+        self.level = max(0.0, self.level - (now - self.then) * rate)
+        self.then = now
+        if self.level + 1 > burst:
+            return False
+        self.level += 1
+        return True
+
+
+_HEADER = re.compile(r"^\s*+(\[{1,2}+)([^\]]++)\]{1,2}+\s*+(?:#.*)?$")
+_NAME = r"""(?:[\w-]++|"[^"]*+"|'[^']*+')"""
+_KEY = re.compile(rf"^\s*+({_NAME}(?:\s*+\.\s*+{_NAME})*+)\s*+=")
+_PART = re.compile(r"""[\w-]+|"[^"]*"|'[^']*'""")
+
+
+def place_of(text: str, fault: Fault) -> tuple[int, int] | None:
+    """Return the line and the column of a fault, both from 1; None if unknown.
+
+    A syntax error states them; another fault names a key, found by its longest matching path.
+    """
+    numbers = re.fullmatch(r"\D*(\d+)\D+(\d+)\D*", fault.path)
+    if numbers is not None and " " in fault.path:
+        return int(numbers[1]), int(numbers[2])
+    said = re.match(r"\w+ (\d+)\b", fault.message) if not fault.path else None
+    if said is not None:
+        return int(said[1]), 1
+    wanted = _parts(fault.path.split(" ")[0].replace("[", ".").replace("]", ""))
+    best: tuple[int, int, int] | None = None
+    for own, line, column in _keys(text):
+        same = next((k for k, (a, b) in enumerate(zip(own, wanted, strict=False)) if a != b), None)
+        depth = min(len(own), len(wanted)) if same is None else same
+        whole = same is None and len(own) <= len(wanted)
+        if (whole or depth == len(wanted)) and depth and (best is None or depth > best[0]):
+            best = depth, line, column
+    return None if best is None else best[1:]
+
+
+def _parts(path: str) -> tuple[str, ...]:
+    return tuple(part.strip("\"'") for part in _PART.findall(path))
+
+
+def _keys(text: str) -> Iterator[tuple[Sequence[str], int, int]]:
+    """Yield the headers and keys of a text with their lines and columns; arrays by number from 0.
+
+    A half-typed text is not valid TOML: lines are parsed one by one.
+    """
+    table: tuple[str, ...] = ()
+    count: dict[tuple[str, ...], int] = {}
+    for number, line in enumerate(text.split("\n"), 1):
+        if (header := _HEADER.match(line)) is not None:
+            table = _parts(header[2].strip())
+            if len(header[1]) == 2:
+                count[table] = count.get(table, -1) + 1
+            for depth in range(len(table), 0, -1):
+                if table[:depth] in count:
+                    table = (*table[:depth], str(count[table[:depth]]), *table[depth:])
+            yield table, number, line.index("[") + 1
+        elif (key := _KEY.match(line)) is not None:
+            own = (*table, *_parts(key[1]))
+            yield own, number, key.start(1) + 1
+            for inner in re.finditer(r"[{,]\s*([\w-]+)\s*=", line):
+                yield (*own, inner[1]), number, inner.start(1) + 1
+
 
 ACTS = ("sketched", "assemblies", "sheets", "command", "questions", "verdicts", "checked", "varied")
 QUICK = ("sketched", "pictured", "questions")

@@ -26,15 +26,14 @@ from planmethod.errors import ArgumentError, OutputError
 from planmethod.languages import speaking, translate
 from planmethod.problem import schema_text
 from planmethod.problem.tasks import tasks
-from planmethod.studio.document import POLICY, asset, assets_mark, page_of
 from planmethod.studio.door import Door, StudioRefusal, lang_of, reject_error
-from planmethod.studio.limits import StudioLimits
 from planmethod.studio.requests import (
     ACTS,
     QUICK,
     SLOW,
     TRUSTED,
     TRUSTED_COMMANDS,
+    StudioLimits,
     StudioRequest,
     build_job,
     find_tasks,
@@ -44,6 +43,7 @@ from planmethod.studio.requests import (
     upload_name,
 )
 from planmethod.studio.sessions import Desk, Sessions, StudioSession, mark_of
+from planmethod.studio.static_export import SERVER_POLICY, asset, assets_mark, page_of
 from planmethod.studio.workers import Act, Pace, StudioQueue
 
 FULL = "The queue is full. Try again in a minute."
@@ -173,7 +173,7 @@ class _Studio:
             text,
             media_type="text/html",
             headers={
-                "Content-Security-Policy": POLICY.format(nonce=nonce),
+                "Content-Security-Policy": SERVER_POLICY.format(nonce=nonce),
                 "Cache-Control": "no-store",
             },
         )

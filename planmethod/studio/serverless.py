@@ -19,9 +19,11 @@ from planmethod.errors import ArgumentError
 from planmethod.languages import LANGUAGES, speaking, translate
 from planmethod.problem import schema_text
 from planmethod.render.sheets.compositions import SHIPPED
-from planmethod.studio.limits import LOCAL_LIMITS, NESTING_TOO_DEEP, NO_MEMORY
 from planmethod.studio.requests import (
     ACTS,
+    LOCAL_LIMITS,
+    NESTING_TOO_DEEP,
+    NO_MEMORY,
     build_job,
     find_tasks,
     request_of,

@@ -23,7 +23,7 @@ from msgspec import Struct, field
 from planmethod.errors import OutputError
 from planmethod.problem.source import SIZE_LIMIT
 from planmethod.render.backends.output import write
-from planmethod.studio.limits import Bucket, StudioLimits
+from planmethod.studio.requests import Bucket, StudioLimits
 
 
 class StudioSession(Struct):

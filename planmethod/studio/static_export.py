@@ -1,13 +1,16 @@
-"""The studio written into a folder, for any host of files: Python runs in the browser (Pyodide)."""
-
-# no messages: HTML
+"""The page of the studio, and the studio written into a folder for any host of files (Pyodide)."""
 
 from __future__ import annotations
 
 import io
 import json
+import re
+import secrets
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
+from hashlib import sha256
+from html import escape
 from importlib.metadata import PackageNotFoundError, PackagePath, distribution
 from importlib.resources import files
 from pathlib import Path
@@ -18,12 +21,64 @@ from msgspec import Struct
 
 from planmethod.errors import OutputError
 from planmethod.languages import LANGUAGES
+from planmethod.note.wording import get_language
 from planmethod.problem import schema_text
 from planmethod.problem.tasks import home, tasks
 from planmethod.render.backends.output import write
-from planmethod.studio.document import page_of
-from planmethod.studio.limits import LOCAL_LIMITS
-from planmethod.studio.requests import find_tasks, page_data
+from planmethod.studio.requests import LOCAL_LIMITS, find_tasks, page_data
+
+# no messages: headers of HTTP
+
+
+SERVER_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; "
+    "img-src 'self' blob: data:; connect-src 'self'; frame-src 'self'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'"
+)
+"""Permissions of the page: to run its own scripts and talk to its own host."""
+
+KINDS = {".js": "text/javascript", ".css": "text/css", ".txt": "text/plain; charset=utf-8"}
+
+
+@cache
+def asset(name: str) -> tuple[bytes, str] | None:
+    """Return a file of the page and its type; None if there is no such file."""
+    if re.fullmatch(r"[\w-]+\.(?:js|css|txt)", name) is None:
+        return None
+    path = files("planmethod.studio").joinpath("page", name)
+    if not path.is_file():
+        return None
+    return path.read_bytes(), KINDS[name[name.rindex(".") :]]
+
+
+@cache
+def assets_mark() -> str:
+    """Return the fingerprint of all files of the page, which distinguishes versions."""
+    there = sorted(files("planmethod.studio").joinpath("page").iterdir(), key=lambda one: one.name)
+    return sha256(b"".join(one.read_bytes() for one in there)).hexdigest()[:16]
+
+
+def page_of(lang: str, page_data: Mapping[str, Any], static: str = "static") -> tuple[str, str]:
+    """Return the page in a language, and the word by which its editor may set its style.
+
+    Parameters
+    ----------
+    page_data : mapping
+        What its script reads, plain data.
+    static : str
+        Where its scripts and its style are, below it.
+    """
+    words, nonce = get_language(lang).studio["page"], secrets.token_urlsafe(16)
+    text = files("planmethod.studio").joinpath("page", "studio.html").read_text("utf-8")
+    text = re.sub(r"\{\{(\w+)\}\}", lambda place: escape(words[place[1]]), text)
+    data = {**page_data, "lang": lang, "langs": LANGUAGES, "nonce": nonce, "words": words}
+    whole = json.dumps(data, ensure_ascii=False).replace("<", "\\u003c")
+    text = text.replace("[[static]]", static).replace("[[lang]]", lang)
+    return text.replace("[[data]]", whole), nonce
+
+
+# no messages: HTML
+
 
 VERSION = "314.0.7"
 """Version of Pyodide: the first whose index has the library versions of the project."""
@@ -46,7 +101,7 @@ encodings, reportlab brings one."""
 
 ARCHIVE = "planmethod.zip"
 
-POLICY = (
+STATIC_POLICY = (
     "default-src 'none'; script-src 'self' blob: 'wasm-unsafe-eval'{hosts}; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; connect-src 'self'{hosts}; "
     "frame-src 'self'; worker-src 'self' blob:; base-uri 'none'; form-action 'none'"
@@ -161,7 +216,9 @@ def _files(runtime: Runtime, layouts: tuple[str, ...], lang: str) -> Iterator[tu
     pages = {one: "index.html" if one == lang else f"{one}.html" for one in LANGUAGES}
     alone = {"core": runtime.core, "packages": runtime.packages, "names": LOADED, "site": ARCHIVE}
     hosts = "".join(f" {at}" for at in runtime.hosts)
-    policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY.format(hosts=hosts)}">'
+    policy = (
+        f'<meta http-equiv="Content-Security-Policy" content="{STATIC_POLICY.format(hosts=hosts)}">'
+    )
     for one, name in pages.items():
         told = page_data(one, layouts, LOCAL_LIMITS.uploads) | {"alone": alone, "pages": pages}
         text = page_of(one, told)[0]

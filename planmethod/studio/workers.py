@@ -14,7 +14,7 @@ from enum import IntEnum
 from multiprocessing.connection import Connection
 from typing import Any, TypeAlias
 
-from planmethod.studio.limits import NESTING_TOO_DEEP, NO_MEMORY, StudioLimits
+from planmethod.studio.requests import NESTING_TOO_DEEP, NO_MEMORY, StudioLimits
 
 Job: TypeAlias = dict[str, Any]
 """Job for a process: plain data."""

@@ -14,15 +14,13 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct import steps
-from planmethod.construct.drafting import Profile
+from planmethod.construct.drafting import Profile, RulerArithmetic
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import choose_scale, series_near
 from planmethod.construct.steps import LineName, NumberName, PointName, result_kind
 from planmethod.note.compared import Series, measured_series
 from planmethod.note.numbers import finite_or_none
-from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
-from planmethod.solved.errors.spread import Errors
+from planmethod.solved.errors.spread import Drafted, DrawnKind, DrawnQuantity, Errors, number
 from planmethod.synthesis.model import Synthesis, place, scaled
 
 BOXES = ((170.0, 222.0), (330.0, 130.0))

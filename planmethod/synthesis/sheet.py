@@ -14,17 +14,17 @@ from planmethod.construct.scale import Scale
 from planmethod.construct.steps import IntersectCircles, IntersectLineCircle, LineName, PointName
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, translate
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.narrate.statement import NBSP
 from planmethod.note.wording import Language, get_language
 from planmethod.problem.model import Convention, Problem
 from planmethod.render import symbols
-from planmethod.render.control.unused import largest_empty
-from planmethod.render.frame.titleblock import rectangle
+from planmethod.render.control.sheet import largest_empty
+from planmethod.render.frame import rectangle
 from planmethod.render.ink.drawing import Arc, Bounds, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.labels.merged_labels import merge_letters
+from planmethod.render.labels.label_column import merge_letters
 from planmethod.render.layout.block import (
     Block,
     Column,
@@ -33,9 +33,8 @@ from planmethod.render.layout.block import (
     heading,
     paragraph,
 )
-from planmethod.render.layout.cuttings import Group, LayoutItem
-from planmethod.render.layout.pack import Placed
-from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.layout.pack import Group, LayoutItem, Placed
+from planmethod.render.layout.text_blocks import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import (
     NoFitAdvice,

@@ -10,18 +10,19 @@ from typing import Any
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, NumberName, PointName, Step
 from planmethod.note.document import (
+    NO_BREAK,
     Chapter,
     Item,
     Node,
     Paragraph,
     Title,
+    input_text,
     steps_of,
     table_of,
 )
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.narrator import BoardNarrator
 from planmethod.note.numbers import with_unit
-from planmethod.note.plaintext import NO_BREAK, input_text
 from planmethod.note.wording import Language
 from planmethod.synthesis.drawing import Drawn
 from planmethod.synthesis.model import StepPhrase, place

@@ -20,7 +20,7 @@ from planmethod.note.wording import Language
 from planmethod.problem.model import Problem
 from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.reading import Reals
-from planmethod.solved.turn.roots import Function, crossings, root
+from planmethod.solved.turn.output import Function, crossings, root
 from planmethod.synthesis.model import Synthesis, place, ray_angle
 
 COUNT = 12

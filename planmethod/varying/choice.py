@@ -1,9 +1,9 @@
-"""Variants chosen from candidates: distinct, each distinguishing all mistakes (выбор вариантов)."""
+"""Variants chosen from candidates: distinct, each distinguishing all mistakes; the report."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from random import Random
 
@@ -14,19 +14,34 @@ from planmethod.errors import PlanMethodError
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import solve_motion
 from planmethod.kinds import kind_of
-from planmethod.problem.common import KindProblem
-from planmethod.varying.candidates import Overrides, VariantCandidates
-from planmethod.varying.evaluation import CandidateEvaluator, EvaluatedVariant, Place
+from planmethod.note.document import Item, Node, Paragraph, table_of
+from planmethod.note.formula import escape
+from planmethod.note.wording import Language
+from planmethod.problem.records import KindProblem
+from planmethod.varying.evaluation import (
+    MAX_RELATIVE_SIGMA,
+    MIN_LENGTH_MM,
+    MIN_MARGIN,
+    CandidateEvaluator,
+    EvaluatedVariant,
+    Place,
+    Rejection,
+    RejectionReason,
+)
 from planmethod.varying.parameters import (
+    WHEEL,
+    Overrides,
     ValueSampler,
+    VariantCandidates,
     VariedKey,
+    coaxial_rows,
     default_keys,
+    label_of,
+    make_coaxial,
     overrides,
     parse_vary,
     with_followers,
 )
-from planmethod.varying.screening import Rejection, RejectionReason
-from planmethod.varying.teeth import WHEEL, coaxial_rows, label_of, make_coaxial
 
 BATCH_SIZE = 60
 """Number of candidates that are evaluated together."""
@@ -320,3 +335,77 @@ class _Pool:
                     family - own.evaluated.distinguished and len(found.variants) == found.requested
                 )
                 found.rejections[RejectionReason.HIDDEN if hidden else why, ""] += 1
+
+
+NAMED = 6
+"""Answers that are named of those that candidates were refused for, the commonest."""
+
+
+def report_choice(choice: VariantChoice, language: Language) -> Iterator[Node]:
+    """Yield what was varied, how many candidates there were, why some were refused."""
+    texts, number = language.vary, language.notation.as_input
+    count = len(choice.variants)
+    yield Paragraph(texts.found.format(found=count, wanted=choice.requested, tried=choice.tried))
+    if choice.drawn:
+        facts = {
+            "margin": number(MIN_MARGIN),
+            "mm": number(MIN_LENGTH_MM),
+            "worst": number(100 * MAX_RELATIVE_SIGMA),
+        }
+        yield Paragraph(texts.bounds.format(**facts))
+    yield table_of(texts["columns"], [_row(one, language) for one in choice.keys], names=1)
+    why: Counter[RejectionReason] = Counter()
+    for (cause, _), times in choice.rejections.items():
+        why[cause] += times
+    if why:
+        yield Paragraph(texts.refused)
+    for cause, times in why.most_common():
+        names = _named(cause, choice, language)
+        among = texts.among.format(names=names) if names else ""
+        yield Item(texts.because.format(times=times, why=texts["why"][cause.value], names=among))
+    for name, of in choice.waived:
+        yield Paragraph(texts.excused.format(condition=texts["conditions"][name], of=escape(of)))
+    if count > 1:
+        lost, least = number(round(100 * choice.min_lost_fraction)), number(100 * MIN_LOST_FRACTION)
+        yield Paragraph(texts.apart.format(lost=lost, least=least))
+    if not choice.family:
+        return
+    yield Paragraph(texts.family.format(count=choice.family))
+    untold: dict[Place, list[str]] = {}
+    for one in choice.variants:
+        for place in one.indistinct:
+            untold.setdefault(place, []).append(one.name)
+    if untold:
+        yield Paragraph(texts.untold)
+    for (code, where), those in sorted(untold.items()):
+        text = (
+            texts.nowhere if len(those) == count else texts.variants.format(names=", ".join(those))
+        )
+        yield Item(
+            texts.untold_in.format(code=escape(f"{code} {where}".rstrip()), where=escape(text))
+        )
+
+
+def _row(one: VariedKey, language: Language) -> list[str]:
+    number = language.notation.as_input
+    if one.of:
+        span = language.vary.share.format(length=escape(one.of))
+    else:
+        span = f"{number(min(one.values))} … {number(max(one.values))}"
+    return [
+        escape(one.spelling),
+        number(one.base),
+        span,
+        str(len(one.values)) if one.values else "",
+    ]
+
+
+def _named(reason: RejectionReason, choice: VariantChoice, language: Language) -> str:
+    """Return what candidates were refused for, and how many: ``a_E 12, v_B 3``."""
+    found = Counter(
+        {what: n for (cause, what), n in choice.rejections.items() if cause is reason and what}
+    )
+    shown = language.vary["conditions"] if reason is RejectionReason.CONDITION else {}
+    return ", ".join(
+        f"{escape(shown.get(what, what))} {times}" for what, times in found.most_common(NAMED)
+    )

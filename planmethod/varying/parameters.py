@@ -1,10 +1,13 @@
-"""Varied numbers of a file, and the round values of each (что варьируется)."""
+"""Varied numbers of a file, their round values, candidates (что варьируется)."""
 
 from __future__ import annotations
 
 import math
 import re
+import tempfile
 from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -12,10 +15,16 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import ExitCode, PlanMethodError
+from planmethod.gears.motion import TrainMotion
+from planmethod.gears.solution import coaxial_paths
+from planmethod.kind import ProblemKind
+from planmethod.kinds import load_each
 from planmethod.problem.file_node import is_number
 from planmethod.problem.formula import read_decimal
-from planmethod.problem.names import split_names
-from planmethod.problem.variants import key_of
+from planmethod.problem.names import segment, split_names
+from planmethod.problem.reader import key_of
+from planmethod.problem.records import KindProblem
+from planmethod.problem.source import parse, read_source
 
 COARSE = (
     *(1.0, 1.1, 1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 2.8),
@@ -344,3 +353,224 @@ def overrides(table: Mapping[str, Any], values: Mapping[VariedKey, float]) -> di
         else:
             found[name] = [own.get(index, value) for index, value in enumerate(whole)]
     return found
+
+
+WHEEL = "gears.wheels."
+
+Row = dict[str, Fraction]
+"""Coefficients of an equation by labels; what they add up to is under the empty one."""
+
+Solved = tuple[str, Row]
+"""The wheel that an equation is solved for, with coefficient 1, and the equation."""
+
+
+def coaxial_rows(motion: TrainMotion, varied: Sequence[str]) -> list[Solved]:
+    """Return the equations that varied wheels have to keep, each solved for one of them.
+
+    An equation with a wheel whose teeth the reader determines is skipped: it follows. So is one
+    with wheels whose shifts set the centre distance.
+
+    Parameters
+    ----------
+    varied : sequence of str
+        Labels of the wheels.
+    """
+    found: list[Row] = []
+    sizes, unknown = motion.axes.sizes, set(motion.train.unknown)
+    for _, _, (one, other) in coaxial_paths(motion):
+        row: Row = {}
+        for sign, terms in ((1, one), (-1, other)):
+            for turn, label in terms:
+                share = motion.train.module_ratio(label)
+                row[label] = row.get(label, Fraction(0)) + sign * turn * share
+        if sum(factor * sizes[label] for label, factor in row.items()):
+            continue
+        if unknown & {label for label, factor in row.items() if factor}:
+            continue
+        given = sum((factor * sizes[x] for x, factor in row.items() if x not in varied), Fraction())
+        found.append({**{x: f for x, f in row.items() if f and x in varied}, "": -given})
+    return _solved(found, {label: sizes[label] for label in varied})
+
+
+def _solved(rows: list[Row], sizes: Mapping[str, Fraction]) -> list[Solved]:
+    """Solve equations for wheels that are in no other one, the largest first."""
+    done: list[Solved] = []
+    for row in rows:
+        for main, other in done:
+            row = _less(row, other, main)
+        left = [label for label, factor in row.items() if label and factor]
+        if left:
+            main = max(left, key=lambda label: (sizes[label], label))
+            row = {label: factor / row[main] for label, factor in row.items()}
+            done = [*((its, _less(other, row, main)) for its, other in done), (main, row)]
+    return done
+
+
+def _less(row: Row, solved: Row, label: str) -> Row:
+    """Return a row without a label that another one is solved for."""
+    factor = row.get(label, Fraction(0))
+    every = dict.fromkeys((*row, *solved))
+    return {x: row.get(x, Fraction(0)) - factor * solved.get(x, Fraction(0)) for x in every}
+
+
+def make_coaxial(
+    values: Mapping[VariedKey, float], rows: Sequence[Solved], sizes: Mapping[str, Fraction]
+) -> dict[VariedKey, float] | None:
+    """Return values with coaxial wheels; None if a resulting wheel has no permitted size."""
+    made = dict(values)
+    wheels = {label_of(one): one for one in made if one.name.startswith(WHEEL)}
+    per = {label: _exact(one.base) / sizes[label] for label, one in wheels.items()}
+    for main, row in rows:
+        size = row[""]
+        for label, factor in row.items():
+            if factor and label not in ("", main):
+                size -= factor * _exact(made[wheels[label]]) / per[label]
+        told = size * per[main]
+        value: float = int(told) if told.denominator == 1 else float(told)
+        if value not in wheels[main].values:
+            return None
+        made[wheels[main]] = value
+    return made
+
+
+def label_of(one: VariedKey) -> str:
+    """Return the wheel that a key is of."""
+    return one.name.removeprefix(WHEEL).removesuffix(".z").removesuffix(".r")
+
+
+def _exact(value: float) -> Fraction:
+    return Fraction(repr(value))
+
+
+Overrides = Mapping[str, Any]
+"""Overrides of the file in a variant, by dotted key."""
+
+
+class VariantCandidates:
+    """A file whose variants are removed, to read others in their place (файл с кандидатами).
+
+    Attributes
+    ----------
+    path : Path
+    kind : ProblemKind or None
+        None of a linkage.
+    text : str
+        The file without its variants.
+    table : mapping
+        The same as parsed.
+
+    Raises
+    ------
+    ProblemError, VaryingError
+        The file is faulty, or its variants cannot be removed from its text.
+    """
+
+    def __init__(self, path: Path, kind: ProblemKind[Any] | None) -> None:
+        self.path, self.kind = path, kind
+        text = read_source(path)
+        whole = parse(text, name=str(path))
+        self.text = without_variants(text) if "variants" in whole else text
+        self.table = parse(self.text, name=str(path))
+        if self.table != {key: value for key, value in whole.items() if key != "variants"}:
+            raise VaryingError(
+                "{}: its [variants] are between other tables; move them to the end of the file",
+                path,
+            )
+
+    def read(self, variants: Mapping[str, Overrides]) -> Iterator[KindProblem | PlanMethodError]:
+        """Yield the problem of every variant, or its error; without variants, the file itself."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / self.path.name
+            path.write_text(self.with_variants(variants), encoding="utf-8")
+            for name in variants or (None,):
+                try:
+                    if self.kind is None:
+                        yield from load_each(path, (name,))
+                    else:
+                        yield self.kind.load(path, name)
+                except PlanMethodError as error:
+                    yield error
+
+    def with_variants(self, variants: Mapping[str, Overrides]) -> str:
+        """Return the text of the file with other variants."""
+        if not variants:
+            return self.text
+        return f"{self.text.rstrip()}\n\n{toml_of(variants)}"
+
+
+def without_variants(text: str) -> str:
+    """Return the text of a problem file without its variants."""
+    text = re.sub(r"(?m)^[ \t]*variants[ \t]*=[ \t]*(\"[^\"\n]*\"|'[^'\n]*')[^\n]*\n?", "", text)
+    kept, inside = [], False
+    for line in text.splitlines(keepends=True):
+        header = re.fullmatch(_HEADER, line)
+        if header is not None:
+            inside = header[1].strip("\"'") == "variants"
+        if not inside:
+            kept.append(line)
+    return "".join(kept)
+
+
+_HEADER = r"\s*\[\[?\s*(\"[^\"]*\"|'[^']*'|[^\[\]\s.,\"']++)[^\[\],]*\]\]?\s*+(?:#.*)?+\s*"
+
+
+def toml_of(variants: Mapping[str, Overrides]) -> str:
+    """Return the table ``[variants]`` of a problem file."""
+    lines = ["[variants]"]
+    for name, own in variants.items():
+        text = ", ".join(f'"{key}" = {_value(value)}' for key, value in own.items())
+        lines.append(f"{segment(name)} = {{ {text} }}")
+    return "\n".join(lines) + "\n"
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return repr(value)
+
+
+def csv_of(variants: Mapping[str, Overrides], lang: str) -> str:
+    """Return the table that ``variants = "table.csv"`` names, as Excel of a language has it.
+
+    Raises
+    ------
+    VaryingError
+        A value that is a list has no column.
+    """
+    separator, decimal = (";", ",") if lang == "ru" else (",", ".")
+    heads: dict[str, None] = {}
+    rows: list[dict[str, str]] = []
+    for own in variants.values():
+        row: dict[str, str] = {}
+        for key, value in own.items():
+            if isinstance(value, list):
+                parts = key.split(".")
+                if parts[0] != "frame" or len(parts) != 2:
+                    raise VaryingError("{} has no column in a CSV table; write a TOML file", key)
+                row |= {
+                    f"{axis}{parts[1]}": _cell(v, decimal)
+                    for axis, v in zip("xy", value, strict=True)
+                }
+            else:
+                row[key] = _cell(value, decimal)
+        heads |= dict.fromkeys(row)
+        rows.append(row)
+    lines = [["variant", *heads]]
+    lines += [
+        [name, *(row.get(head, "") for head in heads)]
+        for name, row in zip(variants, rows, strict=True)
+    ]
+    return "".join(
+        separator.join(_quoted(cell, separator) for cell in line) + "\n" for line in lines
+    )
+
+
+def _cell(value: Any, decimal: str) -> str:
+    return value if isinstance(value, str) else repr(value).replace(".", decimal)
+
+
+def _quoted(cell: str, separator: str) -> str:
+    special = separator in cell or '"' in cell
+    return '"' + cell.replace('"', '""') + '"' if special else cell

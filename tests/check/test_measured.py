@@ -234,7 +234,7 @@ def test_hostile_drawings_are_rejected_with_one_message(tmp_path: Path) -> None:
 
 
 def test_a_missing_library_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("planmethod.check.measured.dxf_file.find_spec", lambda _: None)
+    monkeypatch.setattr("planmethod.check.measured.files.find_spec", lambda _: None)
     (tmp_path / "work.dxf").write_text("0\nEOF\n")
     with pytest.raises(SubmissionError, match="pip install ezdxf"):
         read_drawing(tmp_path / "work.dxf", {}, task_of("linkages/ex3"))

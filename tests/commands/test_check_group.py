@@ -97,7 +97,7 @@ def test_an_internal_error_in_one_work_stops_no_other(
     (told,) = record(own)["failures"]
     assert told["student"] == "bad"
     if how is raised:
-        assert "asked124" in told["why"] and 'File "planmethod/check/group.py"' in told["trace"]
+        assert "asked124" in told["why"] and 'File "planmethod/check/checking.py"' in told["trace"]
         told = run(EX3, path, "--json")
         assert told.exit_code == 1, (told.output, told.exception)
         (failure,) = [one["failure"] for one in json.loads(told.stdout) if one["failure"]]

@@ -525,7 +525,7 @@ def test_a_line_that_ends_in_a_gap_is_marked(monkeypatch: pytest.MonkeyPatch) ->
     line, arc = Stroke((AT, AT + 20), Pen.HIDDEN), Arc(AT, 20.0, 0.0, 1.0, pen=Pen.HIDDEN)
     assert codes(sheet(line)) == codes(sheet(arc)) == []
     monkeypatch.setattr(
-        "planmethod.render.ink.style.dash_spans",
+        "planmethod.render.ink.drawing.dash_spans",
         lambda length, dashes, closed=False: ((0.0, 4.0), (5.5, length - 1.0)),
     )
     for item in (line, arc):

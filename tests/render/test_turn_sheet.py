@@ -156,7 +156,7 @@ def test_positions_that_the_cycle_does_not_number_are_rejected() -> None:
         with pytest.raises(LayoutError, match="a number would refer to two positions") as told:
             kinematics_sheets(problem, positions=asked, layout="coursework")
         assert "an even turn" in str(told.value)
-    numbered = numbering.number(replace(problem, cycle=CycleTask("B", zero=10.0)))
+    numbered = numbering.number_positions(replace(problem, cycle=CycleTask("B", zero=10.0)))
     with pytest.raises(LayoutError, match=r"give zero and count of \[cycle\]"):
         kinematics_sheets(numbered, positions=EVEN, layout="coursework")
     own = [phi + 10.0 for phi in EVEN]

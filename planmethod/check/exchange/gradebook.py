@@ -10,8 +10,8 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from planmethod.check.model import GradedSubmission
 from planmethod.check.pages.files import file_names
+from planmethod.check.pages.group import list_mistakes
 from planmethod.check.pages.listing import safe
-from planmethod.check.pages.results import list_mistakes
 from planmethod.note.wording import Language, MessageTable
 
 

@@ -1,24 +1,38 @@
-"""Questions and accepted answers of a variant for a learning management system (вопросы для СДО).
-
-Such a system compares numbers with intervals and ignores a student's own earlier values: a part
-has the tolerance of the construction, and the values that named mistakes give.
-"""
+"""Questions and accepted answers for learning management systems: Cloze, GIFT, the key as JSON."""
 
 from __future__ import annotations
 
+import html
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from base64 import b64encode
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+from xml.etree.ElementTree import Element, tostring
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.check.key import entry_of
+from planmethod.check.key import Key, entry_of
+from planmethod.check.marks import Tolerance, limit_of
 from planmethod.check.model import KeyEntry, Sense
+from planmethod.check.pages.keypage import format_scales
+from planmethod.check.pages.remarks import AnswerFormatter, displayed_value
 from planmethod.check.questions import Sign
 from planmethod.check.sheet import Sheet, is_right
 from planmethod.check.task import Task, TaskItem
-from planmethod.check.tolerance import Tolerance, limit_of
+from planmethod.kind import ProblemKind
+from planmethod.note.document import GivenFact, plain_text
+from planmethod.note.formula import escape
+from planmethod.note.narrate.forces.statement import statement
+from planmethod.note.narrate.statement import drawn, given_facts
+from planmethod.note.numbers import finite_or_none
 from planmethod.note.wording import Language, MessageTable
+from planmethod.note.writers.html import markup, without_control_characters
+from planmethod.problem.model import Problem
+from planmethod.render.backends import Options, render
+from planmethod.render.ink.drawing import Drawing
+from planmethod.render.sketch import assigned
+from planmethod.solved.forces.reading import ForceReading
 
 MAX_WRONG_VALUES = 12
 """Wrong values of a part that are named; the usual ones first."""
@@ -267,3 +281,283 @@ def _separate_intervals(
         free = min(abs(value - one) for one in right) - outer
         others = [abs(value - one) / 2 for at, (one, *_) in enumerate(found) if at != number]
         yield value, min([room, free, *others]), codes
+
+
+PICTURE = "scheme.png"
+
+
+class QuizQuestion(Struct, frozen=True):
+    """One variant as a question of a learning management system (вопрос варианта).
+
+    Attributes
+    ----------
+    title : str
+        Of the problem, plain text: also the category.
+    variant : str or None
+    given_facts : tuple of GivenFact
+        What is given.
+    scales : mapping of str to float
+        Scales of the plans, unit per mm; empty if no plans are drawn.
+    parts : tuple of QuizPart
+    picture : bytes
+        The scheme as PNG; empty if there is none.
+    """
+
+    title: str
+    variant: str | None
+    given_facts: tuple[GivenFact, ...]
+    scales: Mapping[str, float]
+    parts: tuple[QuizPart, ...]
+    picture: bytes = b""
+
+    def name(self, language: Language) -> str:
+        """Return how the question is called in the bank."""
+        texts: MessageTable = language.check["key"]
+        return (
+            f"{self.title}. {texts.variant.format(variant=self.variant)}"
+            if self.variant
+            else self.title
+        )
+
+
+def moodle_xml(questions: Iterable[QuizQuestion], language: Language) -> bytes:
+    """Return a file for Moodle: a question for each variant, a category for each problem."""
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<quiz>"]
+    category = None
+    for question in questions:
+        if question.title != category:
+            category = question.title
+            path = html.escape(
+                without_control_characters(f"$course$/top/{category.replace('/', '//')}")
+            )
+            lines += [
+                '<question type="category">',
+                f"<category><text>{path}</text></category>",
+                "</question>",
+            ]
+        lines += _question(question, language)
+    return "\n".join([*lines, "</quiz>", ""]).encode()
+
+
+def _question(question: QuizQuestion, language: Language) -> Iterator[str]:
+    text = "\n".join(_text(question, language))
+    yield '<question type="cloze">'
+    name = html.escape(without_control_characters(question.name(language)))
+    yield f"<name><text>{name}</text></name>"
+    yield '<questiontext format="html">'
+    yield f"<text>{_cdata(text)}</text>"
+    if question.picture:
+        data = b64encode(question.picture).decode()
+        yield _element("file", data, name=PICTURE, path="/", encoding="base64")
+    yield "</questiontext>"
+    yield '<generalfeedback format="html"><text></text></generalfeedback>'
+    yield "<penalty>0.3333333</penalty>"
+    yield "<hidden>0</hidden>"
+    yield "</question>"
+
+
+def _element(tag: str, text: str | None = None, **attributes: str) -> str:
+    made = Element(tag, attributes)
+    made.text = text
+    return tostring(made, encoding="unicode")
+
+
+def _cdata(text: str) -> str:
+    return f"<![CDATA[{text.replace(']]>', ']]]]><![CDATA[>')}]]>"
+
+
+def _text(question: QuizQuestion, language: Language) -> Iterator[str]:
+    """Yield the question as HTML with its gaps."""
+    texts: MessageTable = language.check["exchange"]
+    yield _paragraph(f"<strong>{_safe(markup(escape(question.name(language))))}</strong>")
+    if question.given_facts:
+        text = "; ".join(fact.text for fact in question.given_facts if fact.text)
+        given = language.note.given.format(given=text)
+        yield _paragraph(_safe(markup(given)))
+    if question.picture:
+        yield _paragraph(_element("img", src=f"@@PLUGINFILE@@/{PICTURE}", alt=texts.scheme))
+    if question.scales:
+        text = language.check["key"].scales.format(scales=format_scales(question.scales, language))
+        yield _paragraph(_safe(markup(text)))
+    several = len({part.entry.position for part in question.parts}) > 1
+    asked: KeyEntry | None = None
+    line = ""
+    for part, points in zip(question.parts, integer_points(question.parts), strict=True):
+        if part.entry is not asked and line:
+            yield _paragraph(line)
+        if several and (asked is None or part.entry.position != asked.position):
+            position = language.check["key"].position.format(position=part.entry.position)
+            yield _paragraph(f"<em>{_safe(markup(position))}</em>")
+        if part.entry is not asked:
+            line = _safe(markup(AnswerFormatter(language).letters(part.entry)))
+            line += "" if part.choices else " ="
+        asked = part.entry
+        line += f" {gap(part, points)}"
+        unit = AnswerFormatter(language).unit(part.entry)
+        if part.alternatives and unit:
+            line += f" {_safe(markup(unit))}"
+    if line:
+        yield _paragraph(line)
+    yield _paragraph(_safe(markup(texts.how)))
+
+
+def gap(part: QuizPart, points: int) -> str:
+    """Return the gap of a part in the grammar of embedded answers."""
+    if part.choices:
+        told = (
+            ("=" if one.right else "") + escaped(one.text) + _feedback(one.feedback)
+            for one in part.choices
+        )
+        return f"{{{points}:MULTICHOICE:{'~'.join(told)}}}"
+    told = (
+        f"{_format_fraction(one.fraction)}{numbers(one.value, one.margin)}{_feedback(one.feedback)}"
+        for one in part.alternatives
+    )
+    return f"{{{points}:NUMERICAL:{'~'.join(told)}}}"
+
+
+def _format_fraction(fraction: float) -> str:
+    return "=" if fraction == 1.0 else f"%{100.0 * fraction:.5g}%"
+
+
+def numbers(value: float, margin: float) -> str:
+    """Return a number and its margin; rounding changes the margin by at most a thousandth."""
+    places = max(0, 3 - math.floor(math.log10(margin))) if margin > 0 else 12
+    return f"{_decimal(value, places)}:{_decimal(margin, places + 1)}"
+
+
+def _decimal(value: float, places: int) -> str:
+    text = f"{value:.{places}f}"
+    text = text.rstrip("0").rstrip(".") if "." in text else text
+    return "0" if text in ("-0", "") else text
+
+
+def _feedback(rich: str) -> str:
+    return f"#{escaped(markup(rich))}" if rich else ""
+
+
+def escaped(text: str) -> str:
+    r"""Return HTML inside a gap: Moodle takes away entities once, then ``\}`` and ``\#``.
+
+    It leaves ``\~`` as it is, so a tilde is replaced by a similar sign.
+    """
+    text = html.escape(text, quote=False).replace("\\", "&#92;").replace("~", "\N{TILDE OPERATOR}")
+    return text.replace("}", "\\}").replace("#", "\\#").replace("&\\#92;", "&#92;")
+
+
+def _safe(text: str) -> str:
+    """Return HTML outside the gaps: escaped so that foreign text cannot open a gap."""
+    return text.replace("{", "&#123;").replace("}", "&#125;")
+
+
+def _paragraph(text: str) -> str:
+    return f"<p>{text}</p>"
+
+
+def gift(questions: Iterable[QuizQuestion], language: Language) -> bytes:
+    """Return numbers alone as GIFT, which many systems read: a question for each of them."""
+    lines = []
+    category = None
+    for question in questions:
+        if question.title != category:
+            category = question.title
+            lines += [f"$CATEGORY: $course$/top/{category.replace('/', '//')}", ""]
+        for part in question.parts:
+            if part.alternatives:
+                lines += [*_gift_question(question, part, language), ""]
+    return "\n".join(lines).encode()
+
+
+def _gift_question(question: QuizQuestion, part: QuizPart, language: Language) -> Iterator[str]:
+    speech = AnswerFormatter(language)
+    entry = part.entry
+    letters = plain_text(speech.letters(entry))
+    unit = plain_text(speech.unit(entry))
+    asked = f"{letters}, {unit}" if unit else letters
+    given = plain_text("; ".join(fact.text for fact in question.given_facts if fact.text))
+    position = language.check["key"].position.format(position=entry.position)
+    name = ", ".join(
+        filter(None, (question.name(language), position if entry.position else "", letters))
+    )
+    text = " ".join(
+        filter(None, (question.name(language) + ".", given and f"{given}.", f"{asked} = ?"))
+    )
+    yield f"::{_gift(name)}::[plain]{_gift(text)} {{#"
+    for one in part.alternatives:
+        share = "=" if one.fraction == 1.0 else f"=%{100.0 * one.fraction:.5g}%"
+        phrase = f"#{_gift(plain_text(one.feedback))}" if one.feedback else ""
+        yield f"\t{share}{numbers(one.value, one.margin)}{phrase}"
+    yield "}"
+
+
+def _gift(text: str) -> str:
+    """Return a text of GIFT in one line."""
+    flat = " ".join(without_control_characters(text).split())
+    return "".join(f"\\{c}" if c in "\\~=#{}:" else c for c in flat)
+
+
+DPI = 110.0
+"""About 800 dots across a scheme: read on a screen, some ten kilobytes."""
+
+
+def question_of(task: Task, kind: ProblemKind[Any] | None, language: Language) -> QuizQuestion:
+    """Return a variant as a question; its kind is None for a linkage."""
+    problem = task.problem
+    drawing: Drawing | None
+    if kind is None:
+        assert isinstance(problem, Problem)
+        facts = [drawn(problem, language), *given_facts(problem, language)]
+        if problem.dynamics is not None:
+            known = {fact.text.partition(" = ")[0] for fact in facts}
+            loaded = statement(ForceReading(task.solution, task.first), language)
+            facts += [fact for fact in loaded if fact.text.partition(" = ")[0] not in known]
+        drawing = assigned(task.solution)
+    else:
+        facts = kind.given_facts(problem, language)
+        drawing = kind.scheme(problem)
+    parts = tuple(quiz_of(task, language))
+    used = {"mu_l", *(part.entry.scale for part in parts)}
+    scales = task.scales({}, task.first) if kind is None else {}
+    return QuizQuestion(
+        problem.title or problem.name,
+        task.variant,
+        tuple(facts),
+        {name: per_mm for name, per_mm in scales.items() if name in used},
+        parts,
+        render(drawing, "png", options=Options(dpi=DPI)) if drawing is not None else b"",
+    )
+
+
+def key_record(key: Key) -> dict[str, Any]:
+    """Return the key of one variant as plain data: SI, degrees, mm; None for missing values."""
+    return {
+        "problem": key.problem.name,
+        "variant": key.variant,
+        "scales": dict(key.scales),
+        "answers": [_answer(entry) for entry in key.entries],
+        "hidden": {code: list(places) for code, places in key.hidden.items()},
+    }
+
+
+def _answer(entry: KeyEntry) -> dict[str, Any]:
+    return {
+        "id": entry.id,
+        "what": entry.what,
+        "letters": entry.label,
+        "value": finite_or_none(displayed_value(entry.exact, entry)),
+        "unit": entry.unit,
+        "tolerance": finite_or_none(entry.tolerance),
+        "mm": None if entry.mm is None else finite_or_none(entry.mm),
+        "segment": entry.segment or None,
+        "sense": None if entry.sense is None else entry.sense.value,
+        "position": entry.position,
+        "points": entry.points,
+        "asks_sense": entry.asks_sense,
+        "signed": entry.signed,
+        "sigma": finite_or_none(entry.sigma),
+        "seen": entry.is_visible,
+        "zero": entry.zero,
+        "asked": entry.requested_unit or None,
+        "per": entry.per,
+        "hidden": list(entry.hidden),
+    }

@@ -14,12 +14,19 @@ from msgspec import Struct
 
 from planmethod.check.exchange.quiz import GapName
 from planmethod.check.model import Submission, Unread
-from planmethod.check.submissions.answer import read_answer
-from planmethod.check.submissions.cells import HEADS, MAILS, NUMBERED, Cell, cut, key
-from planmethod.check.submissions.csv_file import csv_rows
-from planmethod.check.submissions.faults import SubmissionError, read_bytes
+from planmethod.check.submissions.cells import (
+    HEADS,
+    MAILS,
+    NUMBERED,
+    Cell,
+    SubmissionError,
+    cut,
+    key,
+    read_answer,
+    read_bytes,
+)
 from planmethod.check.submissions.gather import Gathering, SubmissionDraft
-from planmethod.check.submissions.table import HEAD_ROWS, Head, Row, read_quantity
+from planmethod.check.submissions.table import HEAD_ROWS, Head, Row, csv_rows, read_quantity
 from planmethod.errors import ProblemError
 from planmethod.note.wording import LANGUAGES, get_language
 from planmethod.problem.source import parse, read_source

@@ -1,15 +1,17 @@
-"""Elements read from a drawing: straight lines, inscriptions, marks; in mm, y up (чертёж)."""
+"""Elements and layers of a drawing: straight lines, inscriptions, marks; mm, y up."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from itertools import pairwise
 from pathlib import Path
 
 from msgspec import Struct, field
 
-from planmethod.check.submissions.cells import TEXT_LIMIT
-from planmethod.check.submissions.faults import SubmissionError
+from planmethod.check.submissions.cells import TEXT_LIMIT, SubmissionError
+from planmethod.plans.model import PlanKind
+from planmethod.problem.names import fold
+from planmethod.render.backends.canvas import FIGURES, VECTORS
 
 LINES_LIMIT = 20_000
 TEXTS_LIMIT = 20_000
@@ -90,7 +92,7 @@ class MeasuredDrawing(Struct):
 
     path: Path
     lines: list[DrawnLine] = field(default_factory=list)
-    texts: list[DrawnLetters] = field(default_factory=list)
+    inscriptions: list[DrawnLetters] = field(default_factory=list)
     points: list[tuple[complex, str, int]] = field(default_factory=list)
 
     def line(self, corners: Iterable[complex], layer: str, colour: int) -> None:
@@ -124,11 +126,11 @@ class MeasuredDrawing(Struct):
         told = " ".join(text[: 4 * TEXT_LIMIT].split())
         if not told or not _is_on_sheet(at):
             return
-        if len(self.texts) >= TEXTS_LIMIT:
+        if len(self.inscriptions) >= TEXTS_LIMIT:
             raise SubmissionError(
                 "{}: over {} inscriptions. Keep the plans.", self.path, TEXTS_LIMIT
             )
-        self.texts.append(DrawnLetters(told, at, wide, high))
+        self.inscriptions.append(DrawnLetters(told, at, wide, high))
 
     def point(self, at: complex, layer: str, colour: int) -> None:
         """Take a point, or the middle of a small circle."""
@@ -145,3 +147,71 @@ def _goes_on(one: complex, two: complex, three: complex) -> bool:
 def _is_on_sheet(*places: complex) -> bool:
     """Return whether places are numbers, and on a sheet."""
     return all(abs(place) < REACH_LIMIT for place in places)  # False for NaN
+
+
+# Cyrillic letters: names of layers and colours, as drawings of students have them
+
+
+PLANS = "plans"
+"""Value for a layer with both plans; the letter of the pole distinguishes them."""
+
+COLOURS = {
+    "red": 1, "yellow": 2, "green": 3, "cyan": 4, "blue": 5, "magenta": 6, "white": 7,
+    "красный": 1, "жёлтый": 2, "зелёный": 3, "голубой": 4, "синий": 5, "пурпурный": 6, "белый": 7,
+}  # fmt: skip
+"""Numbers of colours in AutoCAD's index by their names; ``color 30`` names any."""
+
+_WORDS = {
+    PlanKind.VELOCITY.value: (
+        "velocity", "velocities", "velocity plan", "скорость", "скорости", "план скоростей",
+    ),
+    PlanKind.ACCELERATION.value: (
+        "acceleration", "accelerations", "acceleration plan",
+        "ускорение", "ускорения", "план ускорений",
+    ),
+    PLANS: ("plans", "планы", VECTORS, FIGURES),
+}  # fmt: skip
+"""Names of layers that are recognised by default."""
+
+
+def _key(text: str) -> str:
+    return fold(" ".join(text.replace("_", " ").replace("-", " ").casefold().split()))
+
+
+_OF_NAME = {_key(word): plan for plan, words in _WORDS.items() for word in words}
+
+
+_OF_COLOUR = {_key(word): number for word, number in COLOURS.items()}
+_COLOUR = tuple(map(_key, ("color", "colour", "цвет")))
+
+
+def read_layers(options: Iterable[str]) -> dict[str, str]:
+    """Return the plan of each layer and colour: ``PLAN_V=velocity``, ``red=velocity``.
+
+    Raises
+    ------
+    WorksError
+        Something is no such pair.
+    """
+    found: dict[str, str] = {}
+    for one in options:
+        name, equal, plan = one.partition("=")
+        kind = _OF_NAME.get(_key(plan), "") if equal else ""
+        if not name.strip() or not kind:
+            raise SubmissionError(
+                "--layer {}: write NAME=velocity, NAME=acceleration or NAME=plans.", one[:60]
+            )
+        found[_key(name)] = kind
+    return found
+
+
+def plan_of_layer(layers: Mapping[str, str], layer: str, colour: int) -> str:
+    """Return which plan a line of a layer and colour belongs to; empty where it is of none."""
+    if plan := layers.get(_key(layer)):
+        return plan
+    for name, plan in layers.items():
+        word, _, number = name.rpartition(" ")
+        numbered = word in _COLOUR and number == str(colour)
+        if colour and (numbered or _OF_COLOUR.get(name) == colour):
+            return plan
+    return "" if layers else _OF_NAME.get(_key(layer), "")

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from planmethod.check.mistakes import forces, motion, scales
-from planmethod.check.mistakes.model import Change, MistakeContext
+from planmethod.check.mistakes import plans, scales
+from planmethod.check.mistakes.plans import Change, MistakeContext
 
 Mistake: TypeAlias = Callable[[MistakeContext], Iterator[Change]]
 
-MISTAKES: tuple[Mistake, ...] = (*motion.MISTAKES, *scales.MISTAKES, *forces.MISTAKES)
+MISTAKES: tuple[Mistake, ...] = (*plans.MOTION_MISTAKES, *scales.MISTAKES, *plans.FORCE_MISTAKES)
 """Every mistake of a program: each yields the places where it can be made."""
 
 

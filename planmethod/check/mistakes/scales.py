@@ -8,11 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 from msgspec.structs import replace
 
-from planmethod.check.mistakes.model import Change, MistakeContext
+from planmethod.check.mistakes.plans import Change, MistakeContext
 from planmethod.construct import steps
 from planmethod.construct.steps import Name, NumberName, Side, Step
-from planmethod.plans.dimensions import DimensionKind
-from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.plans.model import FACTS, MOTION, DimensionKind, PlanKind
 from planmethod.plans.motion.position import link_of_axis
 from planmethod.solved.assemblies import assemblies, env_of
 

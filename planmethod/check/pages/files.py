@@ -19,16 +19,13 @@ from planmethod.check.key import Key
 from planmethod.check.marks import Settings
 from planmethod.check.model import CheckFailure, GradedAnswer, GradedSubmission, WrittenAnswer
 from planmethod.check.pages.folder import OVERRIDES, PAGES, RECORD, RunFolder, digest_of
-from planmethod.check.pages.grouppage import group_html
-from planmethod.check.pages.listing import csv_bytes
-from planmethod.check.pages.overrides import overrides_file
-from planmethod.check.pages.results import results_xlsx
-from planmethod.check.pages.statistics import statistics_of
+from planmethod.check.pages.group import group_html, results_xlsx, statistics_of
+from planmethod.check.pages.listing import csv_bytes, overrides_file
 from planmethod.check.pages.student import student_html, student_page, student_pdf
 from planmethod.errors import OutputError
 from planmethod.note.wording import Language, MessageTable, get_language
-from planmethod.problem.common import KindProblem
 from planmethod.problem.model import Problem
+from planmethod.problem.records import KindProblem
 from planmethod.render.backends.output import write
 from planmethod.solved.solution import Solution
 

@@ -9,9 +9,15 @@ from msgspec import Struct
 
 from planmethod.check.key import Key
 from planmethod.check.model import KeyEntry
-from planmethod.check.pages.answer_format import AnswerFormatter, displayed_value, unsigned
-from planmethod.check.pages.overlayview import LETTERING
-from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
+from planmethod.check.pages.overlay import LETTERING
+from planmethod.check.pages.remarks import (
+    AnswerFormatter,
+    displayed_value,
+    place_letters,
+    scale_letters,
+    segment_letters,
+    unsigned,
+)
 from planmethod.note.document import (
     Caption,
     Document,
@@ -21,10 +27,10 @@ from planmethod.note.document import (
     Paragraph,
     Table,
     Title,
+    plain_text,
     table_of_columns,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.pdf import pdf_document
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved

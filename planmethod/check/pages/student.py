@@ -1,16 +1,23 @@
-"""The page of one student: its contents, independent of the format (лист студента)."""
+"""The page of one student, and the student's numbers next to the exact ones (лист студента)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from planmethod.check.model import GradedAnswer, GradedSubmission, Verdict
-from planmethod.check.pages.answer_format import AnswerFormatter, quoted
-from planmethod.check.pages.overlay import Overlay, overlays
-from planmethod.check.pages.overlayview import LETTERING, STYLE, OverlayView
-from planmethod.check.pages.remarks import Remarks, quote_unread
+from planmethod.check.model import GradedAnswer, GradedSubmission, Unread, Verdict
+from planmethod.check.pages.overlay import LETTERING, STYLE, Overlay, OverlayView, overlays
+from planmethod.check.pages.remarks import (
+    AnswerFormatter,
+    Remarks,
+    displayed_value,
+    quote_unread,
+    quoted,
+)
+from planmethod.languages import translate
+from planmethod.note.compared import DASH, ComparedNumber
 from planmethod.note.document import (
     Caption,
     Chapter,
@@ -22,16 +29,89 @@ from planmethod.note.document import (
     Paragraph,
     Table,
     Title,
+    plain_text,
+    table_of,
 )
 from planmethod.note.formula import escape
-from planmethod.note.plaintext import plain_text
+from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.html import html_document
 from planmethod.note.writers.pdf import pdf_document
 from planmethod.plans.model import FACTS
-from planmethod.problem.common import KindProblem
+from planmethod.problem.records import KindProblem
 from planmethod.render.backends.pdf import registered
 from planmethod.solved.solution import Solution
+
+_FAINT = 1e-6
+"""Fraction of a difference below which an exact value is zero: no percentage is shown."""
+
+
+def compared_document(checked: Sequence[GradedSubmission], language: Language) -> Document:
+    """Return tables, one for each submission: student's value, exact value, difference."""
+    return Document.of(_compared_nodes(checked, language))
+
+
+def _compared_nodes(checked: Sequence[GradedSubmission], language: Language) -> Iterator[Node]:
+    speech = AnswerFormatter(language)
+    texts: MessageTable = language.check["compared"]
+    for one in checked:
+        name = " ".join(filter(None, (quoted(one.work.student), one.variant)))
+        if name:
+            yield Caption(name)
+        written = (judged for judged in one.answers if judged.written is not None)
+        yield table_of(
+            texts["columns"], (list(_compared_cells(judged, speech)) for judged in written)
+        )
+    yield Paragraph(texts.note)
+
+
+def _compared_cells(answer: GradedAnswer, formatter: AnswerFormatter) -> Iterator[str]:
+    key, value = answer.key, answer.value
+    yield formatter.symbol(answer)
+    yield formatter.student_value(answer) or DASH
+    if key is None:
+        yield from (DASH, DASH, DASH)
+        return
+    yield formatter.si(displayed_value(key.exact, key), key)
+    if value is None:
+        yield from (DASH, DASH)
+        return
+    one = ComparedNumber(displayed_value(key.exact, key), displayed_value(value, key))
+    percent = replace(one, zero_limit=_FAINT * abs(one.off)).percent
+    number = formatter.language.notation.number
+    yield formatter.with_unit(number(trimmed(one.off / key.per, 2)), key)
+    yield DASH if percent is None else number(trimmed(percent, 2))
+
+
+LOSSLESS = (Unread.COLUMN, Unread.KEY, Unread.VERTEX, Unread.OPEN, Unread.TURNED)
+"""Reported faults that do not cost an answer: an unknown column, a vertex without a letter."""
+
+
+def unread_lines(
+    checked: Sequence[GradedSubmission], language: Language
+) -> Iterator[tuple[str, bool]]:
+    """Yield what could not be read, and whether an answer is lost by it."""
+    speech = AnswerFormatter(language)
+    for one in checked:
+        if one.failure is not None:
+            more = translate(" Its trace is in run.json.") if one.failure.trace else ""
+            yield (
+                translate("Not marked: {}: {}.{}", one.work.student, one.failure.message, more),
+                True,
+            )
+        for judged in one.answers:
+            if judged.verdict is not Verdict.UNREADABLE:
+                continue
+            reason = translate("the problem has no quantity {!r}", judged.id)
+            if judged.written is not None and judged.written.unreadable:
+                reason = speech.unread(judged.written)
+            yield translate("Unreadable: {}: {}", judged.location or judged.id, reason), True
+    for one in checked:
+        for remark in one.work.remarks:
+            aside = remark.reason in LOSSLESS
+            text = "Not read: {}: {}" if aside else "Unreadable: {}: {}"
+            yield translate(text, remark.location, speech.unread(remark)), not aside
+
 
 PAPER = (178.0, 92.0)
 """Room for the plans of a page, mm: the width of both side by side, the height of one."""
@@ -106,7 +186,7 @@ class Page(Struct, frozen=True):
 
 def student_document(page: Page, solved: Solution | KindProblem, language: Language) -> Document:
     """Return the page as a document."""
-    return Document.of(_nodes(page, solved, language))
+    return Document.of(_page_nodes(page, solved, language))
 
 
 def student_html(page: Page, solved: Solution | KindProblem, language: Language) -> str:
@@ -127,7 +207,7 @@ def student_pdf(page: Page, solved: Solution | KindProblem, language: Language) 
     )
 
 
-def _nodes(page: Page, solved: Solution | KindProblem, language: Language) -> Iterator[Node]:
+def _page_nodes(page: Page, solved: Solution | KindProblem, language: Language) -> Iterator[Node]:
     texts: MessageTable = language.check["student"]
     yield Title(page.title)
     yield Paragraph(page.subtitle)
@@ -225,12 +305,12 @@ def lines(answers: Sequence[GradedAnswer], formatter: AnswerFormatter) -> list[A
     """Return the answers as rows of the table with the heads ``check.student.columns``."""
     symbols = {judged.id: formatter.symbol(judged) for judged in answers}
     return [
-        AnswerLine((str(number), *_cells(judged, formatter, symbols)), judged.verdict)
+        AnswerLine((str(number), *_answer_cells(judged, formatter, symbols)), judged.verdict)
         for number, judged in enumerate(answers, 1)
     ]
 
 
-def _cells(
+def _answer_cells(
     answer: GradedAnswer, formatter: AnswerFormatter, symbols: Mapping[str, str]
 ) -> tuple[str, ...]:
     key, written, texts = answer.key, answer.written, formatter.texts

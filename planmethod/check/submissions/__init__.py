@@ -6,10 +6,9 @@ from pathlib import Path
 
 from planmethod.arguments import of_type
 from planmethod.check.model import Submission
-from planmethod.check.submissions.csv_file import read_csv
-from planmethod.check.submissions.faults import SubmissionError, read_bytes
-from planmethod.check.submissions.student import read_json, read_toml
-from planmethod.check.submissions.units import ratio
+from planmethod.check.submissions.cells import SubmissionError, ratio, read_bytes
+from planmethod.check.submissions.gather import read_json, read_toml
+from planmethod.check.submissions.table import read_csv
 from planmethod.check.submissions.xlsx_file import read_xlsx
 
 _READERS = {

@@ -18,8 +18,7 @@ from xml.parsers.expat import ExpatError, ParserCreate
 from msgspec import Struct, field
 
 from planmethod.check.model import Submission, Unread
-from planmethod.check.submissions.cells import Cell, cut
-from planmethod.check.submissions.faults import SubmissionError
+from planmethod.check.submissions.cells import Cell, SubmissionError, cut
 from planmethod.check.submissions.gather import Gathering
 from planmethod.check.submissions.table import (
     CELL_LIMIT,

@@ -14,9 +14,8 @@ from math import pi
 import numpy as np
 from msgspec import Struct
 
-from planmethod.gears.involute.generation import RackCutting
+from planmethod.gears.involute.geometry import Points, RackCutting
 from planmethod.gears.involute.meshpicture import CURVE, POINTS, nearest_scale
-from planmethod.gears.involute.profile import Points
 from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
@@ -24,7 +23,7 @@ from planmethod.render.labels import BUSY, SERIES, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead, dimension, unit, vector_arrow
-from planmethod.render.symbols.axes import axis_line
+from planmethod.render.symbols.marks import axis_line
 
 ENVELOPE = "rack position"
 """Tag of the rack's tooth in successive positions."""

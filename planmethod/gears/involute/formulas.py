@@ -13,7 +13,7 @@ from enum import Enum
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.gears.involute.sizes import MeshingProblem
+from planmethod.gears.involute.geometry import MeshingProblem
 from planmethod.note.formula import Rich
 
 

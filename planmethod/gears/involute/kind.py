@@ -11,7 +11,7 @@ from planmethod.note.document import Document, GivenFact
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
-    from planmethod.gears.involute.sizes import MeshingProblem
+    from planmethod.gears.involute.geometry import MeshingProblem
     from planmethod.note.wording import Language
     from planmethod.render.ink.drawing import Drawing
 
@@ -29,7 +29,7 @@ class Meshings(ProblemKind["MeshingProblem"]):
 
     def record(self, problem: MeshingProblem, lang: str) -> dict[str, Any]:
         """Return what ``solve --json`` prints."""
-        from planmethod.gears.involute.record import record
+        from planmethod.gears.involute.quantities import record
 
         return record(problem, lang)
 
@@ -43,7 +43,7 @@ class Meshings(ProblemKind["MeshingProblem"]):
         self, problem: MeshingProblem, language: Language, profile: Profile
     ) -> Document:
         """Return what ``protocol`` prints."""
-        from planmethod.gears.involute.protocol import protocol_document
+        from planmethod.gears.involute.text import protocol_document
 
         return Document.of(protocol_document(problem, language, profile))
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from planmethod.errors import ProblemError
 from planmethod.gears.angles import involute
-from planmethod.gears.involute.blocking import (
+from planmethod.gears.involute.geometry import MeshingProblem, Pair, Rack, ShiftAim, Tooth
+from planmethod.gears.involute.quantities import (
     HIGH,
     LOW,
     LimitKind,
@@ -19,8 +20,6 @@ from planmethod.gears.involute.blocking import (
     limits,
     meets_limits,
 )
-from planmethod.gears.involute.profile import Tooth
-from planmethod.gears.involute.sizes import MeshingProblem, Pair, Rack, ShiftAim
 from planmethod.languages import translate
 from planmethod.problem.file_node import FileNode
 from planmethod.problem.reader import varied

@@ -1,15 +1,19 @@
-"""Texts on a pair of wheels: given data, sizes, limits (данные, размеры, проверки)."""
+"""Texts on a pair of wheels: given data, sizes, limits, the calculation by formulas."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import groupby
 from math import degrees
 
+from planmethod.construct.drafting import Profile
 from planmethod.gears.involute.formulas import Unit
+from planmethod.gears.involute.geometry import MeshingProblem
 from planmethod.gears.involute.quantities import SizedQuantity, SolvedMeshing
-from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.note.document import (
     Caption,
+    Chapter,
+    Formula,
     GivenFact,
     Item,
     Node,
@@ -26,7 +30,7 @@ def solved_document(problem: MeshingProblem, language: Language) -> Iterator[Nod
     """Yield the given data, the sizes of the pair and of the wheels, and the limits."""
     solved, texts = SolvedMeshing(problem), language.meshing
     pair, wheels, contact = solved.sized_quantities()
-    yield from head(solved, language)
+    yield from meshing_head(solved, language)
     yield Caption(texts.pair)
     yield table([*pair, *contact], language, (*texts["columns"][:2], ""))
     yield Caption(texts.wheels)
@@ -57,7 +61,7 @@ def cutting(solved: SolvedMeshing, language: Language) -> Iterator[Rich]:
         yield texts["cut_by_rack"][key].format(wheel=k + 1, **_format_numbers(numbers, language))
 
 
-def head(solved: SolvedMeshing, language: Language) -> Iterator[Node]:
+def meshing_head(solved: SolvedMeshing, language: Language) -> Iterator[Node]:
     """Yield the title and the given data."""
     title = escape(solved.problem.title or solved.problem.name)
     yield Title(language.meshing.title.format(title=title))
@@ -163,3 +167,22 @@ def _row(one: SizedQuantity, language: Language) -> tuple[Rich, ...]:
         symbol,
         *one.format_values(language.notation),
     )
+
+
+def protocol_document(
+    problem: MeshingProblem, language: Language, profile: Profile
+) -> Iterator[Node]:
+    """Yield the calculation formula by formula, as the note has it; no hand draws in it."""
+    solved, texts = SolvedMeshing(problem), language.meshing
+    fields = solved.fields(language.notation)
+    yield from meshing_head(solved, language)
+    for key, formulas in groupby(solved.formulas(language), lambda one: one[0]):
+        if key in texts["steps"]:
+            yield Chapter(texts["steps"][key])
+        if key in texts["beside"]:
+            yield Paragraph(texts["beside"][key].format(**fields))
+        yield from (Formula(formula) for _, formula in formulas)
+    yield Chapter(texts.cutting)
+    yield from map(Item, cutting(solved, language))
+    yield Caption(texts.checked)
+    yield from map(Item, quality(solved, language))

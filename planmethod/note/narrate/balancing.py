@@ -1,24 +1,233 @@
-"""The text of static balancing: substituted masses, counterweights, forces (уравновешивание)."""
+"""Reduction to the crank and static balancing, term by term (приведение, уравновешивание)."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct
 
-from planmethod.note.compared_machine import compared_moment
-from planmethod.note.numbers import format_column
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.machine import MachineNarrator
+from planmethod.note.numbers import MINUS, format_column
+from planmethod.note.series import compared_moment
 from planmethod.note.wording import Language
+from planmethod.problem.machine_records import WeightSigns
+from planmethod.problem.records import SizeTable
+from planmethod.solved.forces.loads import external
 from planmethod.solved.machine.balancing import Balancing, balancing_of
-from planmethod.solved.reading import Complexes
+from planmethod.solved.machine.reduced import power
+from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
+
+_Column: TypeAlias = tuple[str, str, list[str]]
+
+_ZERO_RATIO = 1e-9  # share of the largest value of a column below which a value is rounded zero
+
+
+class ReducedTerm(Struct, frozen=True):
+    """One force or couple that is reduced to the crank (слагаемое приведённого момента).
+
+    Attributes
+    ----------
+    name : str
+    point : str or None
+        Point of action of a force; None for a couple.
+    link : str
+    size : Complexes
+        Force, N, or couple, N·m (a real number as a complex one), in every position.
+    speed : Complexes
+        Velocity of the point, m/s, or angular velocity, 1/s.
+    moment : Reals, N·m
+        Its moment reduced to the crank, positive where it resists.
+    counted : float
+        -1 where the file has weights added with the other sign.
+    """
+
+    name: str
+    point: str | None
+    link: str
+    size: Complexes
+    speed: Complexes
+    moment: Reals
+    counted: float = 1.0
+
+
+class ReductionNarrator:
+    """Narrates the reduction of the loads and masses of a machine to its crank."""
+
+    def __init__(self, narrator: MachineNarrator) -> None:
+        self.narrator, self.notation, self.flywheel = narrator, narrator.notation, narrator.flywheel
+        flywheel = self.flywheel
+        self.problem, self.count = flywheel.problem, flywheel.machine.count
+        self.motion = flywheel.solved(self.count)
+        self.order = np.argsort(flywheel.turn.numbers(self.count)[:-1])
+        self.omega = f"ω_{{{self.problem.drive.link}}}"
+        self.terms = [*self._loads(), *self._weights()]
+
+    @cached_property
+    def _peaks(self) -> dict[str, float]:
+        """The largest size in the table or the diagram of each load that has one."""
+        dynamics = self.problem.dynamics
+        assert dynamics is not None
+        tables = ((load.name, load.size) for load in dynamics.loads)
+        return {name: max(map(abs, size.values)) for name, size in tables
+                if isinstance(size, SizeTable)}  # fmt: skip
+
+    def _loads(self) -> Iterator[ReducedTerm]:
+        dynamics = self.problem.dynamics
+        assert dynamics is not None
+        rate = abs(self.problem.drive.rate)
+        for link in self.problem.mechanism.links:
+            for one in external(self.motion, dynamics, link):
+                moment = -power(self.motion, one) / rate
+                if one.point is None:
+                    turning = self.motion.links[link].omega
+                    size, speed = (np.asarray(x, dtype=complex) for x in (one.couple, turning))
+                else:
+                    size, speed = one.force, self.motion.points[one.point].velocity
+                yield ReducedTerm(one.name, one.point, link, size, speed, moment)
+
+    def _weights(self) -> Iterator[ReducedTerm]:
+        dynamics, rate = self.problem.dynamics, abs(self.problem.drive.rate)
+        assert dynamics is not None
+        sign = -1.0 if self.flywheel.machine.signs is WeightSigns.SOURCE else 1.0
+        for link, mass in dynamics.masses.items():
+            if mass.centre is None or not mass.mass or not dynamics.gravity:
+                continue
+            speed = self.motion.points[mass.centre].velocity
+            weight = mass.mass * dynamics.gravity
+            moment = sign * weight * speed.imag / rate
+            if np.abs(speed).max() > _ZERO_RATIO * rate:
+                size = np.full(speed.shape, -1j * weight)
+                yield ReducedTerm(f"G_{{{link}}}", mass.centre, link, size, speed, moment, sign)
+
+    # Moments ---------------------------------------------------------------------------------
+
+    def _format_column(self, values: Reals, digits: int = 4) -> list[str]:
+        values = values[self.order]
+        peak = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+        clean = np.where(np.abs(values) < _ZERO_RATIO * peak, 0.0, values)
+        told = iter(format_column(clean[np.isfinite(clean)].tolist(), digits))
+        return [
+            "—" if np.isnan(one) else self.notation.number(next(told)) for one in clean.tolist()
+        ]
+
+    def _column(self, head: Rich, values: Reals, unit: str, digits: int = 4) -> _Column:
+        return (
+            head,
+            self.notation.in_head(unit) if unit else "",
+            self._format_column(values, digits),
+        )
+
+    def _speed(self, term: ReducedTerm) -> Rich:
+        return f"ω_{{{term.link}}}" if term.point is None else f"v_{{{term.point}}}"
+
+    def _angle(self, term: ReducedTerm) -> Rich:
+        return f"α_{{{_index_text(term.name)}}}"
+
+    def _number_columns(self) -> Iterator[_Column]:
+        yield self.narrator.language.note.number, "", [str(k) for k in range(len(self.order))]
+
+    def moments(self) -> list[_Column]:
+        """Return the table of the reduced moment: loads, velocities, angles, reduced moments."""
+        columns, speeds = [*self._number_columns()], set[str]()
+        for term in self.terms:
+            size = np.abs(term.size)
+            peak = self._peaks.get(term.name, float(size.max()))
+            if float(np.ptp(size)) > _ZERO_RATIO * peak:
+                name, index, end = term.name.partition("_{")
+                most = f"{name}_{{{end.removesuffix('}')}{' ' if index else ''}max}}"
+                columns.append(self._column(fraction(term.name, most), size / peak, ""))
+                columns.append(self._column(term.name, size, "N·m" if term.point is None else "N"))
+            speed = self._speed(term)
+            if speed not in speeds:
+                speeds.add(speed)
+                value = term.speed.real if term.point is None else np.abs(term.speed)
+                columns.append(self._column(speed, value, "1/s" if term.point is None else "m/s"))
+            if term.point is not None:
+                columns.append(self._column(self._angle(term), self.angle(term), "deg"))
+        sign = self.flywheel.sign
+        for term in self.terms:
+            head = f"M_{{{_index_text(term.name)}}}"
+            columns.append(self._column(head, sign * term.moment, "N·m"))
+        columns.append(self._column(self.narrator.moment, sign * self.flywheel.rows.moment, "N·m"))
+        return columns
+
+    @staticmethod
+    def angle(term: ReducedTerm) -> Reals:
+        """Return the angle between a force and the velocity, degrees; NaN where either is zero."""
+        size, speed = np.abs(term.size), np.abs(term.speed)
+        there = (size > _ZERO_RATIO * size.max()) & (speed > _ZERO_RATIO * speed.max())
+        turned = np.abs(np.degrees(np.angle(term.size * term.speed.conjugate())))
+        return np.where(there, np.round(turned, 9), np.nan)
+
+    def moment_formula(self) -> Rich:
+        """Return the reduced moment with its terms."""
+        text = ""
+        for term in self.terms:
+            factors = [term.name, self._speed(term)]
+            factors += [] if term.point is None else [f"cos {self._angle(term)}"]
+            # A resisting load has a negative power, and counts as positive.
+            minus = (term.counted > 0) is (self.flywheel.sign > 0)
+            sign = MINUS if minus else "+"
+            text += f" {sign} {'·'.join(factors)}" if text or minus else "·".join(factors)
+        text = text.strip()
+        text = f"{MINUS}{text[2:]}" if text.startswith(f"{MINUS} ") else text
+        return f"{self.narrator.moment} = {fraction(text, self.omega)}"
+
+    # Energies --------------------------------------------------------------------------------
+
+    def energies(self) -> dict[str, Reals]:
+        """Return the kinetic energies by link, J, the crank's including the parts on it."""
+        half = self.problem.drive.rate**2 / 2.0
+        found = {link: half * share for link, share in self.flywheel.rows.parts.links.items()}
+        crank, own = self.problem.drive.link, self.flywheel.machine.crank_inertia
+        if own:
+            mine = found.pop(crank, np.zeros(self.motion.positions.shape)) + half * own
+            found = {crank: mine, **found}
+        return {link: energy for link, energy in found.items() if np.any(energy)}
+
+    def energy_columns(self) -> list[_Column]:
+        """Return the table of the energies and of the reduced moment of inertia."""
+        columns = [*self._number_columns()]
+        for link, energy in self.energies().items():
+            columns.append(self._column(f"T_{{{link}}}", energy, "J"))
+        rows, half = self.flywheel.rows, self.problem.drive.rate**2 / 2.0
+        columns.append(self._column("T", rows.inertia * half, "J"))
+        columns.append(self._column(self.narrator.letter("reduced inertia"), rows.inertia, "kg·m²"))
+        return columns
+
+    def energy_formulas(self) -> list[Rich]:
+        """Return the energies of the links, their sum and the reduced moment of inertia."""
+        dynamics, lines = self.problem.dynamics, []
+        assert dynamics is not None
+        links = list(self.energies())
+        for link in links:
+            parts, mass = [], dynamics.masses.get(link)
+            omega = f"ω_{{{link}}}^{{2}}"
+            centre = None if mass is None or not mass.mass else mass.centre
+            if centre is not None and np.any(self.motion.points[centre].velocity):
+                parts.append(fraction(f"m_{{{link}}}·v_{{{centre}}}^{{2}}", "2"))
+            if mass is not None and mass.inertia and np.any(self.motion.links[link].omega):
+                parts.append(fraction(f"J_{{S{link}}}·{omega}", "2"))
+            if link == self.problem.drive.link and self.flywheel.machine.crank_inertia:
+                parts.append(fraction(f"{self.narrator.letter('crank inertia')}·{omega}", "2"))
+            lines.append(f"T_{{{link}}} = {' + '.join(parts)}")
+        lines.append(f"T = {' + '.join(f'T_{{{link}}}' for link in links)}")
+        inertia = self.narrator.letter("reduced inertia")
+        return [*lines, f"{inertia} = {fraction('2T', f'{self.omega}^{{2}}')}"]
+
+
+def _index_text(name: str) -> str:
+    """Return a letter as used in an index: ``G3`` of ``G_{3}``."""
+    return name.replace("_{", "").replace("^{", "").replace("}", "")
+
 
 COUNT = 12
 """Positions of the table."""
-
-_ZERO_RATIO = 1e-9  # share of the force before that counts as none after
-
-_Column: TypeAlias = tuple[str, str, list[str]]
 
 
 class BalancingNarrator:

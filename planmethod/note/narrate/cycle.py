@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from planmethod.note.compared_machine import compared_extremes, compared_stroke
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.narrate.statement import point_name
 from planmethod.note.numbers import half_up, significant, with_unit
+from planmethod.note.series import compared_extremes, compared_stroke
 from planmethod.note.wording import Language
-from planmethod.solved.turn.construction import PRIMES, ExtremesConstruction, Locus
 from planmethod.solved.turn.cycle import CrankCycle, NoNumber
 from planmethod.solved.turn.diagrams import Diagrams
-from planmethod.solved.turn.output import Output
-from planmethod.solved.turn.strokes import LONGER, TOLD
+from planmethod.solved.turn.extremes import PRIMES, ExtremesConstruction, Locus
+from planmethod.solved.turn.output import LONGER, TOLD, Output
 
 NO_ANGLE = 1e-6
 """Pressure angle taken as zero, degrees: a block on the output link pushes along its motion."""

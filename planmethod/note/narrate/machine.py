@@ -12,18 +12,17 @@ from msgspec.structs import replace
 from planmethod.construct.scale import Scale
 from planmethod.note import formula
 from planmethod.note.compared import ComparedNumber
-from planmethod.note.compared_machine import compared_flywheel, compared_segment
 from planmethod.note.document import GivenFact
 from planmethod.note.narrate.forces.statement import load_facts, mass_lines
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.narrate.statement import angle_with_positions, given_facts, turns_symbol
 from planmethod.note.numbers import format_column, half_up
+from planmethod.note.series import compared_flywheel, compared_segment
 from planmethod.note.wording import Language, MessageTable
 from planmethod.problem.machine_records import ConstantMoment, Quadrature, WeightSigns
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
-from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
-from planmethod.solved.machine.motor import machine_power
+from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme, machine_power
 from planmethod.solved.machine.runup import (
     MAX_CYCLES,
     STEADY_SPEED_TOLERANCE,

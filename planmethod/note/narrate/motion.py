@@ -15,11 +15,9 @@ from planmethod.construct.steps import (
     Step,
 )
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
-from planmethod.note.narrate.letters import SIGN
-from planmethod.note.narrate.naming import SCALE_KIND, Names
-from planmethod.note.plaintext import input_text
-from planmethod.plans.legend import Quantity
+from planmethod.note.document import input_text
+from planmethod.note.narrate.naming import SCALE_KIND, SHORTEST_MM, SIGN, Formulas, Names
+from planmethod.plans.build import Quantity
 from planmethod.plans.model import RATES, PlanKind, Relation, Vector, VectorKind
 from planmethod.plans.motion.legs import Relative
 from planmethod.solved.solution import Solution

@@ -1,33 +1,92 @@
-"""Names of the points, lines and numbers of a construction for the reader."""
+"""Names, letters, formulas and vector equations of a construction for the reader."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TypeAlias
 
 from msgspec import Struct
 
 from planmethod.construct import steps
-from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step
+from planmethod.construct.scale import Scale
+from planmethod.construct.steps import Compute, LineName, Name, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.letters import plan_letters
-from planmethod.note.plaintext import input_text, plain_text
-from planmethod.note.wording import MessageTable
-from planmethod.plans.dimensions import DimensionKind
+from planmethod.note.document import Equation, Term, input_text, plain_text
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.numbers import Notation
+from planmethod.note.wording import Language, MessageTable, get_language
+from planmethod.plans.forces.polygons import Edge
 from planmethod.plans.model import (
     FACTS,
     MOTION,
     ZERO_VECTOR,
+    DimensionKind,
     Direction,
     Plan,
     PlanKind,
     Relation,
     Vector,
+    VectorEquation,
     VectorKind,
+    is_primed,
     pole_letter,
 )
-from planmethod.problem.model import Convention
+from planmethod.problem.model import Convention, Problem
+from planmethod.problem.names import fold
+from planmethod.solved.legibility import DetailView
 from planmethod.solved.solution import Solution
+
+SIGN = {Relation.PARALLEL: "∥", Relation.PERPENDICULAR: "⊥"}
+
+
+def plan_letters(problem: Problem, plan: Plan) -> dict[PointName, list[str]]:
+    """Return the letters of every plan point; those of the pole begin with the pole's own."""
+    primed = is_primed(problem, plan.kind)
+    letters = {
+        at: [_primed(letter) if primed else letter for letter in text.split(", ")]
+        for at, text in plan.letters.items()
+    }
+    if plan.pole is not None:
+        letters[plan.pole] = [pole_letter(problem, plan.kind), *letters.get(plan.pole, [])]
+    return letters
+
+
+def _primed(letter: str) -> str:
+    head, brace, tail = letter.partition("_{")
+    return f"{head}′_{{{tail}" if brace else f"{head}′"
+
+
+def mark(*points: str) -> str:
+    """Return names of mechanism points in rich text: ``mark("O3", "A")`` gives ``O_{3}A``."""
+    return "".join(f"{name[:1]}_{{{name[1:]}}}" if name[1:] else name for name in points)
+
+
+def pair_letters(name: str) -> str:
+    """Return the designation of a pair as rich text: ``O1(0,3)`` gives ``O_{1}(0,3)``."""
+    point, bracket, links = name.partition("(")
+    return f"{mark(point)}{bracket}{links}"
+
+
+def direction_text(direction: Direction | None, say: Notation | None = None) -> str:
+    """Return a direction as it stands under a term, in rich text: ``⊥ BC``, ``C → B``, ``= 0``.
+
+    ``say`` writes the degrees of an angle in a language.
+    """
+    if direction is None:
+        return ""
+    base = direction.guide or mark(*direction.points)
+    match direction.relation:
+        case Relation.ZERO:
+            return "= 0"
+        case Relation.TOWARDS:
+            return " → ".join(mark(point) for point in direction.points)
+        case Relation.ANGLED:
+            degrees = f"{direction.angle:.4g}"
+            return f"∠ {say.number(degrees) if say else degrees}° {base}"
+        case Relation.PARALLEL | Relation.PERPENDICULAR:
+            return f"{SIGN[direction.relation]} {base}"
+
 
 _DIGITS = r"\d+"
 SCALE_KIND = {FACTS[kind].scale: kind for kind in MOTION}
@@ -339,3 +398,234 @@ class Names:
 def _reduced(angle: float) -> float:
     """Return an angle in (-180, 180] degrees."""
     return 180.0 - (180.0 - angle) % 360.0
+
+
+SHORTEST_MM = 1e-9
+"""Length, mm, below which a segment is a point."""
+
+
+class Formulas:
+    """Values of one position, as the hand has them, and formulas with them (расчётные формулы).
+
+    Magnitudes are written without signs: words beside them give the sense.
+    """
+
+    def __init__(self, solution: Solution, names: Names, index: int) -> None:
+        self.solution, self.names, self.index = solution, names, index
+        self.texts = names.texts
+        self.language = get_language(names.texts.lang)
+        self.notation = self.language.notation
+
+    # Values ----------------------------------------------------------------------------------
+
+    def number(self, name: NumberName) -> float:
+        """Return a number as the hand has it."""
+        return float(self.solution.ruler_reading.number(name)[self.index])
+
+    def exact_value(self, name: NumberName) -> float:
+        """Return a number without the error of reading."""
+        return float(self.solution.paper.number(name)[self.index])
+
+    @property
+    def position(self) -> float:
+        """Position of the driver, degrees or m."""
+        return float(self.solution.positions[self.index])
+
+    def readable(self, name: Name) -> bool:
+        """Return whether the hand has a value: not where it divides by a reading of 0."""
+        return bool(self.solution.ruler_reading.has(name)[self.index])
+
+    def place(self, point: PointName) -> complex:
+        """Return a point of the exact drawing, mm."""
+        column = self.solution.paper.point(point)
+        return complex(column[self.index])
+
+    def direction_vector(self, line: LineName) -> complex:
+        """Return a vector along a line of the exact drawing."""
+        return complex(self.solution.paper.line_vector(line)[self.index])
+
+    def per_mm(self, kind: PlanKind) -> float:
+        """Return the scale of a plan, unit per mm."""
+        return self.solution.plan_scale(kind, self.index).per_mm
+
+    # Formulas --------------------------------------------------------------------------------
+
+    def unit(self, key: str) -> str:
+        """Return a unit in the language."""
+        return self.notation.units[key]
+
+    def exactly(self, value: float, unit: str = "") -> str:
+        """Return the exact value in brackets; empty on a sheet, whose table has it."""
+        if self.names.on_sheet:
+            return ""
+        text = f"{self.notation.computed(value)} {unit}".rstrip()
+        return self.texts.exact.format(value=text)
+
+    def product(
+        self,
+        powers: Iterable[tuple[NumberName, int]],
+        factor: float = 1.0,
+        *,
+        called: str | None = None,
+    ) -> tuple[str, str]:
+        """Return a product of powers in symbols and in numbers, a fraction where there is one.
+
+        ``called`` is another symbol for the factor that is not a scale.
+        """
+        factors = []
+        for name, power in powers:
+            is_scale = name in SCALE_KIND
+            symbol = self.names.symbol(name) if is_scale or called is None else called
+            factors.append((symbol, abs(self.number(name)), power, is_scale))
+        return self.fraction(factors, factor)
+
+    def fraction(
+        self, factors: Sequence[tuple[str, float, int, bool]], factor: float = 1.0
+    ) -> tuple[str, str]:
+        """Return factors (symbol, value, power, is a scale) as a fraction: symbols and numbers."""
+        above: list[tuple[str, str]] = []
+        below: list[tuple[str, str]] = []
+        if factor != 1.0:
+            above.append((self.notation.as_input(factor),) * 2)
+        for symbol, value, power, is_scale in factors:
+            if is_scale and self.names.is_inverse_scale():
+                value, power = 1.0 / value, -power
+            text = self.notation.short(value)
+            mark = "" if abs(power) == 1 else f"^{{{abs(power)}}}"
+            if mark and "·" in text:
+                text = f"({text})"
+            (above if power > 0 else below).append((symbol + mark, text + mark))
+        return _over(above, below, 0), _over(above, below, 1)
+
+    def formula(
+        self, symbol: str, sides: Sequence[str], value: float, unit: str, more: str = ""
+    ) -> str:
+        """Return ``symbol = in symbols = in numbers = value unit``, without repetition."""
+        number = self.notation.short(value, 4)
+        parts = [symbol, *(side for side in sides if side != number), f"{number} {self.unit(unit)}"]
+        return " = ".join(parts) + more
+
+    def laid_off_formulas(
+        self, step: Compute, segment: str, kind: PlanKind, vector: Vector | None
+    ) -> list[str]:
+        """Return how a length to be laid off on a plan is computed: the quantity, then the length.
+
+        On a sheet, a quantity that is not given covers both.
+
+        Parameters
+        ----------
+        step : Compute
+            The length: a quantity over the scale.
+        segment : str
+            Name of the length, as ``(pb)``.
+        """
+        (value, _), (scale, _) = step.powers
+        length, mu = abs(self.number(step.out)), self.per_mm(kind)
+        symbol = vector.symbol if vector else self.names.symbol(value)
+        made, lines = self.names.step[value], []
+        sides: tuple[str, ...] = self.fraction(
+            [(symbol, _as_written(length * mu), 1, False), (self.names.symbol(scale), mu, -1, True)]
+        )
+        if isinstance(made, Compute):
+            product = self.product(made.powers, made.factor)
+            lines.append(self.formula(symbol, product, length * mu, FACTS[kind].unit, ";"))
+            sides = () if self.names.on_sheet else sides
+        lines.append(self.formula(segment, sides, length, "mm", "."))
+        return ["  ".join(lines)] if self.names.on_sheet else lines
+
+    def quantity_from_segment(self, step: Compute, kind: PlanKind) -> str:
+        """Return a quantity from the read segment that shows it."""
+        symbol = self.names.symbol(step.out)
+        powers = step.powers[::-1] if self.names.is_inverse_scale() else step.powers
+        exact, unit = abs(self.exact_value(step.out)), FACTS[kind].unit
+        if not self.readable(step.out):
+            text = self.exactly(exact, self.unit(unit))
+            return f"{symbol} {self.language.sheets.unreadable}{text}"
+        value, product = abs(self.number(step.out)), self.product(powers)
+        text = self._read_on(step) + self.exactly(exact)
+        if value == 0.0 < exact:  # no enlargement of GOST 2.302 shows it
+            return f"{symbol} = {product[0]} ≈ 0{text}"
+        return self.formula(symbol, product, value, unit, text)
+
+    def _read_on(self, step: Compute) -> str:
+        """Return the detail view on which a quantity's segment is read; empty for others."""
+        read_on = self.solution.read_on(self.index)
+        knot = next((read_on[name] for name, _ in step.powers if name in read_on), None)
+        if knot is None:
+            return ""
+        return f" ({self.language.sheets.read_on.format(view=view_name(knot, self.language))})"
+
+
+def view_name(detail_view: DetailView, language: Language) -> str:
+    """Return the name of a detail view: ``А (10:1)``."""
+    ratio = language.notation.short(detail_view.times)
+    return language.sheets.enlarged.format(
+        letter=detail_view_letter(detail_view, language), ratio=ratio
+    )
+
+
+def detail_view_letter(detail_view: DetailView, language: Language) -> str:
+    """Return the letter of a detail view, none that looks like that of a point.
+
+    Where the letters are too few they start again with a number: ``Б1``.
+    """
+    every: tuple[str, ...] = language.sheets["knots"]
+    letters = [one for one in every if fold(one) not in detail_view.initials] or every
+    again, which = divmod(detail_view.number, len(letters))
+    return f"{letters[which]}{again or ''}"
+
+
+def _as_written(value: float) -> float:
+    """Return a number as just written, so that the next formula uses the same digits."""
+    return float(f"{value:.4g}")
+
+
+def _over(above: list[tuple[str, str]], below: list[tuple[str, str]], which: int) -> str:
+    top = "·".join(pair[which] for pair in above) or "1"
+    return fraction(top, "·".join(pair[which] for pair in below)) if below else top
+
+
+def direction_note(names: Names, direction: Direction | None) -> str:
+    """Return a direction, links called as their lengths are: ``⊥ BC``."""
+    if direction is None:
+        return ""
+    match direction.relation:
+        case Relation.ZERO:
+            return "= 0"
+        case Relation.TOWARDS:
+            return " → ".join(direction.points)
+        case Relation.ANGLED:
+            angle = input_text(float(f"{direction.angle:.4g}"), names.texts)
+            return f"∠ {angle}° {''.join(direction.points)}"
+        case Relation.PARALLEL | Relation.PERPENDICULAR:
+            return f"{SIGN[direction.relation]} {names.base(direction)}"
+
+
+Directed: TypeAlias = Callable[[Direction | None], Rich]
+"""Function that writes a direction: `letters.direction_text`, or `direction_note` of names."""
+
+
+def equation_of(equation: VectorEquation, directed: Directed) -> Equation:
+    """Return a vector equation as a reader has it."""
+    left, *right = (term_of(one, directed) for one in (equation.left, *equation.right))
+    return Equation((left,), tuple(right))
+
+
+def term_of(term: Vector | Edge, directed: Directed) -> Term:
+    """Return a term: its symbol, its known parts, its direction."""
+    return Term(term.symbol, term.known.value, directed(term.direction))
+
+
+def scale_inscription(scale: Scale, convention: Convention, notation: Notation) -> str:
+    """Return a scale as rich text: ``μ_v = 0,05 (м/с)/мм`` or ``μ_v = 20 мм/(м/с)``.
+
+    What has no unit, as a ratio, has ``1/мм`` or ``мм``.
+    """
+    letter = scale.symbol.removeprefix("mu_")
+    unit, mm = notation.in_head(scale.unit) if scale.unit else "1", notation.units["mm"]
+    grouped = f"({unit})" if "/" in unit or "·" in unit else unit
+    if convention is Convention.MM_PER_UNIT:
+        return f"μ_{{{letter}}} = {notation.as_input(1.0 / scale.per_mm, zero_limit=0.0)} {mm}" + (
+            f"/{grouped}" if scale.unit else ""
+        )
+    return f"μ_{{{letter}}} = {notation.as_input(scale.per_mm, zero_limit=0.0)} {grouped}/{mm}"

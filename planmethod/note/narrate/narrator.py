@@ -11,8 +11,8 @@ from typing import Protocol, TypeAlias, assert_never
 
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, NumberName, PointName, Step
+from planmethod.note.document import fixed, input_text
 from planmethod.note.formula import Rich
-from planmethod.note.plaintext import fixed, input_text
 from planmethod.note.wording import MessageTable
 
 Line: TypeAlias = steps.Join | steps.Parallel | steps.Perpendicular | steps.AtAngle

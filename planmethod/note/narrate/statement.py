@@ -18,10 +18,9 @@ from planmethod.note.document import GivenFact, Item, Node, Paragraph
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
-from planmethod.plans.legend import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
+from planmethod.plans.build import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.model import Relation
 from planmethod.plans.motion.legs import slot_name, track_direction
-from planmethod.problem.common import KindProblem
 from planmethod.problem.model import (
     ANYWHERE,
     AssemblyRelation,
@@ -38,7 +37,8 @@ from planmethod.problem.model import (
 )
 from planmethod.problem.names import UNITS, segment, split_names
 from planmethod.problem.placement import rotation
-from planmethod.solved.driving import driven
+from planmethod.problem.records import KindProblem
+from planmethod.solved.reading import driven
 from planmethod.solved.rules import from_joint
 from planmethod.solved.solution import Solution
 

@@ -9,17 +9,14 @@ from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step, operands
 from planmethod.mechanism.groups import triad_of
 from planmethod.mechanism.model import Revolute
-from planmethod.note.narrate.equations import direction_note
-from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
+from planmethod.note.document import NO_BREAK, input_text
 from planmethod.note.narrate.motion import MotionNarrator
-from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.naming import SHORTEST_MM, Formulas, Names, direction_note
 from planmethod.note.narrate.narrator import BoardNarrator, Line, Reading
-from planmethod.note.plaintext import NO_BREAK, input_text
 from planmethod.note.wording import Language
-from planmethod.plans.dimensions import DimensionKind
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import DimensionKind, PlanKind
+from planmethod.plans.motion.groups import leg_place
 from planmethod.plans.motion.position import link_of_axis
-from planmethod.plans.motion.triads import leg_place
 from planmethod.problem.names import UNITS
 from planmethod.solved.solution import Solution
 

@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from planmethod.mechanism.describe import PairKind, kind_of_motion, pairs, stated_pairs
 from planmethod.mechanism.groups import AssurGroup, Joint, letter_of, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Revolute
-from planmethod.mechanism.structure import DRIVER_COUNT, Structure, roman
+from planmethod.mechanism.structure import (
+    DRIVER_COUNT,
+    PairKind,
+    Structure,
+    kind_of_motion,
+    pairs,
+    roman,
+    stated_pairs,
+)
 from planmethod.note.document import Caption, Document, Item, Node, Step, Table, Title, table_of
 from planmethod.note.formula import Rich
-from planmethod.note.narrate.letters import pair_letters
+from planmethod.note.narrate.naming import pair_letters
 from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language, MessageTable
 from planmethod.solved.aligned.schemes import AlignedGroup, AlignedScheme, MovablePair, SelfAligning

@@ -6,11 +6,10 @@ from collections import Counter
 
 from planmethod.construct.steps import Compute, GivenNumber, NumberName, Step, Total
 from planmethod.note.formula import Rich, fraction
-from planmethod.note.narrate.formulas import Formulas
-from planmethod.note.narrate.naming import Names
-from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.note.narrate.naming import Formulas, Names
+from planmethod.plans.build import Quantity, QuantityKind
 from planmethod.plans.model import PlanKind
-from planmethod.solved.transfers import Transfers
+from planmethod.solved.quantities import Transfers
 
 ORDERS = {
     PlanKind.VELOCITY: (QuantityKind.TRANSFER, QuantityKind.RATIO),

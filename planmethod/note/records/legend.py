@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from planmethod.note.document import plain_text
 from planmethod.note.formula import Rich
-from planmethod.note.plaintext import plain_text
 
 
 def legend_record(

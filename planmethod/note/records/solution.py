@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,31 +13,33 @@ from msgspec.structs import replace
 from planmethod.construct.drafting import Profile
 from planmethod.languages import WRITTEN, speaking
 from planmethod.mechanism.model import Mechanism
-from planmethod.mechanism.structure import Structure
+from planmethod.mechanism.structure import Structure, stated_pairs
 from planmethod.note.columnar import Column, ColumnarRecords, list_of, record_of, to_builtins
 from planmethod.note.columns import bounds, named, numbers_or_none, pairs, sizes
 from planmethod.note.compared import Series
-from planmethod.note.compared_machine import compared_extremes
+from planmethod.note.narrate.structure import MOBILITY
 from planmethod.note.numbers import record_float
-from planmethod.note.tables.series import quantity_series, segment_series, transfer_series
-from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind
+from planmethod.note.series import compared_extremes
+from planmethod.note.tables.errors import quantity_series, segment_series, transfer_series
+from planmethod.plans.build import TURNING, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.legs import Relative
-from planmethod.problem.common import reading_record
-from planmethod.problem.cycle_records import Differentiation
+from planmethod.problem.machine_records import Differentiation
 from planmethod.problem.model import Problem
-from planmethod.solved.analogues import analogues
+from planmethod.problem.records import reading_record
+from planmethod.solved.aligned.schemes import AlignedGroup, SelfAligning
+from planmethod.solved.conditioning import error_bound
 from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.errors.spread import Errors
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.positions import Gaps, common_scales, force_scale
 from planmethod.solved.many.variants import Batch
+from planmethod.solved.quantities import analogues, transfers_of
 from planmethod.solved.reading import Complexes, Flags, Reals
 from planmethod.solved.solution import RelativeMotion, Solution
-from planmethod.solved.transfers import transfers_of
-from planmethod.solved.trust.conditioning import error_bound
-from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.cycle import CrankCycle, Extreme, NoNumber, crank_cycle_of
-from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
-from planmethod.solved.turn.series import quantities_over, values_over
+from planmethod.solved.turn.diagrams import Diagrams, diagrams_of, quantities_over, values_over
+from planmethod.solved.turn.extremes import extreme_construction
 
 
 def analogue_records(solution: Solution) -> ColumnarRecords:
@@ -302,7 +306,7 @@ def record(solution: Solution) -> dict[str, Any]:
     """Return everything that a solution says as plain data, SI, full precision.
 
     ``bound`` is that of the relative error of the motion: of the largest of its kind in the
-    position (`planmethod.solved.trust.conditioning.error_bound`).
+    position (`planmethod.solved.conditioning.error_bound`).
     ``hand.transfers`` are the transfer functions through segments, by label: ``exact``, ``read``,
     ``sigma``. ``segments`` are in millimetres of the plan: ``exact``, ``read`` with the ruler along
     the hand's own chain, and ``sigma``, one standard deviation of the drafting error. ``hand``
@@ -395,13 +399,13 @@ def _solution_record(solution: Solution, positions: ColumnarRecords | list[Any])
 
         machine["machine"] = machine_record(flywheel_of(solution), solution.profile)
     if solution.problem.balancing is not None:
-        from planmethod.note.records.balancing import balancing_record
+        from planmethod.note.records.machine import balancing_record
 
         machine["balancing"] = balancing_record(solution)
     dynamics = solution.problem.dynamics
     if dynamics is not None and dynamics.friction is not None:
-        from planmethod.note.tables.friction import friction_cycle_record
-        from planmethod.solved.efficiency import cycle_efficiency
+        from planmethod.note.tables.forces import friction_cycle_record
+        from planmethod.solved.cycle import cycle_efficiency
 
         turn = cycle_efficiency(solution)
         machine["friction"] = {"turn": None if turn is None else friction_cycle_record(turn)}
@@ -473,3 +477,101 @@ def finite(value: Any) -> bool:
     if isinstance(value, list):
         return all(finite(v) for v in value)
     return not isinstance(value, float) or bool(np.isfinite(value))
+
+
+# no messages: reasons in JSON
+
+
+def structure_in_full(
+    structure: Structure, mechanism: Mechanism, aligned: SelfAligning
+) -> dict[str, Any]:
+    """Return `structure_record` with the pairs, W in space and the schemes with q = 0."""
+    rows = [
+        {
+            "pair": f"{pair.point} {'-'.join(pair.links)}",
+            "kind": pair.kind.value,
+            "plane": int(MOBILITY[pair.kind][1]),
+            "space": int(MOBILITY[pair.kind][2]),
+        }
+        for pair in stated_pairs(mechanism)
+    ]
+    return {
+        **structure_record(structure, mechanism),
+        "spatial_mobility": structure.spatial_mobility,
+        "local_mobility": structure.local_mobility,
+        "pairs": rows,
+        "self_aligning": aligned_record(aligned),
+    }
+
+
+def aligned_record(aligned: SelfAligning) -> dict[str, Any]:
+    """Return the schemes without redundant constraints, best first; else the reason for none.
+
+    Keys are a joint or pin and the links of the pair, the frame 0; values the classes of
+    `planmethod.solved.aligned.schemes`. Where schemes leave local mobilities, ``local_mobility``
+    has how many, in the order of the schemes, and the reason; ``sizes`` is there where they are
+    random, as the file's close nowhere.
+    """
+    record: dict[str, Any] = {
+        "valid": bool(aligned.schemes),
+        "schemes": [dict(scheme) for scheme in aligned.schemes],
+        "rank": aligned.rank,
+        "groups": [_group(group) for group in aligned.groups],
+    }
+    if not aligned.schemes:
+        links = "; ".join("-".join(group.links) for group in aligned.without)
+        record["reason"] = f"no choice of pairs of the links {links} has full rank"
+    elif any(aligned.local):
+        links = "; ".join("-".join(one.links) for one in aligned.groups if one.schemes[0].local)
+        record["local_mobility"] = list(aligned.local)
+        record["reason"] = f"every scheme of the links {links} with q = 0 leaves a local mobility"
+    if aligned.random:
+        record["sizes"] = "random"
+    return record
+
+
+def _group(group: AlignedGroup) -> dict[str, Any]:
+    def named(classes: tuple[str, ...]) -> dict[str, str]:
+        return dict(zip((pair.key for pair in group.pairs), classes, strict=True))
+
+    return {
+        "links": list(group.links),
+        "schemes": [named(scheme.classes) for scheme in group.schemes],
+        "right_by_count_only": [named(scheme.classes) for scheme in group.counted],
+    }
+
+
+def _errors(solution: Solution) -> Errors:
+    if solution.problem.dynamics is None:
+        return drafting_of(solution)
+    from planmethod.solved.errors.forces import all_errors
+
+    return all_errors(statics_of(solution))
+
+
+def covariance_text(solutions: list[Solution]) -> str:
+    """Return the covariance of every pair of quantities, as CSV.
+
+    A row for each quantity of each position: problem, variant, position (from 0), quantity, its
+    sigma, and its covariance with every quantity in the order of the header. Quantities are in SI
+    units, segments (``velocity.p-b``) in millimetres of the plan, directions of reactions in
+    degrees; all to first order. Forces are there for a problem with ``[dynamics]``.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    before: list[str] | None = None
+    for solution in solutions:
+        errors = _errors(solution)
+        labels = list(errors.items)
+        header = ["problem", "variant", "position", "quantity", "sigma", *labels]
+        if header != before:
+            writer.writerow(header)
+        before = header
+        problem = solution.problem
+        for i in range(len(solution.positions)):
+            matrix = errors.covariance(labels, i)
+            for k, label in enumerate(labels):
+                sigma = float(matrix[k, k]) ** 0.5
+                told = [problem.name, problem.variant or "", i, label, sigma]
+                writer.writerow([*told, *matrix[k].tolist()])
+    return text.getvalue()

@@ -7,20 +7,18 @@ from typing import assert_never
 
 from planmethod.construct import steps
 from planmethod.construct.steps import PointName, Step
-from planmethod.note.compared import ComparedNumber, Series
-from planmethod.note.document import Caption, Item, Node, Paragraph
+from planmethod.note.compared import ComparedNumber, Series, rounded_to
+from planmethod.note.document import Caption, Item, Node, Paragraph, fixed, localized
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.transfers import even_letter
-from planmethod.note.plaintext import fixed, localized
-from planmethod.note.rounding import rounded_to
-from planmethod.note.tables.series import motion_series
-from planmethod.plans.legend import MOTION_KINDS
+from planmethod.note.tables.errors import motion_series
+from planmethod.plans.build import MOTION_KINDS
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.plans.motion.position import link_of_axis
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
-from planmethod.solved.transfers import transfers_of
+from planmethod.solved.quantities import transfers_of
 
 MAX_CAUSES = 3
 """Causes that are listed for one result."""

@@ -24,20 +24,20 @@ from planmethod.note.narrate.cycle import (
 )
 from planmethod.note.numbers import format_column, in_heads, significant
 from planmethod.note.wording import Language
-from planmethod.problem.cycle_records import Differentiation
-from planmethod.problem.graphs import GraphQuantity, graph_quantities
+from planmethod.problem.machine_records import Differentiation, GraphQuantity, graph_quantities
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.cycle import crank_cycle_of
 from planmethod.solved.turn.diagrams import (
     Deviation,
     Diagrams,
     deviations_by_hand,
     diagrams_of,
+    quantities_over,
     sigmas,
+    values_over,
 )
-from planmethod.solved.turn.series import quantities_over, values_over
+from planmethod.solved.turn.extremes import extreme_construction
 
 Columns = list[tuple[str, str, tuple[str, ...]]]
 """Columns of a table: head (rich text), unit of SI or none, cells (rich text)."""

@@ -1,10 +1,11 @@
-"""A machine and its flywheel in the results and the protocol (таблица маховика)."""
+"""A machine, its flywheel and static balancing in the results and the protocol."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from planmethod.note.document import Caption, Chapter, Item, Node, steps_of, table_of_quantities
+from planmethod.note.narrate.balancing import BalancingNarrator, ReductionNarrator
 from planmethod.note.narrate.machine import (
     MachineNarrator,
     course_columns,
@@ -12,7 +13,7 @@ from planmethod.note.narrate.machine import (
     has_run_up,
     run_up_lines,
 )
-from planmethod.note.narrate.reduction import ReductionNarrator
+from planmethod.note.numbers import in_heads
 from planmethod.note.wording import Language
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
@@ -62,3 +63,12 @@ def machine_tables(solution: Solution, language: Language) -> Iterator[Node]:
         for title, course in courses(narrator):
             yield Caption(title)
             yield table_of_quantities(course_columns(course, narrator), repeated=1)
+
+
+def balancing_tables(solution: Solution, language: Language) -> Iterator[Node]:
+    """Yield the counterweights with their numbers, and the main vector by positions."""
+    narrator = BalancingNarrator(solution, language)
+    yield Chapter(narrator.texts.balancing, numbered=False)
+    yield from map(Item, narrator.lines())
+    yield Caption(narrator.texts.forces_table)
+    yield table_of_quantities(in_heads(narrator.columns(), narrator.notation), repeated=2)

@@ -6,9 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from planmethod.note.document import Document, Node, Paragraph, table_of_columns
+from planmethod.note.document import Document, Node, Paragraph, computed_text, table_of_columns
 from planmethod.note.formula import escape
-from planmethod.note.plaintext import computed_text
 from planmethod.note.tables.results import heading_of, lead_columns
 from planmethod.note.wording import Language, MessageTable
 from planmethod.solved.many.gaps import GappedSweep

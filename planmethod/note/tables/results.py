@@ -17,19 +17,26 @@ from planmethod.note.document import (
     Note,
     Paragraph,
     Table,
+    computed_text,
+    fixed,
+    input_text,
+    localized,
     table_of_columns,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.naming import Names, scale_inscription
 from planmethod.note.narrate.statement import reading_notes
 from planmethod.note.numbers import with_unit
-from planmethod.note.plaintext import computed_text, fixed, input_text, localized
-from planmethod.note.tables.series import motion_series, quantity_series, segment_series
-from planmethod.note.tables.sigmas import ErrorColumns, levelled
+from planmethod.note.tables.errors import (
+    ErrorColumns,
+    levelled,
+    motion_series,
+    quantity_series,
+    segment_series,
+)
 from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.note.writers.html import html_part
-from planmethod.plans.legend import TURNING, TURNINGS, QuantityKind, kinds_on
+from planmethod.plans.build import TURNING, TURNINGS, QuantityKind, kinds_on
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.reading import Reals
@@ -103,7 +110,7 @@ def further_tables(solution: Solution, language: Language) -> Iterator[Node]:
 
         yield from machine_tables(solution, language)
     if solution.problem.balancing is not None:
-        from planmethod.note.tables.balancing import balancing_tables
+        from planmethod.note.tables.machine import balancing_tables
 
         yield from balancing_tables(solution, language)
 
@@ -188,7 +195,7 @@ def position_tables(
 
         yield from forces_tables(solution, language, index, sigmas)
         if solution.problem.dynamics.friction is not None:
-            from planmethod.note.tables.friction import friction_tables
+            from planmethod.note.tables.forces import friction_tables
 
             yield from friction_tables(solution, language, index)
 

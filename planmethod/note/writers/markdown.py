@@ -1,7 +1,7 @@
 r"""A document as Markdown with formulas in LaTeX (документ в Markdown).
 
 Repository pages render it. Formulas are put between dollar signs; those within sentences are found
-by `planmethod.note.writers.sentences`. Figures are reduced to their captions.
+by `planmethod.note.writers.formulas`. Figures are reduced to their captions.
 """
 
 from __future__ import annotations
@@ -18,8 +18,15 @@ from planmethod.note import document
 from planmethod.note.document import Document, Equation, Table, Term
 from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Rich, Root, parse
 from planmethod.note.wording import Language
-from planmethod.note.writers.sentences import pieces, units_of, with_levels
-from planmethod.note.writers.tokens import PAIRS, Token, matching_bracket, tokens_of
+from planmethod.note.writers.formulas import (
+    PAIRS,
+    Token,
+    matching_bracket,
+    pieces,
+    tokens_of,
+    units_of,
+    with_levels,
+)
 
 _SPECIAL = r"[\\`*_$<>|\[\]]|^[#+-](?=\s)|^\d+[.)](?=\s)"
 """Text that Markdown would treat as markup, by its last sign: emphasis, a link, a list entry."""

@@ -19,8 +19,7 @@ from msgspec import Struct
 
 from planmethod.note.document import Equation
 from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, parse
-from planmethod.note.writers.linebreak import width_em
-from planmethod.note.writers.tokens import PAIRS, Token, matching_bracket, tokens_of
+from planmethod.note.writers.formulas import PAIRS, Token, matching_bracket, tokens_of, width_em
 
 MATH = "http://schemas.openxmlformats.org/officeDocument/2006/math"
 WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"

@@ -26,7 +26,7 @@ from reportlab.platypus import (
 )
 
 from planmethod.note import document
-from planmethod.note.document import Document, Node, Table
+from planmethod.note.document import Document, Node, Table, plain_text
 from planmethod.note.formula import (
     Fraction,
     Index,
@@ -37,9 +37,8 @@ from planmethod.note.formula import (
     inline,
     parse,
 )
-from planmethod.note.plaintext import plain_text
+from planmethod.note.writers.formulas import Token, tokens_of
 from planmethod.note.writers.html import without_control_characters
-from planmethod.note.writers.tokens import Token, tokens_of
 
 MM = 72.0 / 25.4
 MARGIN = 12.0 * MM

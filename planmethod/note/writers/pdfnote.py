@@ -34,23 +34,30 @@ from reportlab.platypus import (
 from reportlab.platypus.tableofcontents import TableOfContents
 
 from planmethod.note import document
-from planmethod.note.document import Document, Node, Table
+from planmethod.note.document import Document, Node, Table, plain_text
 from planmethod.note.formula import Rich, inline, parse
-from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language
-from planmethod.note.writers.html import without_control_characters
-from planmethod.note.writers.linebreak import lines_of, width_em
-from planmethod.note.writers.pdf import marked, parts_of
-from planmethod.note.writers.pdfformula import Fonts, FormulaLines, FormulaSetter
-from planmethod.note.writers.pdfpages import Floating, FloatingPages, LaidFrame, LaidParagraph
-from planmethod.note.writers.sentences import (
+from planmethod.note.writers.formulas import (
     JOINER,
     introduces_next_node,
+    lines_of,
     pieces,
     sole_formula,
     tied,
     units_of,
+    width_em,
     with_levels,
+)
+from planmethod.note.writers.html import without_control_characters
+from planmethod.note.writers.pdf import marked, parts_of
+from planmethod.note.writers.pdfformula import (
+    Floating,
+    FloatingPages,
+    Fonts,
+    FormulaLines,
+    FormulaSetter,
+    LaidFrame,
+    LaidParagraph,
 )
 
 LEFT, RIGHT, TOP, BOTTOM = 30 * mm, 15 * mm, 20 * mm, 20 * mm

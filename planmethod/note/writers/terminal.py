@@ -9,8 +9,7 @@ from collections.abc import Iterator, Sequence
 from typing import assert_never
 
 from planmethod.note import document
-from planmethod.note.document import Document, Equation, Table, Term
-from planmethod.note.plaintext import NO_BREAK, plain_text
+from planmethod.note.document import NO_BREAK, Document, Equation, Table, Term, plain_text
 from planmethod.note.wording import Language
 
 WIDTH = 100

@@ -25,59 +25,58 @@ from planmethod.note.document import Document, Figure, Node, Table
 from planmethod.note.formula import Node as Sign, Rich, parse
 from planmethod.note.wording import Language
 from planmethod.note.writers import omml
-from planmethod.note.writers.html import without_control_characters
-from planmethod.note.writers.linebreak import lines_of
-from planmethod.note.writers.sentences import (
+from planmethod.note.writers.formulas import (
     introduces_next_node,
+    lines_of,
     pieces,
     sole_formula,
     units_of,
     with_levels,
 )
-from planmethod.note.writers.wordfile import (
-    damaged,
-    opened,
-    strip_timestamps,
-    update_fields_on_open,
-)
-from planmethod.note.writers.wordframe import PageFrame, fields_of_note
-from planmethod.note.writers.wordpages import PageFlow, clean_text, flowing
-from planmethod.note.writers.wordpicture import add_picture
-from planmethod.note.writers.wordstyles import (
+from planmethod.note.writers.html import without_control_characters
+from planmethod.note.writers.word_parts import (
     BOTTOM,
     HEADINGS,
     LEAST_SIZE,
     LEFT,
+    MAX_UNCUT_ROWS,
     MM_PER_POINT,
+    PAD,
     PAGE,
     RIGHT,
     SIZE,
+    STRIP,
     TABLE_SIZE,
     TOP,
+    PageFlow,
     WordStyles,
-)
-from planmethod.note.writers.wordtable import (
-    MAX_UNCUT_ROWS,
-    PAD,
-    STRIP,
+    add_field,
+    add_link,
+    add_picture,
+    add_sentence,
+    clean_text,
     cover,
+    field_part,
     fill_width,
+    flowing,
     grid,
     head_repeats,
     line_width,
+    marked,
     needed_widths,
     parts_of_width,
     row_keeps_with_next,
     rows_of,
+    small_paragraph,
     strip_above,
 )
-from planmethod.note.writers.wordtext import (
-    add_field,
-    add_link,
-    add_sentence,
-    field_part,
-    marked,
-    small_paragraph,
+from planmethod.note.writers.wordframe import (
+    PageFrame,
+    damaged,
+    fields_of_note,
+    opened,
+    strip_timestamps,
+    update_fields_on_open,
 )
 
 SIDE = 16.0

@@ -1,8 +1,4 @@
-"""The drawing board of the force plans: loads laid off, chained and weighed (силовой расчёт).
-
-A force is a segment of a plan and the place on the position plan where it acts; a couple is a
-number, N·m. Places are those of the position plan, so arms are measured where a textbook does.
-"""
+"""The drawing board of the force plans: loads laid off, chained, weighed; legs of a group."""
 
 from __future__ import annotations
 
@@ -15,14 +11,29 @@ from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import LineName, NumberName, PointName
-from planmethod.mechanism.model import FRAME
+from planmethod.mechanism.groups import OuterLeg
+from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import Draft
-from planmethod.plans.forces.loads import Applied, LoadKind, Shift, free_letter, numbers_of
-from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, reaction_symbol
-from planmethod.plans.model import FACTS, PlanKind
-from planmethod.plans.motion.legs import Kinematics
-from planmethod.plans.segments import Ends, Segments
-from planmethod.problem.load_records import Dynamics
+from planmethod.plans.forces.polygons import (
+    Applied,
+    Components,
+    CoupleOn,
+    Edge,
+    ForcePlan,
+    LoadKind,
+    Moments,
+    Shift,
+    as_known,
+    free_letter,
+    numbers_of,
+    reaction_edge,
+    reaction_symbol,
+)
+from planmethod.plans.model import FACTS, Ends, PlanKind, Segments
+from planmethod.plans.motion.legs import Kinematics, arm, track_direction
+from planmethod.plans.motion.position import outer_point, slide_of
+from planmethod.problem.model import Slide
+from planmethod.problem.records import Dynamics
 
 SCALE = FACTS[PlanKind.FORCE].scale
 PREFIX = FACTS[PlanKind.FORCE].prefix
@@ -366,3 +377,57 @@ class ForceBoard:
         """Note the reaction of a guide: a force and its moment about the place of the force."""
         self.react(pin, on, by, force, couple, inner=inner)
         return CoupleOn(self.symbols[couple], on, couple, force.at)
+
+
+def tangent(
+    board: ForceBoard, leg: OuterLeg, origin: PointName, middle: PointName
+) -> tuple[PointName, Components | None]:
+    """Lay off the tangential reaction of a revolute leg: its moment about the middle joint.
+
+    A guide has none: its reaction is across it.
+    """
+    if not isinstance(leg.joint, Revolute):
+        return origin, None
+    outer = outer_point(leg)
+    lever = arm(board.draft, leg.link, outer, middle)
+    moment = board.moment((leg.link,), middle)
+    end = board.lay_off_tangential(origin, lever.line, moment, lever.length)
+    return end, Components(
+        leg, board.called(leg.to), PointName(outer), (outer, str(middle)), lever.length
+    )
+
+
+def guide_reaction(board: ForceBoard, leg: OuterLeg, force: Force, inner: Edge) -> CoupleOn:
+    """Note the reaction of a guide: its moment about the pin balances those of all other forces.
+
+    ``inner`` is the reaction of the middle joint on the slider.
+    """
+    pin = PointName(slide_of(board.draft, leg.joint).pin)
+    acting = Force(inner.at, *inner.ends, inner.symbol)
+    couple = board.negative(board.moment((leg.link,), pin, acting))
+    return board.react_guide(pin, leg.link, leg.to, replace(force, at=pin), couple)
+
+
+def guide_edge(board: ForceBoard, leg: OuterLeg, tail: PointName, head: PointName) -> Edge:
+    """Return the reaction of a guide, which is across it."""
+    slide = slide_of(board.draft, leg.joint)
+    direction = track_direction(slide, board.draft.problem, perpendicular=True)
+    return reaction_edge(
+        leg.link, board.called(leg.to), PointName(slide.pin), tail, head, direction
+    )
+
+
+def of_guide(couple: CoupleOn, edges: Sequence[Edge], known: tuple[CoupleOn, ...]) -> Moments:
+    """Return the moments about the pin of a slider, which give the moment of its guide."""
+    assert couple.at is not None
+    return Moments((couple.on,), couple.at, tuple(map(as_known, edges)), known, couple=couple)
+
+
+def pressed_block(board: ForceBoard, slide: Slide, force: Force, loads: Sequence[Edge]) -> Moments:
+    """Note the reaction of a block on the bar through it, by the moments about its own joint."""
+    known = board.couples_on(slide.host)
+    held = board.negative(board.moment((slide.host,), force.at))
+    board.react_guide(slide.pin, slide.slider, slide.host, force, board.negative(held), inner=True)
+    symbol = reaction_symbol(slide.host, slide.slider, letter="M")
+    couple = CoupleOn(symbol, slide.host, held, force.at)
+    return of_guide(couple, loads, known)

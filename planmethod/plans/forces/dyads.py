@@ -17,8 +17,9 @@ from msgspec.structs import replace
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.groups import AssurGroup, OuterLeg, triad_of
 from planmethod.mechanism.model import FRAME, Revolute
-from planmethod.plans.forces.board import Force, ForceBoard
-from planmethod.plans.forces.legs import (
+from planmethod.plans.forces.board import (
+    Force,
+    ForceBoard,
     guide_edge,
     guide_reaction,
     of_guide,
@@ -37,7 +38,7 @@ from planmethod.plans.forces.polygons import (
     reaction_edge,
 )
 from planmethod.plans.forces.triads import triad_forces
-from planmethod.plans.model import Direction, KnownParts, Relation
+from planmethod.plans.model import Direction, Ends, KnownParts, Relation
 from planmethod.plans.motion.legs import arm, track_direction
 from planmethod.plans.motion.position import (
     inner_point,
@@ -46,8 +47,7 @@ from planmethod.plans.motion.position import (
     slide_of,
     split,
 )
-from planmethod.plans.segments import Ends
-from planmethod.problem.load_records import BalancingForceTask
+from planmethod.problem.records import BalancingForceTask
 
 
 class Driving(Struct, frozen=True):

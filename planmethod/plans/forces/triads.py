@@ -13,8 +13,9 @@ from msgspec.structs import replace
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.groups import AssurGroup, Joint, OuterLeg, Triad
 from planmethod.mechanism.model import Prismatic
-from planmethod.plans.forces.board import Force, ForceBoard
-from planmethod.plans.forces.legs import (
+from planmethod.plans.forces.board import (
+    Force,
+    ForceBoard,
     guide_edge,
     guide_reaction,
     of_guide,
@@ -32,11 +33,10 @@ from planmethod.plans.forces.polygons import (
     reaction_edge,
     reaction_symbol,
 )
-from planmethod.plans.model import KnownParts
+from planmethod.plans.model import Ends, KnownParts
+from planmethod.plans.motion.groups import leg_place
 from planmethod.plans.motion.legs import arm, track_direction
 from planmethod.plans.motion.position import outer_point, slide_of
-from planmethod.plans.motion.triads import leg_place
-from planmethod.plans.segments import Ends
 from planmethod.problem.model import Slide
 
 

@@ -11,9 +11,8 @@ from planmethod.languages import translate
 from planmethod.mechanism.groups import AssurGroup, OuterLeg, Triad, triad_of
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import analyse
-from planmethod.plans.assembly_mode import AssemblyMode, Start
-from planmethod.plans.dimensions import Dimension, DimensionKind
 from planmethod.plans.draft import TINY, Draft, Special, cis, degrees, line_sense, side
+from planmethod.plans.model import AssemblyMode, Dimension, DimensionKind, Start
 from planmethod.problem.model import Problem, Slide
 
 EQUAL = 1e-9

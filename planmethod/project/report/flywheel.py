@@ -1,4 +1,4 @@
-"""Chapter on the flywheel: reduction, diagrams, moment of inertia, sizes (маховик)."""
+"""Chapters on the flywheel and on static balancing (маховик, уравновешивание)."""
 
 from __future__ import annotations
 
@@ -6,15 +6,22 @@ from collections.abc import Iterator
 
 from planmethod.note.document import Chapter, Node, Part, Table, table_of_quantities
 from planmethod.note.formula import Rich, escape, fraction
+from planmethod.note.narrate.balancing import BalancingNarrator, ReductionNarrator
 from planmethod.note.narrate.machine import MachineNarrator
-from planmethod.note.narrate.reduction import ReductionNarrator
-from planmethod.note.numbers import MINUS, half_up, with_unit
+from planmethod.note.numbers import MINUS, half_up, in_heads, with_unit
 from planmethod.note.wording import MessageTable
-from planmethod.problem.load_records import Load, SizeTable
 from planmethod.problem.machine_records import Quadrature, WheelShape
-from planmethod.project.report.context import NBSP, Report, chain, displayed, sentences
-from planmethod.project.report.figures import figure, of_sheet
-from planmethod.project.train import SPEED_TOLERANCE, quick_shaft
+from planmethod.problem.records import Load, SizeTable
+from planmethod.project.report.context import (
+    NBSP,
+    Report,
+    chain,
+    displayed,
+    figure,
+    of_sheet,
+    sentences,
+)
+from planmethod.project.settle import SPEED_TOLERANCE, quick_shaft
 from planmethod.render.pictures.flywheel import construction_picture
 from planmethod.solved.machine.drawing import drawing_of, split
 from planmethod.solved.machine.flywheel import flywheel_of
@@ -277,3 +284,40 @@ def _sizes(report: Report, narrator: MachineNarrator, texts: MessageTable) -> It
     )
     made = of_sheet("flywheel", report.every, report.language, column=130.0)
     yield figure(made, texts.wheel_figure.format(), "wheel", height=90.0)
+
+
+BALANCING_TEXT_WIDTH = 180.0
+"""Width of the texts of the sheet, mm."""
+
+Columns = list[tuple[str, str, list[str]]]
+
+
+def balancing_chapter(report: Report) -> Iterator[Node]:
+    """Yield the chapter."""
+    texts: MessageTable = report.texts["weights"]
+    narrator = BalancingNarrator(report.every, report.language)
+    first, *others = narrator.lines()
+    yield Chapter(texts.title.format())
+    yield sentences(texts.about.format(), f"{first}.")
+    for line in others[:-2]:
+        yield sentences(f"{line}.")
+    for kind in ("balanced-scheme", "mass-polygons"):
+        made = of_sheet(kind, report.every, report.language, column=BALANCING_TEXT_WIDTH)
+        yield figure(made, str(texts["figures"][kind]).format(), kind.replace("-", "_"))
+    yield sentences(texts.weights_text.format(), *(f"{line}." for line in others[-2:]))
+    (_, unit, links), *numbers = narrator.weights()
+    weights = [(texts.link.format(), unit, links), *numbers]
+    yield _table(weights, report, texts.weights_table.format(), "weights", 1)
+    yield sentences(texts.forces_text.format())
+    yield _table(narrator.columns(), report, texts.forces_table.format(), "inertia", 2)
+    made = of_sheet(
+        "inertia-hodographs", report.every, report.language, column=BALANCING_TEXT_WIDTH
+    )
+    yield figure(made, texts.hodographs.format(), "inertia_hodographs", height=90.0)
+
+
+def _table(columns: Columns, report: Report, name: Rich, key: str, lead: int) -> Table:
+    told = [(f"{head}, {unit}" if unit else head, cells)
+            for head, unit, cells in in_heads(columns, report.notation)]  # fmt: skip
+    rows = zip(*(cells for _, cells in told), strict=True)
+    return Table(tuple(head for head, _ in told), tuple(rows), lead, lead, name=name, key=key)

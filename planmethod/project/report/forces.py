@@ -1,4 +1,4 @@
-"""The chapter on forces: loads, groups, lever, reactions of all positions (силовой расчёт)."""
+"""The chapter on forces: loads, groups, lever, reactions, friction (силовой расчёт)."""
 
 from __future__ import annotations
 
@@ -7,40 +7,77 @@ from functools import partial
 from math import isfinite
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.construct.steps import Name
-from planmethod.note.compared import percent_text
+from planmethod.note.compared import percent_text, sigma_text
 from planmethod.note.document import Chapter, Equations, Node, Part, Table, table_of_columns
-from planmethod.note.force_series import balance_series, size_series
 from planmethod.note.formula import Rich, fraction
-from planmethod.note.narrate.forces.bearings import bearing_text, undetermined
-from planmethod.note.narrate.forces.common import ForceContext, balance_equation
 from planmethod.note.narrate.forces.lever import LeverNarrator, thrust_lines
-from planmethod.note.narrate.forces.loads import LoadNarrator
+from planmethod.note.narrate.forces.loads import (
+    ForceContext,
+    FrictionNarrator,
+    LoadNarrator,
+    balance_equation,
+    bearing_text,
+    headed,
+    undetermined,
+)
 from planmethod.note.narrate.forces.moments import MomentNarrator, MomentText
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
-from planmethod.note.narrate.letters import direction_text, mark
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.forces.statement import plan_title
+from planmethod.note.narrate.naming import direction_text, mark, scale_inscription
 from planmethod.note.numbers import format_column
-from planmethod.note.rounding import sigma_text
+from planmethod.note.series import balance_series, size_series
 from planmethod.note.tables.forces import driven_by, rubbed
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.wording import MessageTable
 from planmethod.plans.forces.board import GivenLoad
-from planmethod.plans.forces.loads import LoadKind
-from planmethod.plans.forces.polygons import ForcePlan, Moments
+from planmethod.plans.forces.polygons import ForcePlan, LoadKind, Moments
 from planmethod.plans.model import PlanKind
-from planmethod.project.report.context import Report, chain, displayed, sentences
-from planmethod.project.report.figures import figure
-from planmethod.project.report.friction import friction_part
-from planmethod.project.report.turn import has_turn
+from planmethod.project.report.context import Report, chain, displayed, figure, sentences
+from planmethod.project.report.position import has_turn
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
-from planmethod.render.forces.leverpicture import lever_picture
-from planmethod.render.forces.polygon import drawn_edges, polygon_picture
+from planmethod.render.forces.friction import friction_picture
+from planmethod.render.forces.polygon import drawn_edges, lever_picture, polygon_picture
 from planmethod.render.layout.block import Block, Row
 from planmethod.solved.cycle import cycle
+from planmethod.solved.forces.friction import rubbed_reading
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.forces.statics import bearings_of, statics_of
+
+
+def friction_part(report: Report, context: ForceContext) -> Iterator[Node]:
+    """Yield the friction of the calculated position, and the efficiency of the cycle."""
+    if not rubbed(report.one.problem):
+        return
+    narrator, reading = FrictionNarrator(context, sizes=True), rubbed_reading(report.one, 0)
+    texts = narrator.texts
+    yield Part(texts.title)
+    yield sentences(texts.order, texts.note_sizes)
+    yield from chain(
+        text
+        for pair in narrator.friction.pairs
+        for text in (narrator.reach(pair), narrator.size(pair))
+    )
+    figures = [f"\\ref{{friction_{number}}}" for number in range(len(reading.plans))]
+    yield sentences(texts.see_figures.format(figures=report.listed(figures)))
+    for number, plan in enumerate(reading.plans):
+        yield figure(
+            partial(_picture, report, number),
+            texts.figure.format(what=plan_title(reading, plan, report.language)),
+            f"friction_{number}",
+        )
+    yield sentences(texts.see_table.format())
+    table = narrator.table()
+    head = tuple(map(headed, table.head))
+    yield replace(table, head=head, name=texts.table, key="friction_table")
+    yield sentences(*narrator.results(), *narrator.cycle_lines())
+
+
+def _picture(report: Report, number: int, letter: float) -> Block:
+    return friction_picture(rubbed_reading(report.one, 0), number, letter, report.notation)
+
 
 GAP = 10.0
 """Between two pictures in a row, mm."""

@@ -5,32 +5,26 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from planmethod.gears.involute.sizes import MeshingProblem
+from planmethod.gears.involute.geometry import MeshingProblem
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
-from planmethod.note.document import (
-    Contents,
-    Node,
-    PageBreak,
-    StructuralHeading,
-    Table,
-    TitlePage,
-)
+from planmethod.note.document import Contents, Node, PageBreak, StructuralHeading, Table, TitlePage
 from planmethod.note.formula import Rich, escape
-from planmethod.note.narrate.forces.common import QUARTERS, lettered as lettered_forces
-from planmethod.note.narrate.forces.friction import FrictionNarrator
+from planmethod.note.narrate.forces.loads import (
+    QUARTERS,
+    FrictionNarrator,
+    lettered as lettered_forces,
+)
 from planmethod.note.narrate.forces.statement import mass_lines
-from planmethod.note.narrate.letters import mark
 from planmethod.note.narrate.machine import MachineNarrator
+from planmethod.note.narrate.naming import mark
 from planmethod.note.narrate.statement import given_facts, turns_symbol
 from planmethod.note.numbers import with_unit
 from planmethod.note.tables.forces import push_direction, rubbed
 from planmethod.note.wording import MessageTable
-from planmethod.problem.load_records import Against, Couple, Fixed, Interpolation, Load, SizeTable
-from planmethod.project.model import PartName
-from planmethod.project.report.context import NBSP, Report, items, lettered, sentences
-from planmethod.project.report.figures import figure
-from planmethod.project.train import meshed
+from planmethod.problem.records import Against, Couple, Fixed, Interpolation, Load, SizeTable
+from planmethod.project.report.context import NBSP, Report, figure, items, lettered, sentences
+from planmethod.project.settle import PartName, meshed
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.machine.drawing import drawing_of

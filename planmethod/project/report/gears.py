@@ -1,45 +1,50 @@
-"""The chapters on gears: a train with its pictures, two wheels in mesh (зубчатые механизмы)."""
+"""The chapters on gears and on the cam, with their pictures (зубчатые механизмы, кулачок)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from itertools import groupby
 
 import numpy as np
 from msgspec.structs import replace
 
-from planmethod.gears.answers import answer
+from planmethod.cams.construction import construct as construct_cam
+from planmethod.cams.design import CamDesign
+from planmethod.cams.model import CamProblem
+from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture, region_picture
+from planmethod.cams.results import construction_nodes
+from planmethod.cams.sheet import sheet_scales
+from planmethod.cams.text import given_facts
 from planmethod.gears.comparison import compare
-from planmethod.gears.conditions import conditions, judgement, sentence
 from planmethod.gears.construction import construct, read
 from planmethod.gears.derivation import DerivationLine, by_speeds
 from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_view
+from planmethod.gears.involute.geometry import MeshingProblem
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
-from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import cutting, given_facts as given_of_meshing, quality, table
-from planmethod.gears.model import GearProblem, Mesh, MeshKind
-from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
-from planmethod.gears.requested_quantities import parse
+from planmethod.gears.model import GearProblem, Mesh, MeshKind, parse
+from planmethod.gears.motion import TrainMotion, draw, mesh_row, solve_motion
 from planmethod.gears.sheet import as_drawn, draw_views
 from planmethod.gears.sheet_texts import indexed, measured_quantities, ratios, results, train_facts
-from planmethod.gears.text import (
-    compared_sentences,
-    compared_table,
-    equation_of,
-    fraction_text,
-)
-from planmethod.gears.velocity_diagrams import draw
-from planmethod.note.document import Chapter, Node, Part, Table
+from planmethod.gears.solution import answer, conditions, judgement, sentence
+from planmethod.gears.text import compared_sentences, compared_table, equation_of, fraction_text
+from planmethod.note.document import Caption, Chapter, Item, Node, Paragraph, Part, Table
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import MessageTable
-from planmethod.project.model import PartName
-from planmethod.project.report.context import Report, chain, displayed, items, sentences
-from planmethod.project.report.figures import figure, without_heading
-from planmethod.project.train import meshed, output_of
+from planmethod.project.report.context import (
+    Report,
+    chain,
+    displayed,
+    figure,
+    items,
+    sentences,
+    without_heading,
+)
+from planmethod.project.settle import PartName, meshed, output_of
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes
 
@@ -379,3 +384,56 @@ def ratios_of(problem: GearProblem, report: Report) -> list[Rich]:
     known = tuple(motion.train.body_of)
     asked = [parse(name, known) for name in motion.train.ask if answer(motion, name).value]
     return [by_speeds(motion, one, report.language) for one in asked if one.kind == "U"]
+
+
+def cam_chapter(report: Report, problem: CamProblem) -> Iterator[Node]:
+    """Yield the chapter on the cam."""
+    said, language = report.texts["cam"], report.language
+    design = CamDesign(problem)
+    built = construct_cam(design, sheet_scales(problem))
+    yield Chapter(said.title.format())
+    facts = given_facts(problem, language)
+    about = sentences(said.about.format(facts="; ".join(fact.text for fact in facts)))
+    yield replace(about, facts=tuple(facts))
+    captions: dict[str, str] = said["figures"]
+    names: dict[str, str] = said["tables"]
+    keys = iter(_keys(bool(built.results)))
+
+    def drawn(build: Callable[[CamView], Block | None]) -> Callable[[float], Block]:
+        def draw(letter: float) -> Block:
+            picture = build(CamView(built, language, letter))
+            assert picture is not None
+            return picture
+
+        return draw
+
+    pictures = {"diagrams": diagrams_picture, "region": region_picture, "profile": profile_picture}
+    figures = iter([name for name in pictures if name != "region" or built.results])
+    for node in construction_nodes(built, language, report.one.profile):
+        match node:
+            case Chapter(title):
+                yield Part(title)
+                name = next(figures, None)
+                if name is not None:
+                    yield sentences(said.shown.format(key=f"cam_{name}"))
+                    yield figure(drawn(pictures[name]), captions[name], f"cam_{name}", height=200.0)
+            case Table():
+                name = next(keys)
+                yield sentences(said.table_text.format(key=f"cam_table_{name}"))
+                yield Table(
+                    node.head, node.rows, node.names, name=names[name], key=f"cam_table_{name}"
+                )  # fmt: skip
+            case Caption():
+                pass  # the table has a name
+            case Item(text):
+                yield sentences(text[:1].upper() + text[1:] + ".")
+            case Paragraph(text):
+                yield sentences(text)
+            case _:
+                yield node
+
+
+def _keys(has_region: bool) -> list[str]:
+    """Return the names of the tables of a construction, in their order."""
+    keys = ["ordinates", "region", "radii", "sizes", "positions"]
+    return keys if has_region else [key for key in keys if key != "region"]

@@ -1,34 +1,401 @@
-"""The explanatory note: its chapters in order, those that the file has (пояснительная записка)."""
+"""The explanatory note: its chapters in order, results and conclusion (записка)."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from math import isfinite
 
+import numpy as np
 from msgspec.structs import replace
 
+from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamProblem
-from planmethod.gears.involute.sizes import MeshingProblem
+from planmethod.cams.text import sizes
+from planmethod.gears.involute.geometry import MeshingProblem
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.model import GearProblem
+from planmethod.mechanism.structure import roman
 from planmethod.note import document
-from planmethod.note.document import Document, Node
-from planmethod.note.formula import Rich
-from planmethod.note.wording import Language
-from planmethod.plans.model import RATES
-from planmethod.project.model import PartName, Project, SheetEntry
-from planmethod.project.report.balancing import balancing_chapter
-from planmethod.project.report.cams import cam_chapter
-from planmethod.project.report.conclusion import back, conclusion
-from planmethod.project.report.context import NBSP, Report
-from planmethod.project.report.flywheel import flywheel_chapter
-from planmethod.project.report.forces import ForceChapter
+from planmethod.note.compared import ComparedNumber, Series, percent_text
+from planmethod.note.document import (
+    Document,
+    Item,
+    Node,
+    Part,
+    References,
+    StructuralHeading,
+    Table,
+    table_of_columns,
+)
+from planmethod.note.formula import Rich, escape, inlined
+from planmethod.note.narrate.balancing import BalancingNarrator
+from planmethod.note.narrate.forces.loads import FrictionNarrator, lettered as lettered_forces
+from planmethod.note.numbers import format_column, significant, with_unit
+from planmethod.note.series import balance_series, lever_beside_plans, size_series
+from planmethod.note.tables.errors import motion_series
+from planmethod.note.tables.forces import rubbed
+from planmethod.note.tables.results import lead_columns
+from planmethod.note.wording import Language, MessageTable
+from planmethod.plans.build import MOTION_KINDS, QuantityKind, kinds_on
+from planmethod.plans.model import RATES, PlanKind
+from planmethod.project.report.context import NBSP, Report, sentences
+from planmethod.project.report.flywheel import balancing_chapter, flywheel_chapter, machine_of
+from planmethod.project.report.forces import ForceChapter, largest_reactions
 from planmethod.project.report.front import front
-from planmethod.project.report.gears import meshing_chapter, train_chapter
+from planmethod.project.report.gears import (
+    cam_chapter,
+    failed_conditions,
+    failed_quality,
+    meshing_chapter,
+    ratios_of,
+    train_chapter,
+)
 from planmethod.project.report.plans import PlanChapter
-from planmethod.project.report.position import position_part
-from planmethod.project.report.results import results_parts
+from planmethod.project.report.position import (
+    diagrams_part,
+    has_equal_strokes,
+    has_turn,
+    loads_drive,
+    position_part,
+    transfer_chapter,
+)
 from planmethod.project.report.structure import structure_chapter
-from planmethod.project.report.turn import diagrams_part, has_turn, transfer_chapter
+from planmethod.project.settle import PartName, Project, SheetEntry
+from planmethod.solved.forces.reading import force_reading
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import crank_cycle_of
+
+MANY_SIGMAS = 3.0
+"""Sigmas beyond which a difference is named."""
+
+FAINT = 1e-6
+"""Fraction of the largest of its kind below which a quantity is negligible."""
+
+
+def compared(
+    solution: Solution, index: int, *kinds: QuantityKind
+) -> list[tuple[Series, ComparedNumber]]:
+    """Return the quantities of some kinds in a position; those that are something."""
+    every = ((series, series[index]) for series in motion_series(solution, *kinds))
+    return [
+        (series, one)
+        for series, one in every
+        if np.isfinite(one.read) and abs(one.exact) > FAINT * series.peak
+    ]
+
+
+def worst(
+    comparisons: Sequence[tuple[Series, ComparedNumber]],
+) -> tuple[Series, ComparedNumber] | None:
+    """Return the quantity with the largest relative difference."""
+    return max(comparisons, key=lambda pair: pair[1].percent_size, default=None)
+
+
+def results_parts(report: Report) -> Iterator[Node]:
+    """Yield the tables of all positions, and the comparison."""
+    texts: MessageTable = report.texts["results"]
+    if report.is_series:
+        yield Part(texts.part.format())
+        yield sentences(texts.intro.format())
+        for kinds, key in (
+            (kinds_on(PlanKind.VELOCITY), "velocities"),
+            (kinds_on(PlanKind.ACCELERATION), "accelerations"),
+        ):
+            yield _table_by_positions(report, kinds, str(texts[key]).format(), key)
+    yield Part(texts.compared.format())
+    yield from _compared(report, texts)
+    if report.is_series:
+        yield from _largest(report, texts)
+
+
+def _table_by_positions(
+    report: Report, kinds: Sequence[QuantityKind], name: Rich, key: str
+) -> Table:
+    every = report.every
+    lead = lead_columns(every.problem, report.project.positions, report.language.note)
+    columns = []
+    for series in motion_series(every, *kinds):
+        values = [float(value) + 0.0 for value in series.read]
+        columns.append([series.symbol, *map(report.notation.number, format_column(values))])
+    table = table_of_columns([*lead, *columns], repeated=len(lead))
+    return Table(table.head, table.rows, 0, len(lead), name=name, key=key)
+
+
+def _compared(report: Report, texts: MessageTable) -> Iterator[Node]:
+    notation = report.notation
+    found = compared(report.one, 0, *MOTION_KINDS)
+    yield sentences(texts.intro_compared.format(position=report.of_position))
+    rows = [
+        (
+            series.head(notation),
+            *notation.numbers(
+                one.read_text, one.exact_text, one.off_text, one.percent_text(2), one.sigma_text
+            ),
+        )
+        for series, one in found
+        if one.sigma  # given values have no error
+    ]
+    yield Table(
+        tuple(text.format() for text in texts["columns_compared"]),
+        tuple(rows),
+        name=texts.compared_table.format(position=report.in_position),
+        key="compared",
+    )
+    yield from report.mark_note(rows)
+    beyond = [series.symbol for series, one in found if one.sigmas > MANY_SIGMAS]
+    most = worst(found)
+    yield sentences(
+        texts.beyond.format(symbols=", ".join(beyond))
+        if beyond
+        else texts.within.format(
+            most=notation.number(f"{max(one.sigmas for _, one in found) + 0.05:.1f}")
+        ),
+        ""
+        if most is None
+        else texts.largest.format(
+            symbol=most[0].symbol, percent=notation.number(percent_text(most[1].percent_size))
+        ),
+    )
+
+
+def _largest(report: Report, texts: MessageTable) -> Iterator[Node]:
+    """Yield the largest difference of each quantity in all positions."""
+    every, notation, rows = report.every, report.notation, []
+    for series in motion_series(every, *MOTION_KINDS):
+        peak = float(np.nanmax(np.abs(series.exact)))
+        k = series.furthest
+        if k is None or peak == 0.0 or not series[k].sigma:
+            continue  # nothing can be read, or it is given
+        one, off = series[k], format_column([abs(series[k].off)], 2)
+        percent = percent_text(one.percent_of(peak), 2)
+        rows.append(
+            (
+                series.head(notation),
+                *notation.numbers(significant(peak), *off, percent, str(k), one.sigma_text),
+            )
+        )
+    yield sentences(texts.all_intro.format())
+    yield Table(
+        tuple(text.format() for text in texts["columns_all"]),
+        tuple(rows),
+        name=texts.all_table.format(),
+        key="largest",
+    )
+    yield from report.mark_note(rows)
+
+
+MUCH = 10.0
+"""Per cent of a difference of the lever above which the text explains it."""
+
+
+def conclusion(report: Report) -> Iterator[Node]:
+    """Yield the results of the project, with numbers."""
+    texts: MessageTable = report.texts["conclusion"]
+    yield StructuralHeading(texts.title.format())
+    yield sentences(texts.intro.format())
+    found = [
+        _structure(report, texts),
+        _motion(report, texts),
+        *_turn(report, texts),
+        *(_forces(report, texts) if report.has(PartName.FORCES) else ()),
+        *(_flywheel(report, texts) if report.has(PartName.FLYWHEEL) else ()),
+        *(_balancing(report, texts) if report.has(PartName.BALANCING) else ()),
+        *_gears(report, texts),
+        *_meshing(report, texts),
+        *_cam(report, texts),
+    ]
+    for number, text in enumerate(filter(None, found), 1):
+        yield Item(inlined(text), f"{number})")
+
+
+def _structure(report: Report, texts: MessageTable) -> Rich:
+    structure = report.one.structure
+    template = (
+        texts.structure
+        if structure.mobility - structure.local_mobility == 1
+        else texts.structure_many
+    )
+    return template.format(
+        w=structure.mobility, roman=roman(structure.class_number), formula=structure.formula
+    )
+
+
+def _motion(report: Report, texts: MessageTable) -> Rich:
+    notation, facts = report.notation, {}
+    for plan in RATES:
+        name, found = plan.value, worst(compared(report.one, 0, *kinds_on(plan)))
+        if found is None:
+            return ""
+        series, most = found
+        facts[name] = series.symbol
+        facts[f"{name}_percent"] = notation.number(percent_text(most.percent_size))
+        facts[f"{name}_sigmas"] = notation.number(f"{most.sigmas:.1f}")
+    later = float(facts["acceleration_percent"].replace(notation.decimal, "."))
+    earlier = float(facts["velocity_percent"].replace(notation.decimal, "."))
+    text = texts.motion.format(position=report.in_position, **facts)
+    return f"{text} {texts.why.format()}" if later > earlier else text
+
+
+def _turn(report: Report, texts: MessageTable) -> Iterator[Rich]:
+    if not has_turn(report):
+        return
+    turn, strokes = crank_cycle_of(report.every), report.project.strokes
+    told = []
+    if turn.stroke:
+        slides = turn.output.slide is not None
+        size = report.quantity(turn.stroke, "m") if slides else report.degrees(turn.stroke)
+        told.append(str(texts["stroke"][turn.output.unit]).format(stroke=size))
+    if strokes is not None and strokes.K_v is not None:
+        form = (
+            "equal" if has_equal_strokes(strokes) else "drives" if loads_drive(report) else "usual"
+        )
+        told.append(
+            str(texts["ratio"][form]).format(
+                working=report.degrees(strokes.working_deg),
+                idle=report.degrees(strokes.idle_deg),
+                ratio=report.notation.computed(strokes.K_v),
+            )
+        )
+    yield " ".join(told)
+
+
+def _forces(report: Report, texts: MessageTable) -> Iterator[Rich]:
+    reading, notation = force_reading(report.one, 0), report.notation
+    joints = reading.statics.reactions
+    most = max(joints, key=lambda joint: abs(complex(joint.force[0])))
+    size, balance = size_series(reading.statics, most), balance_series(reading.statics)
+    (*_, whole) = "", *largest_reactions(report)
+    text = texts.forces.format(
+        position=report.in_position,
+        symbol=size.symbol,
+        value=report.quantity(float(size.read[0]), size.unit),
+        name=texts["balancing"][reading.balancing.quantity],
+        balancing=notation.symbol(balance.symbol),
+        balance=report.quantity(abs(float(balance.read[0])), balance.unit),
+    )
+    yield f"{text} {whole}".rstrip()
+    if rubbed(report.every.problem):
+        narrator = FrictionNarrator(lettered_forces(reading, report.language), sizes=True)
+        yield " ".join([texts.friction.format(), *narrator.results(), *narrator.cycle_lines()])
+    lever = lever_beside_plans(reading.statics)
+    both = None if lever is None else lever[0]
+    if both is None or both.percent is None or both.expected is None or not isfinite(both.sigma):
+        return
+    share, part = both.percent_size, both.expected
+    template = texts.lever_far if share > MUCH and share < 3.0 * part else texts.lever
+    yield template.format(
+        share=notation.number(percent_text(share)), sigma=notation.number(percent_text(part))
+    )
+
+
+def _flywheel(report: Report, texts: MessageTable) -> Iterator[Rich]:
+    narrator, notation = machine_of(report), report.notation
+    flywheel, sizes, inertia = narrator.flywheel, narrator.sizes, narrator.inertia
+    if inertia.exact <= 0.0 or sizes is None:
+        yield texts.no_flywheel.format(delta=notation.number(f"{flywheel.delta_reached:.4f}"))
+        return
+    main = texts.flywheel.format(
+        delta=narrator.delta,
+        symbol=narrator.letter("flywheel"),
+        value=report.quantity(narrator.drawing.adopted, "kg·m²"),
+        whole=notation.number(percent_text(inertia.percent_size)),
+    )
+    size = texts.flywheel_sizes.format(
+        diameter=with_unit(notation.as_input(sizes.diameter), report.unit("m")),
+        width=report.quantity(sizes.width, "m"),
+        mass=report.quantity(sizes.mass, "kg"),
+    )
+    yield f"{main} {size}"
+
+
+def _balancing(report: Report, texts: MessageTable) -> Iterator[Rich]:
+    narrator = BalancingNarrator(report.every, report.language)
+    weights = [one for one in narrator.balancing.counterweights if one.mass]
+    told = [
+        texts.counterweight.format(link=one.link, mass=report.quantity(one.mass, "kg"))
+        for one in weights
+    ]
+    before, after = narrator.balancing.largest
+    size = report.quantity(0.0 if after < 1e-9 * before else after, "N")
+    listed = report.listed(told) if told else ""
+    template = texts.balancing_part if told else texts.balancing_none
+    yield template.format(weights=listed, before=report.quantity(before, "N"), after=size)
+
+
+def _gears(report: Report, texts: MessageTable) -> Iterator[Rich]:
+    part = report.project.part(PartName.GEARS)
+    if part is None or not isinstance(part.problem, GearProblem):
+        return
+    ratios, failed = ratios_of(part.problem, report), failed_conditions(part.problem, report)
+    if ratios:
+        form = "one" if len(ratios) == 1 else "many"
+        yield str(texts["gears"][form]).format(ratios=report.listed(ratios))
+    if failed:
+        form = "one" if len(failed) == 1 else "many"
+        yield str(texts["failed"][form]).format(conditions="; ".join(failed))
+
+
+def _meshing(report: Report, texts: MessageTable) -> Iterator[Rich]:
+    part = report.project.part(PartName.MESHING)
+    if part is None or not isinstance(part.problem, MeshingProblem):
+        return
+    solved, problem = SolvedMeshing(part.problem), part.problem
+    x1, x2 = (report.notation.as_input(round(x, 4)) for x in problem.x)
+    text = texts.meshing.format(
+        z1=problem.z[0],
+        z2=problem.z[1],
+        x1=x1,
+        x2=x2,
+        a_w=with_unit(report.notation.number(f"{abs(solved.pair.a_w):.3f}"), report.unit("mm")),
+        epsilon=report.notation.number(f"{solved.contact.overlap(solved.pair):.3f}"),
+    )
+    failed = failed_quality(part.problem, report)
+    shifted = str(texts["failed"]["shifted"]).format(conditions="; ".join(failed))
+    yield f"{text} {shifted}" if failed else text
+
+
+def _cam(report: Report, texts: MessageTable) -> Iterator[Rich]:
+    part = report.project.part(PartName.CAM)
+    if part is not None and isinstance(part.problem, CamProblem):
+        table = sizes(CamDesign(part.problem), report.language)
+        unit = report.unit("mm")
+        listed = ", ".join(f"{symbol} = {value}{NBSP}{unit}" for _, symbol, value in table.rows)
+        yield texts.cam.format(sizes=listed)
+
+
+def back(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:
+    """Yield the sources and the list of sheets; of parts, where no sheet is drawn."""
+    texts: MessageTable = report.texts["back"]
+    yield StructuralHeading(texts.sources.format())
+    yield References(tuple(report.sources.values()))
+    yield StructuralHeading(texts.sheets.format())
+    parts = _parts(report, texts["names"])
+    rows: list[tuple[Rich, ...]] = [
+        (str(one.number), escape(one.title), one.paper.written(report.language.frame.paper))
+        for one in sheets
+    ] or [(str(number), name) for number, name in enumerate(parts, 1)]
+    if len(rows) == 1:
+        (only, *_) = parts
+        yield sentences(texts.sheet_text.format(sheet=f"{only[0].lower()}{only[1:]}"))
+        return
+    yield sentences((texts.sheets_text if sheets else texts.parts_text).format())
+    yield Table(
+        tuple(texts["columns_sheets" if sheets else "columns_parts"]),
+        tuple(rows),
+        2,
+        name=texts.sheets_table.format(),
+        key="sheets",
+    )
+
+
+def _parts(report: Report, names: MessageTable) -> list[Rich]:
+    """Return the names of the parts of the drawings."""
+    keys = [part.name.value for part in report.project.parts]
+    one = f"{PartName.KINEMATICS.value}_one"
+    if not has_turn(report):
+        keys = [one if key == PartName.KINEMATICS.value else key for key in keys]
+    return [str(names[key]).format() for key in keys]
 
 
 def note_document(

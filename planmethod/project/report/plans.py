@@ -12,19 +12,19 @@ from functools import partial
 from planmethod.construct import steps
 from planmethod.construct.steps import Compute, LineName, PointName, Step
 from planmethod.mechanism.model import FRAME
-from planmethod.note.document import Equations, Formula, Node, Paragraph, Part
+from planmethod.note.document import Equations, Formula, Node, Paragraph, Part, input_text
 from planmethod.note.formula import Rich
-from planmethod.note.narrate.equations import equation_of
-from planmethod.note.narrate.formulas import detail_view_letter, view_name
-from planmethod.note.narrate.letters import direction_text
-from planmethod.note.plaintext import input_text
+from planmethod.note.narrate.naming import (
+    detail_view_letter,
+    direction_text,
+    equation_of,
+    view_name,
+)
 from planmethod.note.wording import MessageTable
 from planmethod.plans.build import Section
-from planmethod.plans.dimensions import DimensionKind
-from planmethod.plans.model import RATES, PlanKind, Relation
+from planmethod.plans.model import RATES, DimensionKind, PlanKind, Relation
 from planmethod.plans.motion.legs import Relative
-from planmethod.project.report.context import Report, chain, displayed, lettered, sentences
-from planmethod.project.report.figures import figure
+from planmethod.project.report.context import Report, chain, displayed, figure, lettered, sentences
 from planmethod.render.layout.block import Block
 from planmethod.render.pictures.planview import detail_pictures, plan_picture
 

@@ -6,10 +6,9 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
-from planmethod.mechanism.describe import PairKind, pairs, stated_pairs
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
-from planmethod.mechanism.structure import roman
+from planmethod.mechanism.structure import PairKind, pairs, roman, stated_pairs
 from planmethod.note.document import Chapter, Node, Part
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.structure import (
@@ -24,8 +23,15 @@ from planmethod.note.narrate.structure import (
     spatial_sum,
 )
 from planmethod.note.wording import MessageTable
-from planmethod.project.report.context import NBSP, Report, displayed, items, lettered, sentences
-from planmethod.project.report.figures import figure
+from planmethod.project.report.context import (
+    NBSP,
+    Report,
+    displayed,
+    figure,
+    items,
+    lettered,
+    sentences,
+)
 from planmethod.render.pictures.structural import Mobile, mechanism_picture
 from planmethod.solved.aligned.schemes import self_aligning
 

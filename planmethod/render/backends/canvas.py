@@ -1,15 +1,18 @@
-"""Protocol of an output format, and the replay of a display list on it."""
+"""Protocol of an output format: replay of a display list, circles as curves, layers."""
 
 from __future__ import annotations
 
-from cmath import isfinite
-from collections.abc import Iterable, Iterator
-from typing import Literal, Protocol, assert_never
+from cmath import exp, isfinite
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
+from math import ceil, tan, tau
+from types import MappingProxyType
+from typing import Literal, Protocol, TypeAlias, assert_never
 
 from msgspec import Struct
 
 from planmethod.errors import PlanMethodError
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Item, Pen, Stroke, Text
 
 
 class Options(Struct, frozen=True, kw_only=True):
@@ -134,3 +137,114 @@ def draw(items: Iterable[Item], canvas: Canvas, title: str = "") -> None:
                 canvas.text(item)
             case _:
                 assert_never(item)
+
+
+Curve: TypeAlias = tuple[complex, complex, complex, complex]
+"""Start, two control points, end."""
+
+
+def arc_curves(
+    centre: complex,
+    radius: float,
+    start: float = 0.0,
+    turn: float = tau,
+    *,
+    tolerance: float = 1e-3,
+) -> list[Curve]:
+    """Return cubic curves along an arc, at most ``tolerance`` mm from it.
+
+    Parameters
+    ----------
+    centre, radius
+        The circle, mm.
+    start, turn
+        Where the arc starts and how far it goes counter-clockwise, radians.
+    tolerance
+        Largest distance allowed, mm. The curve of a quarter circle leaves the circle by 2.7e-4 of
+        the radius; this falls with the sixth power of the angle.
+    """
+    finer = max(1.0, (2.8e-4 * radius / tolerance) ** (1.0 / 6.0))
+    count = max(1, ceil(turn / (tau / 4.0) * finer - 1e-9))
+    step = turn / count
+    pull = 4.0 / 3.0 * tan(step / 4.0) * 1j
+    ends = [radius * exp(1j * (start + k * step)) for k in range(count + 1)]
+    return [
+        (centre + a, centre + a + pull * a, centre + b - pull * b, centre + b)
+        for a, b in pairwise(ends)
+    ]
+
+
+VECTORS, ARROWS, FIGURES = "PLAN_VECTORS", "PLAN_ARROWS", "PLAN_FIGURES"
+
+LAYERS: Mapping[str, Pen] = MappingProxyType(
+    {
+        "MAIN": Pen.MAIN,
+        "THIN": Pen.THIN,
+        "FRAME": Pen.FRAME,
+        "AXIS": Pen.AXIS,
+        "THICK_AXIS": Pen.THICK_AXIS,
+        "PHANTOM": Pen.PHANTOM,
+        "HIDDEN": Pen.HIDDEN,
+        "HATCHING": Pen.HATCH,
+        "BREAKS": Pen.BREAK,
+        "PALE": Pen.PALE,
+        "LINKS": Pen.MAIN,
+        "SYMBOLS": Pen.MAIN,
+        "MASKS": Pen.THIN,
+        VECTORS: Pen.THIN,
+        ARROWS: Pen.THIN,
+        FIGURES: Pen.THIN,
+        "DIAGRAMS": Pen.MAIN,
+        "ERRORS": Pen.THIN,
+        "TABLES": Pen.THIN,
+        "TITLE_BLOCK": Pen.FRAME,
+        "TEXT": Pen.THIN,
+    }
+)
+"""Layers, and the pen whose width, dashes and grey they have."""
+
+_OF_PEN = {pen: name for name, pen in reversed(tuple(LAYERS.items()))}
+_OF_TAG = {
+    "stamp": "TITLE_BLOCK",
+    "margin": "TITLE_BLOCK",
+    "table": "TABLES",
+    "ellipse": "ERRORS",
+    "similar": FIGURES,
+    "pole": FIGURES,
+    "absolute": VECTORS,
+    "relative": VECTORS,
+    "normal": VECTORS,
+    "tangential": VECTORS,
+    "coriolis": VECTORS,
+    "sliding": VECTORS,
+}
+_OF_WORD = {
+    "plan-force": VECTORS,
+    "diagram": "DIAGRAMS",
+    "hodograph": "DIAGRAMS",
+}
+"""By the first word of a tag whose other words are letters."""
+
+
+def layer_of(tag: str, pen: Pen) -> str:
+    """Return the layer of a line with this tag and pen."""
+    if tag.startswith("part-of:"):
+        return "TEXT"  # the bar over a letter
+    if tag.startswith("link ") and pen is Pen.MAIN:
+        return "LINKS"
+    return _of_tag(tag, _OF_PEN[pen])
+
+
+def layer_of_area(tag: str) -> str:
+    """Return the layer of an area with this tag: of an arrowhead, mostly."""
+    layer = _of_tag(tag, "SYMBOLS")
+    return ARROWS if layer == VECTORS else layer
+
+
+def layer_of_text(tag: str) -> str:
+    """Return the layer of letters with this tag."""
+    return _of_tag(tag, "TEXT")
+
+
+def _of_tag(tag: str, usual: str) -> str:
+    return _OF_TAG.get(tag) or _OF_WORD.get(tag.partition(" ")[0], usual)

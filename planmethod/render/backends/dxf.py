@@ -22,18 +22,31 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
 from ezdxf.math import global_bspline_interpolation
 
-from planmethod.render.backends.canvas import Canvas, Options
-from planmethod.render.backends.layers import (
+from planmethod.render.backends.canvas import (
     ARROWS,
     LAYERS,
     VECTORS,
+    Canvas,
+    Options,
     layer_of,
     layer_of_area,
     layer_of_text,
 )
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.ink.drawing import (
+    ARROW,
+    PENS,
+    Arc,
+    Disc,
+    Drawing,
+    Fill,
+    Ink,
+    Pen,
+    PenStyle,
+    Stroke,
+    Text,
+    sweep,
+)
 from planmethod.render.ink.lettering import OutlineLettering
-from planmethod.render.ink.style import ARROW, PENS, PenStyle, sweep
 
 _LIBRARY: Any = ezdxf  # its types are of the parts only
 

@@ -13,11 +13,22 @@ from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfbase.ttfonts import TTFont
 from reportlab.pdfgen.canvas import FILL_NON_ZERO, Canvas as Pages
 
-from planmethod.render.backends.canvas import Canvas, Options
-from planmethod.render.backends.curves import arc_curves
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.backends.canvas import Canvas, Options, arc_curves
+from planmethod.render.ink.drawing import (
+    PENS,
+    Arc,
+    Disc,
+    Drawing,
+    Fill,
+    Ink,
+    Pen,
+    Stroke,
+    Text,
+    arc_spans,
+    closes,
+    stroke_lines,
+)
 from planmethod.render.ink.lettering import OutlineLettering
-from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
 rl_config.useA85 = 0  # bytes as they are: a fifth smaller than as text, and quicker
 

@@ -17,11 +17,22 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from planmethod.errors import OutputError
-from planmethod.render.backends.canvas import Canvas, Options
-from planmethod.render.backends.curves import arc_curves
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.backends.canvas import Canvas, Options, arc_curves
+from planmethod.render.ink.drawing import (
+    PENS,
+    Arc,
+    Disc,
+    Drawing,
+    Fill,
+    Ink,
+    Pen,
+    Stroke,
+    Text,
+    arc_spans,
+    closes,
+    stroke_lines,
+)
 from planmethod.render.ink.lettering import OutlineLettering
-from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
 _LARGEST = 16_384  # pixels a side: an A0 sheet at 350 dots to the inch, about a gigabyte at work
 

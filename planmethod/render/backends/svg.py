@@ -22,9 +22,22 @@ from svgwrite import Drawing as SvgDocument
 from svgwrite.params import Parameter
 
 from planmethod.render.backends.canvas import Canvas, Options, draw
-from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Item, Pen, Stroke, Text
+from planmethod.render.ink.drawing import (
+    PENS,
+    Arc,
+    Disc,
+    Drawing,
+    Fill,
+    Ink,
+    Item,
+    Pen,
+    Stroke,
+    Text,
+    arc_spans,
+    closes,
+    stroke_lines,
+)
 from planmethod.render.ink.lettering import OutlineLettering
-from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 from planmethod.render.ink.typeset import PART_OF
 
 _INKS = {Ink.BLACK: "#000000", Ink.WHITE: "#ffffff"}

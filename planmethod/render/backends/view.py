@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options, draw_sheet
 from planmethod.render.ink.drawing import Bounds, Drawing, shifted
-from planmethod.render.ink.extent import ink_bounds, overlap
+from planmethod.render.ink.typeset import ink_bounds, overlap
 
 
 class DrawingView(Struct, frozen=True):

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeAlias
 
 from msgspec import Struct
 
-from planmethod.note.plaintext import plain_text
+from planmethod.note.document import plain_text
 from planmethod.note.wording import MessageTable, get_language
 from planmethod.paper import FORMATS
 from planmethod.render.ink.drawing import Pen

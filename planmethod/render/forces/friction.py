@@ -19,8 +19,7 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.numbers import Notation
 from planmethod.plans.forces.board import Reaction
-from planmethod.plans.forces.loads import LoadKind
-from planmethod.plans.forces.polygons import CoupleOn, reaction_symbol
+from planmethod.plans.forces.polygons import CoupleOn, LoadKind, reaction_symbol
 from planmethod.plans.model import PlanKind
 from planmethod.render.forces.arrows import (
     Acting,
@@ -30,8 +29,15 @@ from planmethod.render.forces.arrows import (
     force_items,
     place_force_arrows,
 )
-from planmethod.render.forces.cut import FreeBodyScheme, drawn_items, letters_of, turning
-from planmethod.render.forces.guides import Pressed, point_items, pressed
+from planmethod.render.forces.cut import (
+    FreeBodyScheme,
+    Pressed,
+    drawn_items,
+    letters_of,
+    point_items,
+    pressed,
+    turning,
+)
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label

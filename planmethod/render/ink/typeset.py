@@ -1,20 +1,31 @@
-"""Typesetting (набор строки с индексами): rich text to runs of letters placed absolutely."""
+"""Typesetting of rich text to runs of letters, and the extent of items on the paper."""
 
 from __future__ import annotations
 
 import cmath
 import re
+from collections.abc import Iterable
 from functools import lru_cache
-from math import radians
+from math import ceil, radians
 from typing import Literal, TypeAlias, assert_never
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, inlined, parse
-from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
+from planmethod.render.ink.drawing import (
+    HEIGHTS,
+    Arc,
+    Bounds,
+    Disc,
+    Fill,
+    Item,
+    Pen,
+    Stroke,
+    Text,
+    sweep,
+)
 from planmethod.render.ink.lettering import OutlineLettering, in_use
-from planmethod.render.ink.style import HEIGHTS
 
 SMALLEST = 2.5
 """Smallest height of a run that is not an index, mm."""
@@ -306,3 +317,36 @@ class _Setter:
         self.set(below, x, drop, small)
         self.set(above, x, rise, small)
         return x + max(widths)
+
+
+def arc_points(arc: Arc, *, step: float = 0.25) -> list[complex]:
+    """Return points along an arc, ``step`` radians apart at most."""
+    turn = sweep(arc)
+    count = max(2, ceil(turn / step))
+    angles = (arc.start + turn * k / count for k in range(count + 1))
+    return [arc.centre + cmath.rect(arc.radius, angle) for angle in angles]
+
+
+def ink_bounds(items: Iterable[Item]) -> Bounds:
+    """Return the box around items, mm; a point at the origin when there are none."""
+    points: list[complex] = []
+    for item in items:
+        match item:
+            case Stroke(points=path) | Fill(points=path):
+                points += path
+            case Arc():
+                points += arc_points(item)
+            case Disc(centre=centre, radius=radius):
+                points += [centre - radius * (1 + 1j), centre + radius * (1 + 1j)]
+            case Text():
+                points += text_corners(item)
+    if not points:
+        return 0.0, 0.0, 0.0, 0.0
+    xs, ys = [p.real for p in points], [p.imag for p in points]
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def overlap(one: Bounds, two: Bounds, gap: float = 0.0) -> bool:
+    """Return whether two boxes are nearer than ``gap`` mm, or overlap."""
+    across = one[0] < two[2] + gap - 1e-6 and two[0] < one[2] + gap - 1e-6
+    return across and one[1] < two[3] + gap - 1e-6 and two[1] < one[3] + gap - 1e-6

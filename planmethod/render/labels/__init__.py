@@ -22,8 +22,7 @@ from planmethod.render.labels.model import (
     Placed,
     segment_label,
 )
-from planmethod.render.labels.place import place_labels
-from planmethod.render.labels.spare import SIDE_GAP, spare_labels
+from planmethod.render.labels.place import SIDE_GAP, place_labels, spare_labels
 
 __all__ = [
     "BUSY",

@@ -1,15 +1,8 @@
-"""Labels of points that lie close together, put in a column or row beside them (лесенка).
-
-Points of one series whose labels cannot stand each beside its own point get their labels in the
-order of the points, one under another (or side by side where the points lie in a row), each with a
-leader line. The order keeps the leader lines from crossing. The place of each label in the column
-is found by dynamic programming over slots a fraction of a millimetre apart, so that no label lies
-on a line and the leader lines are short in all.
-"""
+"""Labels of points that coincide or lie close together: merged, or in a column (лесенка)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import TypeAlias
 
@@ -17,9 +10,70 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from planmethod.render.labels.candidates import Candidates, Complexes, Floats, crossed
-from planmethod.render.labels.model import VERTICAL_GAP, Label
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels.model import (
+    SPARSE,
+    VERTICAL_GAP,
+    Candidates,
+    Complexes,
+    Floats,
+    Label,
+    LabelStyle,
+    crossed,
+)
 from planmethod.render.labels.paper import CROSSED, Paper
+
+MergedLetters = list[tuple[complex, list[str]]]
+"""Places, mm, and their letters."""
+
+NEAR = 0.3
+"""Distance below which points coincide on the paper, mm."""
+
+
+def merge_letters(
+    letters: Iterable[tuple[complex, Sequence[str]]], near: float = NEAR
+) -> MergedLetters:
+    """Return places with their letters, each letter once, in the order given.
+
+    Parameters
+    ----------
+    letters : iterable of (complex, sequence of str)
+        Places, mm, and their letters.
+    near : float, mm
+    """
+    spots: MergedLetters = []
+    for place, own in letters:
+        for other, found in spots:
+            if abs(other - place) < near:
+                found += [letter for letter in own if letter not in found]
+                break
+        else:
+            spots.append((place, list(own)))
+    return spots
+
+
+def label_merged_letters(
+    merged: MergedLetters,
+    height: float,
+    prefix: str,
+    *,
+    gap: float = 1.4,
+    style: LabelStyle = SPARSE,
+) -> list[Label]:
+    """Return the letters of spots, away from the middle of them all; ``prefix`` is of names."""
+    middle = sum(place for place, _ in merged) / len(merged)
+    return [
+        Label(
+            typeset(", ".join(letters), height),
+            place,
+            prefer=place - middle,
+            gap=gap,
+            name=f"{prefix} {letters[0]}",
+            style=style,
+        )
+        for place, letters in merged
+    ]
+
 
 _FEWEST = 3  # labels that make a column
 _MIN_NEIGHBOUR = 1.1  # of a label's size: nearer neighbours are too close

@@ -1,12 +1,20 @@
-"""Labels to be placed, and labels with their places."""
+"""Labels, their candidate places, and the geometry of boxes and leader lines."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import cached_property
+from math import tau
+from typing import TypeAlias
+
+import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.typeset import Inscription, typeset
+from planmethod.render.symbols import unit
 
 CLEAR = 0.7  # white between a label and a line, mm
 VERTICAL_GAP = 0.9  # white between two labels one above the other, mm
@@ -195,3 +203,246 @@ def segment_label(
 ) -> Label:
     """Return a label along a segment: the number of a link, the length of a vector."""
     return Label(typeset(markup, height), (start + end) / 2, (start, end), prefer, gap=1.2)
+
+
+Floats: TypeAlias = NDArray[np.float64]
+Complexes: TypeAlias = NDArray[np.complex128]
+
+_SEGMENT_FRACTIONS = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
+_SEGMENT_DISTANCES = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
+_OTHER_SIDE_COST = 3.0  # cost of the side of its segment that is not preferred, mm of distance
+_MIN_LEADER_RISE = 0.6  # a leader line that rises no more reads as the bar of a fraction, mm
+
+
+class Candidates(Struct, frozen=True, dict=True):
+    """Places of one label.
+
+    Attributes
+    ----------
+    label : Label
+    boxes : ndarray of shape (n, 4), mm
+        Ink boxes.
+    dislike : ndarray of shape (n,), mm
+        Cost of the place itself.
+    starts, ends : ndarray of shape (n,), mm
+        Ends of the leader lines: at the named point or segment, and at the edge of the box.
+    """
+
+    label: Label
+    boxes: Floats
+    dislike: Floats
+    starts: Complexes
+    ends: Complexes
+
+    def chosen(self, rows: NDArray[np.intp]) -> Candidates:
+        """Return some of the places."""
+        return Candidates(
+            self.label, self.boxes[rows], self.dislike[rows], self.starts[rows], self.ends[rows]
+        )
+
+    @classmethod
+    def joined(cls, parts: Sequence[Candidates]) -> Candidates:
+        """Return several places of the same label as one."""
+        lists = zip(*((c.boxes, c.dislike, c.starts, c.ends) for c in parts), strict=True)
+        return cls(parts[0].label, *map(np.concatenate, lists))
+
+    @cached_property
+    def led(self) -> NDArray[np.bool_]:
+        """Flags of the places that are far enough to need a leader line."""
+        return np.abs(self.ends - self.starts) > self.label.style.leader_from
+
+    @cached_property
+    def leaders(self) -> Floats:
+        """Leader lines as segments, shape (n, 2, 2), NaN where there is none."""
+        segments = as_segments(self.starts, self.ends)
+        segments[~self.led] = np.nan
+        return segments
+
+    @cached_property
+    def corners(self) -> tuple[Floats, Floats]:
+        """Lower left and upper right corner of the box around all places, mm."""
+        around = self.around
+        return around[:, :2].min(axis=0), around[:, 2:].max(axis=0)
+
+    @cached_property
+    def around(self) -> Floats:
+        """Boxes around the places and their leader lines, shape (n, 4), mm."""
+        around = self.boxes.copy()
+        rows = np.flatnonzero(self.led)
+        if len(rows):
+            one, two = self.leaders[rows, 0], self.leaders[rows, 1]
+            around[rows, :2] = np.minimum(around[rows, :2], np.minimum(one, two))
+            around[rows, 2:] = np.maximum(around[rows, 2:], np.maximum(one, two))
+        return around
+
+
+def near_candidates(label: Label) -> Candidates:
+    """Return the places beside the segment, or on rings about the point."""
+    if label.segment is not None:
+        return _segment_candidates(label, *label.segment)
+    return _ring_candidates(label, label.style.rings, label.style.angles)
+
+
+def far_candidates(label: Label) -> Candidates:
+    """Return places further away, with a leader line."""
+    return _ring_candidates(label, label.style.far_rings, label.style.far_angles)
+
+
+def grid_candidates(label: Label, bounds: Bounds) -> Candidates:
+    """Return places all over the bounds: the last resort of a crowded drawing."""
+    x0, y0, x1, y1 = bounds
+    ink = label.inscription
+    tall = ink.ascent + ink.descent
+    xs = np.arange(x0 + ink.width / 2, x1 - ink.width / 2 + 1e-9, max(2.0, ink.width / 2))
+    ys = np.arange(y0 + tall / 2, y1 - tall / 2 + 1e-9, max(2.0, tall / 2))
+    if not len(xs) or not len(ys):
+        return near_candidates(label)
+    centres = (xs[None, :] + 1j * ys[:, None]).ravel()
+    return _build_candidates(label, centres, np.abs(centres - label.anchor))
+
+
+def _build_candidates(label: Label, centres: Complexes, dislike: Floats) -> Candidates:
+    half_w = label.inscription.width / 2
+    half_h = (label.inscription.ascent + label.inscription.descent) / 2
+    x, y = centres.real, centres.imag
+    boxes = np.column_stack([x - half_w, y - half_h, x + half_w, y + half_h])
+    return Candidates(label, boxes, dislike, *_leader_ends(label, boxes))
+
+
+def _ring_candidates(label: Label, rings: Sequence[float], angles: int) -> Candidates:
+    """Return places about a point: the box touches the ring with its inner side or corner."""
+    half_w = label.inscription.width / 2
+    half_h = (label.inscription.ascent + label.inscription.descent) / 2
+    start = np.angle(label.prefer) if label.prefer else tau / 8
+    turns = np.exp(1j * (start + tau * np.arange(angles) / angles))
+    # A box beside the point is centred on the ring's direction; one in an oblique direction touches
+    # it with a corner: the clipped cosine and sine blend the two.
+    support = half_w * np.clip(1.5 * turns.real, -1, 1) + 1j * half_h * np.clip(
+        1.5 * turns.imag, -1, 1
+    )
+    radii = label.gap + np.asarray(rings)
+    centres = (label.anchor + radii[:, None] * turns + support).ravel()
+    away = (1 - np.cos(tau * np.arange(angles) / angles)) / 2 if label.prefer else np.zeros(angles)
+    dislike = (np.asarray(rings)[:, None] + label.style.turn_cost * away).ravel()
+    return _build_candidates(label, centres, dislike)
+
+
+def _segment_candidates(label: Label, start: complex, end: complex) -> Candidates:
+    """Return places beside a segment, near its middle, on both sides."""
+    half_w = label.inscription.width / 2
+    half_h = (label.inscription.ascent + label.inscription.descent) / 2
+    normal = unit(end - start) * 1j
+    first = -1.0 if (label.prefer * normal.conjugate()).real < 0 else 1.0
+    centres: list[complex] = []
+    dislike: list[float] = []
+    reach = abs(normal.real) * half_w + abs(normal.imag) * half_h
+    alone = label.style == SPARSE
+    for beyond in _SEGMENT_DISTANCES if alone else label.style.rings:
+        for side in (first, -first):
+            for part in _SEGMENT_FRACTIONS:
+                away = normal * side * (label.gap + beyond + reach)
+                centres.append(start + (end - start) * part + away)
+                slid = min(abs(end - start), 40.0) * abs(part - 0.5) * 0.3
+                turned = _OTHER_SIDE_COST if side != first and label.prefer else 0.0
+                dislike.append(beyond * (2 if alone else 1) + slid + turned)
+    return _build_candidates(label, np.asarray(centres), np.asarray(dislike))
+
+
+def _leader_ends(label: Label, boxes: Floats) -> tuple[Complexes, Complexes]:
+    """Return the ends of leader lines: near the point or segment, and at the edge of each box."""
+    anchor = np.full(len(boxes), label.anchor)
+    if label.segment is not None:
+        start, way = label.segment[0], label.segment[1] - label.segment[0]
+        middles = (boxes[:, 0] + boxes[:, 2] + 1j * (boxes[:, 1] + boxes[:, 3])) / 2
+        part = ((middles - start) * np.conj(way)).real / max(abs(way) ** 2, 1e-12)
+        anchor = start + way * np.clip(part, 0.0, 1.0)
+    up = np.clip(anchor.imag, boxes[:, 1], boxes[:, 3])
+    if label.style.slanted:  # to the further edge of a box that lies level with its point
+        far = np.where(2 * up > boxes[:, 1] + boxes[:, 3], boxes[:, 1], boxes[:, 3])
+        up = np.where(np.abs(up - anchor.imag) <= _MIN_LEADER_RISE, far, up)
+    ends = np.clip(anchor.real, boxes[:, 0], boxes[:, 2]) + 1j * up
+    reach = ends - anchor
+    length = np.abs(reach)
+    along = np.divide(reach, length, out=np.zeros_like(reach), where=length > 0)
+    starts = anchor + along * np.minimum(length, 0.6 * label.gap)
+    return starts, ends - along * np.minimum(length, 0.6 * CLEAR)
+
+
+def as_segments(starts: Complexes, ends: Complexes) -> Floats:
+    """Return an array of shape (n, 2, 2) of the segments' ends."""
+    segments = np.empty((len(starts), 2, 2))
+    segments[:, 0, 0], segments[:, 0, 1] = starts.real, starts.imag
+    segments[:, 1, 0], segments[:, 1, 1] = ends.real, ends.imag
+    return segments
+
+
+def inside(segments: Floats, boxes: Floats) -> Floats:
+    """Return the length of each segment inside its box, mm; -1 where they do not meet.
+
+    Clipping after Liang and Barsky, for arrays of segments (..., 2, 2) and boxes (..., 4) that
+    broadcast together. A segment of NaN meets nothing.
+    """
+    first, last = np.asarray(0.0), np.asarray(1.0)
+    ways = []
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for axis in (0, 1):  # one after the other: rows of two numbers are slow
+            start, low, high = segments[..., 0, axis], boxes[..., axis], boxes[..., axis + 2]
+            way = segments[..., 1, axis] - start
+            one, two = (low - start) / way, (high - start) / way
+            enter, leave = np.minimum(one, two), np.maximum(one, two)
+            still = way == 0
+            if still.any():
+                between = (start >= low) & (start <= high)
+                enter = np.where(still, np.where(between, -np.inf, np.inf), enter)
+                leave = np.where(still, np.where(between, np.inf, -np.inf), leave)
+            first, last = np.maximum(first, enter), np.minimum(last, leave)
+            ways.append(way)
+        length = np.hypot(*ways)
+        return np.where(last >= first, np.maximum(last - first, 0.0) * length, -1.0)
+
+
+def crossing(
+    one: Floats, two: Floats, i: NDArray[np.intp], j: NDArray[np.intp]
+) -> NDArray[np.bool_]:
+    """Return whether each pair of segments ``one[i]``, ``two[j]`` crosses; NaN never does.
+
+    The segments have the shape (n, 2, 2); a few segments may form many pairs.
+    """
+    (ax, ay, bx, by), (cx, cy, dx, dy) = (line.reshape(-1, 4).T.copy() for line in (one, two))
+    x, y, along, up = (part.take(i) for part in (ax, ay, bx - ax, by - ay))
+
+    def side(qx: Floats, qy: Floats, k: NDArray[np.intp]) -> Floats:
+        return np.asarray(along * (qy.take(k) - y) - up * (qx.take(k) - x))
+
+    apart = np.asarray(side(cx, cy, j) * side(dx, dy, j) < 0)
+    i, j = i[apart], j[apart]  # few remain
+    x, y, along, up = (part.take(j) for part in (cx, cy, dx - cx, dy - cy))
+    apart[apart] = side(ax, ay, i) * side(bx, by, i) < 0
+    return apart
+
+
+def crossed(leaders: Sequence[Floats]) -> int:
+    """Return how many pairs of leader lines, each of shape (2, 2), cross."""
+    if not leaders:
+        return 0
+    lines = np.asarray(leaders)
+    return int(crossing(lines, lines, *np.triu_indices(len(lines), 1)).sum())
+
+
+# How tidy placed labels are -----------------------------------------------------------------------
+
+# How many leader lines that cross are as bad as
+_BROKEN = 2  # a label that breaks thin lines
+_OVER = 100  # a label over something
+
+
+def crossed_leaders(placed: Sequence[Placed]) -> int:
+    """Return how many pairs of leader lines cross."""
+    leaders = [label.leader for label in placed if label.leader is not None]
+    return crossed([np.asarray([(z.real, z.imag) for z in leader]) for leader in leaders])
+
+
+def untidiness(placed: Sequence[Placed]) -> int:
+    """Return a cost to be minimized: crossed leader lines, and labels that are not free."""
+    unfree = sum(0 if label.free else _BROKEN if label.ground else _OVER for label in placed)
+    return unfree + crossed_leaders(placed)

@@ -1,9 +1,4 @@
-"""Greedy label placement, hardest labels first, then local repair.
-
-Each label takes its cheapest place. Another label is never overlapped; a line is crossed only where
-all places are occupied. Labels without a free place try again when all are placed, and may displace
-one or two others. The same input gives the same places.
-"""
+"""Greedy label placement, hardest labels first, then local repair."""
 
 from __future__ import annotations
 
@@ -17,17 +12,26 @@ from numpy.typing import NDArray
 
 from planmethod.render.ink.drawing import Bounds, Item
 from planmethod.render.ink.lettering import OutlineLettering, in_use
-from planmethod.render.labels.candidates import (
+from planmethod.render.labels.label_column import arrange_in_column, dense
+from planmethod.render.labels.model import (
+    SPARSE,
     Candidates,
     Floats,
+    Label,
+    Placed,
     far_candidates,
     grid_candidates,
     near_candidates,
 )
-from planmethod.render.labels.label_column import arrange_in_column, dense
-from planmethod.render.labels.model import SPARSE, Label, Placed
-from planmethod.render.labels.paper import CROSSED, FORBIDDEN, Paper
-from planmethod.render.labels.placed_labels import LEADERS_CROSS, OverlapCosts, PlacedLabels
+from planmethod.render.labels.paper import (
+    CROSSED,
+    FORBIDDEN,
+    LEADERS_CROSS,
+    ROUND_AREAS,
+    OverlapCosts,
+    Paper,
+    PlacedLabels,
+)
 
 _FAR_COST = 200.0  # cost from which a label of a crowd tries its far places
 _AT_ONCE = 24  # places checked together
@@ -443,3 +447,54 @@ class _Places:
             free=label.optional or (not taken.ground and self._cost(k) < CROSSED),
             ground=taken.ground,
         )
+
+
+NEAR = 8.0
+"""Largest distance of an optional label's middle from its point or segment, mm."""
+
+SIDE_GAP = 1.0
+"""Extra white on either side of a label, so that it is not read together with another."""
+
+
+def spare_labels(
+    labels: Sequence[Label], obstacles: Iterable[Item], bounds: Bounds
+) -> list[Placed]:
+    """Place the labels that have a free place, one after another; the others are left out.
+
+    Parameters
+    ----------
+    labels : sequence of Label
+    obstacles : iterable of Item
+        As of `place_labels`.
+    bounds : Bounds, mm
+        All labels stay inside.
+    """
+    if not labels:
+        return []
+    paper = Paper(obstacles, bounds)
+    sets = [near_candidates(label) for label in labels]
+    free = [every.chosen(rows) for every, rows in zip(sets, paper.free(sets), strict=True)]
+    white = np.array([-SIDE_GAP, 0, SIDE_GAP, 0]) + ROUND_AREAS * np.array([-1, -1, 1, 1])
+    taken = np.empty((0, 4))
+    found = []
+    for label, places, costs in zip(labels, free, paper.costs(free, free=True), strict=True):
+        x0, y0, x1, y1 = (places.boxes[:, k, None] for k in range(4))
+        apart = (x1 < taken[:, 0]) | (x0 > taken[:, 2]) | (y1 < taken[:, 1]) | (y0 > taken[:, 3])
+        costs = np.where(apart.all(axis=1), costs, np.inf)
+        k = int(np.argmin(np.round(costs, 9))) if len(costs) else -1
+        if k < 0 or costs[k] >= CROSSED or places.led[k]:
+            continue
+        box = places.boxes[k]
+        middle = (complex(*box[:2]) + complex(*box[2:])) / 2
+        if _off(middle, *(label.segment or (label.anchor, label.anchor))) < NEAR:
+            at = complex(box[0], box[1] + label.inscription.descent)
+            found.append(Placed(label, at, None, free=True, ground=False))
+            taken = np.concatenate([taken, [box + white]])
+    return found
+
+
+def _off(place: complex, start: complex, end: complex) -> float:
+    """Return how far a place is from a segment, mm."""
+    way = end - start
+    share = ((place - start) * way.conjugate()).real / max(abs(way) ** 2, 1e-12)
+    return abs(place - start - way * min(1.0, max(0.0, share)))

@@ -1,38 +1,37 @@
-"""A mechanism as it moves, for slides: scheme and velocity plan in frames (анимация).
-
-It draws the scene of the live page: rigid parts on their links, segments and inscriptions on points
-of the tape. A film has the place of each of them in every frame; it is written as an SVG that plays
-by itself (SMIL, no script), or its frames as a GIF.
-"""
-
-# no messages: SVG
+"""A mechanism as it moves, for slides: scheme and velocity plan in frames (анимация)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from html import escape
+from io import BytesIO
 
 import numpy as np
 import numpy.typing as npt
 from msgspec import Struct, field
 from msgspec.structs import replace
+from PIL import Image
 
 from planmethod.construct.scale import Scale
 from planmethod.errors import AssemblyError
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.wording import get_language
+from planmethod.plans.build import QuantityKind
 from planmethod.plans.draft import cis
-from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
+from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke, placed
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.live.scene import LETTER, LiveScene, LiveView, Ref
 from planmethod.render.symbols import vector_arrow
+
+# no messages: SVG
+
 
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
@@ -432,3 +431,27 @@ def _covered(centre: Complexes, half: complex, tails: Complexes, heads: Complexe
 
 def _refs(view: LiveView) -> list[Ref]:
     return [one[end] for one in view.segments for end in ("a", "b")]
+
+
+_GREYS = 8  # levels of grey with which the edges of black lines are smooth
+
+
+def gif(animation: Animation, seconds: float, dpi: float) -> bytes:
+    """Return a GIF that repeats endlessly, ``seconds`` a cycle."""
+    options = Options(dpi=dpi)
+    levels = [round(255 * k / (_GREYS - 1)) for k in range(_GREYS)]
+    table = [min(range(_GREYS), key=lambda k: abs(levels[k] - grey)) for grey in range(256)]
+    frames = []
+    for drawing in animation.frames():
+        with Image.open(BytesIO(render(drawing, "png", options=options))) as picture:
+            frame = picture.convert("L").point(table)
+        frame = Image.frombytes("P", frame.size, frame.tobytes())
+        frame.putpalette([level for grey in levels for level in (grey,) * 3])
+        frames.append(frame)
+    file = BytesIO()
+    # Viewers count hundredths of a second, and slow down frames shorter than two of them.
+    each = max(2, round(100 * seconds / len(frames))) * 10
+    frames[0].save(
+        file, "gif", save_all=True, append_images=frames[1:], duration=each, loop=0, optimize=False
+    )
+    return file.getvalue()

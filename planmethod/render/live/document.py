@@ -14,7 +14,7 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
-from planmethod.problem.common import KindProblem
+from planmethod.problem.records import KindProblem
 from planmethod.render.ink.typeset import typeset
 
 POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'"

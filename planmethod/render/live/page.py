@@ -13,11 +13,11 @@ from importlib.resources import files
 from typing import Any
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.narrate.statement import point_name
 from planmethod.note.wording import get_language
-from planmethod.plans.assembly_mode import Start
-from planmethod.plans.legend import TURNING, Quantity, QuantityKind
+from planmethod.plans.build import TURNING, Quantity, QuantityKind
+from planmethod.plans.model import Start
 from planmethod.problem.model import Problem
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas

@@ -20,25 +20,23 @@ from planmethod.construct.steps import Name, PointName, TriadPose
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.statement import link_names
-from planmethod.note.narrate.letters import mark, plan_letters
+from planmethod.note.narrate.naming import mark, plan_letters
 from planmethod.note.narrate.statement import point_name
 from planmethod.note.wording import Language
-from planmethod.plans.assembly_mode import assembly_period
+from planmethod.plans.build import Quantity, QuantityKind
 from planmethod.plans.draft import cis
 from planmethod.plans.forces.polygons import Component, Edge
-from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.plans.model import FACTS, RATES, PlanKind
+from planmethod.plans.model import FACTS, RATES, PlanKind, assembly_period
 from planmethod.plans.motion.position import link_of_axis
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Stroke
-from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.live.loads import cycle_deg, moving_loads
-from planmethod.render.live.parts import MovingPart, parts_of
+from planmethod.render.ink.typeset import ink_bounds
+from planmethod.render.live.parts import MovingPart, cycle_deg, moving_loads, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
 from planmethod.render.symbols import SIZES
 from planmethod.solved.forces.loads import applied, only_in_positions
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
-from planmethod.solved.labelled import quantities_for
+from planmethod.solved.many.rows import quantities_for
 from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.scaling import OUTLIER, typical
 from planmethod.solved.selfcheck import verify

@@ -18,7 +18,7 @@ from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead
-from planmethod.solved.detail_views import RATIOS
+from planmethod.solved.legibility import RATIOS
 from planmethod.solved.machine.drawing import FlywheelDrawing
 
 _BEYOND, _HEAD, _TICK = 10.0, 4.0, 1.2  # mm: an axis beyond its diagram, its arrowhead, a tick

@@ -14,8 +14,7 @@ from planmethod.construct.steps import PointName
 from planmethod.note.narrate.cycle import output_symbol
 from planmethod.note.numbers import Notation
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke, shifted
-from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.ink.typeset import typeset
+from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture

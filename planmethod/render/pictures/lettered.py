@@ -1,14 +1,19 @@
-"""Pictures with their letters placed around them."""
+"""Pictures with letters around them, and enlarged views of short segments (выносные элементы)."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+from planmethod.construct.steps import PointName
 from planmethod.errors import LayoutError
-from planmethod.render.ink.drawing import Fill, Item
-from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.labels import SIDE_GAP, Label, Placed, place_labels, spare_labels
+from planmethod.plans.model import Plan
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.typeset import ink_bounds, typeset
+from planmethod.render.labels import NEAREST, SIDE_GAP, Label, Placed, place_labels, spare_labels
+from planmethod.render.labels.label_column import label_merged_letters, merge_letters
 from planmethod.render.layout.block import Picture
+from planmethod.render.symbols import vector_arrow
+from planmethod.solved.legibility import DetailView
 
 MARGINS = (26.0, 60.0)
 """Margins around a picture for its letters, mm: the larger if the smaller has no free place."""
@@ -73,3 +78,87 @@ def _keep_out_area(placed: Placed) -> Fill:
     return Fill(
         (complex(left, low), complex(right, low), complex(right, high), complex(left, high))
     )
+
+
+ENLARGED = "enlarged"
+"""First word of the tag of the circle around a view, before the number of its knot; the tag of the
+circle on the plan ends in ``place``."""
+
+_ROUND, _SMALLEST = 5.0, 2.5
+"""White around the segments of a view, and the least radius of the circle on the plan, mm."""
+
+
+def radius_of(detail_view: DetailView, at: Mapping[PointName, complex]) -> float:
+    """Return the radius of the view of a knot, mm."""
+    ends = (abs(at[end] - detail_view.centre) for pair in detail_view.ends for end in pair)
+    return max(ends) * detail_view.times + _ROUND
+
+
+def placed_in(detail_view: DetailView, at: Mapping[PointName, complex]) -> dict[PointName, complex]:
+    """Return the places of the points of a plan on the view of a knot, mm from its middle."""
+    return {name: (place - detail_view.centre) * detail_view.times for name, place in at.items()}
+
+
+def detail_mark(
+    detail_view: DetailView, at: Mapping[PointName, complex], letter: str, height: float
+) -> tuple[Item, Label]:
+    """Return the circle around a knot on its plan, and its letter."""
+    radius = max(radius_of(detail_view, at) / detail_view.times, _SMALLEST)
+    circle = Arc(
+        detail_view.centre, radius, pen=Pen.THIN, tag=f"{ENLARGED} {detail_view.number} place"
+    )
+    name = f"{ENLARGED} {detail_view.number}"
+    return circle, Label(typeset(letter, height), detail_view.centre, gap=radius + 1.0, name=name)
+
+
+def detail_picture(
+    plan: Plan,
+    detail_view: DetailView,
+    at: Mapping[PointName, complex],
+    letters: Mapping[PointName, list[str]],
+    components: frozenset[tuple[PointName, PointName]],
+    height: float,
+    names: Sequence[Label],
+) -> Picture:
+    """Return the enlarged view of a knot of a plan, its middle at the origin, mm.
+
+    Parameters
+    ----------
+    at : mapping
+        Places of the points of the plan, mm from its pole.
+    components : frozenset
+        Ends of the vectors that are components.
+    names : sequence of Label
+        Names of the vectors without a name on the plan.
+    """
+    radius = radius_of(detail_view, at)
+    places = placed_in(detail_view, at)
+    items: list[Item] = [Arc(0j, radius, pen=Pen.THIN, tag=f"{ENLARGED} {detail_view.number}")]
+    for vector in plan.vectors:
+        inside = clip_to_circle(places[vector.tail], places[vector.head], radius)
+        if inside is None:
+            continue
+        pen = Pen.THIN if (vector.tail, vector.head) in components else Pen.MAIN
+        if abs(inside[1] - places[vector.head]) < 1e-9:
+            items += vector_arrow(*inside, pen=pen, length=4.0, tag=vector.kind.value)
+        else:
+            items.append(Stroke(inside, pen, tag=vector.kind.value))
+    near = [name for name in letters if name in places and abs(places[name]) < radius - 1.0]
+    spots = merge_letters((places[name], letters[name]) for name in near)
+    items += [Disc(place, 0.7, Ink.BLACK) for place, _ in spots]
+    points = label_merged_letters(spots, height, f"{ENLARGED} {detail_view.number}:", style=NEAREST)
+    return lettered(items, [*points, *names])
+
+
+def clip_to_circle(tail: complex, head: complex, radius: float) -> tuple[complex, complex] | None:
+    """Return the part of a segment within a circle about the origin, or None."""
+    way = head - tail
+    if abs(way) < 1e-9:
+        return None
+    middle = -(tail * way.conjugate()).real / abs(way) ** 2
+    room = radius**2 - abs(tail + way * middle) ** 2
+    if room <= 0.0:
+        return None
+    half = room**0.5 / abs(way)
+    low, high = max(0.0, middle - half), min(1.0, middle + half)
+    return (tail + way * low, tail + way * high) if low < high else None

@@ -21,10 +21,15 @@ from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.pictures.lettered import reject_oversized
-from planmethod.render.pictures.supports import Support, free_sides, place_supports
-from planmethod.render.pictures.welds import BlockOutline, welded
+from planmethod.render.pictures.supports import (
+    BlockOutline,
+    Support,
+    free_sides,
+    place_supports,
+    welded,
+)
 from planmethod.render.symbols import SIZES
-from planmethod.render.symbols.axes import axis_line
+from planmethod.render.symbols.marks import axis_line
 from planmethod.solved.solution import Solution
 
 AXIS = 15.0

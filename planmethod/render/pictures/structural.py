@@ -20,8 +20,7 @@ from planmethod.mechanism.model import FRAME, Mechanism, Revolute
 from planmethod.mechanism.structure import Structure
 from planmethod.render import symbols
 from planmethod.render.ink.drawing import Item, Pen, Stroke
-from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.ink.typeset import typeset
+from planmethod.render.ink.typeset import ink_bounds, typeset
 from planmethod.render.labels import Label, place_labels, segment_label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.chains import (
@@ -31,11 +30,12 @@ from planmethod.render.pictures.chains import (
     Pin,
     Shape,
     driver_chain,
+    embed,
     group_chain,
     mechanism_chain,
+    sort_around,
     textbook_places,
 )
-from planmethod.render.pictures.embedding import embed, sort_around
 from planmethod.render.symbols import SIZES
 from planmethod.solved.aligned.schemes import SelfAligning
 

@@ -12,7 +12,7 @@ from planmethod.errors import LayoutError
 from planmethod.note.document import Caption, Paragraph
 from planmethod.note.narrate.balancing import COUNT, BalancingNarrator
 from planmethod.note.narrate.forces.statement import mass_lines
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.narrate.statement import given_facts
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
@@ -20,15 +20,13 @@ from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Row
-from planmethod.render.layout.nodes import TextNode, blocks_of
-from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.layout.text_blocks import TableColumn, TextNode, blocks_of, table_block
+from planmethod.render.pictures.diagram import polar_picture
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.pictures.polar import polar_picture
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
-from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import named
+from planmethod.render.sheets.views import named, stated
 from planmethod.render.symbols import arrowhead
 from planmethod.solved.solution import Solution
 

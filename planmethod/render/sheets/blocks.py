@@ -15,7 +15,7 @@ from msgspec import Struct
 
 from planmethod.plans.model import PlanKind
 from planmethod.render.layout.block import Block, Column
-from planmethod.render.sheets import results, several, texts, views
+from planmethod.render.sheets import results, views
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.solved.solution import Solution
 
@@ -72,28 +72,28 @@ def maker_of(kind: str) -> Maker:
 def _kinematics() -> Mapping[str, Maker]:
     return {
         "scheme": _scheme,
-        "statement": texts.statement_block,
+        "statement": views.statement_block,
         "plan": _plan,
-        "equations": texts.equations_block,
-        "calculation": texts.calculation_block,
+        "equations": views.equations_block,
+        "calculation": views.calculation_block,
         "results": results.results_block,
-        "text": texts.text_block,
+        "text": views.text_block,
     }
 
 
 def _transfers() -> Mapping[str, Maker]:
-    from planmethod.render.sheets import transfers
+    from planmethod.render.sheets import turn
 
     return {
-        "transfers": transfers.formulas_block,
-        "transfer-table": transfers.transfer_table,
+        "transfers": turn.formulas_block,
+        "transfer-table": turn.transfer_table,
     }
 
 
 def _scheme(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     if len(solution.positions) == 1:
         return views.scheme_view(solution, position_indices, style)
-    return several.scheme_view(solution, position_indices, style)
+    return views.scheme_views(solution, position_indices, style)
 
 
 def _plan(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
@@ -102,46 +102,46 @@ def _plan(solution: Solution, position_indices: Sequence[int], style: BlockStyle
         return Column([])
     if len(solution.positions) == 1:
         return views.plan_view(solution, position_indices, style)
-    return several.plan_view(solution, position_indices, style)
+    return views.plan_views(solution, position_indices, style)
 
 
 def _forces() -> Mapping[str, Maker]:
-    from planmethod.render.sheets import forces, loads, reactions
+    from planmethod.render.sheets import forces, graphs
 
     return {
         "loads": forces.loads_view,
         "load-statement": forces.statement_block,
-        "load-curves": loads.load_curves,
+        "load-curves": graphs.load_curves,
         "cut": forces.cut_view,
         "force-equations": forces.equations_block,
         "force-plan": forces.plan_view,
         "lever": forces.lever_view,
         "lever-equation": forces.lever_block,
-        "reactions": reactions.reactions_block,
+        "reactions": forces.reactions_block,
     }
 
 
 def _friction() -> Mapping[str, Maker]:
-    from planmethod.render.sheets import friction
+    from planmethod.render.sheets import forces
 
     return {
-        "friction-text": friction.friction_text,
-        "friction-cut": friction.cut_view,
-        "friction-equations": friction.equations_block,
-        "friction-plan": friction.plan_view,
-        "friction-table": friction.friction_table,
+        "friction-text": forces.friction_text,
+        "friction-cut": forces.friction_cut_view,
+        "friction-equations": forces.friction_equations_block,
+        "friction-plan": forces.friction_plan_view,
+        "friction-table": forces.friction_table,
     }
 
 
 def _cycle() -> Mapping[str, Maker]:
-    from planmethod.render.sheets import cycle, cycletable
+    from planmethod.render.sheets import cycle
 
     return {
         "cycle-statement": cycle.statement_block,
         "balance-diagram": cycle.balance_diagram,
         "reaction-diagram": cycle.reaction_diagram,
         "hodographs": cycle.hodographs,
-        "cycle-reactions": cycletable.reactions_table,
+        "cycle-reactions": cycle.reactions_table,
     }
 
 
@@ -160,9 +160,9 @@ def _turn() -> Mapping[str, Maker]:
 
 
 def _measured() -> Mapping[str, Maker]:
-    from planmethod.render.sheets import measured
+    from planmethod.render.sheets import results
 
-    return {"measured-results": measured.measured_table}
+    return {"measured-results": results.measured_table}
 
 
 def _flywheel() -> Mapping[str, Maker]:
@@ -182,12 +182,12 @@ def _flywheel() -> Mapping[str, Maker]:
 
 
 def _run_up() -> Mapping[str, Maker]:
-    from planmethod.render.sheets import runup
+    from planmethod.render.sheets import flywheel
 
     return {
-        "run-up-text": runup.run_up_text,
-        "run-up-diagrams": runup.run_up_diagrams,
-        "run-up-tables": runup.run_up_tables,
+        "run-up-text": flywheel.run_up_text,
+        "run-up-diagrams": flywheel.run_up_diagrams,
+        "run-up-tables": flywheel.run_up_tables,
     }
 
 

@@ -19,16 +19,13 @@ from planmethod.errors import LayoutError
 from planmethod.languages import translate
 from planmethod.paper import BASIC, Format, paper_format
 from planmethod.plans.model import PlanKind
-from planmethod.problem.common import KindProblem
 from planmethod.problem.model import Scales
-from planmethod.render.frame.frame import sheet_frame
-from planmethod.render.frame.furniture import DrawingArea, Furniture
-from planmethod.render.frame.titleblock import merged
+from planmethod.problem.records import KindProblem
+from planmethod.render.frame import DrawingArea, Furniture, merged, sheet_frame
 from planmethod.render.ink.drawing import Bounds, Drawing, Item, Span, View
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.layout.block import Block
-from planmethod.render.layout.cuttings import Group
-from planmethod.render.layout.pack import Placed, pack
+from planmethod.render.layout.pack import Group, Placed, pack
 
 Box: TypeAlias = tuple[float, float]
 

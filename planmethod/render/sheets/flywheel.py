@@ -1,39 +1,40 @@
-"""Blocks of the flywheel's sheet: diagrams as constructed, table, the wheel (лист 3)."""
+"""Blocks of the sheets of flywheel and run-up: diagrams, tables, the wheel (маховик, разбег)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from math import degrees
+from math import ceil, degrees
 
 import numpy as np
 
-from planmethod.construct.scale import Scale, choose_scale
+from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.errors import LayoutError
 from planmethod.note.document import Caption, Formula, Paragraph
+from planmethod.note.narrate.balancing import ReductionNarrator
 from planmethod.note.narrate.forces.statement import like_line
-from planmethod.note.narrate.machine import MachineNarrator
-from planmethod.note.narrate.reduction import ReductionNarrator
+from planmethod.note.narrate.machine import MachineNarrator, course_columns, courses, run_up_lines
 from planmethod.note.narrate.statement import point_name
-from planmethod.problem.load_records import Load, Over, SizeTable
+from planmethod.note.numbers import trimmed
+from planmethod.note.wording import Language
 from planmethod.problem.machine_records import WheelShape
+from planmethod.problem.records import Load, Over, SizeTable
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
-from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Picture, Row, paragraph
-from planmethod.render.layout.nodes import TextNode, blocks_of
-from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.ink.typeset import ink_bounds, typeset
+from planmethod.render.layout.block import Block, Column, Picture, Row, make_alternatives, paragraph
+from planmethod.render.layout.text_blocks import TableColumn, TextNode, blocks_of, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
 from planmethod.render.pictures.flywheel import construction_picture
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import table_width
-from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import named
+from planmethod.render.sheets.views import named, stated
 from planmethod.render.symbols import arrowhead, hatch
 from planmethod.solved.forces.loads import external
+from planmethod.solved.legibility import Box
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of
 from planmethod.solved.machine.flywheel import Flywheel, flywheel_of
+from planmethod.solved.machine.runup import TimeMotion, run_up_of
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
@@ -49,7 +50,7 @@ def _drawing(solution: Solution) -> FlywheelDrawing:
     return drawing_of(flywheel_of(solution), solution.profile)
 
 
-def _make_narrator(solution: Solution, style: BlockStyle) -> MachineNarrator:
+def _flywheel_narrator(solution: Solution, style: BlockStyle) -> MachineNarrator:
     return MachineNarrator(_drawing(solution), style.language)
 
 
@@ -60,7 +61,7 @@ def statement_block(
     solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> Block:
     """Return "Дано" of the machine, and "Определить"."""
-    narrator = _make_narrator(solution, style)
+    narrator = _flywheel_narrator(solution, style)
     asked = style.language.sheets.wanted.format(wanted=narrator.unknowns())
     return stated(narrator.given_facts(), asked, style)
 
@@ -69,7 +70,7 @@ def calculation_block(
     solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> Block:
     """Return the formulas of the construction, the exact flywheel, and their difference."""
-    narrator = _make_narrator(solution, style)
+    narrator = _flywheel_narrator(solution, style)
     height, width = style.text(style.sizes.text), style.width(style.sizes.column)
     nodes: list[TextNode] = [
         Caption(style.entry.title or narrator.texts.calculation),
@@ -105,7 +106,7 @@ def diagrams_view(
     solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> ViewBlock:
     """Return the constructed diagrams of moment, work, energy, inertia and those of the method."""
-    drawing, narrator = _drawing(solution), _make_narrator(solution, style)
+    drawing, narrator = _drawing(solution), _flywheel_narrator(solution, style)
     picture = construction_picture(drawing, narrator, style.letter)
     scales, made = drawing.scales, drawing.construction
     text = "; ".join(
@@ -134,7 +135,7 @@ def speed_diagram(
     solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> ViewBlock:
     """Return the deviation of the speed of the steady motion from the mean as a diagram."""
-    narrator, flywheel = _make_narrator(solution, style), flywheel_of(solution)
+    narrator, flywheel = _flywheel_narrator(solution, style), flywheel_of(solution)
     _, height = _diagram_size(style)
     at = np.linspace(0.0, flywheel.cycle, 721)
     omega = flywheel.speeds(np.append(at[:-1], 0.0))[0] - flywheel.middle_speed
@@ -168,7 +169,7 @@ def load_diagrams(solution: Solution, position_indices: Sequence[int], style: Bl
 
     A load that repeats another one's diagram later is listed under that diagram.
     """
-    narrator, flywheel = _make_narrator(solution, style), flywheel_of(solution)
+    narrator, flywheel = _flywheel_narrator(solution, style), flywheel_of(solution)
     width, height = _diagram_size(style)
     dynamics = solution.problem.dynamics
     assert dynamics is not None
@@ -236,7 +237,7 @@ def _fine(flywheel: Flywheel) -> Reals:
 
 def machine_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the quantities reduced to the crank, work, energy and speed by positions."""
-    narrator = _make_narrator(solution, style)
+    narrator = _flywheel_narrator(solution, style)
     height = style.text(min(style.sizes.text, 3.5))
     columns = [
         TableColumn(head, tuple(cells), unit=unit, min_width=8.0)
@@ -251,14 +252,14 @@ def machine_table(solution: Solution, position_indices: Sequence[int], style: Bl
 
 def moment_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the reduced moment term by term: forces, velocities, angles."""
-    reduction = ReductionNarrator(_make_narrator(solution, style))
+    reduction = ReductionNarrator(_flywheel_narrator(solution, style))
     formulas = [reduction.moment_formula()]
     return _reduced(reduction.moments(), formulas, reduction.narrator.texts.moments, style)
 
 
 def energy_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the energies of the links and the reduced moment of inertia."""
-    reduction = ReductionNarrator(_make_narrator(solution, style))
+    reduction = ReductionNarrator(_flywheel_narrator(solution, style))
     formulas, title = reduction.energy_formulas(), reduction.narrator.texts.energies
     return _reduced(reduction.energy_columns(), formulas, title, style)
 
@@ -285,7 +286,7 @@ def _reduced(
 
 def wheel_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
     """Return the flywheel in section and from the side, with its dimensions."""
-    narrator = _make_narrator(solution, style)
+    narrator = _flywheel_narrator(solution, style)
     sizes = narrator.sizes
     height = style.text(style.sizes.text)
     if sizes is None:
@@ -343,3 +344,158 @@ def _measure(one: complex, two: complex, offset: complex, letter: str, size: flo
     else:
         place = middle + complex(-text.width / 2.0, 1.2)
     return [*items, *text.at(place)]
+
+
+# no messages: tags of items
+
+
+_TIMES, _HIGH = (1.0, 0.8, 1.2, 1.5), (0.7, 0.9)  # sizes of the diagrams that are tried
+_POINTS, _MAX_POINTS = 400, 4000  # of a curve, and of one of many turns
+
+
+def _runup_narrator(solution: Solution, language: Language) -> MachineNarrator:
+    machine = solution.problem.machine
+    if machine is None or (machine.motor is None and machine.brake is None):
+        raise LayoutError(
+            "{}: a layout with a run-up needs a motor or a brake in [machine]. For "
+            "example: motor = {{ kloss = {{ M_max = 60, s_k = 0.2, n_sync = 150 }} }}.",
+            solution.problem.name,
+        )
+    return MachineNarrator(drawing_of(flywheel_of(solution), solution.profile), language)
+
+
+def run_up_text(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return "Дано" and "Определить", the motor, run-up, steady motion and stop with numbers."""
+    narrator = _runup_narrator(solution, style.language)
+    height, width = style.text(style.sizes.text), style.width(style.sizes.column)
+    lines = map(Paragraph, run_up_lines(narrator))
+    nodes: list[TextNode] = [Caption(style.entry.title or narrator.texts.run_up), *lines]
+    before = stated(narrator.given_facts(), narrator.texts.run_up_wanted, style)
+    return Column([before, *blocks_of(nodes, height, width=width)], gap=3.0)
+
+
+def run_up_tables(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return run-up and stop by even times, one table beside another."""
+    narrator = _runup_narrator(solution, style.language)
+    height = style.text(min(style.sizes.text, 3.5))
+    tables = []
+    for title, course in courses(narrator):
+        columns = [
+            TableColumn(head, tuple(cells), unit=unit, min_width=14.0)
+            for head, unit, cells in course_columns(course, narrator)
+        ]
+        tables.append(table_block(columns, height, title=title, row_height=2.0 * height))
+    return Row(tables, gap=14.0)
+
+
+def run_up_diagrams(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
+    """Return the motor's characteristic, the speed over time and angle, and that of the stop.
+
+    They are as large as the paper permits.
+    """
+    narrator = _runup_narrator(solution, style.language)
+    width = 0.82 * style.width(style.sizes.column)
+    sizes = ((k * width, high * k * width) for k in _TIMES for high in _HIGH)
+    return make_alternatives(_diagrams(narrator, style, size) for size in sizes)
+
+
+def _diagrams(narrator: MachineNarrator, style: BlockStyle, size: Box) -> Block:
+    run, texts = run_up_of(narrator.flywheel), narrator.texts
+    blocks = _characteristic(narrator, style, size)
+    if run.machine.motor is not None and run.failure is None:
+        course = run.run_up
+        time, _, speeds = course.rows(_count(course))
+        blocks.append(
+            _speed_diagram(narrator, style, size, texts.by_time, ("t", "s"), time, speeds)
+        )
+        turned = np.linspace(course.rotation[0], course.rotation[-1], _count(course))
+        speeds = course.at(turned)[0]
+        speeds[0] = 0.0
+        blocks.append(
+            _speed_diagram(
+                narrator, style, size, texts.by_angle, ("φ", "deg"), np.degrees(turned), speeds
+            )
+        )
+    if run.stop is not None:
+        time, _, speeds = run.stop.rows(_count(run.stop))
+        blocks.append(
+            _speed_diagram(narrator, style, size, texts.stop_diagram, ("t", "s"), time, speeds)
+        )
+    rows = [Row(blocks[k : k + 2], gap=16.0, align="bottom") for k in range(0, len(blocks), 2)]
+    return Column(rows, gap=12.0)
+
+
+def _count(motion: TimeMotion) -> int:
+    """Return the number of points of a curve, sufficient to show every turn."""
+    return min(max(_POINTS, int(4.0 * motion.rotation[-1])), _MAX_POINTS)
+
+
+def _numbered(symbol: str, largest: float, width: float, style: BlockStyle) -> Abscissae:
+    """Return an axis from 0 with round numbers beyond the largest, which is at ``width`` mm."""
+    step = series_near(largest / 8.0, up=True)
+    count = ceil(largest / step + 0.3) + 1
+    numbers = tuple(style.language.notation.number(trimmed(k * step, 6)) for k in range(count))
+    return Abscissae(symbol, tuple(width * k * step / largest for k in range(count)), numbers)
+
+
+def _speed_diagram(
+    narrator: MachineNarrator,
+    style: BlockStyle,
+    size: Box,
+    title: str,
+    over: tuple[str, str],
+    abscissae: Reals,
+    speeds: Reals,
+) -> Block:
+    """Return the speed over time or angle as a diagram."""
+    width, height = size
+    per_mm = choose_scale((0.0, float(np.max(speeds))), (1.0, height))
+    largest = float(abscissae[-1])
+    places = tuple(
+        complex(width * x / largest, y / per_mm) for x, y in zip(abscissae, speeds, strict=True)
+    )
+    symbol, unit = over
+    axis = _numbered(f"{symbol}, {narrator.unit(unit)}", largest, width, style)
+    picture = diagram_picture(
+        axis,
+        Ordinates(f"ω, {narrator.unit('1/s')}", per_mm, narrator.notation),
+        # ripples of many turns would run together
+        [Curve("", (places,), Pen.MAIN if len(places) <= 2 * _POINTS else Pen.THIN)],
+        letter_height=style.letter,
+        name=f"speed over {symbol}",
+    )
+    scale = Scale("mu_ω", per_mm, "1/s")
+    return ViewBlock(
+        named(picture, title, [narrator.scale("ω", per_mm, "1/s")], style), "diagram", scale
+    )
+
+
+def _characteristic(narrator: MachineNarrator, style: BlockStyle, size: Box) -> list[Block]:
+    """Return the motor's moment over the speed, and the mean moment of resistance."""
+    motor = narrator.flywheel.machine.motor
+    if motor is None:
+        return []
+    width, height = size
+    speeds = np.linspace(0.0, motor.idle, _POINTS)
+    moments = np.array([motor.at(speed) for speed in speeds.tolist()])
+    mean = narrator.flywheel.constant
+    per_mm = choose_scale((0.0, max(float(moments.max()), mean)), (1.0, height))
+    curve = tuple(
+        complex(width * x / motor.idle, y / per_mm) for x, y in zip(speeds, moments, strict=True)
+    )
+    level = (complex(0.0, mean / per_mm), complex(0.7 * width, mean / per_mm))
+    picture = diagram_picture(
+        _numbered(f"ω, {narrator.unit('1/s')}", motor.idle, width, style),
+        Ordinates(f"M, {narrator.unit('N·m')}", per_mm, narrator.notation),
+        [
+            Curve(narrator.letter("motor moment"), (curve,)),
+            Curve(narrator.moment, (level,), Pen.HIDDEN),
+        ],
+        letter_height=style.letter,
+        name="motor",
+    )
+    scale = Scale("mu_M", per_mm, "N·m")
+    told = [narrator.scale("M", per_mm, "N·m")]
+    return [ViewBlock(named(picture, narrator.texts.motor_diagram, told, style), "diagram", scale)]

@@ -21,7 +21,7 @@ from planmethod.note.wording import Language, get_language
 from planmethod.paper import paper_format
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem, Scales
-from planmethod.render.frame.furniture import Furniture
+from planmethod.render.frame import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.sheets.blocks import OF_CYCLE, OF_POSITIONS
@@ -34,16 +34,15 @@ from planmethod.render.sheets.composer import (
     find_layout,
     grow_scales,
 )
-from planmethod.render.sheets.composition.reader import composition
+from planmethod.render.sheets.composition import composition
 from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.model import BlockOptions, Composition
 from planmethod.render.sheets.pages import pages_of
-from planmethod.solved.label_density import is_too_dense
+from planmethod.solved.legibility import FEW, is_too_dense
 from planmethod.solved.scaling import MAX_DRAWN, PLAN, Views, smallest_plan
 from planmethod.solved.selfcheck import verify
-from planmethod.solved.sheet_estimate import FEW
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.numbering import counting
+from planmethod.solved.turn.extremes import counting
 
 STEPS = 3
 """Largest number of members of the series by which a scale is changed."""
@@ -284,7 +283,7 @@ def _over_the_cycle(solution: Solution) -> Solution:
     PositionError
         One of these positions does not exist.
     """
-    from planmethod.solved.turn.numbering import numbered_positions
+    from planmethod.solved.turn.extremes import numbered_positions
 
     if not solution.problem.drive.goes_round:
         return solution

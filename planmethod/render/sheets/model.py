@@ -1,7 +1,7 @@
 """Composition of a sheet (компоновка): blocks in reading order, their groups and sizes.
 
 A composition is data: the shipped ones are TOML files beside this module, and a department may give
-its own. `planmethod.render.sheets.composition.reader` reads them.
+its own. `planmethod.render.sheets.composition` reads them.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
-from planmethod.render.layout.cuttings import Arrange
+from planmethod.render.layout.pack import Arrange
 from planmethod.render.sheets.composer import Sizes
 from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.solved.scaling import AS_HIGH, LESS, Views

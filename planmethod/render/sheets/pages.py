@@ -11,10 +11,9 @@ from typing import TypeAlias
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.render.frame.furniture import DrawingArea
+from planmethod.render.frame import DrawingArea
 from planmethod.render.layout.block import Alternatives, Block, Column, Row
-from planmethod.render.layout.cuttings import GAP, Arrange, Group, LayoutItem
-from planmethod.render.layout.pack import EDGE, Placed
+from planmethod.render.layout.pack import EDGE, GAP, Arrange, Group, LayoutItem, Placed
 from planmethod.render.sheets.blocks import BLOCKS, maker_of
 from planmethod.render.sheets.composer import (
     PageLayout,
@@ -24,7 +23,7 @@ from planmethod.render.sheets.composer import (
     pack_group,
 )
 from planmethod.render.sheets.model import BlockOptions, BlockSpec, BlockStyle, Composition
-from planmethod.solved.sheet_estimate import FEW
+from planmethod.solved.legibility import FEW
 from planmethod.solved.solution import Solution
 
 Parts: TypeAlias = "list[list[Placed]]"

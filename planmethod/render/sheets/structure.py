@@ -32,9 +32,8 @@ from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Drawing, Item
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, paragraph
-from planmethod.render.layout.nodes import blocks_of
 from planmethod.render.layout.pack import Placed
-from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.layout.text_blocks import TableColumn, blocks_of, table_block
 from planmethod.render.pictures.structural import (
     Mobile,
     driver_picture,

@@ -1,4 +1,4 @@
-"""Blocks of the turn of a crank: diagrams, hodographs, facts, tables (листы цикла движения)."""
+"""Blocks of the turn of a crank: diagrams, hodographs, tables, transfer functions."""
 
 from __future__ import annotations
 
@@ -9,29 +9,47 @@ from msgspec import Struct
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.mechanism.model import FRAME
+from planmethod.note.document import Caption, Formula
 from planmethod.note.narrate.cycle import (
     cycle_facts,
     diagram_scales,
     drawn_notes,
     output_name,
 )
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.naming import Formulas, Names, scale_inscription
 from planmethod.note.narrate.statement import given_facts, point_name
+from planmethod.note.narrate.transfers import TransferNarrator
 from planmethod.note.numbers import half_up
 from planmethod.note.tables.cycle import Columns, cycle_columns, deviation_columns, deviations_title
+from planmethod.note.tables.errors import transfer_series
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.render.layout.block import Block, Picture, make_alternatives
-from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.layout.block import (
+    Alternatives,
+    Block,
+    Column,
+    Picture,
+    Row,
+    make_alternatives,
+    paragraph,
+)
+from planmethod.render.layout.text_blocks import TableColumn, blocks_of, table_block
+from planmethod.render.pictures.diagram import polar_picture
 from planmethod.render.pictures.kinematic import kinematic_picture
-from planmethod.render.pictures.polar import polar_picture
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
-from planmethod.render.sheets.results import table_width
-from planmethod.render.sheets.several import plan_grid
-from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import LARGER, PlanViewBlock, at_scales, named
-from planmethod.solved.driver_path import without_corners
+from planmethod.render.sheets.results import columns_of, table_width, with_note
+from planmethod.render.sheets.views import (
+    LARGER,
+    PlanViewBlock,
+    at_scales,
+    named,
+    plan_grid,
+    shown_position,
+    stated,
+)
+from planmethod.solved.cycle import without_corners
+from planmethod.solved.quantities import transfers_of
 from planmethod.solved.reading import Complexes, Reals, memoized
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import TURN, CrankCycle, crank_cycle_of
@@ -242,3 +260,51 @@ def deviations_table(
     diagrams = diagrams_of(solution)
     columns = deviation_columns(diagrams, style.language)
     return _table(columns, 2, deviations_title(solution, style.language), style)
+
+
+def formulas_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the transfer functions' formulas from a plan, of one position only."""
+    kind, transfers, texts = style.entry.of, transfers_of(solution), style.language.sheets
+    assert kind is not None
+    if transfers is None:
+        return Column([])
+    index = shown_position(solution, position_indices, style)
+    names = Names(solution, style.language.note, on_sheet=True)
+    told = TransferNarrator(Formulas(solution, names, index), transfers)
+    height, width = style.text(min(3.5, style.sizes.text)), style.width(style.sizes.column)
+    title = style.entry.title or texts["transfers"][kind.value]
+    if len(solution.positions) > 1:
+        title = texts.of_position.format(title=title, number=index)
+    blocks = list(blocks_of([Caption(title)], height))
+    formula, *sentence = (
+        told.crank_acceleration_lines() if kind is PlanKind.ACCELERATION else []
+    ) or [""]
+    if formula:
+        blocks += blocks_of([Formula(formula)], height)
+        blocks += [paragraph(text, height, width) for text in sentence]
+    blocks += blocks_of(map(Formula, told.formulas(kind)), height)
+    whole, half = Column(blocks, gap=2.2), -(-len(blocks) // 2)
+    parts = [Column(some, gap=2.2) for some in (blocks[:half], blocks[half:])]
+    return Alternatives((whole, Row(parts, gap=2.0 * height)))
+
+
+def transfer_table(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the table by positions; of a single one exact and read values with errors."""
+    transfers, language = transfers_of(solution), style.language
+    if transfers is None:
+        return Column([])
+    alone, texts = len(solution.positions) == 1, language.sheets
+    columns = columns_of(
+        transfer_series(transfers), solution, position_indices, language, sigma=alone
+    )
+    height = style.text(min(style.sizes.text, 3.5))
+    table = table_block(
+        columns,
+        height,
+        max_width=table_width(style),
+        leading=1 if alone else 2,
+        title=style.entry.title or texts.transfer_table,
+    )
+    if not alone:
+        return table
+    return with_note(table, columns, height, solution.profile.name, language)

@@ -1,37 +1,176 @@
-"""Views of a sheet (виды): a picture with its name and scale, and its measured segments."""
+"""Views of a sheet with their scales and segments, of one position or several; its texts."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from itertools import combinations
 from types import MappingProxyType
 
+import numpy as np
+import numpy.typing as npt
+
 from planmethod.construct.scale import Scale
-from planmethod.note.narrate.formulas import detail_view_letter, view_name
-from planmethod.note.narrate.letters import plan_letters
-from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import is_negligible
-from planmethod.note.plaintext import plain_text
+from planmethod.construct.steps import PointName
+from planmethod.note.document import Caption, Equations, Formula, GivenFact, plain_text
+from planmethod.note.narrate.cycle import extremes_named
+from planmethod.note.narrate.naming import (
+    detail_view_letter,
+    direction_text,
+    equation_of,
+    plan_letters,
+    scale_inscription,
+    view_name,
+)
+from planmethod.note.narrate.statement import given_facts, motion_unknowns, point_name, unbroken
+from planmethod.note.narrate.steps import calculation
+from planmethod.note.numbers import is_negligible, with_unit
 from planmethod.note.wording import Language
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import RATES, PlanKind
 from planmethod.render.ink.drawing import Arc, Disc, Item, Span
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Row, make_alternatives
-from planmethod.render.pictures.detail_views import ENLARGED
-from planmethod.render.pictures.ellipses import ellipse_inscription
+from planmethod.render.layout.block import (
+    Alternatives,
+    Block,
+    Column,
+    Line,
+    Row,
+    Spacer,
+    heading,
+    make_alternatives,
+    paragraph,
+)
+from planmethod.render.layout.text_blocks import blocks_of
+from planmethod.render.pictures.lettered import ENLARGED
+from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.planview import (
     POLE,
+    Shown,
     detail_pictures,
+    ellipse_inscription,
     plan_picture,
     plan_places,
+    shown_traces,
     vector_label,
 )
 from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.render.pictures.traces import Shown, shown_traces
+from planmethod.render.pictures.seriesview import POSITION_PRIMES, series_picture, shows_extremes
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
-from planmethod.solved.detail_views import min_enlarged
-from planmethod.solved.representative_position import clearest_position
+from planmethod.render.sheets.results import position_text
+from planmethod.solved.legibility import FEW, min_enlarged, short_readings
+from planmethod.solved.reading import Reals, memoized
+from planmethod.solved.scaling import (
+    BETWEEN,
+    OUTLIER,
+    column_widths,
+    median,
+    per_row,
+    sizes,
+    typical,
+)
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import crank_cycle_of
+
+_MIN_SINE = 0.3  # sine of the least angle between joined links of the clearest one
+_SMALL = 0.15  # part of its usual size that a velocity has in the clearest one at least
+_JOINTS = 3.0  # mm of paper between two joints of a clear one
+_MIN_VECTOR = 1.0  # mm that a vector of its plans has at least
+
+
+def clear_position(solution: Solution) -> int:
+    """Return the position to draw in full and calculate if the file does not specify it.
+
+    See `clearest_position`; positions count from 0.
+    """
+    return clearest_position(solution, tuple(range(len(solution.positions))))
+
+
+@memoized
+def clearest_position(solution: Solution, indices: tuple[int, ...]) -> int:
+    """Return the position that shows the mechanism best.
+
+    No two of its joints lie within 3 mm of paper and no vector of its plans vanishes; if possible,
+    no two joined links lie nearly in one line, no velocity nearly vanishes, as it does where the
+    output turns back, and no plan is much larger than the others. Among several, it has the fewest
+    segments too short to be read well; among those, it is the furthest from a dead position.
+    """
+    solution, chosen = solution.origin, list(indices)  # whatever scales a sheet tries
+    clear = is_clear(solution)
+    better = sum(f(solution)[chosen].astype(int) for f in (_moving, _links_angled, _usual))
+    short = -short_readings(solution.construction, solution.paper)[chosen]
+    ranked = zip(clear[chosen].tolist(), np.asarray(better).tolist(), short.tolist(),
+                 solution.margin[chosen].tolist(), indices, strict=True)  # fmt: skip
+    return max(ranked, key=lambda one: one[:4])[4]
+
+
+@memoized
+def is_clear(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Return in which positions no two joints lie together on the paper and no vector vanishes."""
+    return _joints_separate(solution.origin) & _vectors_visible(solution.origin)
+
+
+def _vectors(solution: Solution, kind: PlanKind) -> list[Reals]:
+    """Return the sizes of the vectors of a plan that are ever something, in its unit."""
+    plan = solution.construction.plan(kind)
+    found = [np.abs(solution.si.vector(v.tail, v.head)) for v in plan.vectors]
+    return [size for size in found if size.any()]
+
+
+def _joints_separate(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Return in which positions all joints that ever lie apart on the paper do so."""
+    problem, paper = solution.problem, solution.paper
+    names = {joint.point for joint in problem.mechanism.revolutes}
+    names |= {slide.pin for slide in problem.slides.values()}
+    places = [paper.point(PointName(name)) for name in sorted(names)]
+    apart = np.ones(len(solution.positions), dtype=bool)
+    for one, other in combinations(places, 2):
+        distance = np.abs(one - other)
+        if distance.max() >= _JOINTS:
+            apart &= distance >= _JOINTS
+    return apart
+
+
+def _vectors_visible(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Return in which positions no vector of a plan vanishes, except those that mostly do."""
+    seen = np.ones(len(solution.positions), dtype=bool)
+    for kind in RATES:
+        per_mm = solution.scales[kind].per_mm
+        for size in _vectors(solution, kind):
+            seen &= size >= min(_MIN_VECTOR * per_mm, _SMALL * median(size))
+    return seen
+
+
+def _moving(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Return in which positions no velocity is much smaller than it usually is."""
+    found = [
+        size >= _SMALL * median(size[size > 0]) for size in _vectors(solution, PlanKind.VELOCITY)
+    ]
+    return np.all(found, axis=0) if found else np.ones(len(solution.positions), dtype=bool)
+
+
+def _links_angled(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Return in which positions no two joined links lie nearly in one line."""
+    apart = np.ones(len(solution.positions), dtype=bool)
+    axes = {
+        link: np.exp(1j * np.radians(motion.phi_deg))
+        for link, motion in solution.links.items()
+        if len(solution.problem.bodies[link].points) > 1
+    }
+    for joint in solution.problem.mechanism.revolutes:
+        for one, two in combinations([link for link in joint.links if link in axes], 2):
+            apart &= np.abs((axes[one] * np.conj(axes[two])).imag) > _MIN_SINE
+    return apart
+
+
+def _usual(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Return in which positions no plan is much larger than the others."""
+    usual = np.ones(len(solution.positions), dtype=bool)
+    for kind in RATES:
+        size = np.maximum(*sizes(solution.construction, solution.si, kind))
+        usual &= size <= OUTLIER / 2 * typical(size)
+    return usual
+
 
 POINT = 1e-6
 """Length on a plan, mm, below which a segment is a rounding error of a mechanism at rest."""
@@ -253,3 +392,186 @@ def named(picture: Block, title: str, notes: Iterable[str | Block], style: Block
     lines: list[Block] = [Line(typeset(title, style.title))]
     lines += [Line(typeset(one, height)) if isinstance(one, str) else one for one in notes]
     return Column([Column(lines, gap=2.5, align="centre"), picture], gap=5.0, align="centre")
+
+
+CAPTION = 3.5
+"""Height of the letters of one of many plans, and of its caption, mm."""
+
+
+def scheme_views(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> ViewBlock:
+    """Return the scheme of many positions: one in full, the others thin."""
+    bold, kind = shown_position(solution, position_indices, style), PlanKind.POSITION
+    letter, errors = style.letter, style.options.errors
+    traces = shown_traces(solution, style.entry.traces, has_space=style.options.traces)
+    if len(position_indices) > 1:
+        picture = series_picture(
+            solution,
+            bold,
+            tuple(position_indices),
+            letter_height=letter,
+            errors=errors,
+            turn=style.options.turn,
+            traces=traces,
+        )
+    else:
+        picture = scheme_picture(solution, bold, letter_height=letter, errors=errors, traces=traces)
+    said = _extremes(solution, position_indices, style)
+    block = with_scale(solution, kind, picture, style, position_indices, said)
+    return ViewBlock(block, kind.value, solution.scales[kind])
+
+
+def _extremes(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> list[str]:
+    """Return the notes on the extreme positions of a scheme that shows both."""
+    if not shows_extremes(solution, position_indices):
+        return []
+    paths = Paths(solution)
+    if paths.output is None or len(paths.extremes) < len(POSITION_PRIMES):
+        return []
+    letter = point_name(paths.output[1])
+    names = ", ".join(f"{letter}{prime}" for prime in POSITION_PRIMES)
+    whole = paths.driver_path.closed and solution.problem.drive.revolves and not style.options.turn
+    return extremes_named(crank_cycle_of(solution) if whole else None, names, style.language)
+
+
+def plan_views(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return the plans of several positions in rows, drawn like those of one."""
+    kind = style.entry.of
+    assert kind is not None
+    if style.entry.position is not None:
+        position_indices = (style.entry.position,)
+    step, language = style.entry.per_row, style.language
+    alike = _group_repeated(solution, position_indices)
+    shown, errors = tuple(alike), style.options.errors
+    pictures = plan_grid(solution, kind, shown, language, in_row=step, errors=errors, repeats=alike)
+    return plans_viewed(solution, pictures, shown, style)
+
+
+def _group_repeated(solution: Solution, position_indices: Sequence[int]) -> dict[int, list[int]]:
+    """Return positions with those of the cycle's second turn at the same crank angle."""
+    found: dict[float, list[int]] = {}
+    two = solution.repeated > 1 and solution.problem.drive.goes_round
+    for i in position_indices:
+        place = round(float(solution.positions[i]) % 360.0, 6) % 360.0 if two else float(i)
+        found.setdefault(place, []).append(i)
+    return {numbers[0]: numbers for numbers in found.values()}
+
+
+def plan_grid(
+    solution: Solution,
+    kind: PlanKind,
+    position_indices: Sequence[int],
+    language: Language,
+    *,
+    in_row: int | None = None,
+    errors: bool = False,
+    repeats: Mapping[int, Sequence[int]] = MappingProxyType({}),
+) -> list[Block]:
+    """Return the plans of many positions in rows and columns, each with its number.
+
+    There is a layout for each number of plans in a row, the usual one first; ``in_row`` selects
+    one. ``repeats`` are the numbers of all positions that share the plan of one.
+    """
+    coordinate, notation = solution.problem.drive.coordinate, language.notation
+    cells: list[Block] = []
+    common = solution.has_common(kind)
+    convention = solution.problem.scales.convention
+    for i in position_indices:
+        own_numbers, unit = repeats.get(i, (i,)), notation.units[coordinate.unit]
+        places = dict.fromkeys(position_text(solution, k, notation) for k in own_numbers)
+        values = ", ".join(with_unit(place, unit) for place in places)
+        phrase = f"{', '.join(map(str, own_numbers))}: {coordinate.symbol} = {values}"
+        own = solution.plan_scale(kind, i)
+        caption: Block = Line(typeset(phrase, CAPTION))
+        if own != solution.scales[kind] or not common:
+            scale = Line(typeset(scale_inscription(own, convention, notation), CAPTION))
+            caption = Column([caption, scale], gap=2.0, align="centre")
+        picture = plan_with_details(
+            solution, kind, i, language, letter_height=CAPTION, errors=errors
+        )[0]
+        cells.append(Column([picture, caption], gap=3.0, align="centre"))
+    count, usual = len(cells), in_row or per_row(len(cells))
+    steps = (usual,) if in_row else (usual, 4, 3, 2, 1) if count <= FEW else (usual, 4, 3)
+    return [_rows(cells, step) for step in dict.fromkeys(min(step, count) for step in steps)]
+
+
+def _rows(cells: Sequence[Block], step: int) -> Block:
+    """Return blocks in rows of ``step``, in columns if these are not much wider."""
+    columns = column_widths([cell.width for cell in cells], step)
+    if columns:
+        wide = [Spacer(width, 0.0) for width in columns]
+        cells = [Column([c, wide[k % step]], 0.0, "centre") for k, c in enumerate(cells)]
+    found = range(0, len(cells), step)
+    return Column([Row(cells[k : k + step], gap=BETWEEN, align="bottom") for k in found], BETWEEN)
+
+
+NARROW = 0.7
+"""Part of the usual width for a narrower layout of a text."""
+
+
+def statement_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
+    """Return "Дано" and "Определить"."""
+    facts = given_facts(solution.problem, style.language, list(solution.positions))
+    return stated(
+        facts, style.language.sheets.wanted.format(wanted=motion_unknowns(solution)), style
+    )
+
+
+def stated(facts: Sequence[GivenFact], task: str, style: BlockStyle, *more: str) -> Block:
+    """Return "Дано" with its facts, the task, and further paragraphs, in two widths."""
+    height, column = style.text(style.sizes.text), style.width(style.sizes.column)
+    told = unbroken(fact.text for fact in facts)
+    texts = [style.language.note.given.format(given=told), task, *more]
+    ways = []
+    for width in (column, NARROW * column):
+        lines: list[Block] = [paragraph(text, height, width=width) for text in texts]
+        if style.entry.title:
+            lines.insert(0, heading(style.entry.title, height, width=width))
+        ways.append(Column(lines, gap=3.0))
+    return Alternatives(tuple(ways))
+
+
+def equations_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
+    """Return the vector equations of a plan, one under another."""
+    kind = style.entry.of
+    assert kind is not None
+    plan = solution.construction.plan(kind)
+    size = style.text(style.sizes.text)
+    height, width = max(3.5, min(5.0, size)), style.width(style.sizes.column)
+    title = heading(style.entry.title or style.language.sheets["equations"][kind.value], size)
+    directed = partial(direction_text, say=style.language.notation)
+    equations = Equations(tuple(equation_of(one, directed) for one in plan.equations))
+    return Column([title, *blocks_of([equations], height, width=width)], gap=4.0)
+
+
+def calculation_block(
+    solution: Solution, position_indices: Sequence[int], style: BlockStyle
+) -> Block:
+    """Return the formulas with the read segments, of one position only."""
+    kind = style.entry.of
+    assert kind is not None
+    index = shown_position(solution, position_indices, style)
+    height = style.text(min(3.5, style.sizes.text))
+    texts = style.language.sheets
+    title = style.entry.title or texts["calculation"][kind.value]
+    if len(solution.positions) > 1:
+        title = texts.of_position.format(title=title, number=index)
+    lines = map(Formula, calculation(solution, kind, index, style.language))
+    blocks = list(blocks_of([Caption(title), *lines], height))
+    whole, half = Column(blocks, gap=2.2), -(-len(blocks) // 2)
+    columns = [Column(some, gap=2.2) for some in (blocks[:half], blocks[half:])]
+    return Alternatives((whole, Row(columns, gap=2.0 * height)))
+
+
+def text_block(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
+    """Return a text of the composition itself."""
+    height, width = style.text(style.sizes.text), style.width(style.sizes.column)
+    lines: list[Block] = [paragraph(style.entry.text, height, width=width)]
+    if style.entry.title:
+        lines.insert(0, heading(style.entry.title, height, width=width))
+    return Column(lines, gap=3.0)

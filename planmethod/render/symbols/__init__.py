@@ -8,52 +8,50 @@ These are the symbols of schemes and plans; wheels, cams and axes have modules o
 `gears`, `cams`, `axes`.
 """
 
-from planmethod.render.symbols.arrows import (
-    FORCE,
-    PLAN_FORCE,
-    arrowhead,
-    drive_arrow,
-    turn_arrow,
-    turn_sign,
-    vector_arrow,
-)
-from planmethod.render.symbols.dimensions import angle_dimension, dimension
-from planmethod.render.symbols.grounds import (
+from planmethod.render.symbols.elements import (
+    SLIDER,
     bearing,
+    crank,
     fixed_pivot,
     fixed_pivots,
     ground_line,
     guide_line,
     guide_plates,
-    support_half_width,
-)
-from planmethod.render.symbols.hatching import (
-    GROUND,
-    before_links,
-    clipped,
-    hatch,
-    occupied_area,
-)
-from planmethod.render.symbols.links import (
-    crank,
     link,
     mass_centre,
-    rigid_corner,
-    rigid_polygon,
-    rocker,
-)
-from planmethod.render.symbols.pairs import (
-    SLIDER,
     mobile_revolute,
     mobile_slider,
     offset_slider,
     revolute,
     revolute_on,
+    rigid_corner,
+    rigid_polygon,
+    rocker,
     slider,
     sliding_block,
     sliding_block_size,
+    support_half_width,
 )
-from planmethod.render.symbols.sizes import SIZES, SymbolSizes, angle_of, unit
+from planmethod.render.symbols.marks import (
+    FORCE,
+    GROUND,
+    PLAN_FORCE,
+    SIZES,
+    SymbolSizes,
+    angle_dimension,
+    angle_of,
+    arrowhead,
+    before_links,
+    clipped,
+    dimension,
+    drive_arrow,
+    hatch,
+    occupied_area,
+    turn_arrow,
+    turn_sign,
+    unit,
+    vector_arrow,
+)
 
 __all__ = [
     "FORCE",

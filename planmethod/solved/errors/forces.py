@@ -16,19 +16,18 @@ from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
 from planmethod.construct.steps import AtAngle, NumberName, Parallel, Perpendicular, PointName
 from planmethod.plans.forces.board import Force, Reaction
-from planmethod.solved.errors.drawing import (
+from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.errors.spread import (
     RADIAN,
     Drafted,
     DrawnKind,
     DrawnQuantity,
+    Errors,
     number,
 )
-from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.errors.spread import Errors
-from planmethod.solved.forces.contact import JointForce
-from planmethod.solved.forces.statics import Statics, statics_of
+from planmethod.solved.forces.statics import JointForce, Statics, statics_of
+from planmethod.solved.quantities import transfers_of
 from planmethod.solved.reading import Flags, Reals
-from planmethod.solved.transfers import transfers_of
 
 BALANCE, LEVER, DIFFERENCE = "balance", "lever", "difference"
 """Labels: balance of the driver by the force plans and by the lever, lever minus plans."""

@@ -13,18 +13,12 @@ from planmethod.arguments import of_type
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.plans.legend import QuantityKind
+from planmethod.plans.build import QuantityKind
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.solved.errors.drawing import (
-    Drafted,
-    DrawnKind,
-    DrawnQuantity,
-    number,
-)
-from planmethod.solved.errors.spread import DRAWS, Errors
+from planmethod.solved.errors.spread import DRAWS, Drafted, DrawnKind, DrawnQuantity, Errors, number
+from planmethod.solved.quantities import transfers_of
 from planmethod.solved.reading import Flags
 from planmethod.solved.solution import Solution, at_positions
-from planmethod.solved.transfers import transfers_of
 
 
 class Drafting(Errors):

@@ -16,19 +16,11 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.forces.board import SCALE, ForceBoard
 from planmethod.plans.forces.dyads import Driving
 from planmethod.plans.forces.lever import Lever
-from planmethod.plans.forces.loads import DOWN
+from planmethod.plans.forces.polygons import DOWN
 from planmethod.problem.model import Problem
+from planmethod.solved.conditioning import CLEARED, MULTIPLE, SAFE, SCALES, blocks, extent, min_gap
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.solution import FEW_ROWS, Solution
-from planmethod.solved.trust.conditioning import (
-    CLEARED,
-    MULTIPLE,
-    SAFE,
-    SCALES,
-    blocks,
-    extent,
-    min_gap,
-)
 
 Places = npt.NDArray[np.intp]
 
@@ -66,7 +58,7 @@ class ForceConditioning(Struct, frozen=True):
     def bound(self) -> Reals:
         """Return a bound of the relative error of the worst force, ndarray of shape (n,).
 
-        As `planmethod.solved.trust.conditioning.error_bound`, of the reactions, their moments and
+        As `planmethod.solved.conditioning.error_bound`, of the reactions, their moments and
         what balances the driver. Forces are small against the largest force of the position, load
         or reaction; moments against the largest of their kind, and against that force at the
         driver's arm, those of guides at the longest one of a link. Infinite where a plan does not

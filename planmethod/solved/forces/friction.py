@@ -22,23 +22,20 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.forces.board import SCALE
-from planmethod.plans.forces.loads import Applied, LoadKind, numbers_of
-from planmethod.plans.forces.polygons import reaction_symbol
-from planmethod.problem.load_records import FrictionTask, PairFriction
+from planmethod.plans.forces.polygons import Applied, LoadKind, numbers_of, reaction_symbol
 from planmethod.problem.model import Problem, Slide
 from planmethod.problem.names import pair_name, segment
-from planmethod.solved.forces.contact import JointForce, SlideReaction, slide_between
+from planmethod.problem.records import FrictionTask, PairFriction
 from planmethod.solved.forces.loads import ZERO_SPEED_FRACTION
 from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.forces.statics import Statics, statics_of
-from planmethod.solved.reading import (
-    Complexes,
-    Flags,
-    Memoizing,
-    Reading,
-    Reals,
-    memoized,
+from planmethod.solved.forces.statics import (
+    JointForce,
+    SlideReaction,
+    Statics,
+    slide_between,
+    statics_of,
 )
+from planmethod.solved.reading import Complexes, Flags, Memoizing, Reading, Reals, memoized
 from planmethod.solved.solution import UNIT_SCALES, Solution
 
 ZERO_POWER_FRACTION = 1e-9

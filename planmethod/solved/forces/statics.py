@@ -1,8 +1,4 @@
-"""Forces of a solved problem: reactions, balancing moment, Zhukovsky lever (кинетостатика).
-
-The force plans continue the program of the kinematics, so that arms and accelerations are those of
-the drawings in every reading.
-"""
+"""Forces of a solved problem: reactions, places of guides' reactions, lever (кинетостатика)."""
 
 from __future__ import annotations
 
@@ -16,33 +12,27 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.arguments import number_of, of_type
-from planmethod.construct.arithmetic import Arithmetic, Float64, Number
+from planmethod.construct.arithmetic import Arithmetic, Float64, Number, unit_vectors
+from planmethod.construct.drafting import RulerArithmetic
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Program
-from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import Scale, choose_scale
-from planmethod.construct.steps import Name, NumberName
+from planmethod.construct.steps import Name, NumberName, PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.draft import Draft
+from planmethod.plans.draft import Draft, cis
 from planmethod.plans.forces.board import SCALE, Force, ForceBoard, Reaction
 from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
-from planmethod.plans.forces.lever import Lever, plan_lever
-from planmethod.plans.forces.loads import Applied, numbers_of
-from planmethod.plans.forces.polygons import ForcePlan
-from planmethod.plans.forces.thrust import Thrust, close_thrust, find_thrust
+from planmethod.plans.forces.lever import Lever, Thrust, close_thrust, find_thrust, plan_lever
+from planmethod.plans.forces.polygons import Applied, ForcePlan, numbers_of
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.problem.load_records import BearingSection, Dynamics
-from planmethod.problem.model import Convention
-from planmethod.solved.driving import driven
-from planmethod.solved.failures import Cause, Failure, Place, PositionError
+from planmethod.problem.model import Convention, Problem, Slide
+from planmethod.problem.records import BearingSection, Dynamics
+from planmethod.solved.conditioning import SPOILT
+from planmethod.solved.failures import Cause, Failure, Place, PositionError, explain, failing
 from planmethod.solved.forces.bound import ForceConditioning
-from planmethod.solved.forces.contact import JointForce, SlideReaction, contacts
-from planmethod.solved.forces.leverscale import filling, lever_times
-from planmethod.solved.forces.loads import applied
-from planmethod.solved.forces.resultants import UnshiftedInertia, shifted_inertia
-from planmethod.solved.impossible import explain, failing
-from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, fixed
-from planmethod.solved.sheet_estimate import Box
+from planmethod.solved.forces.loads import UnshiftedInertia, applied, shifted_inertia
+from planmethod.solved.legibility import Box
+from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, driven, fixed
 from planmethod.solved.solution import (
     EVERY,
     FEW_ROWS,
@@ -51,7 +41,253 @@ from planmethod.solved.solution import (
     at_positions,
     filled,
 )
-from planmethod.solved.trust.conditioning import SPOILT
+
+TIMES = (2.0, 2.5, 4.0, 5.0, 10.0)
+"""Enlargements of a lever: those of GOST 2.302 as far as they are needed."""
+
+FULL = 10.0
+"""Maximum number of loads per square decimetre of the lever and its surroundings, for letters."""
+
+FEW = 15
+"""Number of loads that never overfill a lever: their arrows find other lines."""
+
+PLACE: Box = (150.0, 120.0)
+"""Width and height that the lever of a project may fill, mm, beside arrows and letters."""
+
+_LETTER_MARGIN = 30.0  # mm around the lever for the letters
+_LARGEST = 400.0  # mm that a lever drawn larger may be across
+
+
+def lever_times(lever: Lever, paper: Reading, fills: Reals) -> Reals:
+    """Return how many times larger than the plan the lever is drawn in each position, shape (n,).
+
+    ``paper`` is the exact reading of the force plans, mm; ``fills`` are the times that it is larger
+    anyway (`filling`), or one.
+    """
+    if len(lever.loads) <= FEW:
+        return fills
+    acting = np.zeros(paper.count)
+    hung = [lever.pole]
+    for load in lever.loads:
+        one = load.load.applied
+        acting += np.asarray(one.couple if load.at is None else one.force) != 0
+        if load.at is not None:
+            hung.append(load.at)
+    width, height = _size(paper, hung)
+    for times in TIMES:
+        room = (fills * width + 2 * _LETTER_MARGIN) * (fills * height + 2 * _LETTER_MARGIN) / 1e4
+        full = (acting > FEW) & (acting > FULL * room) & (times > fills)
+        fills = np.where(full & (times * np.maximum(width, height) <= _LARGEST), times, fills)
+    return fills
+
+
+def filling(
+    paper: Reading, plan: Sequence[PointName], per_mm: Sequence[float], *, mm_per_unit: bool
+) -> Reals:
+    """Return how many times larger than the plan a lever fills its place, shape (n,).
+
+    ``plan`` are the points of the velocity plan, ``per_mm`` is its scale in every position. The
+    lever has a scale of the series; one where the plan fills the place, or nothing moves.
+    """
+    found = []
+    for width, height, own in zip(*_size(paper, plan), per_mm, strict=True):
+        size = own * float(height), own * float(width)  # it is turned
+        finer = choose_scale(size, PLACE, mm_per_unit=mm_per_unit) if any(size) else own
+        found.append(max(own / finer, 1.0))
+    return np.array(found)
+
+
+def _size(paper: Reading, points: Sequence[PointName]) -> tuple[Reals, Reals]:
+    """Return width and height of the box around points, mm."""
+    at = np.asarray([np.broadcast_to(paper.point(one), paper.count) for one in points])
+    return np.ptp(at.real, axis=0), np.ptp(at.imag, axis=0)
+
+
+VANISHING = 1e-12
+"""Fraction of a position's largest force below which a reaction is negligible."""
+
+Masks = npt.NDArray[np.bool_]
+
+
+def transverse_component(force: Complexes, direction: Complexes) -> Reals:
+    """Return the component of forces to the left of unit vectors along the guide, N."""
+    return np.asarray((direction.conjugate() * force).imag, dtype=float)
+
+
+def distance(normal: Reals, moment: Reals, is_zero: Masks) -> Reals:
+    """Return the position of a force along the guide, m; NaN where the force is zero.
+
+    Parameters
+    ----------
+    normal : ndarray, N
+        Force to the left of the guide's direction.
+    moment : ndarray, N·m
+        Counter-clockwise positive.
+    is_zero : ndarray of bool
+        True where the force is zero.
+
+    Returns
+    -------
+    ndarray
+        Positive in the guide's direction: there a force to the left turns counter-clockwise.
+    """
+    divisor = np.where(is_zero, 1.0, normal)
+    return np.asarray(np.where(is_zero, np.nan, moment / divisor), dtype=float)
+
+
+def edge_forces(normal: Reals, moment: Reals, length: float) -> tuple[Reals, Reals]:
+    """Return the forces at both edges of a slider, N, to the left of the guide's direction.
+
+    The first is at the edge in the guide's direction; ``moment`` is about the middle, N·m. They
+    have the force for their sum and the moment for theirs.
+    """
+    half = normal / 2.0
+    return half + moment / length, half - moment / length
+
+
+class JointForce(Struct, frozen=True):
+    """Reaction in a joint in every position (реакция), N and N·m, ndarrays of shape (n,).
+
+    ``moment`` is about ``at`` (m, in the file's coordinates), counter-clockwise positive; zero in a
+    revolute pair.
+    """
+
+    joint: str
+    on: str
+    by: str
+    at: Complexes
+    force: Complexes
+    moment: Reals
+
+
+class EdgeForce(Struct, frozen=True):
+    """Reaction at an edge of a slider in one position: its place, m, and the force, N."""
+
+    at: complex
+    force: complex
+
+
+class SlideReaction(Struct, frozen=True, dict=True):
+    """Reaction of one prismatic pair and its slider in every position, ndarrays of shape (n,).
+
+    Attributes
+    ----------
+    slide : Slide
+    joint : JointForce
+    direction : Complexes
+        Unit vectors in the guide's direction.
+    base : Complexes, m
+        A point of the guide's line.
+    middle : Reals, m
+        Middle of the contact, from ``joint.at`` in the guide's direction: the pin of the slider, or
+        the joint of the block through which it passes.
+    largest : Reals, N
+        Size of the largest force of each position.
+    """
+
+    slide: Slide
+    joint: JointForce
+    direction: Complexes
+    base: Complexes
+    middle: Reals
+    largest: Reals
+
+    @property
+    def length(self) -> float | None:
+        """Length of contact (длина ползуна), m, if it is given."""
+        return self.slide.length
+
+    @cached_property
+    def normal(self) -> Reals:
+        """Force to the left of the guide's direction, N."""
+        return transverse_component(self.joint.force, self.direction)
+
+    def b(self, fraction: float = VANISHING) -> Reals:
+        """Return where the force acts, m from ``joint.at`` in the guide's direction.
+
+        Not a number where the force is less than a ``fraction`` of the largest.
+        """
+        nothing = np.abs(self.joint.force) <= fraction * self.largest
+        return distance(self.normal, self.joint.moment, nothing)
+
+    def place(self, b: Reals) -> Complexes:
+        """Return the places of the guide's line at distances from ``joint.at``, m."""
+        foot = ((self.joint.at - self.base) * self.direction.conjugate()).real
+        return np.asarray(self.base + self.direction * (foot + b), dtype=complex)
+
+    @cached_property
+    def at_edges(self) -> Masks:
+        """True where two reactions at the edges act instead of one."""
+        if self.length is None:
+            return np.zeros(self.normal.shape, dtype=bool)
+        moment = np.abs(self._about_middle)
+        something = moment > VANISHING * self.largest * self.length
+        return np.asarray(something & (moment > np.abs(self.normal) * self.length / 2.0))
+
+    @property
+    def _about_middle(self) -> Reals:
+        return self.joint.moment - self.middle * self.normal
+
+    def edges(self, index: int) -> tuple[EdgeForce, ...]:
+        """Return the reactions at the edges in a position where they act, else none.
+
+        The first is at the edge in the guide's direction.
+        """
+        if self.length is None or not self.at_edges[index]:
+            return ()
+        ends = self.place(self.middle + self.length / 2), self.place(self.middle - self.length / 2)
+        forces = edge_forces(self.normal, self._about_middle, self.length)
+        left = 1j * self.direction[index]
+        return tuple(
+            EdgeForce(complex(end[index]), complex(left * force[index]))
+            for end, force in zip(ends, forces, strict=True)
+        )
+
+
+def contacts(
+    solution: Solution, reactions: Sequence[JointForce], largest: Reals
+) -> Mapping[int, SlideReaction]:
+    """Return the prismatic pairs by the numbers of their reactions.
+
+    Parameters
+    ----------
+    largest : ndarray of shape (n,), N
+        Size of the largest force of each position.
+    """
+    return {
+        number: _contact(solution, slide, joint, largest)
+        for number, joint in enumerate(reactions)
+        for slide in [slide_between(solution.problem, joint)]
+        if slide is not None
+    }
+
+
+def slide_between(problem: Problem, joint: JointForce) -> Slide | None:
+    """Return the line on which one link of a joint slides on the other; None for a hinge."""
+    for slider, host in ((joint.on, joint.by), (joint.by, joint.on)):
+        slide = problem.slides.get(slider)
+        if slide is not None and slide.host == host and slide.pin == joint.joint:
+            return slide
+    return None
+
+
+def _contact(solution: Solution, slide: Slide, joint: JointForce, largest: Reals) -> SlideReaction:
+    along = _directions(solution, slide)
+    if slide.through is not None:
+        base = solution.place(PointName(slide.through))
+    else:
+        base = np.full(along.shape, slide.base)
+    centre = base if solution.problem.is_block(slide) else solution.place(PointName(slide.pin))
+    middle = ((centre - joint.at) * along.conjugate()).real
+    return SlideReaction(slide, joint, along, base, middle, largest)
+
+
+def _directions(solution: Solution, slide: Slide) -> Complexes:
+    if slide.host == FRAME:
+        return np.full(solution.positions.shape, cis(slide.angle), dtype=complex)
+    turned = solution.links[slide.host].phi_deg
+    return np.asarray(unit_vectors(turned + slide.angle))
+
 
 UNIT = FACTS[PlanKind.FORCE].unit
 COMMON_BOX: Box = (100.0, 100.0)

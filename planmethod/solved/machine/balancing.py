@@ -19,17 +19,16 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.drafting import Profile
+from planmethod.construct.drafting import Profile, RulerArithmetic
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import choose_scale
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.diagrams.massmoments import MassMoments, build
+from planmethod.plans.diagrams import MassMoments, build_mass_moments
 from planmethod.problem.machine_records import Weighing
 from planmethod.problem.model import Problem
-from planmethod.solved.course.motion import CycleMotion
+from planmethod.solved.cycle_motion import CycleMotion
 from planmethod.solved.reading import Complexes, Memoizing, Reading, Reals, memoized
 from planmethod.solved.solution import Solution
 
@@ -292,7 +291,7 @@ class Balancing(Memoizing):
         vectors = [value for _, value in one.terms]
         size = max([abs(value) for value in vectors], default=1.0)
         per_mm = choose_scale((size, 0.0), (LONGEST, 1.0))
-        made = build(vectors, per_mm, one.radius)
+        made = build_mass_moments(vectors, per_mm, one.radius)
         exact = Reading(evaluate(made.program, made.data, Float64()), 1)
         read = Reading(evaluate(made.program, made.data, RulerArithmetic(ruler=profile.ruler)), 1)
         return made, per_mm, exact, read

@@ -10,15 +10,18 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.drafting import Profile
+from planmethod.construct.drafting import Profile, RulerArithmetic
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.ruler import RulerArithmetic
 from planmethod.construct.scale import angle_scale, choose_scale, next_scale, series_near
-from planmethod.plans.diagrams.calculus import Integration
-from planmethod.plans.diagrams.energymass import EnergyMass, EnergyMassData, Places, build
+from planmethod.plans.diagrams import (
+    EnergyMass,
+    EnergyMassData,
+    Integration,
+    Places,
+    build_energy_mass,
+)
 from planmethod.problem.machine_records import FlywheelMethod, Quadrature
-from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
-from planmethod.solved.errors.spread import Errors
+from planmethod.solved.errors.spread import Drafted, DrawnKind, DrawnQuantity, Errors, number
 from planmethod.solved.machine.flywheel import Flywheel, Points
 from planmethod.solved.reading import Reading, Reals, memoized
 
@@ -167,7 +170,7 @@ class FlywheelDrawing:
             machine.delta,
             self.second.tolist() if self.by_mertsalov else (),
         )
-        return build(given, self.places)
+        return build_energy_mass(given, self.places)
 
     def _reaches(self) -> list[tuple[float, float]]:
         """Return the lowest and the highest ordinates of the rows of diagrams, mm, from below.

@@ -1,11 +1,4 @@
-"""The flywheel of a machine, exactly and by the textbook's ways (подбор маховика).
-
-With the speeds omega_max and omega_min of the wanted irregularity, k = omega²/2 of each, the whole
-kinetic energy keeps T0 + dT <= k_1·(J_f + J) and T0 + dT >= k_2·(J_f + J), and somewhere they are
-equal. So J_f·(k_1 - k_2) = max(dT - k_1·J) - min(dT - k_2·J): the tangents of Wittenbauer's
-energy-mass diagram with the slopes (1 ± delta/2)², which are exact; the usual 1 ± delta drops
-delta²/4 (Artobolevsky, Theory of mechanisms, ch. 19).
-"""
+"""The flywheel of a machine, exactly and by the textbook's ways, and its motor."""
 
 from __future__ import annotations
 
@@ -22,7 +15,6 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.errors import AssemblyError, Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.plans.forces.board import SCALE
-from planmethod.problem.load_records import Dynamics, Fixed, Load
 from planmethod.problem.machine_records import (
     ConstantMoment,
     FlywheelMethod,
@@ -31,8 +23,8 @@ from planmethod.problem.machine_records import (
     WeightSigns,
 )
 from planmethod.problem.model import Problem
-from planmethod.solved.course.curve import Piecewise, joined
-from planmethod.solved.course.motion import CycleMotion
+from planmethod.problem.records import Dynamics, Fixed, Load
+from planmethod.solved.cycle_motion import CycleMotion, Piecewise, joined
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.machine.reduced import Reduced, reduce, reduced_curves
 from planmethod.solved.reading import Memoizing, Reading, Reals, memoized
@@ -459,3 +451,44 @@ def turning_points(one: float, two: float, slope_1: float, slope_2: float) -> li
     b = 6.0 * (two - one) - 4.0 * slope_1 - 2.0 * slope_2
     found = np.roots([a, b, slope_1]) if a else np.array([-slope_1 / b])
     return [1.0, *(float(x.real) for x in found if abs(x.imag) < 1e-12 and 0.0 < x.real < 1.0)]
+
+
+RATED_KW = (
+    0.06, 0.09, 0.12, 0.18, 0.25, 0.37, 0.55, 0.75, 1.1, 1.5, 2.2, 3, 4, 5.5, 7.5, 11, 15, 18.5,
+    22, 30, 37, 45, 55, 75, 90, 110, 132, 160, 200, 250, 315,
+)  # fmt: skip
+"""Rated powers of asynchronous motors, kW."""
+
+
+class MachinePower(Struct, frozen=True):
+    """The power of a machine in its steady motion (мощность машины).
+
+    Attributes
+    ----------
+    at_crank : float, W
+        Mean power over the cycle: of the resistance where a motor drives the machine, of the
+        engine where it drives itself.
+    efficiency : float or None
+        Efficiency of the train between the motor and the crank; None if it is not given.
+    at_motor : float or None, W
+        Power of the motor; None if there is no train with an efficiency, and for an engine.
+    rated : float or None, W
+        Smallest power of the series that is not less; None if the series ends before.
+    """
+
+    at_crank: float
+    efficiency: float | None
+    at_motor: float | None
+    rated: float | None
+
+
+def machine_power(flywheel: Flywheel) -> MachinePower:
+    """Return the mean power of the cycle, P = A·n, and at the motor P/η, with the motor for it."""
+    at_crank = flywheel.work_per_cycle * flywheel.middle_speed / flywheel.cycle
+    geared = flywheel.problem.drive.gear_drive
+    efficiency = None if geared is None else geared.efficiency
+    if efficiency is None or flywheel.machine.constant is not ConstantMoment.DRIVING:
+        return MachinePower(at_crank, efficiency, None, None)
+    at_motor = at_crank / efficiency
+    rated = next((1000.0 * power for power in RATED_KW if 1000.0 * power >= at_motor), None)
+    return MachinePower(at_crank, efficiency, at_motor, rated)

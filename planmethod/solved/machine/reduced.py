@@ -13,11 +13,10 @@ from msgspec import Struct
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
-from planmethod.plans.forces.loads import Applied
-from planmethod.problem.load_records import Against, Couple, Interpolation, Load, Over, SizeTable
+from planmethod.plans.forces.polygons import Applied
 from planmethod.problem.machine_records import Machine, WeightSigns
-from planmethod.solved.course.curve import Piecewise, resolved
-from planmethod.solved.course.motion import CycleMotion, MotionState
+from planmethod.problem.records import Against, Couple, Interpolation, Load, Over, SizeTable
+from planmethod.solved.cycle_motion import CycleMotion, MotionState, Piecewise, resolved
 from planmethod.solved.forces.loads import MotionValues, external
 from planmethod.solved.reading import Reals
 

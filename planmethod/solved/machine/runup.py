@@ -17,7 +17,7 @@ from typing import TypeAlias
 import numpy as np
 from msgspec import Struct
 
-from planmethod.solved.course.curve import joined
+from planmethod.solved.cycle_motion import joined
 from planmethod.solved.machine.flywheel import Flywheel, hermite, turning_points
 from planmethod.solved.reading import Memoizing, Reals, memoized
 

@@ -15,6 +15,7 @@ from planmethod.errors import AssemblyError
 from planmethod.languages import translate
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
+from planmethod.solved.conditioning import SPOILT, WARN_RELATIVE_ERROR, error_bound
 from planmethod.solved.failures import (
     Cause,
     Doubt,
@@ -22,10 +23,10 @@ from planmethod.solved.failures import (
     OmittedWarnings,
     Place,
     PositionError,
+    failing,
     other_failures,
     same_at,
 )
-from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Reals
 from planmethod.solved.selfcheck import (
     MAX_NAMED,
@@ -35,7 +36,6 @@ from planmethod.solved.selfcheck import (
     verify,
 )
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import SPOILT, WARN_RELATIVE_ERROR, error_bound
 
 Codes = npt.NDArray[np.int16]
 Places = npt.NDArray[np.intp]

@@ -19,14 +19,13 @@ from planmethod.construct.steps import Name, PointName
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.assembly_modes import reject_ambiguous
-from planmethod.solved.failures import Cause, Failure, Place
-from planmethod.solved.impossible import explain, failing
+from planmethod.solved.failures import Cause, Failure, Place, explain, failing
 from planmethod.solved.many.rows import SweepRow
-from planmethod.solved.many.varied import Case, CaseTape, SweepError, SweepTask, Varied
+from planmethod.solved.many.variants import Case, CaseTape, SweepError, SweepTask, Varied
 from planmethod.solved.reading import Reading
 
 if TYPE_CHECKING:
-    from planmethod.solved.many.loads import Motion
+    from planmethod.solved.many.rows import Motion
 
 
 class SweepTable(Named[Array]):

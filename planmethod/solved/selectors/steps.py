@@ -10,13 +10,11 @@ from msgspec import Struct
 
 from planmethod.construct.steps import LayOffLength, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
+from planmethod.plans.build import ZERO, TransferSteps
 from planmethod.plans.draft import Draft
-from planmethod.plans.legend import ZERO
-from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
-from planmethod.plans.motion.board import MotionBoard
-from planmethod.plans.segments import Segments
-from planmethod.plans.transfers import TransferSteps
-from planmethod.problem.selector import ANALOGUES, POLE, TRANSFERS, Selector
+from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind, Segments
+from planmethod.plans.motion.legs import MotionBoard
+from planmethod.problem.answers import ANALOGUES, POLE, TRANSFERS, Selector
 from planmethod.solved.solution import Solution
 
 PLANS: Mapping[str, PlanKind] = {

@@ -30,24 +30,27 @@ from planmethod.construct.steps import (
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.plans.model import PlanKind
-from planmethod.problem.cycle_records import CycleTask, Zero
-from planmethod.problem.load_records import TurningSense
+from planmethod.problem.machine_records import CycleTask, Zero
 from planmethod.problem.model import Problem
+from planmethod.problem.records import TurningSense
 from planmethod.solved.assembly_modes import drive_data
-from planmethod.solved.driving import near_piece
-from planmethod.solved.reading import Flags, Memoizing, Reading, Reals, memoized
+from planmethod.solved.reading import Flags, Memoizing, Reading, Reals, memoized, near_piece
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.output import Output, find_output, pressure_on
-from planmethod.solved.turn.roots import crossings, root, top
-from planmethod.solved.turn.strokes import (
+from planmethod.solved.turn.output import (
     LONGER,
     SENSES,
     TOLD,
+    Output,
     Strokes,
     by_loads,
+    crossings,
+    find_output,
     over_strokes,
     powers,
+    pressure_on,
+    root,
     sample_positions,
+    top,
 )
 
 TURN = 360.0

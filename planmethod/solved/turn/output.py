@@ -1,4 +1,4 @@
-"""The output of a mechanism (выходное звено): its path or angle, and the pressure angle on it."""
+"""The output of a mechanism: its path or angle, working stroke, pressure angle; roots."""
 
 from __future__ import annotations
 
@@ -6,15 +6,229 @@ from collections.abc import Callable
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, ProblemError
 from planmethod.mechanism.groups import AssurGroup, OuterLeg
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import cis
-from planmethod.problem.model import Slide
-from planmethod.solved.reading import Complexes, Reading, Reals
+from planmethod.problem.machine_records import StrokeSense
+from planmethod.problem.model import Problem, Slide
+from planmethod.problem.records import Over, SizeTable
+from planmethod.solved.forces.loads import external, only_in_positions
+from planmethod.solved.reading import Complexes, Flags, Reading, Reals
 from planmethod.solved.solution import Solution
+
+Function = Callable[[Reals], Reals]
+"""From places, ndarray of shape (n,), to values of the same shape; NaN: there is none."""
+
+_PARTS = 32
+_ROUNDS = 11  # a quarter of a degree over 32^11 is less than the spacing of binary fractions
+_TOP_ROUNDS = 6  # near its top a smooth function is flat: more rounds would follow its rounding
+_VERTEX = 1 / 6  # share of the first bracket to both sides of a top where a parabola is laid
+
+
+def crossings(values: Reals) -> list[int]:
+    """Return the indices k between which and k + 1 a row of values changes its sign.
+
+    A zero counts with the value before it; a gap (NaN) is not a change.
+    """
+    found, last = [], 0.0
+    for k, value in enumerate(values):
+        if np.isnan(value):
+            last = 0.0
+        elif value != 0.0:
+            if last * value < 0.0:
+                found.append(k - 1)
+            last = np.sign(value)
+    return found
+
+
+def root(function: Function, low: float, high: float) -> float:
+    """Return the place where a function changes its sign between two places of different signs.
+
+    NaN counts with the sign at ``low``: the change is at the edge of the function's domain.
+    """
+    sign = np.sign(function(np.array([high]))[0])
+    if not sign:
+        return high
+    for _ in range(_ROUNDS):
+        places = np.linspace(low, high, _PARTS + 1)
+        there = np.flatnonzero(np.sign(function(places)) == sign)
+        k = max(int(there[0]), 1) if there.size else _PARTS
+        low, high = float(places[k - 1]), float(places[k])
+        if abs(high - low) <= 4 * np.spacing(abs(high)):
+            break
+    ends = np.array([low, high])
+    one, two = np.abs(function(ends))
+    return low if one <= two else high
+
+
+def top(
+    function: Function, low: float, high: float, *, samples: int = _PARTS
+) -> tuple[float, float]:
+    """Return the place and the size of the greatest value between two places.
+
+    The interval is first divided into ``samples`` parts: enough that one of them holds the
+    greatest.
+    """
+
+    def one(places: Reals) -> Reals:
+        return function(places.ravel()).reshape(places.shape)
+
+    at, size = tops(one, np.array([low]), np.array([high]), samples=samples)
+    return float(at[0]), float(size[0])
+
+
+def tops(
+    function: Function, low: Reals, high: Reals, *, samples: int = _PARTS
+) -> tuple[Reals, Reals]:
+    """Return the same for several pairs of places, which are processed together.
+
+    Parameters
+    ----------
+    function : callable
+        From places, ndarray of shape (m, k), a row for each pair, to values of that shape.
+    low, high : ndarray of shape (m,)
+
+    Returns
+    -------
+    places, sizes : ndarray of shape (m,)
+    """
+    row, vertex = np.arange(len(low)), _VERTEX * 2 * (high - low) / samples
+    for parts in (samples, *[_PARTS] * (_TOP_ROUNDS - 1)):
+        places = np.linspace(low, high, parts + 1, axis=-1)
+        values = np.nan_to_num(function(places), nan=-np.inf)
+        k = np.argmax(values, axis=-1)
+        at, size = places[row, k], values[row, k]
+        low, high = places[row, np.maximum(k - 1, 0)], places[row, np.minimum(k + 1, parts)]
+    # Within rounding of its value the place of a smooth top is found from its surroundings.
+    before, here, after = function(np.stack([at - vertex, at, at + vertex], axis=-1)).T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = before - 2 * here + after
+        off = np.where(bend < 0, vertex * (before - after) / (2 * bend), 0.0)
+    inside = np.isfinite(off) & (np.abs(off) < vertex)
+    moved = at + np.where(inside, off, 0.0)
+    there = function(moved[:, np.newaxis])[:, 0]
+    taken = inside & (there >= size - 1e-12)
+    return np.where(taken, moved, at), np.where(taken, np.maximum(there, size), size)
+
+
+SAMPLES = 720
+"""Number of positions of a turn over which the work of a stroke is summed."""
+
+EQUAL_WORK_FRACTION = 1e-3
+"""Fraction of the larger work below which the difference of the strokes is ignored."""
+
+COUNTS = 0.05
+"""Fraction of the working stroke's work from which a load is named as deciding."""
+
+LONGER, TOLD = "longer stroke", "[cycle] working"
+"""Criteria of the working stroke if no load decides."""
+
+SENSES = {
+    StrokeSense.UP: 1j,
+    StrokeSense.DOWN: -1j,
+    StrokeSense.LEFT: -1 + 0j,
+    StrokeSense.RIGHT: 1 + 0j,
+}
+"""Unit vector of each sense of a point's motion."""
+
+
+class Strokes(Struct, frozen=True):
+    """Both strokes of an output (рабочий и холостой ход).
+
+    Attributes
+    ----------
+    working_deg, idle_deg : float, degrees
+        Of the crank.
+    K_v : float or None
+        Ratio of the longer stroke to the shorter, 1 or more; None where the output comes to an end
+        of its stroke more than once.
+    by : str
+        Criterion of the working stroke: ``load P``, ``longer stroke`` or ``[cycle] working``.
+    start_deg : float, degrees
+        Driver position where the working stroke starts.
+    """
+
+    working_deg: float
+    idle_deg: float
+    K_v: float | None
+    by: str
+    start_deg: float
+
+
+def powers(solution: Solution, start: float, positions: Reals) -> dict[str, Reals]:
+    """Return the power of the loads on driven links, W, shape (n,), by name.
+
+    Parameters
+    ----------
+    start : float, degrees
+        Position 0 of the cycle, before it is determined.
+    positions : ndarray of shape (n,)
+    """
+    problem = solution.problem
+    dynamics = problem.dynamics
+    if dynamics is None or not problem.drive.rate:
+        return {}
+    counted = replace(problem, numbered=problem.numbered or (start,))
+    moved = Solution(counted, positions=positions.tolist(), construction=solution.construction)
+    found: dict[str, Reals] = {}
+    for link in problem.mechanism.links:
+        if link == problem.drive.link:
+            continue
+        for one in external(moved, dynamics, link):
+            power = one.couple * moved.links[link].omega
+            if one.point is not None:
+                velocity = moved.points[one.point].velocity
+                power = power + (one.force * velocity.conjugate()).real
+            found[one.name] = np.nan_to_num(power)
+    return found
+
+
+def sample_positions(problem: Problem, start: float, turns: int) -> Reals:
+    """Return the equally spaced positions of the sum of work; none where it is not known.
+
+    Loads that are known in the positions of the file only are summed over the numbered ones.
+    """
+    dynamics = problem.dynamics
+    if dynamics is None or not dynamics.loads:
+        return np.zeros(0)
+    if only_in_positions(dynamics):
+        own = problem.numbered if problem.numbered == problem.drive.positions else ()
+        return np.asarray(own, dtype=float)
+    return start + 360.0 * turns * (np.arange(SAMPLES * turns) + 0.5) / (SAMPLES * turns)
+
+
+def over_strokes(problem: Problem) -> bool:
+    """Return whether a load is given over the strokes of the cycle, as an indicator diagram."""
+    loads = () if problem.dynamics is None else problem.dynamics.loads
+    sizes = (load.size for load in loads)
+    return any(isinstance(size, SizeTable) and size.over is Over.STROKES for size in sizes)
+
+
+def by_loads(load_powers: dict[str, Reals], first: Flags) -> tuple[bool, str] | None:
+    """Return whether the first stroke works, and the deciding loads; None if none decides.
+
+    Parameters
+    ----------
+    load_powers : dict of str to ndarray of shape (n,)
+        Power of every load in even positions.
+    first : ndarray of bool, shape (n,)
+        Which of them are of the first stroke.
+    """
+    works = {name: np.array([power[first].sum(), power[~first].sum()])
+             for name, power in load_powers.items()}  # fmt: skip
+    both = sum(works.values(), np.zeros(2))
+    if abs(both[0] - both[1]) <= EQUAL_WORK_FRACTION * float(np.max(np.abs(both))):
+        return None
+    sign = -1.0 if both.sum() < 0.0 else 1.0
+    stroke = int(np.argmax(sign * both))
+    least = COUNTS * abs(both[stroke])
+    names = [name for name, work in works.items() if sign * work[stroke] > least]
+    return stroke == 0, f"load{'s' if len(names) > 1 else ''} {', '.join(names)}"
+
 
 Pressure = Callable[[Reading], Reals]
 """From a reading to the pressure angle, degrees from 0 to 90, ndarray of shape (n,)."""

@@ -15,15 +15,15 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, Fault, PlanMethodError, ProblemError
 from planmethod.languages import translate
-from planmethod.problem.cycle_records import Zero
 from planmethod.problem.keys import EXTREMES, GOING
+from planmethod.problem.machine_records import Zero
 from planmethod.problem.model import OutputPositionKind, OutputPositions, Problem
 from planmethod.problem.names import UNITS, format_length, split_pair
 from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import SAMPLES, TURN, CrankCycle, Extreme
-from planmethod.solved.turn.roots import crossings, root, tops
+from planmethod.solved.turn.output import crossings, root, tops
 
 _TRIES = 36  # positions of a turn in which it is tried how the groups close
 _SLIDER_TRIES = 120

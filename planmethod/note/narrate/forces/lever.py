@@ -7,17 +7,15 @@ from math import isfinite
 
 from msgspec import Struct
 
-from planmethod.note.compared import percent_text
-from planmethod.note.force_series import lever_beside_plans
+from planmethod.note.compared import percent_text, sigma_text
 from planmethod.note.formula import fraction
-from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, signed_sum
-from planmethod.note.narrate.forces.resultants import force_symbol
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol, force_symbol, signed_sum
+from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.narrate.statement import point_name
 from planmethod.note.numbers import MINUS, decimals_of
-from planmethod.note.rounding import sigma_text
+from planmethod.note.series import lever_beside_plans
 from planmethod.plans.model import PlanKind
-from planmethod.solved.forces.lever import LeverCouple, LeverReading, LeverSegment, LeverShift
+from planmethod.solved.forces.reading import LeverCouple, LeverReading, LeverSegment, LeverShift
 
 
 class PairText(Struct, frozen=True):

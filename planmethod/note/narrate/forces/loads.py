@@ -1,20 +1,235 @@
-"""The sentences of the loads of a position: weights, inertia, external forces (нагрузки)."""
-
-# no messages: mistakes in a program
+"""The loads of a position and friction in sentences: weights, inertia, circles (нагрузки)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 
-from planmethod.construct.steps import Compute, NumberName
-from planmethod.note.formula import fraction
-from planmethod.note.narrate.forces.common import ForceContext, closed
-from planmethod.note.narrate.forces.resultants import shift_symbol
-from planmethod.note.narrate.scales import scale_inscription
+import numpy as np
+from msgspec.structs import replace
+
+from planmethod.construct.steps import Compute, Name, NumberName, Step
+from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.model import FRAME
+from planmethod.note.document import (
+    Equation,
+    Formula,
+    Paragraph,
+    Table,
+    computed_text,
+    input_text,
+    table_of_columns,
+)
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.forces.statement import friction_facts
+from planmethod.note.narrate.naming import Directed, Formulas, Names, scale_inscription, term_of
+from planmethod.note.narrate.statement import point_name
+from planmethod.note.numbers import MINUS
+from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.board import GivenLoad
-from planmethod.plans.forces.loads import Applied, LoadKind, Shift
-from planmethod.plans.model import PlanKind
-from planmethod.problem.load_records import Against, Mass
+from planmethod.plans.forces.polygons import (
+    Applied,
+    Balance,
+    Edge,
+    LoadKind,
+    Shift,
+    reaction_symbol,
+)
+from planmethod.plans.model import KnownParts, PlanKind
+from planmethod.problem.records import Against, BearingSection, Mass
+from planmethod.solved.cycle import cycle_efficiency
+from planmethod.solved.forces.friction import FrictionPair, friction_of
+from planmethod.solved.forces.loads import Hindrance, UnshiftedInertia, farthest
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.forces.statics import JointForce, Statics
+from planmethod.solved.solution import Solution
+
+
+def shift_symbol(link: str) -> str:
+    """Return the letter of a shift in rich text: ``h_{2}``."""
+    return f"h_{{{link}}}"
+
+
+def force_symbol(link: str) -> str:
+    """Return the letter of a link's force of inertia in rich text: ``Φ_{2}``."""
+    return f"Φ_{{{link}}}"
+
+
+def shift_lines(statics: Statics, texts: MessageTable, index: int | None = None) -> list[str]:
+    """Return where the shifted forces act, as rich text; in one position with its exact h."""
+    lines = []
+    for shift in statics.board.shifts.values():
+        phrase = texts.resultant_shift.format(
+            force=force_symbol(shift.link), point=shift.letter, couple=shift.moment.name
+        )
+        if index is not None:
+            length = abs(float(statics.si.number(shift.length)[index]))
+            unit = texts["units"]["m"]
+            phrase += f": {shift_symbol(shift.link)} = {input_text(length, texts, 4)} {unit}"
+        lines.append(f"{phrase}.")
+    return lines
+
+
+def unshifted_lines(statics: Statics, texts: MessageTable) -> list[str]:
+    """Return which links keep the couple, and why, as rich text; the same for all positions."""
+    return [_unshifted_line(statics, one, texts) for one in statics.unshifted]
+
+
+def _unshifted_line(statics: Statics, one: UnshiftedInertia, texts: MessageTable) -> str:
+    text = {
+        Hindrance.NO_FORCE: texts.resultant_no_force,
+        Hindrance.FAINT: texts.resultant_faint,
+        Hindrance.TOO_LONG: texts.resultant_far,
+    }[one.hindrance]
+    return text.format(
+        link=one.link,
+        force=force_symbol(one.link),
+        couple=one.moment.name,
+        shift=shift_symbol(one.link),
+        value=input_text(one.reach, texts, 4),
+        limit=input_text(farthest(statics.solution.problem), texts, 4),
+    )
+
+
+QUARTERS = {0.0: "way_right", 90.0: "way_up", 180.0: "way_left", 270.0: "way_down"}
+STRAIGHT = 1e-6
+"""Degrees by which a direction may differ from the vertical or horizontal that it is called."""
+
+
+class ForceContext:
+    """Context shared by the narrators of the force analysis: a reading, names, a language.
+
+    Given values and those of tables are exact; all others are read by hand: arms measured with the
+    ruler, forces read on one plan and carried over into the next.
+    """
+
+    def __init__(self, reading: ForceReading, formulas: Formulas) -> None:
+        self.reading, self.solution, self.formulas = reading, reading.solution, formulas
+        self.names: Names = formulas.names
+        self.note_texts, self.language, self.notation = (
+            formulas.texts,
+            formulas.language,
+            formulas.notation,
+        )
+        self.texts, self.units = self.language.forces, self.notation.units
+        self.computed, self.short, self.measured = (
+            self.notation.computed,
+            self.notation.short,
+            self.notation.measured,
+        )
+        self.symbol = self.notation.symbol
+        self.step: dict[Name, Step] = {s.out: s for s in reading.statics.program.steps}
+
+    def sense(self, value: float) -> str:
+        """Return the sense of a moment."""
+        return self.note_texts.ccw if value > 0 else self.note_texts.cw
+
+    def exactly(self, value: float) -> str:
+        """Return the exact value in brackets."""
+        return self.formulas.exactly(abs(value))
+
+    def scaled(self, text: str, per_mm: float, *, back: bool = False) -> str:
+        """Return millimetres times the scale of their drawing, or over it: ``70,0·250``.
+
+        ``back``: convert to millimetres there.
+        """
+        is_inverse = self.names.is_inverse_scale()
+        scale = self.short(1.0 / per_mm if is_inverse else per_mm)
+        return f"{text}·{scale}" if is_inverse is back else fraction(text, scale)
+
+    def on_drawing(self, text: str) -> str:
+        """Return millimetres of the position plan as metres."""
+        return self.scaled(text, self.formulas.per_mm(PlanKind.POSITION))
+
+    def direction_phrase(self, vector: complex) -> str:
+        """Return the phrase for the direction of a vector."""
+        angle = float(np.degrees(np.angle(vector))) % 360.0
+        for quarter, phrase in QUARTERS.items():
+            if abs((angle - quarter + 180.0) % 360.0 - 180.0) < STRAIGHT:
+                return str(getattr(self.texts, phrase))
+        return self.texts.way_angle.format(angle=self.short(angle, 4))
+
+    def base(self, edge: Edge) -> str:
+        """Return the line that defines the direction of a force: ``BC`` of ``∥ BC``."""
+        assert edge.direction is not None
+        return self.names.base(edge.direction)
+
+
+def balance_equation(balance: Balance, context: ForceContext, directed: Directed) -> Equation:
+    """Return the sum of the forces on a link or a group, without known ones that are zero."""
+    terms = (
+        term_of(replace(edge, symbol=context.symbol(edge.symbol)), directed)
+        for edge in balance.edges
+        if edge.known is not KnownParts.BOTH or not context.reading.is_negligible(edge)
+    )
+    return Equation(tuple(terms), name=f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}")
+
+
+def lettered(reading: ForceReading, language: Language) -> ForceContext:
+    """Return the shared context of the narrators for a sheet."""
+    names = Names(reading.solution, language.note, on_sheet=True)
+    return ForceContext(reading, Formulas(reading.solution, names, reading.index))
+
+
+def closed(lines: Sequence[str]) -> list[str]:
+    """Return the parts of a list with semicolons between them and a full stop at the end."""
+    return [*(f"{line};" for line in lines[:-1]), *(f"{line}." for line in lines[-1:])]
+
+
+def arm_symbol(symbol: str) -> str:
+    """Return the letter of a force's arm: ``h_{G2}`` of ``G_{2}``."""
+    return f"h_{{{re.sub(r'[_^{},]', '', symbol)}}}"
+
+
+def signed_sum(terms: Sequence[tuple[float, str]]) -> str:
+    """Return terms with their signs; a positive one first, if there is any."""
+    ordered = sorted(terms, key=lambda term: term[0] < 0)
+    text = ""
+    for value, term in ordered:
+        sign = MINUS if value < 0 else "+"
+        text += f" {sign} {term}" if text else (f"{MINUS}{term}" if value < 0 else term)
+    return text
+
+
+def bearing_text(
+    solution: Solution, joint: JointForce, shared: BearingSection, force: float, texts: MessageTable
+) -> Rich:
+    """Return the load of each bearing from a reaction, N, with numbers."""
+    called, z = solution.problem.mechanism.called, shared.plane
+    (first, second), parts = shared.at, []
+    symbol = reaction_symbol(called(joint.on), called(joint.by))
+    length = input_text(abs(second - first), texts)
+    for primes, share, arm in zip(
+        ("'", "''"), shared.load_fractions, (abs(second - z), abs(z - first)), strict=True
+    ):
+        name = reaction_symbol(called(joint.on), called(joint.by), letter=f"F^{{{primes}}}")
+        numbers = fraction(f"{computed_text(force, texts)}·{input_text(arm, texts)}", length)
+        size = f"{computed_text(abs(share) * force, texts)} {texts['units']['N']}"
+        back = texts.bearing_back.format(symbol=symbol) if share < 0 else ""
+        parts.append(f"{name} = {numbers} = {size}{back}")
+    return texts.bearings.format(
+        joint=point_name(joint.joint), symbol=symbol, first=parts[0], second=parts[1]
+    )
+
+
+def redundant(links: int) -> int:
+    """Return q of a group of n links whose pairs have one freedom each; 0 for a driver.
+
+    Across the plane a link has three equations, and a pair three unknowns: the force along the axis
+    of its hinge and two moments. A group of n links has 3n/2 pairs.
+    """
+    return 3 * links // 2 if links > 1 else 0
+
+
+def undetermined(groups: list[AssurGroup], texts: MessageTable) -> Rich:
+    """Describe the reaction components in the groups that statics leaves undetermined."""
+    named = ", ".join("–".join(group.links) for group in groups)
+    n = len(groups[0].links)  # dyads: what else is there has no force plans
+    template = texts.undetermined if len(groups) > 1 else texts.undetermined_one
+    return template.format(groups=named, equations=3 * n, unknowns=3 * (3 * n // 2), q=redundant(n))
+
+
+# no messages: mistakes in a program
 
 
 class LoadNarrator:
@@ -196,3 +411,201 @@ class LoadNarrator:
         is_against = (force * velocity.conjugate()).real < 0
         template = self.texts.against if is_against else self.texts.along
         return template.format(point=one.point)
+
+
+def headed(head: str) -> str:
+    """Return a head of a table with a capital, if it is a word."""
+    return head if head.startswith(("ρ", "φ")) else head[:1].upper() + head[1:]
+
+
+class FrictionNarrator:
+    """Narrates the friction of one position.
+
+    Parameters
+    ----------
+    context : ForceContext
+        Context of the forces without friction.
+    sizes : bool
+        Give the magnitude of the balancing force or moment, as equations beside it do, as long as
+        friction does not reverse it; else give it with its sign.
+    """
+
+    def __init__(self, context: ForceContext, *, sizes: bool = False) -> None:
+        self.sizes = sizes
+        self.context, self.index = context, context.reading.index
+        self.friction = friction_of(context.solution)
+        self.texts, self.notation = context.language.friction, context.notation
+        self.computed, self.units, self.symbol = context.computed, context.units, context.symbol
+
+    def _per_cent(self, ratio: float) -> Rich:
+        return f"{self.context.short(100.0 * ratio, 2)} %"
+
+    # Pairs -----------------------------------------------------------------------------------
+
+    def _between(self, pair: FrictionPair) -> str:
+        between = "," if len(pair.on) > 1 or len(pair.by) > 1 else ""
+        return f"{pair.on}{between}{pair.frame if pair.by == FRAME else pair.by}"
+
+    def _force(self, pair: FrictionPair) -> Rich:
+        """Return the letter of the reaction without friction."""
+        return reaction_symbol(pair.on, pair.frame if pair.by == FRAME else pair.by)
+
+    def reach(self, pair: FrictionPair) -> Rich:
+        """Return the radius of the friction circle, or the angle of friction, with numbers."""
+        index, f = self._between(pair), self.context.short(pair.f)
+        if pair.slide is not None:
+            phi = self.computed(pair.phi)
+            arc, deg = self.texts.arctangent.format(), self.units["deg"]
+            return f"φ_{{{index}}} = {arc} f = {arc} {f} = {phi}{deg}"
+        rho, radius = self.computed(1e3 * pair.rho), self.context.short(1e3 * pair.radius)
+        return f"ρ_{{{index}}} = f'·r = {f}·{radius} = {rho} {self.units['mm']}"
+
+    def size(self, pair: FrictionPair) -> Rich:
+        """Return the friction of a pair, computed from the forces without friction."""
+        size = float(self.friction.rub(pair, self.friction.corrected)[self.index])
+        symbol, force = self.symbol(pair.symbol), self._force(pair)
+        letters, share = (
+            ("f", pair.f) if pair.slide is not None else (f"ρ_{{{self._between(pair)}}}", pair.rho)
+        )
+        contact = self.friction.statics.contacts.get(pair.number)
+        if contact is not None and contact.edges(self.index):
+            force = f"(F^{{'}}_{{{self._between(pair)}}} + F^{{''}}_{{{self._between(pair)}}})"
+        unit = self.units["N·m" if pair.slide is None else "N"]
+        numbers = f"{self.context.short(share)}·{self.computed(size / share)}"
+        return f"{symbol} = {letters}·{force} = {numbers} = {self.computed(size)} {unit}"
+
+    def pair(self, pair: FrictionPair) -> Rich:
+        """Return the sense of the relative motion and the effect of friction."""
+        said, words, i = self.texts, self.context.note_texts, self.index
+        rate, by = float(pair.rate[i]), pair.by
+        sliding = pair.slide is not None
+        frame, link = (said.on_frame, said.on_link) if sliding else (said.to_frame, said.to_link)
+        facts = {
+            "joint": point_name(pair.joint),
+            "reach": self.reach(pair),
+            "on": pair.on,
+            "by": frame if by == FRAME else link.format(link=by),
+            "size": self.size(pair),
+        }
+        if not pair.sense[i]:
+            return said.still.format(**facts)
+        if not sliding:
+            sense, back = (words.ccw, words.cw) if rate > 0 else (words.cw, words.ccw)
+            text = f"{self.computed(abs(rate))} {self.units['1/s']}"
+            return said.turning.format(sense=sense, back=back, rate=text, **facts)
+        ahead = complex(pair.direction[i]) * float(np.sign(rate))
+        text = f"{self.computed(abs(rate))} {self.units['m/s']}"
+        way, back = self.context.direction_phrase(ahead), self.context.direction_phrase(-ahead)
+        return said.sliding.format(sense=way, back=back, rate=text, **facts)
+
+    # Results ---------------------------------------------------------------------------------
+
+    def columns(self) -> list[list[Rich]]:
+        """Return the table of all pairs by columns: reactions thrice, and their friction."""
+        friction, i = self.friction, self.index
+        heads = self.context.language.friction["columns"]
+        columns: list[list[Rich]] = [[head] for head in heads]
+        for pair in friction.every:
+            sizes = [
+                abs(complex(friction.total(pair, forces)[i]))
+                for forces in (friction.without, friction.corrected, friction.converged)
+            ]
+            rubs = [
+                float(friction.rub(pair, forces)[i]) if pair.coefficient else np.nan
+                for forces in (friction.corrected, friction.converged)
+            ]
+            cells = [
+                point_name(pair.joint),
+                self._dashed(pair),
+                self.computed(1e3 * pair.rho) if pair.rho else "—",
+                self.computed(pair.phi) if pair.phi else "—",
+                *(self.computed(value) if np.isfinite(value) else "—" for value in (*sizes, *rubs)),
+            ]
+            for column, cell in zip(columns, cells, strict=True):
+                column.append(cell)
+        return columns
+
+    def table(self) -> Table:
+        """Return the table of the pairs."""
+        return table_of_columns(self.columns(), repeated=2)
+
+    def results(self) -> Iterator[Rich]:
+        """Return lines on the balancing load, the remaining correction, efficiency, locking."""
+        texts, friction, i = self.texts, self.friction, self.index
+        once, jammed = friction.corrected, bool(friction.jammed[i])
+        balancing = self.context.reading.balancing
+        unit = self.units[balancing.unit]
+        symbol = self.symbol(balancing.symbol)
+        three = friction.without, once, friction.converged
+        balances = [float(one.balance[i]) for one in three[: 2 if jammed else 3]]
+        if self.sizes and max(balances) < 0:
+            balances = [-value for value in balances]
+        told = [f"{self.computed(value)} {unit}" for value in balances]
+        facts = {"symbol": symbol, "without": told[0], "once": told[1]}
+        if jammed:
+            yield texts.balance_jammed.format(**facts)
+            yield texts.jams
+            return
+        yield texts.balance.format(converged=told[2], **facts)
+        change, reactions = float(friction.change[i]), float(friction.reaction_change[i])
+        if np.isfinite(change):
+            yield texts.change.format(
+                balance=self._per_cent(change), reactions=self._per_cent(reactions), symbol=symbol
+            )
+        eta = float(friction.efficiency[i])
+        if not np.isfinite(eta):
+            yield texts.no_power
+            return
+        powers = [float(one.power[i]) for one in (friction.without, friction.converged)]
+        ideal, real = (f"{self.computed(abs(power))}" for power in powers)
+        drives = bool(friction.drives[i])
+        loads = self.context.solution.problem.dynamics
+        power = "N" if loads and any(one.name == "P" for one in loads.loads) else "P"
+        letters = (f"{power}_{{0}}", power) if drives else (power, f"{power}_{{0}}")
+        numbers = (ideal, real) if drives else (self.computed(-powers[1]), ideal)
+        quotient = f"η = {fraction(*letters)} = {fraction(*numbers)} = {self.computed(eta)}"
+        yield (texts.efficiency if drives else texts.efficiency_back).format(eta=quotient)
+        if eta <= 0:
+            yield texts.locks
+
+    def cycle_lines(self) -> Iterator[Rich]:
+        """Yield the efficiency of the cycle, where the mechanism can move through it."""
+        found = cycle_efficiency(self.context.solution)
+        if found is None:
+            return
+        if found.locked:
+            first, last = (
+                f"{self.notation.crank_angle(at)}{self.units['deg']}" for at in found.locked
+            )
+            yield self.texts.turn_jams.format(first=first, last=last)
+            return
+        joule = self.units["J"]
+        drives, real = (
+            found.ideal > 0,
+            self.computed(found.real if found.ideal > 0 else -found.real),
+        )
+        if found.value is None:
+            yield self.texts.turn_idle.format(real=f"{self.computed(found.real)} {joule}")
+            return
+        letters = fraction(*(("A_{0}", "A") if drives else ("A", "A_{0}")))
+        ideal = self.computed(abs(found.ideal))
+        numbers = fraction(*((ideal, real) if drives else (real, ideal)))
+        yield self.texts.turn.format(
+            eta=f"η = {letters} = {numbers} = {self.computed(found.value)}"
+        )
+
+    def given_lines(self) -> list[Rich]:
+        """Return the coefficients and radii of the pairs, those alike once."""
+        return [fact.text for fact in friction_facts(self.friction.statics, self.context.language)]
+
+    def _dashed(self, pair: FrictionPair) -> str:
+        return f"{pair.on}–{pair.frame if pair.by == FRAME else pair.by}"
+
+    def nodes(self) -> Iterator[Paragraph | Formula]:
+        """Yield the text of a sheet beside its pictures."""
+        yield from map(Paragraph, self.results())
+        yield from map(Paragraph, self.cycle_lines())
+
+    def scaled(self, pair: FrictionPair) -> float:
+        """Return the radius of a friction circle on the position plan, mm."""
+        return pair.rho / self.context.solution.scales[PlanKind.POSITION].per_mm

@@ -10,13 +10,13 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.note.formula import fraction
-from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, closed, signed_sum
+from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol, closed, signed_sum
 from planmethod.note.narrate.statement import point_name
 from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force
 from planmethod.plans.forces.polygons import Component, CoupleOn, Edge, ForcePlan, Moments
 from planmethod.plans.model import Direction, PlanKind, Relation
-from planmethod.solved.forces.guides import Guided, guide_of
+from planmethod.solved.forces.reading import Guided, guide_of
 
 SIDES = ("right", "up", "left", "down")
 CANCELLED = 1e-9

@@ -9,20 +9,11 @@ from planmethod.note.document import GivenFact
 from planmethod.note.narrate.statement import NBSP, StatedNumbers, given_facts, point_name
 from planmethod.note.numbers import Notation, with_unit
 from planmethod.note.wording import Language
-from planmethod.plans.forces.loads import Applied, LoadKind
-from planmethod.plans.forces.polygons import ForcePlan, reaction_symbol
-from planmethod.problem.load_records import (
-    Against,
-    Couple,
-    Fixed,
-    Interpolation,
-    Load,
-    Over,
-    SizeTable,
-)
+from planmethod.plans.forces.polygons import Applied, ForcePlan, LoadKind, reaction_symbol
 from planmethod.problem.model import Problem
 from planmethod.problem.names import segment
 from planmethod.problem.placement import rotation
+from planmethod.problem.records import Against, Couple, Fixed, Interpolation, Load, Over, SizeTable
 from planmethod.solved.forces.friction import pair_data
 from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION, ForceReading
 from planmethod.solved.forces.statics import Statics, statics_of

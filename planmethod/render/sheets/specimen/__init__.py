@@ -12,8 +12,7 @@ from typing import TypeAlias
 
 from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Drawing
-from planmethod.render.sheets.specimen.lettering import lettering_sheet
-from planmethod.render.sheets.specimen.lines import lines_sheet
+from planmethod.render.sheets.specimen.lines import lettering_sheet, lines_sheet
 from planmethod.render.sheets.specimen.symbols import symbols_sheet
 
 Specimen: TypeAlias = Callable[[Mapping[str, str], Language], Drawing]

@@ -1,29 +1,41 @@
-"""Specimen of the lines (линии чертежа, GOST 2.303), format A3.
-
-Every line is drawn with its own pen; the lengths of its strokes are measured on its marks on the
-paper.
-"""
+"""Specimens of the lines (GOST 2.303) and of the lettering: every letter on its grid."""
 
 from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import accumulate
+from itertools import accumulate, islice
 from math import radians
 
 from msgspec import Struct
 
+from planmethod.note.formula import escape
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language
 from planmethod.render import symbols
-from planmethod.render.frame.frame import sheet_frame
-from planmethod.render.frame.furniture import Furniture
-from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
-from planmethod.render.ink.style import ARROW, PENS, S, stroke_lines
-from planmethod.render.layout.block import Align, fit_text, heading
-from planmethod.render.sheets.specimen.cells import Clause, SymbolCell, drawn_grid
+from planmethod.render.control.texts import GRID
+from planmethod.render.frame import Furniture, paper_format, sheet_frame
+from planmethod.render.ink.drawing import (
+    ARROW,
+    HEIGHTS,
+    PENS,
+    Arc,
+    Drawing,
+    Item,
+    Pen,
+    S,
+    Stroke,
+    Text,
+    stroke_lines,
+)
+from planmethod.render.ink.lettering import OutlineLettering, in_use
+from planmethod.render.ink.typeset import line_step, typeset
+from planmethod.render.layout.block import Align, Column, Lines, fit_text, heading
+from planmethod.render.layout.pack import EDGE
+from planmethod.render.layout.text_blocks import TableColumn, table_block
+from planmethod.render.sheets.specimen.symbols import Clause, SymbolCell, drawn_grid
 from planmethod.render.symbols import SIZES
-from planmethod.render.symbols.axes import (
+from planmethod.render.symbols.marks import (
     SMALL_CIRCLE,
     axis_line,
     centre_lines,
@@ -32,7 +44,7 @@ from planmethod.render.symbols.axes import (
     wavy_line,
 )
 
-PAPER = "A3"
+LINES_PAPER = "A3"
 SAMPLE = 74.0
 """Length of a sample, mm."""
 
@@ -81,7 +93,7 @@ def sample(kind: LineType, start: complex) -> list[Item]:
     return [Stroke((start, end), kind.pen, tag="sample")]
 
 
-def measured(items: Sequence[Item], notation: Notation) -> str:
+def measured_dashes(items: Sequence[Item], notation: Notation) -> str:
     """Return stroke and gap of a dashed sample, measured on its items; a dash if none."""
     (line,) = (item for item in items if isinstance(item, Stroke))
     pieces = stroke_lines(line)
@@ -101,7 +113,9 @@ def lines_sheet(fields: Mapping[str, str], language: Language) -> Drawing:
         "scale": "1:1",
         **fields,
     }
-    items, inner, *_ = sheet_frame(PAPER, texts, Furniture(graph_26=False, lang=language.lang))
+    items, inner, *_ = sheet_frame(
+        LINES_PAPER, texts, Furniture(graph_26=False, lang=language.lang)
+    )
     sheet = Drawing(420.0, 297.0, texts["title"], items)
     middle = (inner[0] + inner[2]) / 2
     head = heading(language.specimens.lines_head.format(s=length_text(S, language.notation)), 7.0)
@@ -151,7 +165,7 @@ def _table(corner: complex, language: Language) -> list[Item]:
         items += drawn
         fill_cell(language.specimens["line_names"][kind.name], 0, row)
         fill_cell(_width(kind.pen, language.notation), 2, row, "centre")
-        fill_cell(measured(drawn, language.notation), 3, row, "centre")
+        fill_cell(measured_dashes(drawn, language.notation), 3, row, "centre")
         fill_cell(language.specimens["line_uses"][kind.name], 4, row)
     return items
 
@@ -247,3 +261,141 @@ def _meanings() -> Iterator[SymbolCell]:
             *symbols.revolute(0j),
         ),
     )
+
+
+# Cyrillic letters: the letters themselves, one by one
+
+
+LETTERING_PAPER = "A2"
+HEIGHT = 14.0
+"""Height h of the letters on the grid, mm."""
+
+ALPHABETS = (
+    "АБВГДЕЁЖЗИЙКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯ",
+    "абвгдеёжзийклмнопрстуфхцчшщъыьэюя",
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789",
+    "abcdefghijklmnopqrstuvwxyzΓΔΘΛΞΠΣΦΨΩ",
+    "αβγδεζηθικλμνξοπρστυφχψω.,:;!?-–—+−±×·=",
+    "<>≤≥≈≠√∞∠⊥∥№→∅°′″()[]{}/%&«»∑∫∂∇²³ⁿ₁₂△",
+)
+"""Letters and signs that the lettering has, whatever the language of the sheet."""
+
+
+class Measured(Struct, frozen=True):
+    """A measure of the letters in parts of h: its sign, by the standard, on the ink."""
+
+    symbol: str
+    nominal: float
+    actual: float
+
+
+def measured_proportions(lettering: OutlineLettering) -> list[Measured]:
+    """Return the proportions of a lettering measured on its outlines (размеры шрифта)."""
+    kind = lettering.style.proportions
+
+    def ink(text: str) -> tuple[float, float, float, float]:
+        return lettering.ink(text, 1.0)
+
+    def wide(text: str) -> float:
+        # The lean of slanted letters is not part of their width.
+        left, low, right, high = ink(text)
+        return right - left - lettering.style.lean * (high - low - lettering.line)
+
+    gap = wide("HH") - 2 * wide("H")
+    words = wide("H H") - 2 * wide("H")
+    cap = kind.cap
+    return [
+        Measured("h", 1.0, ink("H")[3]),
+        Measured("c", kind.small / cap, ink("x")[3]),
+        Measured("a", kind.gap / cap, gap),
+        Measured("b", kind.line_step / cap, lettering.line_step),
+        Measured("e", kind.word_gap / cap, words),
+        Measured("d", 1.0 / cap, ink("−")[3] - ink("−")[1]),
+    ]
+
+
+def lettering_sheet(fields: Mapping[str, str], language: Language) -> Drawing:
+    """Draw the specimen of the lettering in use (образец шрифта).
+
+    ``fields`` are texts of the title block that outrank those of the specimen.
+    """
+    used, fmt = in_use(), paper_format(LETTERING_PAPER)
+    said = language.specimens
+    slope = said.slanted if used.style.slanted else said.upright
+    title = said.lettering.format(kind=said["kinds"][used.style.kind], slope=slope)
+    texts = {"title": title, "material": said.standard.format(number="2.304-81"), **fields}
+    drawing = Drawing(fmt.width, fmt.height, title)
+    items, inner, *_ = sheet_frame(fmt, texts, Furniture(graph_26=False, lang=language.lang))
+    drawing.extend(items)
+    left, top = inner[0] + EDGE, inner[3] - EDGE - 4.0
+    d = HEIGHT * used.line
+    step = used.style.proportions.line_step * d + 4 * d
+    low = top - HEIGHT
+    for row in ALPHABETS:
+        drawing.extend(_on_grid(row, complex(left, low), inner[2] - EDGE))
+        low -= step
+    heights = [height for height in HEIGHTS if 2.5 <= height <= 10.0]
+    samples = Column([_sample(said["samples"], height) for height in heights], gap=10.0)
+    drawing.extend(samples.place(complex(left, low + HEIGHT)))
+    table = _proportions(used, language)
+    drawing.extend(table.place(complex(inner[2] - EDGE - table.width, low + HEIGHT - 10.0)))
+    return drawing
+
+
+def _sample(texts: Sequence[str], height: float) -> Column:
+    """Return words and formulas of a sheet, their base lines a line step apart."""
+    lines = [typeset(text, height) for text in texts]
+    return Column([Lines(tuple(lines), line_step(height))])
+
+
+def _on_grid(row: str, start: complex, right: float) -> Iterator[Item]:
+    """Yield the letters of a row, each on its piece of the grid; the first ends at the margin."""
+    used = in_use()
+    kind = used.style.proportions
+    d = HEIGHT * used.line
+    room = right - start.real
+    widths = [used.width(char, HEIGHT) for char in row]
+    between = min(3.0 * d, (room - sum(widths)) / max(1, len(row) - 1))
+    x = start.real
+    for char, wide in zip(row, widths, strict=True):
+        at = complex(x, start.imag)
+        yield from _grid(at, wide, d, kind.cap, kind.tail)
+        yield Text(at, char, HEIGHT, label=f"{char}@{x:.1f},{start.imag:.1f}")
+        x += wide + between
+
+
+def _grid(at: complex, wide: float, d: float, cap: int, tail: int) -> Iterator[Item]:
+    """Yield the grid under a letter, whose step is the line thickness; it leans as the letter."""
+    used = in_use()
+    low, high = -tail * d, cap * d
+
+    def place(x: float, y: float) -> complex:
+        return at + complex(x + used.leaning(y, HEIGHT), y)
+
+    for k in range(round(wide / d) + 1):
+        yield Stroke((place(k * d, low), place(k * d, high)), Pen.PALE, tag=GRID)
+    for k in range(-tail, cap + 1):
+        pen = Pen.THIN if k in (0, cap) else Pen.PALE
+        yield Stroke((place(0.0, k * d), place(wide, k * d)), pen, tag=GRID)
+
+
+def _proportions(lettering: OutlineLettering, language: Language) -> Column:
+    """Return the table of proportions: by the standard, and measured on the letters, mm."""
+    measures = measured_proportions(lettering)
+    cap = lettering.style.proportions.cap
+    heights = list(islice((h for h in HEIGHTS if h >= 2.5), 5))
+    texts, number = language.specimens, language.notation.number
+    size, by_standard, found = texts["columns_measured"]
+    columns = [
+        TableColumn("", tuple(m.symbol for m in measures), min_width=8.0),
+        TableColumn(size, tuple(texts["measures"][m.symbol] for m in measures)),
+        TableColumn(by_standard, tuple(f"{round(m.nominal * cap)}/{cap} h" for m in measures)),
+        TableColumn(found, tuple(number(f"{m.actual * cap:.2f}") + f"/{cap} h" for m in measures)),
+    ]
+    columns += [
+        TableColumn(
+            f"h = {number(f'{h:g}')}", tuple(number(f"{m.actual * h:.2f}") for m in measures)
+        )
+        for h in heights
+    ]
+    return table_block(columns, 3.5, units="none", title=escape(texts.measured_title))

@@ -1,23 +1,265 @@
-"""Specimen of the scheme symbols (условные обозначения кинематических схем), format A2."""
+"""Specimen of the scheme symbols (условные обозначения кинематических схем)."""
 
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import radians
+from typing import NamedTuple
 
-from planmethod.note.wording import Language
+from msgspec import Struct
+
+from planmethod.note.wording import Language, MessageTable
 from planmethod.render import symbols
-from planmethod.render.frame.frame import sheet_frame
-from planmethod.render.frame.furniture import Furniture
-from planmethod.render.ink.drawing import Bounds, Drawing, Item, Stroke
-from planmethod.render.ink.style import ARROW
+from planmethod.render.frame import Furniture, sheet_frame
+from planmethod.render.ink.drawing import ARROW, Bounds, Drawing, Item, Pen, Stroke
+from planmethod.render.ink.typeset import line_step, typeset
+from planmethod.render.labels import Label
 from planmethod.render.layout.block import Column, heading, paragraph
-from planmethod.render.pictures.welds import BlockOutline, welded
-from planmethod.render.sheets.specimen.cells import Clause, SymbolCell, drawn_grid, letter, scheme
-from planmethod.render.sheets.specimen.wheels import GEARS, wheel_cells
-from planmethod.render.symbols import SIZES
-from planmethod.render.symbols.axes import axis_line
+from planmethod.render.pictures.lettered import lettered
+from planmethod.render.pictures.supports import BlockOutline, welded
+from planmethod.render.symbols import (
+    SIZES,
+    bearing,
+    before_links,
+    guide_plates,
+    link,
+    revolute,
+)
+from planmethod.render.symbols.elements import (
+    bell_profile,
+    cam,
+    carrier_profile,
+    mesh_front,
+    rack_front,
+    rest_on_cam,
+    ring_profile,
+    roller,
+    wheel_front,
+    wheel_profile,
+)
+from planmethod.render.symbols.marks import axis_line
+
+NUMBER, NAME, CLAUSE = 2.5, 3.5, 2.5
+"""Heights of the letters of a cell, mm."""
+
+EDGE = 3.0
+"""White between the lines of a cell and its contents, mm."""
+
+
+class Clause(NamedTuple):
+    """Clause of a GOST; only numbers that were seen in it are given (пункт стандарта).
+
+    ``paragraph`` is a, b, c for the first ones.
+    """
+
+    number: str
+    item: str = ""
+    paragraph: str = ""
+
+    def describe(self, texts: MessageTable) -> str:
+        """Return the standard and its clause in a language."""
+        if not self.item:
+            return texts.standard.format(number=self.number)
+        item = self.item
+        if self.paragraph:
+            item += f", {texts.clause_letters['abc'.index(self.paragraph)]}"
+        return texts.clause.format(number=self.number, item=item)
+
+
+class SymbolCell(Struct, frozen=True):
+    """One symbol with its letters (клетка).
+
+    Attributes
+    ----------
+    name : str
+        Key of its name in ``cells`` of a language's ``specimens``.
+    clause : Clause or None
+        The clause of the standard that it illustrates; None for practice of the course.
+    items : tuple of Item
+        The symbol in its own coordinates, mm, as drawn on a scheme.
+    labels : tuple of Label
+        Its letters, placed around it.
+    size : str
+        Size in its name, mm.
+    """
+
+    name: str
+    clause: Clause | None
+    items: tuple[Item, ...]
+    labels: tuple[Label, ...] = ()
+    size: str = ""
+
+
+def letter(text: str, at: complex, prefer: complex = 1 + 1j, *, gap: float = 3.0) -> Label:
+    """Return the letter of a point or the number of a link, 3.5 mm."""
+    return Label(typeset(text, NAME), at, prefer=prefer, gap=gap)
+
+
+def scheme(*parts: list[Item]) -> tuple[Item, ...]:
+    """Return parts in order; hatching gives way to links."""
+    return tuple(before_links([item for part in parts for item in part]))
+
+
+def drawn_cell(cell: SymbolCell, number: int, box: Bounds, texts: MessageTable) -> list[Item]:
+    """Return a cell in its box: number, picture in the middle, name and clause below it."""
+    left, low, right, high = box
+    middle, inner = (left + right) / 2, right - left - 2 * EDGE
+    # Base lines are those of the grid, regardless of descenders.
+    base = low + EDGE + 0.3 * CLAUSE
+    name = texts["cells"][cell.name].format(size=cell.size)
+    clause = texts.course if cell.clause is None else cell.clause.describe(texts)
+    items = list(typeset(clause, CLAUSE).at(complex(middle, base), anchor="centre"))
+    base += CLAUSE + 2.5
+    for line in reversed(paragraph(name, NAME, inner).inscriptions):
+        items += line.at(complex(middle, base), anchor="centre")
+        base += line_step(NAME)
+    picture = lettered(cell.items, cell.labels)
+    room = (base - line_step(NAME) + NAME + EDGE, high - EDGE)
+    corner = complex(middle - picture.width / 2, (sum(room) + picture.height) / 2)
+    items += picture.place(corner)
+    mark = typeset(str(number), NUMBER)
+    return items + mark.at(complex(left + 1.5, high - 1.5 - NUMBER))
+
+
+def drawn_grid(
+    cells: Sequence[SymbolCell],
+    corner: complex,
+    texts: MessageTable,
+    *,
+    columns: int,
+    width: float,
+    height: float,
+) -> list[Item]:
+    """Return cells in rows from an upper left corner, with the lines between them, mm."""
+    items: list[Item] = []
+    sides: dict[tuple[complex, complex], None] = {}
+    for k, cell in enumerate(cells):
+        row, column = divmod(k, columns)
+        left, high = corner.real + column * width, corner.imag - row * height
+        box = (left, high - height, left + width, high)
+        items += drawn_cell(cell, k + 1, box, texts)
+        sides |= dict.fromkeys(_sides(box))
+    return [*(Stroke(side, Pen.THIN, tag="grid") for side in sides), *items]
+
+
+def _sides(box: Bounds) -> Iterable[tuple[complex, complex]]:
+    x0, y0, x1, y1 = (round(value, 6) for value in box)
+    yield complex(x0, y0), complex(x1, y0)
+    yield complex(x0, y1), complex(x1, y1)
+    yield complex(x0, y0), complex(x0, y1)
+    yield complex(x1, y0), complex(x1, y1)
+
+
+GEARS = Clause("2.770")
+
+
+def wheel_cells() -> Iterator[SymbolCell]:
+    """Yield wheels from the front and from the side, racks and cams."""
+    yield from _front()
+    yield from _side()
+    yield _cam()
+
+
+def _front() -> Iterator[SymbolCell]:
+    second = 22.5 + 0j
+    yield SymbolCell(
+        "mesh_front",
+        GEARS,
+        scheme(mesh_front(0j, 9.0, second), revolute(0j), revolute(second)),
+        (
+            letter("P", 9 + 0j, -1 + 1j, gap=1.2),
+            letter("1", -6 + 6j, -1 + 1j),
+            letter("2", 33 + 9j),
+        ),
+    )
+    planet = 9j
+    yield SymbolCell(
+        "ring_front",
+        GEARS,
+        scheme(mesh_front(planet, 9.5, 0j, internal=True), revolute(planet), revolute(0j)),
+        (letter("P", 18.5j, 1 - 2j, gap=2.4),),
+    )
+    yield SymbolCell(
+        "rack",
+        Clause("2.770", "38"),
+        scheme(
+            rack_front(-24 + 0j, 24 + 0j),
+            wheel_front(13j, 13.0, touch=0j),
+            revolute(13j),
+        ),
+        (letter("P", 0j, 1 + 1j, gap=1.4),),
+    )
+
+
+def _side() -> Iterator[SymbolCell]:
+    yield SymbolCell(
+        "mesh_side",
+        GEARS,
+        scheme(
+            link(-16 + 0j, 10 + 0j, tag="link 1"),
+            link(-10 + 20j, 16 + 20j, tag="link 2"),
+            wheel_profile(0j, 8.0, tag="link 1"),
+            wheel_profile(20j, 12.0, tag="link 2"),
+            bearing(-10 + 0j),
+            bearing(10 + 20j),
+        ),
+        (letter("1", -6j, 1), letter("2", 27j, 1)),
+    )
+    yield SymbolCell(
+        "ring_side",
+        GEARS,
+        scheme(
+            link(-28 + 0j, -8 + 0j, tag="link 2"),
+            link(-5 + 12j, 20 + 12j, tag="link 1"),
+            wheel_profile(12j, 8.0, tag="link 1"),
+            bell_profile(0j, 20.0, web=-8.0, tag="link 2"),
+            bearing(-18 + 0j),
+            bearing(12 + 12j),
+        ),
+        (letter("1", 7j, 1, gap=1.4), letter("2", -8 + 12j, -1, gap=1.4)),
+    )
+    sun, planet, ring = 8.0, 6.0, 20.0
+    pin = 1j * (sun + planet)
+    yield SymbolCell(
+        "planetary",
+        GEARS,
+        scheme(
+            axis_line(0j, 12 + 0j),
+            link(-22 + 0j, 0j, tag="link 1"),
+            wheel_profile(0j, sun, tag="link 1"),
+            wheel_profile(pin, planet, loose=True, tag="link 2"),
+            ring_profile(0j, ring, support=4.0),
+            carrier_profile(pin, 0j, reach=12.0, tag="link H"),
+            link(12 + 0j, 30 + 0j, tag="link H"),
+            bearing(-14 + 0j),
+            bearing(22 + 0j),
+        ),
+        (
+            letter("1", 5j, -1, gap=1.4),
+            letter("2", pin + 4j, -1, gap=1.4),
+            letter("3", 22j, -1, gap=1.4),
+            letter("H", 12 + 8j, 1, gap=1.4),
+        ),
+    )
+
+
+def _cam() -> SymbolCell:
+    nose, base, lift = 0.95, 8.0, 6.0
+    at = rest_on_cam(0j, 1j, base=base, lift=lift, nose=nose)
+    return SymbolCell(
+        "cam",
+        GEARS,
+        scheme(
+            link(at, at + 20j, tag="link 2"),
+            guide_plates(at + 12j, angle=90, length=8.0, width=3.2),
+            cam(0j, base=base, lift=lift, nose=nose, tag="link 1"),
+            revolute(0j),
+            roller(at),
+        ),
+        (letter("1", 8 - 2j, 1, gap=1.4), letter("2", at + 19j, 1, gap=1.4)),
+    )
+
 
 PAPER = "A2"
 CELLS_PER_ROW, WIDTH, HEIGHT = 7, 79.0, 73.0

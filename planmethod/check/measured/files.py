@@ -1,0 +1,354 @@
+"""Drawings as files: DXF of CAD programs, SVG sheets of planmethod (чтение чертежей)."""
+
+from __future__ import annotations
+
+import logging
+import math
+import re
+from cmath import exp, phase, pi
+from collections.abc import Iterator
+from importlib.util import find_spec
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from lxml import etree
+from msgspec import Struct
+
+from planmethod.check.measured.drawing import MeasuredDrawing
+from planmethod.check.submissions.cells import SubmissionError, read_bytes
+from planmethod.render.backends.canvas import FIGURES, VECTORS, layer_of
+from planmethod.render.ink.drawing import Pen
+
+SIZE_LIMIT = 8 * 1024 * 1024
+ENTITIES_LIMIT = 200_000
+DEPTH_LIMIT = 8
+BULGED = 1e-6
+"""Minimum bulge of a polyline segment that is an arc."""
+
+MARK_MM = 3.0
+"""Radius of the largest circle that marks a point."""
+
+WIDE = 0.6
+"""Width of a letter in its heights, where the drawing does not say it."""
+
+GAP = 1.3
+"""From one letter of a run to the next, in heights; a word of another inscription is further."""
+
+BY_BLOCK, BY_LAYER = 0, 256
+_LETTER = "LETTER_"
+_ARROWS = ("ARROW", "_OPEN", "_CLOSED", "_DOT")
+
+
+class _Letters(Struct):
+    """A run of letters that are adjacent blocks."""
+
+    text: str
+    start: complex
+    last: complex
+    high: float
+    direction: complex
+
+    def accepts(self, at: complex, high: float, direction: complex) -> bool:
+        """Return whether a letter continues this run."""
+        step = (at - self.last) * direction.conjugate()
+        tall = max(high, self.high)
+        return (
+            abs(direction - self.direction) < 1e-3
+            and 0.0 < step.real < GAP * tall
+            and abs(step.imag) < 0.6 * tall
+        )
+
+
+def read_dxf(path: Path) -> MeasuredDrawing:
+    """Return the lines, letters and points of the model space of a DXF file.
+
+    Raises
+    ------
+    WorksError
+        ezdxf is not installed, the file is no DXF, or there is too much in it.
+    """
+    data = read_bytes(path, SIZE_LIMIT)
+    if data.startswith(b"AC10"):
+        raise SubmissionError("{}: this is a DWG. Save it as DXF.", path)
+    if data.startswith(b"AutoCAD Binary DXF"):
+        raise SubmissionError("{}: this is a binary DXF. Save it as an ASCII one.", path)
+    if find_spec("ezdxf") is None:
+        raise SubmissionError("{}: reading a DXF file requires ezdxf: pip install ezdxf", path)
+    return _Reader(path, _document(data, path)).read()
+
+
+def _document(data: bytes, path: Path) -> Any:
+    from ezdxf import recover
+
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
+    try:
+        document, _ = recover.read(BytesIO(data), errors="ignore")
+    except Exception as error:  # the library meets whatever a stranger has written
+        raise SubmissionError(
+            "{}: this is not a readable DXF file: {}.", path, _describe_error(error)
+        ) from None
+    return document
+
+
+def _describe_error(error: Exception) -> str:
+    return f"{type(error).__name__} {error}".strip()[:80]
+
+
+class _Reader:
+    """Explodes the entities of a document."""
+
+    def __init__(self, path: Path, document: Any) -> None:
+        from ezdxf import enums, units
+
+        self.path, self.document = path, document
+        code = document.header.get("$INSUNITS", 0)
+        self.mm = 1.0
+        if isinstance(code, int) and 0 < code <= 20:
+            of = enums.InsertUnits
+            self.mm = float(units.conversion_factor(of(code), of.Millimeters))
+        self.drawing, self.entity_count = MeasuredDrawing(path), 0
+        self.run: _Letters | None = None
+
+    def read(self) -> MeasuredDrawing:
+        """Return the contents of the model space."""
+        try:
+            for entity in self.document.modelspace():
+                self._read_entity(entity, "0", BY_LAYER, 0)
+        except SubmissionError:
+            raise
+        except Exception as error:  # as above: incomplete entities raise many kinds of exception
+            raise SubmissionError(
+                "{}: this is not a readable DXF file: {}.", self.path, _describe_error(error)
+            ) from None
+        self._end_run()
+        return self.drawing
+
+    def _read_entity(self, entity: Any, layer: str, colour: int, depth: int) -> None:
+        self.entity_count += 1
+        if self.entity_count > ENTITIES_LIMIT or depth > DEPTH_LIMIT:
+            raise SubmissionError(
+                "{}: over {} entities, or blocks nested over {} deep. Keep the plans.",
+                self.path,
+                ENTITIES_LIMIT,
+                DEPTH_LIMIT,
+            )
+        own = entity.dxf.get("layer", "0")
+        layer = layer if own == "0" and depth else own
+        own_colour = entity.dxf.get("color", BY_LAYER)
+        colour = colour if own_colour == BY_BLOCK and depth else own_colour
+        kind = entity.dxftype()
+        if kind == "INSERT":
+            self._insert(entity, layer, colour, depth)
+            return
+        self._end_run()
+        shown = self._colour(layer, colour)
+        if kind == "LINE":
+            self.drawing.line(map(self._at, (entity.dxf.start, entity.dxf.end)), layer, shown)
+        elif kind in ("LWPOLYLINE", "POLYLINE"):
+            for corners in _straight(entity):
+                self.drawing.line(map(self._at, corners), layer, shown)
+        elif kind in ("TEXT", "MTEXT", "ATTRIB"):
+            self._text(entity)
+        elif kind == "POINT":
+            self.drawing.point(self._at(entity.dxf.location), layer, shown)
+        elif kind == "CIRCLE" and entity.dxf.radius * self.mm <= MARK_MM:
+            self.drawing.point(self._at(entity.dxf.center), layer, shown)
+
+    def _insert(self, insert: Any, layer: str, colour: int, depth: int) -> None:
+        name = str(insert.dxf.get("name", ""))
+        if name.startswith(_LETTER):
+            self._letter(insert, name.removeprefix(_LETTER))
+            return
+        if any(word in name.upper() for word in _ARROWS):
+            return
+        for part in insert.virtual_entities():
+            self._read_entity(part, layer, colour, depth + 1)
+        for attribute in insert.attribs:
+            self._read_entity(attribute, layer, colour, depth + 1)
+
+    def _at(self, place: Any) -> complex:
+        return complex(place[0], place[1]) * self.mm
+
+    def _colour(self, layer: str, colour: int) -> int:
+        if colour != BY_LAYER:
+            return int(colour)
+        layers = self.document.layers
+        return abs(int(layers.get(layer).color)) if layers.has_entry(layer) else 7
+
+    # Letters ---------------------------------------------------------------------------------
+
+    def _text(self, entity: Any) -> None:
+        several = entity.dxftype() == "MTEXT"
+        text = entity.plain_text()
+        high = float(entity.dxf.get("char_height" if several else "height", 2.5)) * self.mm
+        lines = text.split("\n") if several else [text]
+        wide = max(map(len, lines)) * high * WIDE * float(entity.dxf.get("width", 1.0) or 1.0)
+        if several:
+            wide = max(map(len, lines)) * high * WIDE  # its width is that of the column
+        tall = high * (1.6 * len(lines) - 0.6)
+        turn = exp(1j * math.radians(float(entity.dxf.get("rotation", 0.0))))
+        right, up = _middle_of_text(entity) if several else _anchor(entity)
+        place = entity.dxf.insert
+        if not several and (entity.dxf.get("halign", 0) or entity.dxf.get("valign", 0)):
+            place = entity.dxf.get("align_point", place)
+        middle = self._at(place) + turn * complex(right * wide, up * tall)
+        across = abs(turn.real) * wide + abs(turn.imag) * tall
+        self.drawing.text(text, middle, across, abs(turn.imag) * wide + abs(turn.real) * tall)
+
+    def _letter(self, insert: Any, code: str) -> None:
+        try:
+            char = chr(int(code, 16))
+        except (ValueError, OverflowError):
+            return
+        at, high = self._at(insert.dxf.insert), abs(float(insert.dxf.xscale)) * self.mm
+        along = exp(1j * math.radians(float(insert.dxf.get("rotation", 0.0))))
+        run = self.run
+        if run is not None and run.accepts(at, high, along):
+            gap = ((at - run.last) * along.conjugate()).real > 0.95 * max(high, run.high)
+            run.text += f" {char}" if gap else char
+            run.last = at
+            return
+        self._end_run()
+        self.run = _Letters(char, at, at, high, along)
+
+    def _end_run(self) -> None:
+        run, self.run = self.run, None
+        if run is not None:
+            end = run.last + run.direction * run.high * WIDE
+            middle = (run.start + end) / 2 + run.direction * 0.5j * run.high
+            turn, wide = exp(1j * phase(run.direction)), abs(end - run.start)
+            across = abs(turn.real) * wide + abs(turn.imag) * run.high
+            up = abs(turn.imag) * wide + abs(turn.real) * run.high
+            self.drawing.text(run.text, middle, across, up)
+
+
+def _anchor(entity: Any) -> tuple[float, float]:
+    """Return where the middle of a text is from its place, in widths and heights."""
+    right = {0: 0.5, 1: 0.0, 2: -0.5, 3: 0.0, 4: 0.0, 5: 0.0}.get(entity.dxf.get("halign", 0), 0.5)
+    up = {0: 0.5, 1: 0.5, 2: 0.0, 3: -0.5}.get(entity.dxf.get("valign", 0), 0.5)
+    return right, 0.0 if entity.dxf.get("halign", 0) == 4 else up
+
+
+def _middle_of_text(entity: Any) -> tuple[float, float]:
+    """Return the same of a text of several lines, by its point of attachment."""
+    point = int(entity.dxf.get("attachment_point", 1)) - 1
+    return (0.5, 0.0, -0.5)[point % 3], (-0.5, 0.0, 0.5)[min(point // 3, 2) if point >= 0 else 0]
+
+
+def _straight(entity: Any) -> Iterator[list[Any]]:
+    """Yield the straight runs of corners of a polyline."""
+    if entity.dxftype() == "LWPOLYLINE":
+        told = [((x, y), bulge) for x, y, _, _, bulge in entity.get_points()]
+        closed = entity.closed
+    elif entity.is_2d_polyline or entity.is_3d_polyline:
+        told = [(v.dxf.location, v.dxf.get("bulge", 0.0)) for v in entity.vertices]
+        closed = entity.is_closed
+    else:
+        return
+    run: list[Any] = []
+    for corner, bulge in [*told, *(told[:1] if closed else ())]:
+        run.append(corner)
+        if abs(bulge) > BULGED:
+            yield run
+            run = []
+    yield run
+
+
+TIP_MM = 8.0
+"""Maximum gap between the end of a thick line and the tip of its arrow, mm."""
+
+CAPITAL = 0.7
+"""Height of the letters of a text, a share of the size of its font."""
+
+
+_SVG = "{http://www.w3.org/2000/svg}"
+_STEP = re.compile(r"([A-Za-z])|(-?(?:\d+\.?\d*|\.\d+)(?:e-?\d+)?)")
+_TURN = re.compile(r"rotate\((-?[\d.]+) ")
+
+
+def read_svg(path: Path) -> MeasuredDrawing:
+    """Return the vectors and letters of one of our own sheets.
+
+    Raises
+    ------
+    WorksError
+        It is not an SVG, or not from planmethod.
+    """
+    data = read_bytes(path, SIZE_LIMIT)
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=False)
+    try:
+        root = etree.fromstring(data, parser)
+    except etree.XMLSyntaxError as error:
+        raise SubmissionError("{}: this is not an SVG file: {}.", path, str(error)[:80]) from None
+    if root.tag != f"{_SVG}svg" or not str(root.get("height", "")).endswith("mm"):
+        raise SubmissionError("{}: this is not an SVG sheet of planmethod. Save it as DXF.", path)
+    drawing = MeasuredDrawing(path)
+    try:
+        _read_elements(root, drawing)
+    except ValueError as error:
+        raise SubmissionError("{}: this is not an SVG file: {}.", path, str(error)[:80]) from None
+    return drawing
+
+
+def _read_elements(root: Any, drawing: MeasuredDrawing) -> None:
+    held: tuple[str, list[complex]] | None = None
+    for element in root.iter(f"{_SVG}path", f"{_SVG}text"):
+        if element.tag == f"{_SVG}text":
+            _text(element, drawing)
+            continue
+        tag = element.get("data-tag", "")
+        layer = layer_of(tag, Pen.THIN)
+        if layer not in (VECTORS, FIGURES):
+            continue
+        corners = list(_corners(element.get("d", "")))
+        if str(element.getparent().get("class", "")).startswith("ink-"):
+            if held is not None and corners and held[0] == tag:
+                held = (tag, _to_tip(held[1], corners[0]))
+            continue
+        if held is not None:
+            drawing.line(held[1], layer_of(held[0], Pen.THIN), 0)
+        held = tag, corners
+    if held is not None:
+        drawing.line(held[1], layer_of(held[0], Pen.THIN), 0)
+
+
+def _to_tip(corners: list[complex], tip: complex) -> list[complex]:
+    """Return a line up to the tip of its arrow."""
+    near = len(corners) == 2 and abs(tip - corners[-1]) < TIP_MM
+    return [corners[0], tip] if near else corners
+
+
+def _corners(data: str) -> Iterator[complex]:
+    """Yield the corners of a path of straight lines, y up; none from where it bends."""
+    command, numbers, at, start = "", list[float](), 0j, 0j
+    for step in _STEP.finditer(data):
+        if step[1]:
+            command = step[1]
+            if command in "Zz":
+                yield start.conjugate()
+            elif command not in "MmLl":
+                return
+            continue
+        numbers.append(float(step[2]))
+        if len(numbers) == 2:
+            to = complex(*numbers)
+            at = at + to if command in "ml" else to
+            if command in "Mm":
+                start = at
+                command = "l" if command == "m" else "L"
+            numbers.clear()
+            yield at.conjugate()
+
+
+def _text(element: Any, drawing: MeasuredDrawing) -> None:
+    text = element.text or ""
+    size = float(element.get("font-size") or element.getparent().get("font-size") or 5.0)
+    high = CAPITAL * size
+    wide = float(element.get("textLength") or WIDE * high * len(text))
+    turned = _TURN.match(element.get("transform") or "")
+    along = exp(-1j * float(turned[1]) * pi / 180.0) if turned else 1.0 + 0j
+    corner = complex(float(element.get("x", 0)), -float(element.get("y", 0)))
+    across = abs(along.real) * wide + abs(along.imag) * high
+    tall = abs(along.imag) * wide + abs(along.real) * high
+    drawing.text(text, corner + along * complex(wide / 2, high / 2), across, tall)

@@ -1,1 +1,0 @@
-"""Drawings of gear trains: the scheme, velocity diagrams, the sheet (чертежи)."""

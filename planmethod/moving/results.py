@@ -1,0 +1,352 @@
+"""Outputs of a moving point: audit, students' quantities, drawing step by step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from functools import cached_property, partial
+
+import numpy as np
+from msgspec.structs import replace
+
+from planmethod.construct import steps
+from planmethod.construct.drafting import PROFILES, Profile, RulerArithmetic
+from planmethod.construct.evaluate import Trace
+from planmethod.construct.scale import Scale
+from planmethod.construct.steps import Name, NumberName, PointName
+from planmethod.moving.construction import (
+    POLES,
+    ConstructionVector,
+    DrawnInterval,
+    MomentConstruction,
+    construct,
+    drawn_interval,
+    read_hodograph,
+)
+from planmethod.moving.motion import LEGEND, Motion, PointProblem, Undefined, move
+from planmethod.moving.reader import QUANTITY_COLUMNS, column_of
+from planmethod.moving.sheet import read_rows, sheet_scales
+from planmethod.moving.text import given_facts, moment, title
+from planmethod.note.audit import Audited
+from planmethod.note.document import Caption, Chapter, Node, Paragraph, steps_of, table_of
+from planmethod.note.formula import Rich, escape, fraction
+from planmethod.note.narrate.naming import scale_inscription
+from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
+from planmethod.note.numbers import with_unit
+from planmethod.note.wording import Language
+from planmethod.problem.records import AnswerValue, Mistaken, QuantityReader
+from planmethod.solved.selectors.steps import NoValue
+
+
+def audited(problem: PointProblem, ruler: float) -> list[Audited]:
+    """Compare every printed value with the exact one, and with that read off the drawing.
+
+    Parameters
+    ----------
+    ruler : float, mm
+        Step to which lengths are read; the scales are those of the sheet.
+    """
+    if not problem.published:
+        return []
+    motion, profile = move(problem), replace(PROFILES["board"], ruler=ruler)
+    scales = sheet_scales(problem, drawn_interval(problem), profile)
+    told = []
+    for item in problem.published:
+        k = item.position or 0
+        if not item.what:
+            told.append(Audited(item, reason=NoValue.NO_QUANTITY))
+            continue
+        exact = float(motion.columns[item.what][k])
+        if np.isnan(exact):
+            divided = motion.reasons[k] in (Undefined.REST, Undefined.STRAIGHT)
+            told.append(Audited(item, reason=NoValue.ZERO_DIVISOR if divided else NoValue.NO_POINT))
+            continue
+        built = construct(problem, motion, k, scales)
+        read = built.ruled(ruler).get(item.what, np.nan) if built is not None else np.nan
+        plan = item.what[0] if item.what != "rho" else ""
+        per_mm = scales[plan].per_mm if plan in scales else None
+        told.append(Audited(item, exact, None if np.isnan(read) else read, per_mm))
+    return told
+
+
+SIZES = ("v", "a", "a_normal", "rho")
+USUAL = ("v", "a", "a_tau", "a_n", "rho")
+PARTS = ("a_tangential", "a_normal")
+ROOTS = {"v": ("vx", "vy"), "a": ("ax", "ay")}
+"""Lengths of vectors, and their parts."""
+
+
+class PointQuantities:
+    """Quantities of a moving point for questions (`QuestionQuantities`)."""
+
+    def __init__(self, problem: PointProblem) -> None:
+        self.problem, self.count = problem, len(problem.times)
+        self.names = tuple(n for n in USUAL if self.quantity(n, 0) is not None)
+
+    @cached_property
+    def motion(self) -> Motion:
+        """Motion at the moments of the file."""
+        return move(self.problem)
+
+    def quantity(self, name: str, position: int) -> AnswerValue | None:
+        """Return a quantity by its name of ``[published]``, or as people write it."""
+        column = column_of(name)
+        value = None if column is None else _value(self.motion, name, position)
+        if column is None or value is None:
+            return None
+        quantity = LEGEND[column]
+        return AnswerValue(quantity.symbol, quantity.unit, value, signed=column not in SIZES)
+
+    def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
+        """Return its segment on the drawing, mm, and one sigma of the reading."""
+        scales = sheet_scales(self.problem, drawn_interval(self.problem), profile)
+        built = construct(self.problem, self.motion, position, scales)
+        column = column_of(name) or ""
+        sigma = {} if built is None else built.sigma(profile)
+        if column not in sigma:
+            return None
+        scale = scales.get(column[0])
+        value = abs(_value(self.motion, name, position) or 0.0)
+        return (math.nan if scale is None else value / scale.per_mm), sigma[column]
+
+    def mistaken(self) -> Iterator[Mistaken]:
+        """Yield the usual mistakes: roots, the parts of the acceleration, degrees."""
+        changes: list[tuple[str, QuantityReader]] = [
+            ("K1", self._exchanged),
+            *(("K2", partial(self._resultant, of)) for of in (PARTS, PARTS[:1], PARTS[1:])),
+            *(("K3", partial(self._rooted, of, 2)) for of in (("v", "a"), ("v",), ("a",))),
+            *(("K4", partial(self._rooted, of, 1)) for of in (("v", "a"), ("v",), ("a",))),
+            ("K5", self._curved),
+        ]
+        for code, change in changes:
+            yield Mistaken(code, "", change)
+        turned = {key: one.in_degrees for key, one in self.problem.formulas.items()}
+        if turned != self.problem.formulas:
+            motion = move(replace(self.problem, formulas=turned))
+            yield Mistaken("K6", "", partial(_value, motion))
+
+    def _of(self, column: str, position: int) -> float | None:
+        return _value(self.motion, column, position)
+
+    def _exchanged(self, name: str, position: int) -> float | None:
+        """Mistake a_n for a_tau and vice versa."""
+        parts = dict(zip(PARTS, PARTS[::-1], strict=True))
+        column = column_of(name) or ""
+        return self._of(parts.get(column, column), position)
+
+    def _resultant(self, parts: tuple[str, ...], name: str, position: int) -> float | None:
+        """Take the whole acceleration for some of its parts."""
+        column = column_of(name) or ""
+        return self._of("a" if column in parts else column, position)
+
+    def _rooted(self, of: tuple[str, ...], power: int, name: str, position: int) -> float | None:
+        """Leave out the root of some lengths, or the squares under it as well."""
+        column = column_of(name) or ""
+        if column not in of:
+            return self._of(column, position)
+        parts = (self._of(part, position) or 0.0 for part in ROOTS[column])
+        return abs(sum(part**power for part in parts))
+
+    def _curved(self, name: str, position: int) -> float | None:
+        """Leave the square out of v²/a_n."""
+        v, across = self._of("v", position), self._of("a_normal", position)
+        if column_of(name) == "rho" and v is not None and across:
+            return v / across
+        return self._of(name, position)
+
+    def derive_values(self, name: str, answers: Mapping[str, float]) -> Iterator[tuple[float, str]]:
+        """Yield lengths by their parts, a_n by a and a_tau, rho by v and a_n."""
+        mine = {column_of(key): (value, key) for key, value in answers.items()}
+        for out, needs, make in (
+            ("v", ("vx", "vy"), math.hypot),
+            ("a", ("ax", "ay"), math.hypot),
+            ("a_normal", ("a", "a_tangential"), lambda a, t: math.sqrt(max(a * a - t * t, 0.0))),
+            ("rho", ("v", "a_normal"), lambda v, n: v * v / n if n else math.inf),
+        ):
+            if out == column_of(name) and all(need in mine for need in needs):
+                values = [mine[need][0] for need in needs]
+                for need in needs:
+                    yield make(*values), mine[need][1]
+
+
+def _value(motion: Motion, name: str, position: int) -> float | None:
+    value = float(motion.columns[QUANTITY_COLUMNS.get(name) or column_of(name) or name][position])
+    return value if math.isfinite(value) else None
+
+
+def protocol_document(
+    problem: PointProblem, language: Language, profile: Profile
+) -> Iterator[Node]:
+    """Yield the construction of a moving point; the scales are those of the sheet.
+
+    Raises
+    ------
+    ProblemError
+        The point is nowhere in the shown interval.
+    LayoutError
+        The sheet cannot be drawn.
+    """
+    course, texts, notation = drawn_interval(problem), language.point, language.notation
+    scales = sheet_scales(problem, course, profile)
+    yield title(problem)
+    if problem.source:
+        yield Paragraph(language.note.source.format(source=escape(problem.source)))
+    facts = given_facts(problem, language)
+    text = language.note.given.format(given="; ".join(fact.text for fact in facts))
+    yield Paragraph(text, facts=tuple(facts))
+    yield Paragraph(texts.wanted)
+    convention = problem.scales.convention
+    text = ", ".join(scale_inscription(scales[name], convention, notation) for name in "lva")
+    yield Paragraph(language.note.scales_text.format(scales=text))
+    yield Paragraph(language.note.ruler.format(ruler=notation.as_input(profile.ruler)))
+    start, end = (notation.as_input(t) for t in course.interval)
+    count = len(course.marks.columns["t"])
+    yield Paragraph(texts.curve.format(start=start, end=end, last=count - 1))
+    for k in course.shown:
+        time = notation.as_input(float(course.marks.columns["t"][k]))
+        yield Chapter(texts.at.format(time=time), numbered=False)
+        yield from moment(problem, course.marks, k, language)
+        built = construct(problem, course.marks, k, scales)
+        if built is not None:
+            narrator = PointNarrator(built, language, profile)
+            for step in built.program.steps:
+                yield from steps_of(narrator.narrate(step))
+            yield Caption(texts.read_title.format(profile=language.note["profiles"][profile.name]))
+            yield table_of(texts["read"], read_rows(built, course.marks, k, language, profile))
+    yield from _hodograph(course, scales["v"], language, profile)
+
+
+def _hodograph(
+    course: DrawnInterval, scale: Scale, language: Language, profile: Profile
+) -> Iterator[Node]:
+    """Yield the accelerations that the hodograph of the velocity gives."""
+    chords, notation = read_hodograph(course, scale, profile), language.notation
+    said = language.point
+    if len(chords.at) < 2:
+        return
+    yield Chapter(said.by_hodograph, numbered=False)
+    yield Paragraph(said.chord_told)
+    rows = []
+    for row, k in enumerate(chords.at):
+        one = chords.series[row]
+        at = notation.as_input(float(course.marks.columns["t"][k]))
+        rows.append([str(k), at, *notation.numbers(*one.texts, one.off_text)])
+    yield table_of(said["chords"], rows, names=0)
+
+
+class PointNarrator(StepNarrator):
+    """Tells the steps of one moment (рассказчик)."""
+
+    def __init__(self, built: MomentConstruction, language: Language, profile: Profile) -> None:
+        self.built, self.language, self.texts = built, language, language.point
+        self.step = {step.out: step for step in built.program.steps}
+        self.exact: Trace = built.read()
+        self.read: Trace = built.read(RulerArithmetic(ruler=profile.ruler))
+        self.parts: dict[PointName, ConstructionVector] = {}
+        for vector in built.vectors:
+            if not vector.is_resultant:
+                self.parts.setdefault(vector.head, vector)
+        self.columns = {number: column for column, number in built.results.items()}
+
+    def _number(self, name: Name, *, exact: bool = False) -> float:
+        trace = self.exact if exact else self.read
+        return float(np.ravel(trace.value[name])[0])
+
+    def _format(self, value: float, digits: int = 4) -> Rich:
+        return self.language.notation.short(value, digits)
+
+    def _of(self, name: PointName) -> Rich:
+        """Return a point in the genitive: "точки P", "полюса p", "конца a_x"."""
+        texts = self.language.note
+        while isinstance(step := self.step[name], steps.LayOffLength) and not self._number(
+            step.length
+        ):
+            name = step.origin  # nothing was laid off
+        if name in self.parts:
+            return self.texts.end.format(symbol=self.parts[name].symbol)
+        text = texts.of_pole if name in POLES.values() else texts.of_point
+        return text.format(point=self.built.letters[name])
+
+    def describe_line(self, step: Line) -> list[Rich]:
+        """Describe a ray, a line across the wheel, or the direction of the tangent."""
+        match step:
+            case steps.AtAngle(_, through, _, angle):
+                text = self.texts.ray if self._number(angle) else self.texts.level
+                turn = self._format(self._number(angle))
+                return [text.format(of=self._of(through), angle=turn)]
+            case steps.Join(_, tail, head) if tail not in POLES.values():
+                letters = self.built.letters
+                return [self.texts.join.format(tail=letters[tail], head=letters[head])]
+            case steps.Parallel(_, through, to) if isinstance(self.step[to], steps.Join):
+                return [self.texts.tangent.format(of=self._of(through))]
+            case _:
+                return []
+
+    def describe_intersection(self, step: steps.IntersectLines) -> list[Rich]:
+        """Describe the foot of the perpendicular on the tangent."""
+        return [self.texts.foot.format(point=self.built.letters[step.out])]
+
+    def describe_measured_segment(self, step: Reading) -> list[Rich]:
+        """Describe a side of the wheel; other segments are described with their readings."""
+        if any(self._is_value(one, step.out) for one in self.columns):
+            return []
+        length = self._format(self._number(step.out))
+        return [self.texts.measured.format(segment=self.built.letters[step.out], length=length)]
+
+    def _is_value(self, result: NumberName, length: NumberName) -> bool:
+        made = self.step[result]
+        return isinstance(made, steps.Compute) and made.powers[0][0] == length
+
+    def describe_laid_off_length(self, step: steps.LayOffLength) -> list[Rich]:
+        """Describe a vector, or a side of the wheel: its length, origin and direction."""
+        texts, made, letters = self.texts, self.step[step.length], self.built.letters
+        assert isinstance(made, steps.Compute)
+        mm, symbol = self._number(step.length), letters[step.length]
+        if isinstance(self.step[made.powers[-1][0]], steps.Measure):
+            return [texts.across_pm.format(length=self._format(abs(mm)))]
+        if not mm:
+            return [texts.nothing.format(symbol=symbol)]
+        part = self.parts.get(step.out)
+        plan = "l" if part is None else part.plan
+        per_mm = self._format(self.built.scales[plan].per_mm)
+        numbers = fraction(self._format(abs(self._number(made.powers[0][0]))), per_mm)
+        quotient = fraction(f"|{symbol}|", f"μ_{{{plan}}}")
+        turned = isinstance(self.step[step.line], steps.Perpendicular)
+        way = texts["ways"][("across" if turned else "along") + ("" if mm >= 0 else " back")]
+        text = texts.lay_off_side if part is None else texts.lay_off
+        return [
+            text.format(
+                symbol=symbol,
+                size=f"{quotient} = {numbers} = {self._format(abs(mm))}",
+                of=self._of(step.origin),
+                way=way,
+                point=letters[step.out],
+            )
+        ]
+
+    def describe_computed_number(self, step: steps.Compute) -> list[Rich]:
+        """Describe a value read off the drawing."""
+        column = self.columns.get(step.out)
+        if column is None:
+            return []
+        found = self._number(step.out)
+        value = with_unit(self._format(found), self.language.notation.units[LEGEND[column].unit])
+        symbol, (length, _) = self.built.letters[step.out], step.powers[0]
+        if not isinstance(self.step[length], steps.Measure | steps.MeasureAlong):
+            if not np.isfinite(found):
+                return []
+            v, a = (self._format(self._number(name)) for name, _ in step.powers)
+            sought = f"{fraction('v^{2}', 'a^{n}')} = {fraction(f'{v}^{{2}}', a)}"
+            return [f"{symbol} = {sought} = {value}."]
+        plan = "v" if column == "v" else "a"
+        mm, segment = self._number(length), self.built.letters[length]
+        scale = self._format(self.built.scales[plan].per_mm)
+        size = f"({self._format(mm)})" if mm < 0 else self._format(mm)
+        return [
+            self.texts.value.format(
+                segment=segment,
+                length=self._format(mm),
+                exact=self._format(self._number(length, exact=True), 5),
+                formula=f"{symbol} = μ_{{{plan}}}·{segment} = {scale}·{size} = {value}",
+            )
+        ]

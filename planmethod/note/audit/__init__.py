@@ -1,1 +1,0 @@
-"""Printed values of sources compared with exact and read values (проверка источников)."""

@@ -1,0 +1,482 @@
+"""Parts of a document of Word: styles, paragraphs, tables, pictures, estimate of pages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from io import BytesIO
+from math import ceil
+from typing import Any, TypeAlias
+
+from docx.enum.style import WD_STYLE_TYPE
+from docx.enum.table import WD_TABLE_ALIGNMENT
+from docx.enum.text import WD_ALIGN_PARAGRAPH, WD_LINE_SPACING, WD_TAB_ALIGNMENT, WD_TAB_LEADER
+from docx.opc.constants import RELATIONSHIP_TYPE
+from docx.opc.packuri import PackURI
+from docx.opc.part import Part
+from docx.oxml import OxmlElement, parse_xml
+from docx.oxml.ns import nsdecls, qn
+from docx.shared import Mm, Pt, RGBColor
+from docx.table import _Cell
+from lxml import etree
+
+from planmethod.note import document
+from planmethod.note.document import Figure, Node, Table, plain_text
+from planmethod.note.formula import Rich, parse
+from planmethod.note.writers import omml
+from planmethod.note.writers.formulas import (
+    chain_of,
+    introduces_next_node,
+    pieces,
+    tied,
+    width_em,
+    with_stops,
+)
+from planmethod.note.writers.html import without_control_characters
+
+FONT = "Times New Roman"
+SIZE, TABLE_SIZE, LEAST_SIZE = 14.0, 12.0, 10.0
+LEFT, RIGHT, TOP, BOTTOM = 30.0, 15.0, 20.0, 20.0
+INDENT = 12.5
+PAGE = 210.0, 297.0
+MM_PER_POINT = 25.4 / 72.0
+
+HEADINGS = ("Heading 1", "Heading 2", "Heading 3")
+
+
+class WordStyles:
+    """Styles of a file by name; those that a template has not are added."""
+
+    def __init__(self, file: Any, *, new: bool, lang: str) -> None:
+        self._file, self._new = file, new
+        self._known = dict[str, Any]()
+        self._there = {style.name for style in file.styles}
+        normal = self["Normal"]
+        if new:
+            self._format(normal, 1.5, INDENT, WD_ALIGN_PARAGRAPH.JUSTIFY)
+            _letters(normal, SIZE)
+            language = OxmlElement("w:lang")
+            language.set(qn("w:val"), lang)
+            normal.element.get_or_add_rPr().append(language)
+        for name in HEADINGS:
+            self._add_style(name, 1.5, INDENT, WD_ALIGN_PARAGRAPH.LEFT, bold=True, around=8.0)
+        middle, left = WD_ALIGN_PARAGRAPH.CENTER, WD_ALIGN_PARAGRAPH.LEFT
+        self._add_style("Title", 1.5, 0.0, middle, bold=True, size=16.0, around=6.0)
+        self._add_style("Title Page", 1.25, 0.0, middle)
+        self._add_style("Contents Heading", 1.5, 0.0, middle, bold=True, around=8.0)
+        self._add_style("Subheading", 1.5, INDENT, left, keep_with_next=True)
+        self._add_style("Remark", 1.0, INDENT, WD_ALIGN_PARAGRAPH.JUSTIFY, size=TABLE_SIZE)
+        self._add_style("Formula", 1.15, 0.0, middle, around=3.0)
+        self._add_style("Figure", 1.0, 0.0, middle, keep_with_next=True, around=6.0)
+        self._add_style("Caption", 1.0, 0.0, middle, around=6.0)
+        self._add_style("Table Name", 1.0, 0.0, left, keep_with_next=True, around=3.0)
+        self._add_style("Table Text", 1.0, 0.0, left, size=TABLE_SIZE)
+        self._add_style("Small Table", 1.0, 0.0, left, size=LEAST_SIZE)
+        self._add_style("Title Block", 1.0, 0.0, middle, size=8.0)
+        self._add_style("Page Number Line", 1.0, 0.0, middle, size=TABLE_SIZE)
+        for level in (1, 2, 3):
+            style = self._add_style(f"toc {level}", 1.25, 0.0, left)
+            if style is not None:
+                form = style.paragraph_format
+                form.left_indent, form.right_indent = Mm(7.0 * (level - 1)), Mm(10.0)
+                width = PAGE[0] - LEFT - RIGHT
+                form.tab_stops.add_tab_stop(Mm(width), WD_TAB_ALIGNMENT.RIGHT, WD_TAB_LEADER.DOTS)
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._known:
+            self._known[name] = self._file.styles[name]
+        return self._known[name]
+
+    def apply(self, paragraph: Any, name: str) -> None:
+        """Give a paragraph a style, without the library's search by name."""
+        paragraph._p.style = self[name].style_id
+
+    @property
+    def table(self) -> Any:
+        """The style of tables with lines."""
+        names = [style.name for style in self._file.styles if style.type == WD_STYLE_TYPE.TABLE]
+        return self["Table Grid"] if "Table Grid" in names else None
+
+    def _add_style(
+        self,
+        name: str,
+        spacing: float,
+        indent: float,
+        alignment: Any,
+        *,
+        bold: bool = False,
+        size: float = SIZE,
+        around: float = 0.0,
+        keep_with_next: bool = False,
+    ) -> Any:
+        """Return a style that is set here; None where the template has it."""
+        if name in self._there and not self._new:
+            return None
+        if name in self._there:
+            style = self[name]
+        else:
+            is_own = not name.startswith("toc ")
+            style = self._file.styles.add_style(name, WD_STYLE_TYPE.PARAGRAPH, builtin=not is_own)
+            style.base_style = self["Normal"]
+        self._format(style, spacing, indent, alignment)
+        form = style.paragraph_format
+        form.space_before = form.space_after = Pt(around)
+        form.keep_with_next = keep_with_next or name in HEADINGS
+        for border in style.element.findall(f".//{qn('w:pBdr')}"):
+            border.getparent().remove(border)
+        _letters(style, size, bold=bold)
+        return style
+
+    def _format(self, style: Any, spacing: float, indent: float, alignment: Any) -> None:
+        form = style.paragraph_format
+        form.line_spacing, form.first_line_indent = spacing, Mm(indent)
+        form.alignment = alignment
+        form.space_before = form.space_after = Pt(0)
+
+
+def _letters(style: Any, size: float, *, bold: bool = False) -> None:
+    """Give a style its letters, whatever the theme of the file has."""
+    font = style.font
+    font.name, font.size, font.bold, font.italic = FONT, Pt(size), bold, False
+    font.color.rgb = RGBColor(0, 0, 0)
+    fonts = style.element.get_or_add_rPr().get_or_add_rFonts()
+    for key in list(fonts.attrib):
+        del fonts.attrib[key]
+    for key in ("ascii", "hAnsi", "cs", "eastAsia"):
+        fonts.set(qn(f"w:{key}"), FONT)
+
+
+NumberedNode: TypeAlias = tuple[tuple[Node, str], Node | None]
+"""A node with its number, and the next node."""
+
+MAX_PASSED = 12
+"""Largest number of paragraphs and formulas moved before a figure that does not fit."""
+
+_FLOWS = (
+    document.Paragraph,
+    document.Item,
+    document.Step,
+    document.Formula,
+    document.Equations,
+    document.Note,
+)  # text that may go before a figure
+
+
+def flowing(
+    numbered: Iterable[NumberedNode], flow: PageFlow, height: Callable[[Figure], float]
+) -> Iterator[NumberedNode]:
+    """Yield nodes; a figure that does not fit on the page lets the text after it go before.
+
+    It waits until the text has filled the page, or until a node that is not text. ``height`` gives
+    the height of a figure with its name, mm.
+    """
+    waiting: NumberedNode | None = None
+    page = passed = 0
+    led = False
+    for one in numbered:
+        (node, _), after = one
+        is_full = flow.page > page or passed >= MAX_PASSED
+        if waiting and (not isinstance(node, _FLOWS) or (is_full and not led)):
+            yield waiting
+            waiting = None
+        if isinstance(node, Figure) and isinstance(after, _FLOWS) and not flow.has(height(node)):
+            waiting, page, passed = one, flow.page, 0
+            continue
+        passed, led = passed + 1, introduces_next_node(node, after)
+        yield one
+    if waiting:
+        yield waiting
+
+
+def clean_text(rich: Rich) -> str:
+    """Return rich text as plain, without control signs."""
+    return plain_text(without_control_characters(rich))
+
+
+class PageFlow:
+    """Estimates on which page something will be, until Word has set the pages itself."""
+
+    LINE = SIZE * 1.15 * 1.5 * MM_PER_POINT
+    """Height of a line, mm."""
+
+    def __init__(self, height: float) -> None:
+        self.page, self._room, self._used = 1, height, 0.0
+
+    def begin_page(self) -> None:
+        """Begin a page."""
+        self.page, self._used = self.page + bool(self._used), 0.0
+
+    def has(self, height: float) -> bool:
+        """Return whether a height in mm is left on the page, or the page is empty."""
+        return not self._used or self._used + height <= self._room
+
+    def reserve(self, height: float) -> None:
+        """Reserve a height in mm on one page."""
+        if self._used + height > self._room:
+            self.begin_page()
+        self._used += height
+
+    def text(self, rich: Rich, width: float) -> None:
+        """Reserve space for a paragraph."""
+        letters = 0.49 * SIZE * MM_PER_POINT * len(clean_text(rich)) + INDENT
+        for line in range(ceil(letters / width)):
+            self.reserve(self.LINE + (4.0 if not line and "\\frac{" in rich else 0.0))
+
+    def heading(self) -> None:
+        """Reserve space for a heading, which stays with the next node."""
+        if self._used + 3 * self.LINE > self._room:
+            self.begin_page()
+        self.reserve(self.LINE + 5.6)
+
+
+LONG = 18.0
+"""Width, in heights of the font, from which on a formula in a sentence may be cut at its signs."""
+
+
+def add_sentence(
+    paragraph: Any, rich: Rich, units: frozenset[str], max_width: float, *, joined: bool = True
+) -> None:
+    """Put a sentence into a paragraph, its formulas as equations.
+
+    ``joined``: no line ends within a range of numbers; a sign without width sees to that.
+    """
+    for piece in with_stops(pieces(parse(without_control_characters(rich)), units, symbols=True)):
+        if not piece.is_formula:
+            paragraph.add_run(tied(piece.text) if joined else piece.text)
+            continue
+        parts = [("", piece.nodes)]
+        if width_em(piece.nodes) > LONG:
+            parts = list(chain_of(piece.nodes, max_width))
+        for sign, nodes in parts:
+            if sign:
+                paragraph.add_run(f" {sign} ")
+            if nodes:
+                paragraph._p.append(omml.equation(nodes))
+
+
+@contextmanager
+def marked(paragraph: Any, number: int) -> Iterator[None]:
+    """Put a bookmark of the contents around text added to a paragraph meanwhile."""
+    start, end = OxmlElement("w:bookmarkStart"), OxmlElement("w:bookmarkEnd")
+    for mark in (start, end):
+        mark.set(qn("w:id"), str(number))
+    start.set(qn("w:name"), _mark_name(number))
+    paragraph._p.append(start)
+    yield
+    paragraph._p.append(end)
+
+
+def add_link(paragraph: Any, number: int) -> Any:
+    """Make the content of a paragraph a link to a bookmark; return the run of its page."""
+    link = OxmlElement("w:hyperlink")
+    link.set(qn("w:anchor"), _mark_name(number))
+    for child in list(paragraph._p):
+        if child.tag in (qn("w:r"), f"{{{omml.MATH}}}oMath") and not len(
+            child.findall(qn("w:fldChar")) + child.findall(qn("w:instrText"))
+        ):
+            link.append(child)
+    paragraph._p.append(link)
+    before = len(paragraph._p)
+    paragraph.add_run("\t")
+    shown = add_field(paragraph, f"PAGEREF {_mark_name(number)} \\h", "")
+    for child in list(paragraph._p)[before:]:
+        link.append(child)
+    return shown
+
+
+def _mark_name(number: int) -> str:
+    return f"_Toc{number:06}"
+
+
+def add_field(paragraph: Any, code: str, shown: str) -> Any:
+    """Put a field at the end of a paragraph; return the run it shows until computed."""
+    for kind in ("begin", code, "separate"):
+        field_part(paragraph, kind)
+    run = paragraph.add_run(shown)
+    field_part(paragraph, "end")
+    return run
+
+
+def field_part(paragraph: Any, kind: str) -> None:
+    """Put a part of a field: ``begin``, ``separate``, ``end``, or its code."""
+    run = paragraph.add_run()._r
+    if kind in ("begin", "separate", "end"):
+        part = OxmlElement("w:fldChar")
+        part.set(qn("w:fldCharType"), kind)
+    else:
+        part = OxmlElement("w:instrText")
+        part.set(qn("xml:space"), "preserve")
+        part.text = f" {kind} "
+    run.append(part)
+
+
+def small_paragraph(paragraph: Any, *, space: float = 0.0) -> None:
+    """Make a paragraph that has to be there as low as can be; ``space``: points after it."""
+    form = paragraph.paragraph_format
+    form.line_spacing_rule, form.line_spacing = WD_LINE_SPACING.EXACTLY, Pt(1)
+    form.first_line_indent, form.space_before, form.space_after = 0, Pt(0), Pt(space)
+
+
+# no messages: XML of Word
+
+
+PAD = 4.0
+"""White at the sides of a cell, mm."""
+
+STRIP = 17.0
+"""Height of the row that names the continued table, points."""
+
+MAX_UNCUT_ROWS = 5
+"""Rows, with the head, up to which a table is not cut between pages."""
+
+
+def grid(file: Any, rows: int, widths: Sequence[float], style: Any = None) -> Any:
+    """Return an empty table with columns of given widths, mm."""
+    table = file.add_table(rows, len(widths))
+    if style is not None:
+        table.style = style
+    table.autofit = False
+    table.alignment = WD_TABLE_ALIGNMENT.CENTER
+    for column, width in zip(table._tbl.tblGrid.gridCol_lst, widths, strict=True):
+        column.w = Mm(width)
+    for row in table._tbl.tr_lst:
+        for cell, width in zip(row.tc_lst, widths, strict=True):
+            cell.width = Mm(width)
+    return table
+
+
+def rows_of(table: Any) -> list[list[Any]]:
+    """Return the cells of a table, row by row, none of them merged."""
+    return [[_Cell(cell, table) for cell in row.tc_lst] for row in table._tbl.tr_lst]
+
+
+def head_repeats(table: Any) -> None:
+    """Repeat the head of a table on each page, and forbid cutting a row."""
+    for k, row in enumerate(table._tbl.tr_lst):
+        properties = row.get_or_add_trPr()
+        properties.append(OxmlElement("w:cantSplit"))
+        if not k:
+            properties.append(OxmlElement("w:tblHeader"))
+
+
+def strip_above(table: Any) -> _Cell:
+    """Put a low row without lines above the head of a table, which repeats as the head does.
+
+    Its text appears at the top of each page of the table, wherever Word cuts it; return its cell.
+    """
+    columns = len(table._tbl.tblGrid.gridCol_lst)
+    row = OxmlElement("w:tr")
+    properties = row.get_or_add_trPr()
+    properties.append(OxmlElement("w:cantSplit"))
+    height = OxmlElement("w:trHeight")
+    height.set(qn("w:val"), str(round(20 * STRIP)))
+    height.set(qn("w:hRule"), "exact")
+    properties.append(height)
+    properties.append(OxmlElement("w:tblHeader"))
+    cell = row.add_tc()
+    cell.width = sum(column.w for column in table._tbl.tblGrid.gridCol_lst)
+    cell.grid_span = columns
+    borders = OxmlElement("w:tcBorders")
+    for side in ("top", "left", "right"):
+        line = OxmlElement(f"w:{side}")
+        line.set(qn("w:val"), "nil")
+        borders.append(line)
+    cell.get_or_add_tcPr().append(borders)
+    table._tbl.tr_lst[0].addprevious(row)
+    return _Cell(cell, table)
+
+
+def cover(paragraph: Any, width: float) -> None:
+    """Hide the strip below a paragraph of one point under a white area of a width in mm.
+
+    The first page of the table has its name instead.
+    """
+    run = paragraph.add_run()._r
+    run.append(
+        parse_xml(
+            f'<w:pict {nsdecls("w")} xmlns:v="urn:schemas-microsoft-com:vml">'
+            '<v:rect style="position:absolute;margin-left:0;margin-top:0;'
+            f"width:{width / MM_PER_POINT:.1f}pt;height:{STRIP:g}pt;z-index:1;"
+            "mso-position-horizontal-relative:text;mso-position-vertical-relative:text"
+            '" fillcolor="white" stroked="f"/></w:pict>'
+        )
+    )
+
+
+def row_keeps_with_next(row: int, rows: int) -> bool:
+    """Return whether a row stays with the next: no page has the head or a last row alone."""
+    return row + 1 < rows and (rows <= MAX_UNCUT_ROWS or row < 2 or row == rows - 2)
+
+
+# Widths of columns --------------------------------------------------------------------------------
+
+
+def needed_widths(table: Table, size: float) -> list[float]:
+    """Return the least widths of columns, mm: words are not cut."""
+    em, columns = size * MM_PER_POINT, zip(table.head, *table.rows, strict=True)
+    return [max(_widest(text, em) for text in column) + PAD for column in columns]
+
+
+def _widest(rich: Rich, em: float) -> float:
+    return max((0.58 * em * len(word) for word in clean_text(rich).split()), default=0.0)
+
+
+def line_width(rich: Rich, em: float) -> float:
+    """Return the approximate width of a text on one line, mm."""
+    return 0.55 * em * len(clean_text(rich))
+
+
+def fill_width(needed: Sequence[float], available: float) -> list[float]:
+    """Return widths that fill the available width, in proportion to the needed ones."""
+    total = sum(needed)
+    return [width * available / total for width in needed]
+
+
+def parts_of_width(table: Table, size: float, available: float) -> Iterator[Table]:
+    """Yield a table cut between its columns, each part with the leading ones."""
+    needed, lead = needed_widths(table, size), table.repeated
+    start = lead
+    while start < len(needed):
+        end, width = start, sum(needed[:lead])
+        while end < len(needed) and (end == start or width + needed[end] <= available):
+            width += needed[end]
+            end += 1
+        rows = (row[:lead] + row[start:end] for row in (table.head, *table.rows))
+        head, *others = rows
+        yield Table(head, tuple(others), table.names, lead)
+        start = end
+
+
+DPI = 200
+"""Dots to the inch: for programs that cannot show SVG; of lines more are not seen in print."""
+
+_SVG = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
+_SVG_EXTENSION = "{96DAC541-7B7A-43D3-8B79-37D633B846F1}"
+
+
+def add_picture(run: Any, figure: Figure, width: float, scale: float, part: Any) -> None:
+    """Put a figure into a run of text.
+
+    Parameters
+    ----------
+    run : docx.text.run.Run
+    figure : Figure
+    width : float, mm
+        As it is shown.
+    scale : float
+        How many times larger it is shown than its view is.
+    part : docx.parts.document.DocumentPart
+        Of the file.
+    """
+    picture = run.add_picture(BytesIO(figure.view.png(DPI * scale)), Mm(width))
+    picture._inline.docPr.set("descr", clean_text(figure.caption))
+    package = part.package
+    count = sum(one.partname.endswith(".svg") for one in package.iter_parts()) + 1
+    svg = figure.view.svg().encode()
+    vector = Part(PackURI(f"/word/media/vector{count}.svg"), "image/svg+xml", svg, package)
+    name = part.relate_to(vector, RELATIONSHIP_TYPE.IMAGE)
+    blip = picture._inline.find(f".//{qn('a:blip')}")
+    extensions = etree.SubElement(blip, qn("a:extLst"))
+    extension = etree.SubElement(extensions, qn("a:ext"), uri=_SVG_EXTENSION)
+    beside = etree.SubElement(extension, f"{{{_SVG}}}svgBlip", nsmap={"asvg": _SVG})
+    beside.set(qn("r:embed"), name)

@@ -1,1 +1,0 @@
-"""Diagrams as constructions: graphical differentiation and integration (диаграммы)."""

@@ -1,1 +1,0 @@
-"""Frame and title block of a sheet (рамка и основная надпись)."""

@@ -1,1 +1,0 @@
-"""Reading of composition files (компоновка); the records are in `sheets.model`."""

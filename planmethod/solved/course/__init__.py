@@ -1,1 +1,0 @@
-"""The motion of a whole cycle as polynomials piece by piece (движение за цикл)."""

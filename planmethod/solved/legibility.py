@@ -1,0 +1,400 @@
+"""Legibility of a sheet before it is drawn: density of labels, enlarged clusters, space."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from math import inf
+from typing import TypeAlias
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+
+from planmethod.construct.steps import Measure, MeasureAlong, NumberName, PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.paper import STAMP_HEIGHT, STAMP_WIDTH, Format
+from planmethod.plans.build import Construction
+from planmethod.plans.model import RATES, PlanKind
+from planmethod.solved.reading import Complexes, Reading, Reals
+
+SIDE = 50.0
+"""Side of the square in which labels are counted, mm: the area seen at a glance."""
+
+MAX_LABELS = 14
+"""Most inscriptions of a scheme in such a square: each has a finger's breadth, 13 mm, of it."""
+
+MERGE_DISTANCE = 0.5
+"""Points nearer than this are one on the paper and share a label, mm."""
+
+DOZEN = 12
+"""Positions on a sheet of many."""
+
+
+def densest(places: Sequence[complex] | Complexes) -> tuple[int, complex]:
+    """Return the most places in one square of `SIDE`, and the middle of that square, mm.
+
+    Only squares with a place in their middle are considered, so that the count includes that place
+    and those around it.
+    """
+    if not len(places):
+        return 0, 0j
+    at = np.asarray(places, dtype=complex)
+    apart = at[:, None] - at[None, :]
+    near = (np.abs(apart.real) <= SIDE / 2) & (np.abs(apart.imag) <= SIDE / 2)
+    counts = near.sum(axis=1)
+    k = int(np.argmax(counts))
+    return int(counts[k]), complex(at[k])
+
+
+def is_too_dense(construction: Construction, si: Reading, per_mm: float, more: int = 0) -> bool:
+    """Return whether a scheme of many positions has too many point letters for its area.
+
+    Letters of links and axes are placed beside them, so the limit of letters is already too many
+    for points alone. Centres of mass do not count: their letters are the first to be left out.
+
+    Parameters
+    ----------
+    si : Reading
+        Exact, at unit scales.
+    per_mm : float
+        Scale of the scheme, m/mm.
+    more : int
+        Number of additional letters among them, of extreme positions.
+    """
+    return any(
+        densest(places)[0] + more >= MAX_LABELS for places in _lettered(construction, si, per_mm)
+    )
+
+
+def _lettered(construction: Construction, si: Reading, per_mm: float) -> Iterator[Complexes]:
+    """Yield the places of the points on one sheet after another, coincident ones once, mm."""
+    problem, placed = construction.draft.problem, construction.draft.points()
+    fixed = placed & set(problem.bodies[FRAME].points)
+    still = [complex(si.point(PointName(point))[0]) for point in sorted(fixed)]
+    for start in range(0, si.count, DOZEN):
+        own = slice(start, start + DOZEN)
+        places = [place / per_mm for place in still]
+        for point in sorted(placed - fixed - problem.centres):
+            steps = np.round(si.point(PointName(point))[own] / (MERGE_DISTANCE * per_mm))
+            places += [MERGE_DISTANCE * step for step in dict.fromkeys(steps.tolist())]
+        yield np.asarray(places)
+
+
+SHORT = 5.0
+"""Shorter segments are enlarged, mm: half a division of the ruler is more than a tenth of them."""
+
+RATIOS = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0, 100.0)
+"""Enlargements of GOST 2.302."""
+
+NEGLIGIBLE_LENGTH = 0.25
+"""Length below which a segment is negligible on a hand-drawn plan, mm: about the error of a line,
+and half a division of the ruler."""
+
+_MIN_SHOWN_LENGTH = 10.0  # mm that the shortest segment of a knot has on its view
+
+WIDEST = 60.0
+"""Millimetres that such a view may be across."""
+
+
+SMALL, SHOWN = 15.0, 28.0
+"""A plan of several positions whose larger side is less than the first is shown enlarged beside
+itself, so that it is the second at least, mm."""
+
+AROUND, NAMED = 26.0, 20.0
+"""Space that such a view takes beside its plan, and above it, mm."""
+
+
+class DetailView(Struct, frozen=True):
+    """Short segments in one place of a plan (узел, выносной элемент).
+
+    Attributes
+    ----------
+    number : int
+        From 0, over all plans of a sheet.
+    centre : complex, mm
+        Its middle, from the pole of the plan.
+    times : float
+        How many times larger than the plan it is drawn.
+    ends : tuple of pairs of PointName
+        The segments that are measured there, as the plan has them.
+    initials : frozenset of str
+        First letters of the points of the mechanism, which name no view.
+    """
+
+    number: int
+    centre: complex
+    times: float
+    ends: tuple[tuple[PointName, PointName], ...]
+    initials: frozenset[str] = frozenset()
+
+
+def min_enlarged(ruler: float) -> float:
+    """Return the shortest segment that is enlarged, mm, by the step of the ruler."""
+    return max(min(NEGLIGIBLE_LENGTH, ruler / 2), SHORT / RATIOS[-1])
+
+
+def ratio_for(length: float) -> float:
+    """Return the enlargement at which a segment is long enough to be read.
+
+    Examples
+    --------
+    >>> ratio_for(0.9), ratio_for(4.5)
+    (20.0, 2.5)
+    """
+    return next((ratio for ratio in RATIOS if length * ratio >= _MIN_SHOWN_LENGTH), RATIOS[-1])
+
+
+def enlargement_of(size: Reals) -> Reals:
+    """Return the enlargement of plans of several positions that are shown again beside themselves.
+
+    It is 1 if a plan is large enough or negligible. Sizes are larger sides, mm, shape (n,).
+
+    Examples
+    --------
+    >>> times_beside(np.array([0.0, 7.0, 60.0]))
+    array([1., 4., 1.])
+    """
+    wanted = np.searchsorted(RATIOS, SHOWN / np.maximum(size, 1e-9))
+    fitting = np.array(RATIOS)[np.minimum(wanted, len(RATIOS) - 1)]
+    return np.where((size < SMALL) & (size > SHORT / RATIOS[-1]), fitting, 1.0)
+
+
+def small_plans(
+    construction: Construction, paper: Reading
+) -> dict[PlanKind, dict[int, DetailView]]:
+    """Return the plans of several positions that are shown enlarged beside themselves.
+
+    By kind and position: all of their segments, about their middle.
+    """
+    found: dict[PlanKind, dict[int, DetailView]] = {kind: {} for kind in RATES}
+    for kind in RATES:
+        pairs = tuple((v.tail, v.head) for v in construction.plan(kind).vectors)
+        if not pairs:
+            continue
+        at = np.stack([paper.point(end) for end in sorted({e for pair in pairs for e in pair})])
+        size = np.maximum(np.ptp(at.real, axis=0), np.ptp(at.imag, axis=0))
+        middle = (at.real.max(0) + at.real.min(0) + 1j * (at.imag.max(0) + at.imag.min(0))) / 2
+        times = enlargement_of(size)
+        for k in np.flatnonzero(times > 1.0).tolist():
+            number = sum(map(len, found.values()))
+            initials = _initials(construction)
+            found[kind][k] = DetailView(
+                number, complex(middle[k]), float(times[k]), pairs, initials
+            )
+    return found
+
+
+def find_detail_views(
+    construction: Construction, paper: Reading, kind: PlanKind, minimum: float, first: int
+) -> tuple[DetailView, ...]:
+    """Return the detail views of a plan in the first position; ``first`` is the first number.
+
+    Segments shorter than ``minimum``, mm, are in none.
+    """
+    at = {
+        end: complex(paper.point(end)[0])
+        for vector in construction.plan(kind).vectors
+        for end in (vector.tail, vector.head)
+    }
+    ends = {frozenset((v.tail, v.head)): (v.tail, v.head) for v in construction.plan(kind).vectors}
+    short = sorted(
+        (abs(at[head] - at[tail]), tail, head)
+        for tail, head in ends.values()
+        if minimum <= abs(at[head] - at[tail]) < SHORT
+    )
+    found: list[DetailView] = []
+    initials = _initials(construction)
+    for length, tail, head in short:
+        middle = (at[tail] + at[head]) / 2
+        for k, detail_view in enumerate(found):
+            reach = max(abs(at[end] - detail_view.centre) for end in (tail, head))
+            if reach * detail_view.times <= WIDEST / 2:
+                found[k] = replace(detail_view, ends=(*detail_view.ends, (tail, head)))
+                break
+        else:
+            number, pair = first + len(found), (tail, head)
+            found.append(DetailView(number, middle, ratio_for(length), (pair,), initials))
+    return tuple(found)
+
+
+def _initials(construction: Construction) -> frozenset[str]:
+    return frozenset(point[:1] for point in construction.draft.points())
+
+
+def short_readings(construction: Construction, paper: Reading) -> Reals:
+    """Return how many segments that the ruler reads are short in each position, shape (n,)."""
+    kinematics = construction.kinematics
+    found = np.zeros(paper.count)
+    for motion in (kinematics.velocity, kinematics.acceleration):
+        for name in set(motion.segments.lengths.values()):
+            if isinstance(construction.step(name), Measure | MeasureAlong):
+                length = np.abs(paper.number(name))
+                found += length < SHORT
+    return found
+
+
+def measured(
+    construction: Construction, kind: PlanKind, detail_view: DetailView
+) -> Iterator[NumberName]:
+    """Yield the lengths that the ruler reads on a detail view."""
+    kinematics = construction.kinematics
+    motion = kinematics.velocity if kind is PlanKind.VELOCITY else kinematics.acceleration
+    lengths = motion.segments.lengths
+    for tail, head in detail_view.ends:
+        for pair in ((tail, head), (head, tail)):
+            name = lengths.get(pair)
+            if name is not None and isinstance(construction.step(name), Measure | MeasureAlong):
+                yield name
+
+
+Box: TypeAlias = tuple[float, float]
+BlockSizes: TypeAlias = frozenset[Box]
+"""Sizes of a block that can be laid out in several ways."""
+
+Blocks: TypeAlias = "Box | BlockSizes | Sequence[Blocks]"
+"""A block, or a group of blocks in reading order."""
+
+FEW = 5
+"""Most positions of a homework: each with plans of useful size, all of a kind in one row."""
+
+EDGE, GAP = 5.0, 9.0
+"""White between blocks and the frame, and between two blocks, mm."""
+
+CORNER = 14.0
+"""Height of graph 26, which is in the upper left corner, mm."""
+
+LETTERS = {"A4": (2.5, 2.5), "A3": (3.5, 2.5), "A2": (3.5, 3.0), "A1": (4.2, 3.5), "A0": (5.0, 3.5)}
+"""Heights of the texts and of the calculation that a format must have space for, mm."""
+
+_OPTIONS = 8  # maximum number of shapes per run of blocks
+
+
+class Texts(Struct, frozen=True):
+    """Contents of a sheet's texts: numbers of vector equations and of vectors of both plans."""
+
+    equations: tuple[int, int]
+    vectors: tuple[int, int]
+
+    @classmethod
+    def of(cls, construction: Construction) -> Texts:
+        """Return the facts of a construction."""
+        plans = [construction.plan(k) for k in RATES]
+        one, two = ((len(plan.equations), len(plan.vectors)) for plan in plans)
+        return cls((one[0], two[0]), (one[1], two[1]))
+
+    def blocks(self, paper: Format, positions: int) -> Sequence[Blocks]:
+        """Return the sizes of "Дано", equations, calculations and table, mm.
+
+        Measured on sheets: an equation is 13 letters wide and 4.3 high, of the calculation every
+        vector has nearly two lines.
+        """
+        return _blocks(self, paper, positions)
+
+
+@lru_cache(maxsize=128)  # called for every tried scale
+def _blocks(texts: Texts, paper: Format, positions: int) -> Sequence[Blocks]:
+    letter, small = LETTERS[paper.like or paper.name]
+    equations = [(13.2 * letter, 4.3 * letter * (count + 0.3)) for count in texts.equations]
+    lines = (4.3 * texts.vectors[0], 3.6 * texts.vectors[1])
+    statement, calculations = (
+        (50.0 * letter, 7.0 * letter),
+        [(41.0 * small, small * n) for n in lines],
+    )
+    number = sum(texts.vectors)
+    height = 55.0 if positions == 1 else 26.0 + 7.5 * min(positions, 12)
+    column = 12.2 if positions <= FEW else 14.0
+    table = (min(40.0 + column * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
+    if positions == 1:  # enlarged views take the space that other shapes would leave
+        return [statement, *equations, *calculations, table]
+    narrower = (0.7 * statement[0], statement[1] / 0.7)
+    ways = [frozenset({(w, h), (2 * w + 2 * small, h / 2 + small)}) for w, h in calculations]
+    return [frozenset({statement, narrower}), *equations, *ways, table]
+
+
+def fits_format(
+    paper: Format,
+    texts: Sequence[Blocks],
+    views: Sequence[BlockSizes],
+    positions: int,
+    over: float = 1.0,
+) -> bool:
+    """Return whether texts and views fit on a format, mm, whose height is multiplied by ``over``.
+
+    ``views`` are the scheme, the velocity and the acceleration plans. They are grouped as in the
+    shipped compositions for one, for a few and for many positions.
+    """
+    left, low, right, high = paper.inner
+    room = (right - left - 2 * EDGE, over * (high - low - 2 * EDGE))
+    statement, one, two, reckoned, reckoned_too, table = texts
+    assert isinstance(table, tuple)
+    wide, tall = table
+    schemes, velocity, acceleration = views
+    scheme = frozenset((width, height + CORNER) for width, height in schemes)
+    lasts = [(max(wide, STAMP_WIDTH - EDGE), tall + STAMP_HEIGHT)]
+    if wide > STAMP_WIDTH:
+        lasts.append((wide + STAMP_WIDTH, max(tall, STAMP_HEIGHT - EDGE)))
+    last_shapes = [_best([last], room) for last in lasts]
+    if positions == 1:
+        groups = [
+            shapes([scheme, statement], room),
+            shapes([velocity, [one, reckoned]], room),
+            shapes([acceleration, [two, reckoned_too]], room),
+        ]
+        return any(_groups_fit(groups, last, room) for last in last_shapes)
+    first = shapes([scheme, statement, [one, two]], room)
+    plans = [shapes(velocity, room), shapes(acceleration, room)]
+    if positions > FEW:
+        return any(_groups_fit([first, *plans], last, room) for last in last_shapes)
+    plans.append(shapes([reckoned, reckoned_too], room))
+    return any(_groups_fit([first], _in_order((*plans, last), room), room) for last in last_shapes)
+
+
+def _groups_fit(groups: list[tuple[Box, ...]], last: tuple[Box, ...], area: Box) -> bool:
+    """Return whether groups and a last one fit; their areas are compared first."""
+    whole = (*groups, last)
+    if not all(whole):
+        return False
+    least = sum(min(width * height for width, height in group) for group in whole)
+    return least <= area[0] * area[1] * (1 + 1e-9) and bool(_in_order(whole, area))
+
+
+def shapes(blocks: Blocks, area: Box) -> tuple[Box, ...]:
+    """Return the possible sizes of packed blocks within an area, none worse in both directions."""
+    if isinstance(blocks, tuple):
+        blocks = frozenset({blocks})
+    if isinstance(blocks, frozenset):
+        return _best(list(blocks), area)
+    return _in_order(tuple(shapes(block, area) for block in blocks), area)
+
+
+@lru_cache(maxsize=1024)  # most blocks of a new trial are unchanged
+def _in_order(blocks: tuple[tuple[Box, ...], ...], area: Box) -> tuple[Box, ...]:
+    """Return the sizes of blocks in reading order, of each of which several sizes are known."""
+    kept = {(k, k + 1): block for k, block in enumerate(blocks)}
+    for length in range(2, len(blocks) + 1):
+        for start in range(len(blocks) - length + 1):
+            end = start + length
+            found: list[Box] = []
+            for middle in range(start + 1, end):
+                for a, b in kept[start, middle]:
+                    for c, d in kept[middle, end]:
+                        found.append((a + GAP + c, b if b > d else d))
+                        found.append((a if a > c else c, b + GAP + d))
+            kept[start, end] = _best(found, area)
+    return kept[0, len(blocks)]
+
+
+def _best(boxes: list[Box], area: Box) -> tuple[Box, ...]:
+    wide, least = area[0], inf
+    if len(boxes) == 1:
+        ((width, height),) = boxes
+        return tuple(boxes) if width <= wide and height <= area[1] else ()
+    best: list[Box] = []
+    for box in sorted(box for box in boxes if box[1] <= area[1] and box[0] <= wide):
+        if box[1] < least:
+            best.append(box)
+            least = box[1]
+    if len(best) <= _OPTIONS:
+        return tuple(best)
+    return tuple(best[round(k * (len(best) - 1) / (_OPTIONS - 1))] for k in range(_OPTIONS))

@@ -1,1 +1,0 @@
-"""Accuracy of float64 results: conditioning and the multiprecision check (достоверность)."""
