@@ -130,7 +130,8 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Mech
     ProblemError
         The file cannot be read at all.
     """
-    from planmethod.problem.file_node import Faults, FileNode
+    from planmethod.problem.faults import Faults
+    from planmethod.problem.file_node import FileNode
     from planmethod.problem.reader import with_table
     from planmethod.solved.partial_mechanism import MechanismPart, largest_part
 

@@ -505,9 +505,9 @@ from planmethod.note.narrate.naming import (
     plan_letters,
 )
 from planmethod.note.narrate.narrator import BoardNarrator, StepNarrator
+from planmethod.note.narrate.stated_links import arithmetic
 from planmethod.note.narrate.statement import (
     angle_with_positions,
-    arithmetic,
     drawn,
     given_facts as statement_given_facts,
     reported_links,
@@ -647,7 +647,8 @@ from planmethod.problem.answers import (
     unknown_names,
     words_of,
 )
-from planmethod.problem.file_node import Faults, FileNode
+from planmethod.problem.faults import Faults
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.formula import (
     DEPTH_LIMIT as FORMULA_DEPTH_LIMIT,
     EXPONENT_LIMIT,

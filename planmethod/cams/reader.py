@@ -22,7 +22,8 @@ from planmethod.cams.model import (
 from planmethod.errors import ProblemError
 from planmethod.languages import translate
 from planmethod.problem.answers import ComputedAnswerNames, read_answers
-from planmethod.problem.file_node import Faults, FileNode, needed
+from planmethod.problem.faults import Faults
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.formula import measured
 from planmethod.problem.names import short
 from planmethod.problem.reader import varied

@@ -16,7 +16,8 @@ from planmethod.check.questions import RATES, Question, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.errors import ExitCode, ProblemError
 from planmethod.languages import translate
-from planmethod.problem.file_node import Faults, FileNode, is_integer, needed
+from planmethod.problem.faults import Faults, is_integer
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.source import parse, read_source
 
 PROFILES = ("board", "cad", "coarse")

@@ -146,7 +146,8 @@ def read_fields(
     """Return the fields of the title block given as ``author=Иванов``."""
     if not value:
         return {}
-    from planmethod.problem.file_node import Faults, FileNode
+    from planmethod.problem.faults import Faults
+    from planmethod.problem.file_node import FileNode
     from planmethod.problem.records import STAMP_LIMIT
 
     fields, faults = {}, Faults()

@@ -12,7 +12,8 @@ from msgspec.structs import replace
 from planmethod.gears.model import FLEXIBLE, HALF_MODULES, GearRim, Mesh, MeshKind
 from planmethod.languages import translate
 from planmethod.problem import keys
-from planmethod.problem.file_node import FileNode, is_integer, is_number, needed, show
+from planmethod.problem.faults import is_integer, is_number, show
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.names import fold, is_label, looks_latin
 from planmethod.problem.tables import GearWheelSection
 

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from planmethod.construct.arithmetic import Jet
 from planmethod.note.formula import Rich
-from planmethod.problem.file_node import FileNode, is_number
+from planmethod.problem.faults import is_number
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, FormulaKind, Operation, Parser
 from planmethod.problem.model import Scales
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short

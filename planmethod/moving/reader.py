@@ -25,7 +25,8 @@ from planmethod.moving.motion import (
 from planmethod.problem import keys
 from planmethod.problem.answers import ComputedAnswerNames, read_answers, read_published
 from planmethod.problem.drive import read_row, read_scales, require_positions
-from planmethod.problem.file_node import Faults, FileNode, needed
+from planmethod.problem.faults import Faults
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.formula import is_exact
 from planmethod.problem.model import Scales
 from planmethod.problem.names import listed, nearest_name_hint, short

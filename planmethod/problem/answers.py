@@ -13,7 +13,8 @@ from msgspec import Struct
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.problem import keys
-from planmethod.problem.file_node import FileNode, is_integer, needed, show
+from planmethod.problem.faults import is_integer, show
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import (
     indexed,

@@ -13,7 +13,8 @@ from msgspec.structs import replace
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
-from planmethod.problem.file_node import FileNode, is_integer, is_number, needed
+from planmethod.problem.faults import is_integer, is_number
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.formula import FormulaError, evaluate_arithmetic, read_decimal
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import (

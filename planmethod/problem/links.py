@@ -11,7 +11,8 @@ from msgspec import Struct, field
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
-from planmethod.problem.file_node import FileNode, LazyText, Table, is_number
+from planmethod.problem.faults import is_number
+from planmethod.problem.file_node import FileNode, LazyText, Table
 from planmethod.problem.model import PointForm
 from planmethod.problem.names import (
     NAME_LIMIT,

@@ -14,7 +14,8 @@ from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.drive import require_turning
-from planmethod.problem.file_node import FileNode, is_number, show
+from planmethod.problem.faults import is_number, show
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.formula import read_decimal
 from planmethod.problem.machine_records import (
     OUTPUT,

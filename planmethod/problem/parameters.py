@@ -15,7 +15,8 @@ from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
-from planmethod.problem.file_node import Faults, FileNode, Table, is_number
+from planmethod.problem.faults import Faults, is_number
+from planmethod.problem.file_node import FileNode, Table
 from planmethod.problem.model import Body, OutputPositionKind, Problem
 from planmethod.problem.names import UNITS, segment, split_names, split_pair
 from planmethod.problem.reader import read_parsed

@@ -18,7 +18,8 @@ from planmethod.languages import current_language, translate
 from planmethod.problem import keys
 from planmethod.problem.answers import SelectorError, is_force, parse_selector
 from planmethod.problem.drive import is_place, is_posed
-from planmethod.problem.file_node import FAULT_LIMIT, Faults, FileNode, is_number, read_units
+from planmethod.problem.faults import FAULT_LIMIT, Faults, is_number
+from planmethod.problem.file_node import FileNode, read_units
 from planmethod.problem.formula import read_decimal
 from planmethod.problem.linkage import TrainReader, read_parts
 from planmethod.problem.model import Problem, SourceTable

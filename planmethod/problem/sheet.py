@@ -21,7 +21,8 @@ from planmethod.errors import ConfigError, Fault, LayoutError, ProblemError
 from planmethod.languages import LANGUAGES, translate
 from planmethod.paper import paper_format
 from planmethod.problem import keys
-from planmethod.problem.file_node import Faults, FileNode
+from planmethod.problem.faults import Faults
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.names import TITLE_LIMIT
 from planmethod.problem.records import (
     SEVERAL,

@@ -11,7 +11,8 @@ from msgspec.structs import replace
 
 from planmethod.languages import translate
 from planmethod.problem import keys
-from planmethod.problem.file_node import FileNode, is_number, needed, show
+from planmethod.problem.faults import is_number, show
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.model import Drive
 from planmethod.problem.names import indexed, listed
 from planmethod.problem.records import (

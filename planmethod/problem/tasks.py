@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import tomllib
 from collections import Counter
@@ -15,7 +14,8 @@ from unicodedata import combining, normalize
 from msgspec import Struct
 
 from planmethod.languages import catalogue
-from planmethod.problem.file_node import Faults, FileNode
+from planmethod.problem.faults import Faults
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.reader import apply_variant, read_variants
 from planmethod.problem.source import parse
 
@@ -161,6 +161,8 @@ def home() -> Path:
 @cache
 def tasks() -> tuple[ShippedTask, ...]:
     """Return all of them as the index has them: by kind, linkages by structure."""
+    import json  # not for those who only read a problem
+
     rows: list[dict[str, Any]] = json.loads((home() / "index.json").read_text(encoding="utf-8"))
     for row in rows:
         row |= {key: tuple(row[key]) for key in ("groups", "variants")}
@@ -280,4 +282,6 @@ def _toml(value: object) -> str:
         return "{ " + ", ".join(f"{key} = {_toml(v)}" for key, v in value.items()) + " }"
     if isinstance(value, list):
         return "[" + ", ".join(map(_toml, value)) + "]"
+    import json
+
     return json.dumps(value, ensure_ascii=False)

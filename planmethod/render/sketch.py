@@ -14,8 +14,7 @@ from planmethod.errors import ProblemError
 from planmethod.mechanism.model import FRAME
 from planmethod.note.formula import escape
 from planmethod.note.narrate.cycle import degrees, range_fact
-from planmethod.note.narrate.naming import scale_inscription
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.wording import Language
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind

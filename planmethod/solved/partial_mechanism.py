@@ -16,7 +16,8 @@ from msgspec.structs import replace
 from planmethod.construct.arithmetic import Float64
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.problem import keys
-from planmethod.problem.file_node import Faults, FileNode
+from planmethod.problem.faults import Faults
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.linkage import TrainReader
 from planmethod.problem.model import Problem
 from planmethod.problem.reader import apply_variant, read_parsed, read_variants

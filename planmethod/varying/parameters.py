@@ -19,7 +19,7 @@ from planmethod.gears.motion import TrainMotion
 from planmethod.gears.solution import coaxial_paths
 from planmethod.kind import ProblemKind
 from planmethod.kinds import load_each
-from planmethod.problem.file_node import is_number
+from planmethod.problem.faults import is_number
 from planmethod.problem.formula import read_decimal
 from planmethod.problem.names import segment, split_names
 from planmethod.problem.reader import key_of

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from planmethod.note.narrate.naming import scale_inscription
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.numbers import half_up, significant, with_unit
 from planmethod.note.series import compared_extremes, compared_stroke
 from planmethod.note.wording import Language

@@ -629,3 +629,8 @@ def scale_inscription(scale: Scale, convention: Convention, notation: Notation) 
             f"/{grouped}" if scale.unit else ""
         )
     return f"μ_{{{letter}}} = {notation.as_input(scale.per_mm, zero_limit=0.0)} {grouped}/{mm}"
+
+
+def point_name(point: str) -> str:
+    """Return a point's name as rich text: S2 gives ``S_{2}``."""
+    return f"{point[:1]}_{{{point[1:]}}}" if point[1:] else point

@@ -10,33 +10,39 @@ from enum import Enum
 from functools import partial
 
 import numpy as np
-from msgspec.structs import replace
 
 from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import analyse
 from planmethod.note.document import GivenFact, Item, Node, Paragraph
 from planmethod.note.formula import Rich, escape, fraction
-from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
+from planmethod.note.narrate.naming import point_name
+from planmethod.note.narrate.stated_links import (
+    StatedNumbers,
+    axis_angle,
+    coordinate_facts,
+    direction_key,
+    file_path_of_link,
+    guide_facts,
+    line_name,
+    slide_line_facts,
+    start_of_form,
+    third_point_facts,
+)
+from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language
 from planmethod.plans.build import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
-from planmethod.plans.model import Relation
-from planmethod.plans.motion.legs import slot_name, track_direction
 from planmethod.problem.model import (
     ANYWHERE,
     AssemblyRelation,
-    Body,
     CamDrive,
     Drive,
     GearDrive,
     OutputPositionKind,
     OutputPositions,
-    PointForm,
     Problem,
     Rule,
-    Slide,
 )
-from planmethod.problem.names import UNITS, segment, split_names
-from planmethod.problem.placement import rotation
+from planmethod.problem.names import segment, split_names
 from planmethod.problem.records import KindProblem
 from planmethod.solved.reading import driven
 from planmethod.solved.rules import from_joint
@@ -55,11 +61,6 @@ def reading_notes(problem: KindProblem, language: Language) -> Iterator[Node]:
         if problem.other_readings:
             others = escape("; ".join(problem.other_readings))
             yield Item(language.tasks.other_readings.format(others=others))
-
-
-def point_name(point: str) -> str:
-    """Return a point's name as rich text: S2 gives ``S_{2}``."""
-    return f"{point[:1]}_{{{point[1:]}}}" if point[1:] else point
 
 
 def unbroken(facts: Iterable[Rich]) -> Rich:
@@ -95,26 +96,26 @@ def given_facts(
         if centre is not None and name == "".join(problem.bodies[link].axis or ()):
             facts.append(_arc(link, name, metres, text))
             continue
-        path = _path(link, name)
+        path = file_path_of_link(link, name)
         data: dict[str, object] = {path: metres}
         for point, form in problem.bodies[link].forms.items():
-            if form.kind in ("on", "from") and {*split_names(name)} == {point, _start(form)}:
-                data[f"{_path(link, segment(point))}.at"] = form.at
+            if form.kind in ("on", "from") and {*split_names(name)} == {point, start_of_form(form)}:
+                data[f"{file_path_of_link(link, segment(point))}.at"] = form.at
         facts.append(GivenFact(f"l_{{{name}}} = {text.metres(metres, path)}", data))
     for link, body in problem.bodies.items():
         if link != FRAME:
-            facts += _third_points(link, body, text)
+            facts += third_point_facts(link, body, text)
     for point, place in problem.bodies[FRAME].points.items():
         path = f"frame.{segment(point)}"
         if place != 0:
-            facts += _coordinates(point, place, text, path)
+            facts += coordinate_facts(point, place, text, path)
         else:
             origin = language.note.given_origin.format(point=point_name(point))
             facts.append(GivenFact(origin, {path: [0.0, 0.0]}))
-    facts += _guides(text)
+    facts += guide_facts(text)
     for slide in problem.slides.values():
         if slide.host != FRAME or slide.label not in problem.guides:
-            facts += _slide_line_facts(slide, text)
+            facts += slide_line_facts(slide, text)
     facts += _angles_sense(text)
     facts += _assembled(text, asked)
     if drive.posed is not None and drive.posed.by is OutputPositionKind.LENGTH:
@@ -179,11 +180,11 @@ def drawn(problem: Problem, language: Language) -> GivenFact:
     for link in problem.mechanism.links:
         body, slide = problem.bodies[link], problem.slides.get(link)
         points = [point for point in body.points if point != body.arc]
-        data[_path(link, "points")] = points
+        data[file_path_of_link(link, "points")] = points
         phrase = f"{link} ({', '.join(map(point_name, points))}"
         if slide is not None:
             on = slide.label if slide.label in problem.guides else slide.host
-            data[_path(link, "slides.on")] = on
+            data[file_path_of_link(link, "slides.on")] = on
             way = problem.guide_name(on) if slide.host == FRAME else on
             template = note.drawn_on_guide if slide.host == FRAME else note.drawn_on_link
             phrase += "; " + template.format(on=problem.mechanism.called(way))
@@ -191,47 +192,6 @@ def drawn(problem: Problem, language: Language) -> GivenFact:
         told.append(phrase + ")")
     return GivenFact(note.drawn.format(links=", ".join(told)), data)
 
-
-class StatedNumbers:
-    """Numbers as a file gives them: in its arithmetic and its unit of lengths (как дано)."""
-
-    def __init__(self, problem: Problem, language: Language) -> None:
-        self.problem, self.language, self.notation = problem, language, language.notation
-
-    def number_text(self, value: float, path: str = "") -> str:
-        """Return a number without its unit; its arithmetic where digits would not be exact."""
-        stated = self.problem.stated.get(path)
-        if stated is None or abs(float(trimmed(value, 6)) - value) <= 1e-12 * abs(value):
-            return self.notation.as_input(value)
-        return arithmetic(stated, self.notation)
-
-    def number(self, value: float, unit: str, path: str = "") -> str:
-        """Return a number with its unit."""
-        return with_unit(self.number_text(value, path), self.notation.units[unit])
-
-    def metres(self, value: float, path: str = "") -> str:
-        """Return a length, m, in the unit of the file."""
-        unit = self.problem.unit
-        return self.number(value * UNITS[unit], unit, path)
-
-    def size(self, value: float, path: str = "") -> str:
-        """Return the magnitude of a length whose sense is given in words."""
-        return self.metres(value, path) if value >= 0 else self.metres(-value)
-
-
-def arithmetic(text: str, notation: Notation) -> str:
-    """Return arithmetic of a file as rich text: ``0.25/3`` gives ``0,25/3``."""
-    text = text.replace("**", "^").replace("sqrt", "√").replace("pi", "π").strip(" °")
-    text = re.sub(r"\^ *([0-9]+)", r"^{\1}", text.replace("²", "^2").replace("³", "^3"))
-    return text.replace(".", notation.decimal).replace("*", "·").replace("-", MINUS)
-
-
-def _path(link: str, key: str) -> str:
-    return f"links.{segment(link)}.{key}"
-
-
-DRAWN = 5
-"""Digits of a coordinate that was computed: a hundredth of a millimetre of a link."""
 
 POSITION_TOLERANCE_DEG = 0.5
 """Degrees within which an angle is that of a position."""
@@ -288,19 +248,21 @@ def _reference_lines(text: StatedNumbers) -> Iterator[GivenFact]:
     if posed is not None and posed.by is OutputPositionKind.PHI:
         axis = problem.bodies[posed.of].axis
         if axis is not None:
-            yield GivenFact(note.given_axis.format(symbol=f"φ_{{{posed.of}}}", line=_line(*axis)))
+            yield GivenFact(
+                note.given_axis.format(symbol=f"φ_{{{posed.of}}}", line=line_name(*axis))
+            )
     if drive.is_crank and body.axis is not None:
         start, direction = (body.points[p] for p in body.axis)
         for place in body.points.values():
             aside = (place - start) * (direction - start).conjugate()
             if aside.real < 0 or abs(aside.imag) > 1e-9 * abs(aside):
-                line = _line(*body.axis)
+                line = line_name(*body.axis)
                 yield GivenFact(note.given_axis.format(symbol=f"φ_{{{drive.link}}}", line=line))
                 return
     elif not drive.is_crank and (slide := problem.slides.get(drive.link)) is not None:
         base = "; ".join(text.metres(one) for one in (slide.base.real, slide.base.imag))
         origin = f"({base})" if slide.through is None else point_name(slide.through)
-        way = note["given_ways"][_direction_key(slide.angle)]
+        way = note["given_ways"][direction_key(slide.angle)]
         name = problem.guide_name(slide.label)
         data: dict[str, object] = {}
         if slide.through is None:
@@ -309,25 +271,19 @@ def _reference_lines(text: StatedNumbers) -> Iterator[GivenFact]:
         yield GivenFact(note.given_place.format(guide=name, start=origin, way=way), data)
 
 
-def _direction_key(angle: float) -> str:
-    """Return the direction of a line as a key of words: right, up, left or down."""
-    x, y = rotation(angle).real, rotation(angle).imag
-    if y == 0:
-        return "right" if x > 0 else "left"
-    return "up" if y > 0 else "down"
-
-
 def _arc(link: str, name: str, metres: float, text: StatedNumbers) -> GivenFact:
     """Return the fact on a sliding block in a circular slot."""
     problem = text.problem
-    body, path = problem.bodies[link], _path(link, "slides.radius")
+    body, path = problem.bodies[link], file_path_of_link(link, "slides.radius")
     phrase = text.language.note.given_arc.format(
-        link=link, radius=text.metres(metres, path), line=_line(*split_names(name))
+        link=link, radius=text.metres(metres, path), line=line_name(*split_names(name))
     )
     host = next((x for x, other in problem.bodies.items()
                  if x != link and body.arc in other.points), FRAME)  # fmt: skip
     keys = {"on": host, "centre": body.arc, "radius": metres}
-    return GivenFact(phrase, {_path(link, f"slides.{key}"): value for key, value in keys.items()})
+    return GivenFact(
+        phrase, {file_path_of_link(link, f"slides.{key}"): value for key, value in keys.items()}
+    )
 
 
 def _numbered(text: StatedNumbers, positions: Sequence[float]) -> str:
@@ -507,250 +463,6 @@ def _cam_facts(
     return facts
 
 
-def offset_slide(guide: str, problem: Problem) -> Slide | None:
-    """Return the only slide of a guide, if it is offset from the point that locates the guide.
-
-    The guide is then described, and drawn, where the slider runs; else where the file has it.
-    """
-    if problem.guides[guide][0] is None:
-        return None
-    on = [s for s in problem.slides.values() if s.host == FRAME and s.label == guide]
-    return on[0] if len(on) == 1 and on[0].offset else None
-
-
-def _guides(text: StatedNumbers) -> Iterator[GivenFact]:
-    """Yield where the guides of the frame run that something slides on."""
-    problem = text.problem
-    carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
-    pins = [slide.pin for slide in problem.slides.values() if slide.offset]
-    for guide, (through, base, angle) in problem.guides.items():
-        on = [s for s in problem.slides.values() if s.host == FRAME and s.label == guide]
-        if through is not None and guide in carried:
-            yield from _through_point(guide, through, text)
-        elif through is None:
-            yield from _guide(guide, base, angle, text)
-        if offset_slide(guide, problem) is not None:
-            continue  # the guide is described where the slider runs
-        for slide in on:
-            if slide.offset:
-                name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
-                way = text.language.note["given_ways"][_offset_side(slide)]
-                yield _offset(slide, name, way, text)
-
-
-def _offset(slide: Slide, name: str, side: str, text: StatedNumbers) -> GivenFact:
-    """Return the distance and the side of a pin from the line that its slider runs along."""
-    path = _path(slide.slider, "slides.offset")
-    size = text.size(slide.offset, path)
-    return GivenFact(f"e_{{{name}}} = {size} ({side})", {path: slide.offset})
-
-
-def _offset_side(slide: Slide) -> str:
-    """Return on which side of a guide of the frame the pin is, a key of words."""
-    return _direction_key(slide.angle + (90.0 if slide.offset > 0 else -90.0))
-
-
-def _through_point(guide: str, through: str, text: StatedNumbers) -> Iterator[GivenFact]:
-    """Yield how a guide runs that passes through a fixed point, or beside it."""
-    problem, note = text.problem, text.language.note
-    path = f"frame.guides.{segment(guide)}"
-    angle = problem.guides[guide][2]
-    key, phrase = _inclination(angle, path, text)
-    data: dict[str, object] = {f"{path}.through": through, f"{path}.angle": angle}
-    places = {"guide": problem.guide_name(guide), "point": point_name(through), "angle": phrase}
-    beside = offset_slide(guide, problem)
-    if beside is None:
-        yield GivenFact(note["given_through"][key].format(**places), data)
-        return
-    own = _path(beside.slider, "slides.offset")
-    way = note["given_ways"][_offset_side(beside)]
-    yield GivenFact(
-        note["given_beside"][key].format(offset=text.size(beside.offset, own), way=way, **places),
-        {**data, own: beside.offset},
-    )
-
-
-def _inclination(angle: float, path: str, text: StatedNumbers) -> tuple[str, str]:
-    """Return the inclination of a line as a key of words (level, upright, angled), and its text."""
-    key = {0.0: "level", 90.0: "upright"}.get(angle, "angled")
-    return key, text.number(angle, "deg", f"{path}.angle")
-
-
-def _third_points(link: str, body: Body, text: StatedNumbers) -> Iterator[GivenFact]:
-    """Yield how a link's further points are given, where its lengths do not determine them."""
-    note = text.language.note
-    named = {name for of, name, _ in text.problem.lengths if of == link}
-    lying: dict[str, tuple[list[str], dict[str, object]]] = {}
-    for point, form in body.forms.items():
-        path = _path(link, segment(point))
-        start = _start(form)
-        if form.kind == "side":
-            side = note.given_left if form.left else note.given_right
-            phrase = side.format(point=point_name(point), line=_line(*form.line))
-            sense = "left" if form.left else "right"
-            yield GivenFact(phrase, {f"{path}.side": f"{sense} of {''.join(form.line)}"})
-        elif form.kind == "vertex":
-            angle = text.number(form.angle, "deg", f"{path}.angle")
-            data: dict[str, object] = {
-                f"{path}.vertex": start,
-                f"{path}.ray": "".join(form.line),
-                f"{path}.angle": form.angle,
-            }
-            yield GivenFact(f"∠{_line(form.line[1], start)}{point_name(point)} = {angle}", data)
-            if form.distance is not None:
-                distance = text.metres(form.distance, f"{path}.distance")
-                own: dict[str, object] = {f"{path}.distance": form.distance}
-                yield GivenFact(f"l_{{{start}{point}}} = {distance}", own)
-        elif form.lateral_offset or (form.kind == "from" and body.axis is None):
-            yield _offset_point(link, point, text)
-        else:
-            axis = form.line if form.kind == "on" else body.axis or ()
-            place: dict[str, object] = {f"{path}.{form.kind}": "".join(form.line) or start}
-            if not {f"{start}{point}", f"{point}{start}"} & named:
-                at = text.size(form.at, f"{path}.at")
-                yield GivenFact(f"l_{{{start}{point}}} = {at}", {f"{path}.at": form.at})
-            template = note.given_beyond if form.at < 0 else note.given_on
-            phrase = template.format(points="{points}", line=_line(*axis), start=point_name(start))
-            if point in axis:  # the line is named by the point itself
-                phrase = ""
-            points, keys = lying.setdefault(phrase, ([], {}))
-            points.append(point_name(point))
-            keys |= place
-    for phrase, (points, keys) in lying.items():
-        yield GivenFact(phrase.replace("{points}", ", ".join(points)), keys)
-    for key, degrees in body.angles.items():
-        angle = text.number(degrees, "deg", f"{_path(link, 'angle')}.{key}")
-        letters = [point_name(name) for name in split_names(key)]
-        phrase = "".join(letters)
-        if len(letters) == 4:
-            phrase = f"({''.join(letters[:2])}, {''.join(letters[2:])})"
-        yield GivenFact(f"∠{phrase} = {angle}", {f"{_path(link, 'angle')}.{segment(key)}": degrees})
-
-
-def _start(form: PointForm) -> str:
-    """Return the point that a third point is measured from."""
-    return form.point or form.line[0]
-
-
-def _offset_point(link: str, point: str, text: StatedNumbers) -> GivenFact:
-    """Return where a point is along a line of its link and beside it, or along its own guide."""
-    problem, note = text.problem, text.language.note
-    body, path = problem.bodies[link], _path(link, segment(point))
-    form, ways = body.forms[point], note["given_ways"]
-    start = _start(form)
-    axis = form.line if form.kind == "on" else body.axis
-    data: dict[str, object] = {
-        f"{path}.{form.kind}": "".join(form.line) or start,
-        f"{path}.at": form.at,
-        f"{path}.across": form.lateral_offset,
-    }
-    turn = _axis_angle(link, problem)
-    across = text.size(form.lateral_offset, f"{path}.across")
-    if turn is None or axis is not None:
-        line = _line(*axis) if axis else _own_axis_name(link, text)
-        at, way = text.metres(form.at, f"{path}.at"), ""
-        side = str(note["given_sides"]["left" if form.lateral_offset > 0 else "right"]).format(
-            line=line
-        )
-    else:
-        line, at = _own_axis_name(link, text), text.size(form.at, f"{path}.at")
-        way = f" {ways[_direction_key(turn if form.at >= 0 else turn + 180.0)]}" if form.at else ""
-        side = ways[_direction_key(turn + (90.0 if form.lateral_offset > 0 else -90.0))]
-    if not form.lateral_offset:
-        along = note.given_along_line if form.at >= 0 else note.given_along_back
-        told = way.strip() or along.format(line=line)
-        at = text.size(form.at, f"{path}.at")
-        return GivenFact(f"l_{{{start}{point}}} = {at} ({told})", data)
-    places = {"point": point_name(point), "start": point_name(start), "line": line, "at": at + way}
-    return GivenFact(note.given_along.format(across=f"{across} {side}", **places), data)
-
-
-def _axis_angle(link: str, problem: Problem) -> float | None:
-    """Return the direction of a slider's own axis, degrees from +x; None where it turns."""
-    turn = 0.0
-    while link != FRAME:
-        slide = problem.slides.get(link)
-        if slide is None:
-            return None
-        turn, link = turn + slide.angle, slide.host
-    return turn
-
-
-def _own_axis_name(link: str, text: StatedNumbers) -> str:
-    """Return the name of a link's axis that has no letters: that of its slide's line."""
-    problem = text.problem
-    slides = [s for s in problem.slides.values() if link in (s.slider, s.host)]
-    slide = min(slides, key=lambda s: s.slider != link)
-    told = track_direction(slide, problem)
-    if told.guide:
-        return told.guide
-    if told.relation is Relation.PARALLEL:
-        return _line(*told.points)
-    return text.language.note.given_way.format(link=slide.host)
-
-
-def _line(start: str, end: str) -> str:
-    return f"{point_name(start)}{point_name(end)}"
-
-
-def _slide_line_facts(slide: Slide, text: StatedNumbers) -> Iterator[GivenFact]:
-    """Yield the position of a slide's line on its link, or on the frame."""
-    problem, note = text.problem, text.language.note
-    host, path = problem.bodies[slide.host], _path(slide.slider, "slides")
-    pin, beside = (
-        point_name(slide.pin),
-        note["given_sides"]["left" if slide.offset > 0 else "right"],
-    )
-    own: dict[str, object] = {f"{path}.offset": slide.offset} if slide.offset else {}
-    size = text.size(slide.offset, f"{path}.offset")
-    if slide.towards is not None and slide.through is not None:
-        line = _line(slide.through, slide.towards)
-        data: dict[str, object] = {f"{path}.along": f"{slide.through}{slide.towards}"}
-        yield GivenFact(note.given_slides.format(point=pin, line=line), data)
-        if slide.offset:
-            yield GivenFact(f"e_{{{slide.pin}}} = {size} ({beside.format(line=line)})", own)
-        return
-    assert slide.through is not None, "a line of a link goes through a point of it"
-    turn = _axis_angle(slide.host, problem)
-    angle = slide.angle if turn is None else (slide.angle + turn + 180.0) % 360.0 - 180.0
-    data = {f"{path}.through": slide.through, f"{path}.angle": angle}
-    line = slot_name(slide) if slide.offset else _line(slide.through, slide.pin)
-    if slide.offset:
-        phrase = note.given_slot.format(
-            guide=line, link=problem.mechanism.called(slide.host), slider=slide.slider,
-            point=point_name(slide.through),
-        )  # fmt: skip
-        yield GivenFact(phrase, {f"{path}.through": slide.through})
-    told = text.number(angle, "deg", f"{path}.angle")
-    if turn is not None:
-        key, _ = _inclination(angle, path, text)
-        yield GivenFact(note["given_runs"][key].format(line=line, angle=told), data)
-    elif host.axis is None:
-        first = next(s for s in problem.slides.values() if slide.host in (s.host, s.slider))
-        if slide is first and not slide.angle:
-            slides = note.given_slides_on.format(slider=slide.slider, host=slide.host, line=line)
-            yield GivenFact(slides, data)
-        else:
-            yield GivenFact(f"∠({_own_axis_name(slide.host, text)}, {line}) = {told}", data)
-    elif angle % 180 == 90:
-        yield GivenFact(f"{line} ⊥ {_line(*host.axis)}", data)
-    elif angle % 180:
-        yield GivenFact(f"∠({_line(*host.axis)}, {line}) = {told}", data)
-    elif slide.offset or slide.through not in host.axis:
-        yield GivenFact(f"{line} ∥ {_line(*host.axis)}", data)
-    else:
-        yield GivenFact(note.given_slides.format(point=pin, line=_line(*host.axis)), data)
-    if slide.offset:
-        if turn is not None:
-            way = note["given_ways"][_direction_key(angle + (90.0 if slide.offset > 0 else -90.0))]
-        elif host.axis is None:
-            way = beside.format(line=line)
-        else:
-            turned = note.given_turned.format(line=_line(*host.axis), angle=told)
-            way = beside.format(line=turned if angle else _line(*host.axis))
-        yield GivenFact(f"e_{{{slide.pin}}} = {size} ({way})", own)
-
-
 def _angles_sense(text: StatedNumbers) -> Iterator[GivenFact]:
     """Yield the positive sense of angles of links, where such are given."""
     problem = text.problem
@@ -759,7 +471,7 @@ def _angles_sense(text: StatedNumbers) -> Iterator[GivenFact]:
         for body in problem.bodies.values()
     )
     slots = (s for s in problem.slides.values() if s.host != FRAME and s.towards is None)
-    if told or any(s.angle % 90 and _axis_angle(s.host, problem) is None for s in slots):
+    if told or any(s.angle % 90 and axis_angle(s.host, problem) is None for s in slots):
         yield GivenFact(text.language.note.given_sense)
 
 
@@ -824,36 +536,6 @@ def _assembled(text: StatedNumbers, positions: Sequence[float]) -> Iterator[Give
     else:
         shown = _positions_text(StatedNumbers(problem, text.language), judged)
         yield GivenFact(note.given_judged.format(positions=shown), data)
-
-
-def _coordinates(name: str, place: complex, text: StatedNumbers, path: str) -> list[GivenFact]:
-    facts = []
-    for index, (letter, metres) in enumerate((("x", place.real), ("y", place.imag))):
-        value, stated = metres * UNITS[text.problem.unit], f"{path}[{index}]"
-        phrase = text.number_text(value, stated)
-        # A computed coordinate has more digits than can be drawn.
-        if stated not in text.problem.stated and trimmed(value) != trimmed(value, 6):
-            phrase = text.notation.number(trimmed(value, DRAWN))
-        told = f"{letter}_{{{name}}} = {phrase} {text.notation.units[text.problem.unit]}"
-        facts.append(GivenFact(told, {stated: metres}))
-    return facts
-
-
-def _guide(name: str, base: complex, angle: float, text: StatedNumbers) -> Iterator[GivenFact]:
-    """Yield where a guide is: by one coordinate when it runs along an axis."""
-    shown, path = text.problem.guide_name(name), f"frame.guides.{segment(name)}"
-    x, y = _coordinates(shown, base, text, f"{path}.through")
-    if angle % 180 == 0 or angle % 180 == 90:
-        told = x if angle % 180 == 90 else y
-        level: dict[str, object] = {f"{path}.angle": angle}
-        yield replace(told, data={**told.data, **(level if angle in (0, 90) else {})})
-        if angle not in (0, 90):
-            yield GivenFact(f"∠({shown}) = {text.number(angle, 'deg', f'{path}.angle')}", level)
-        return
-    yield x
-    yield y
-    phrase = f"∠({shown}) = {text.number(angle, 'deg', f'{path}.angle')}"
-    yield GivenFact(phrase, {f"{path}.angle": angle})
 
 
 def reported_points(solution: Solution) -> list[str]:

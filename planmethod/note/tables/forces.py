@@ -29,8 +29,7 @@ from planmethod.note.narrate.forces.loads import (
     shift_lines,
     unshifted_lines,
 )
-from planmethod.note.narrate.naming import Formulas, Names
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import Formulas, Names, point_name
 from planmethod.note.numbers import record_float
 from planmethod.note.series import (
     angle_series,

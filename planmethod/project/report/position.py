@@ -17,8 +17,7 @@ from planmethod.note.narrate.cycle import (
     output_name,
     output_symbol,
 )
-from planmethod.note.narrate.naming import scale_inscription
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.narrate.transfers import TransferNarrator
 from planmethod.note.numbers import half_up, in_heads, with_unit
 from planmethod.note.tables.cycle import (

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.loads import force_symbol, shift_symbol
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import point_name
 from planmethod.note.numbers import Notation, half_up
 from planmethod.plans.forces.polygons import Component, CoupleOn, Edge, Moments
 from planmethod.plans.model import PlanKind

@@ -13,8 +13,7 @@ from importlib.resources import files
 from typing import Any
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.naming import scale_inscription
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.wording import get_language
 from planmethod.plans.build import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import Start

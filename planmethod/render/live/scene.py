@@ -20,8 +20,7 @@ from planmethod.construct.steps import Name, PointName, TriadPose
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.statement import link_names
-from planmethod.note.narrate.naming import mark, plan_letters
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import mark, plan_letters, point_name
 from planmethod.note.wording import Language
 from planmethod.plans.build import Quantity, QuantityKind
 from planmethod.plans.draft import cis

@@ -12,7 +12,7 @@ from msgspec import Struct, field
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME, Revolute
-from planmethod.note.narrate.statement import offset_slide
+from planmethod.note.narrate.stated_links import offset_slide
 from planmethod.plans.draft import cis
 from planmethod.plans.motion.legs import has_slot_name, slot_name
 from planmethod.problem.model import Slide

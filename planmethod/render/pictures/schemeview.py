@@ -12,7 +12,8 @@ from msgspec import Struct, field
 from planmethod.construct.steps import LineName
 from planmethod.mechanism.groups import triad_of
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.statement import point_name, solution_peak
+from planmethod.note.narrate.naming import point_name
+from planmethod.note.narrate.statement import solution_peak
 from planmethod.note.numbers import is_noise
 from planmethod.plans.build import QuantityKind
 from planmethod.plans.draft import cis

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.cycle import radius_names
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import point_name
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Stroke, stroke_lines

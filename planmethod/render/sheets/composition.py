@@ -12,7 +12,8 @@ from planmethod.errors import CompositionError, Fault, LayoutError, ProblemError
 from planmethod.languages import LANGUAGES, translate
 from planmethod.paper import BASIC, paper_format
 from planmethod.plans.model import RATES, PlanKind
-from planmethod.problem.file_node import Faults, FileNode, needed
+from planmethod.problem.faults import Faults
+from planmethod.problem.file_node import FileNode, needed
 from planmethod.problem.names import is_label, nearest_name_hint, short
 from planmethod.problem.source import parse, read_source
 from planmethod.render.ink.drawing import HEIGHTS

@@ -14,8 +14,8 @@ from planmethod.note.narrate.forces.statement import (
     cycle_statement,
     link_names,
 )
-from planmethod.note.narrate.naming import scale_inscription
-from planmethod.note.narrate.statement import NBSP, angle_with_positions, point_name
+from planmethod.note.narrate.naming import point_name, scale_inscription
+from planmethod.note.narrate.statement import NBSP, angle_with_positions
 from planmethod.note.numbers import MINUS, Notation, decimals_of, format_column, half_up, with_unit
 from planmethod.note.series import balance_series, lever_beside_plans
 from planmethod.note.wording import Language

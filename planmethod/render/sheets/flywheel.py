@@ -14,7 +14,7 @@ from planmethod.note.document import Caption, Formula, Paragraph
 from planmethod.note.narrate.balancing import ReductionNarrator
 from planmethod.note.narrate.forces.statement import like_line
 from planmethod.note.narrate.machine import MachineNarrator, course_columns, courses, run_up_lines
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import point_name
 from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language
 from planmethod.problem.machine_records import WheelShape

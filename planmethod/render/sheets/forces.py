@@ -27,8 +27,8 @@ from planmethod.note.narrate.forces.statement import (
     plan_title,
     statement,
 )
-from planmethod.note.narrate.naming import direction_text, scale_inscription
-from planmethod.note.narrate.statement import point_name, unbroken
+from planmethod.note.narrate.naming import direction_text, point_name, scale_inscription
+from planmethod.note.narrate.statement import unbroken
 from planmethod.note.numbers import Notation, format_column
 from planmethod.note.series import (
     angle_series,

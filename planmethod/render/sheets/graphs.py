@@ -10,8 +10,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, choose_scale, next_scale
-from planmethod.note.narrate.naming import scale_inscription
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.wording import Language
 from planmethod.problem.machine_records import OUTPUT, GraphQuantity
 from planmethod.problem.model import Convention

@@ -16,8 +16,8 @@ from planmethod.note.narrate.cycle import (
     drawn_notes,
     output_name,
 )
-from planmethod.note.narrate.naming import Formulas, Names, scale_inscription
-from planmethod.note.narrate.statement import given_facts, point_name
+from planmethod.note.narrate.naming import Formulas, Names, point_name, scale_inscription
+from planmethod.note.narrate.statement import given_facts
 from planmethod.note.narrate.transfers import TransferNarrator
 from planmethod.note.numbers import half_up
 from planmethod.note.tables.cycle import Columns, cycle_columns, deviation_columns, deviations_title

@@ -19,10 +19,11 @@ from planmethod.note.narrate.naming import (
     direction_text,
     equation_of,
     plan_letters,
+    point_name,
     scale_inscription,
     view_name,
 )
-from planmethod.note.narrate.statement import given_facts, motion_unknowns, point_name, unbroken
+from planmethod.note.narrate.statement import given_facts, motion_unknowns, unbroken
 from planmethod.note.narrate.steps import calculation
 from planmethod.note.numbers import is_negligible, with_unit
 from planmethod.note.wording import Language

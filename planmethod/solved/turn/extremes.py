@@ -22,7 +22,8 @@ from planmethod.mechanism.groups import AssurGroup, OuterLeg
 from planmethod.mechanism.model import FRAME, Prismatic, Revolute
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
-from planmethod.problem.file_node import Faults, FileNode
+from planmethod.problem.faults import Faults
+from planmethod.problem.file_node import FileNode
 from planmethod.problem.machine import check_start
 from planmethod.problem.machine_records import CycleTask, Zero
 from planmethod.problem.model import SAME_DEG, Problem

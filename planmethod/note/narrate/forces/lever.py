@@ -10,8 +10,7 @@ from msgspec import Struct
 from planmethod.note.compared import percent_text, sigma_text
 from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol, force_symbol, signed_sum
-from planmethod.note.narrate.naming import scale_inscription
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.numbers import MINUS, decimals_of
 from planmethod.note.series import lever_beside_plans
 from planmethod.plans.model import PlanKind

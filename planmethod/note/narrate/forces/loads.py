@@ -22,8 +22,14 @@ from planmethod.note.document import (
 )
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.forces.statement import friction_facts
-from planmethod.note.narrate.naming import Directed, Formulas, Names, scale_inscription, term_of
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import (
+    Directed,
+    Formulas,
+    Names,
+    point_name,
+    scale_inscription,
+    term_of,
+)
 from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.board import GivenLoad

@@ -11,7 +11,7 @@ from msgspec import Struct
 
 from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol, closed, signed_sum
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import point_name
 from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force
 from planmethod.plans.forces.polygons import Component, CoupleOn, Edge, ForcePlan, Moments

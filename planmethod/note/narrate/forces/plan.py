@@ -36,8 +36,7 @@ from planmethod.note.narrate.forces.loads import (
     undetermined,
 )
 from planmethod.note.narrate.forces.moments import MomentNarrator
-from planmethod.note.narrate.naming import Formulas, direction_note, scale_inscription
-from planmethod.note.narrate.statement import point_name
+from planmethod.note.narrate.naming import Formulas, direction_note, point_name, scale_inscription
 from planmethod.note.narrate.structure import group_title, links_of_group
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.lever import Thrust

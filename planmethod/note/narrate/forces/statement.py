@@ -6,7 +6,9 @@ import math
 from collections.abc import Iterable
 
 from planmethod.note.document import GivenFact
-from planmethod.note.narrate.statement import NBSP, StatedNumbers, given_facts, point_name
+from planmethod.note.narrate.naming import point_name
+from planmethod.note.narrate.stated_links import StatedNumbers
+from planmethod.note.narrate.statement import NBSP, given_facts
 from planmethod.note.numbers import Notation, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import Applied, ForcePlan, LoadKind, reaction_symbol
