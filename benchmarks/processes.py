@@ -15,7 +15,7 @@ from pathlib import Path
 
 from benchmarks.scenes import MANY_LOADS
 from planmethod.bench.measurements import Timing, clock
-from planmethod.kinds import part_of
+from planmethod.linkages.reading import part_of
 from planmethod.note.wording import get_language
 from planmethod.problem import load, template
 from planmethod.render.backends import render

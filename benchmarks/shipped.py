@@ -19,13 +19,12 @@ from benchmarks.sheets import positions_of
 from planmethod.commands.problems import guarded
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import PlanMethodError
-from planmethod.kinds import kind_of, load
-from planmethod.note.records.solution import record
-from planmethod.problem import variant_names
+from planmethod.kind import PlanRequest
+from planmethod.kinds import LINKAGES, kind_of
+from planmethod.problem import Problem, variant_names
 from planmethod.problem.tasks import home
 from planmethod.render.control.remarks import REMARKS
 from planmethod.render.sheets.controlled import CheckedSheet, check_drawings, controlled_kinematics
-from planmethod.solved.solution import Solution
 
 HEAD = ("| files | positions | sheets | errors | warnings | of them |", "| --- " * 6 + "|")
 
@@ -33,23 +32,19 @@ HEAD = ("| files | positions | sheets | errors | warnings | of them |", "| --- "
 def solved(path: Path, variant: str | None) -> None:
     """Solve a problem of any kind in a variant."""
     kind = kind_of(path)
-    if kind is None:
-        record(Solution(load(path, variant=variant)))
-    else:
-        kind.record(kind.load(path, variant), "ru")
+    kind.record(kind.load(path, variant), "ru")
 
 
 def looked(path: Path, variant: str | None, count: int) -> list[CheckedSheet]:
     """Draw the default sheets in ``count`` positions and check them; a train has only one."""
     kind = kind_of(path)
-    if kind is not None:
-        problem = kind.load(path, variant)
-        return check_drawings(
-            kind.drawings(problem, fields={}, profile=PROFILES["board"]), kind.scales
-        )
-    linkage = load(path, variant=variant)
-    own = count == 1 and len(linkage.drive.positions) == 1
-    return controlled_kinematics(linkage, positions=None if own else positions_of(linkage, count))
+    problem = kind.load(path, variant)
+    if isinstance(problem, Problem):
+        own = count == 1 and len(problem.drive.positions) == 1
+        positions = None if own else positions_of(problem, count)
+        return controlled_kinematics(problem, positions=positions)
+    drawings = kind.drawings(problem, PlanRequest(profile=PROFILES["board"]))
+    return check_drawings(drawings, kind.scales)
 
 
 def _written(seed: int, folder: Path) -> Path:
@@ -102,7 +97,7 @@ def _row(files: list[tuple[Path, list[str | None]]], count: int, all_variants: b
     drawn = sheets = 0
     codes: Counter[str] = Counter()
     for path, variants in files:
-        if count > 1 and kind_of(path) is not None:
+        if count > 1 and kind_of(path) is not LINKAGES:
             continue
         drawn += 1
         for variant in variants if all_variants else variants[:1]:

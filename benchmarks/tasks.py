@@ -13,11 +13,12 @@ from pathlib import Path
 
 from msgspec.structs import asdict, replace
 
-from planmethod.kinds import kind_of, load
+from planmethod.kinds import kind_of
+from planmethod.linkages.reading import load
 from planmethod.mechanism.structure import analyse
 from planmethod.note.wording import get_language
 from planmethod.problem import variant_names
-from planmethod.problem.model import Scales
+from planmethod.problem.model import Problem, Scales
 from planmethod.problem.tasks import LINKAGE, ShippedTask, home
 from planmethod.render.backends import render
 from planmethod.render.backends.output import write
@@ -68,12 +69,9 @@ def name_of(file: str) -> str:
 def task_of(path: Path) -> ShippedTask:
     """Read a file for the index."""
     file, kind = path.relative_to(home()).as_posix(), kind_of(path)
-    if kind is None:
-        linkage = load(path)
-        groups = tuple(group.signature for group in analyse(linkage.mechanism).groups)
-        of, one = LINKAGE, linkage
-    else:
-        groups, of, one = (), kind.table, kind.load(path, None)
+    one, of, groups = kind.load(path, None), kind.table, tuple[str, ...]()
+    if isinstance(one, Problem):
+        of, groups = LINKAGE, tuple(group.signature for group in analyse(one.mechanism).groups)
     variants = tuple(variant_names(path))
     return ShippedTask(
         name_of(file), file, of, one.title, one.source, groups, variants, one.reading

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 TYPE_CHECKING = False  # not of typing: its import is a tenth of the way to the command line
 if TYPE_CHECKING:
-    from planmethod.kinds import load as load, loads as loads
+    from planmethod.linkages.reading import load as load, loads as loads
     from planmethod.note.protocol import document_of as document
     from planmethod.problem import Problem as Problem
     from planmethod.render.sheets.kinematics import kinematics_sheets as draw
@@ -49,8 +49,8 @@ _HOMES = {
     "document": "planmethod.note.protocol:document_of",
     "drafting": "planmethod.solved.errors.motion:drafting_of",
     "draw": "planmethod.render.sheets.kinematics:kinematics_sheets",
-    "load": "planmethod.kinds:load",
-    "loads": "planmethod.kinds:loads",
+    "load": "planmethod.linkages.reading:load",
+    "loads": "planmethod.linkages.reading:loads",
     "statics": "planmethod.solved.selfcheck:judged_statics",
 }
 """Locations of the public names; a test compares them with those under `TYPE_CHECKING`."""

@@ -1,14 +1,18 @@
-"""Interface of a kind of problem other than linkages to the commands (вид задачи)."""
+"""Interface of a kind of problem to the commands, linkages among them (вид задачи)."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
-from planmethod.errors import Fault, ProblemError
+from msgspec import Struct
+from msgspec.structs import replace
+
+from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.languages import translate
+from planmethod.options import UsageError, message_name
 from planmethod.problem.records import KindProblem
 
 if TYPE_CHECKING:
@@ -17,14 +21,155 @@ if TYPE_CHECKING:
     from planmethod.note.document import Document, GivenFact
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.note.wording import Language
+    from planmethod.options import Positions
     from planmethod.problem.records import QuestionQuantities
     from planmethod.render.ink.drawing import Drawing
+    from planmethod.render.sheets.controlled import CheckedSheet
+    from planmethod.solved.many.variants import Batch
+    from planmethod.solved.partial_mechanism import MechanismPart
+    from planmethod.solved.scaling import Views
+    from planmethod.solved.solution import Solution
 
 P = TypeVar("P", bound=KindProblem)
 
 
+# Requests ----------------------------------------------------------------------------------------
+
+
+class SolveOptions(Struct, frozen=True, kw_only=True):
+    """Results to compute and their form; the options of ``solve``.
+
+    Attributes
+    ----------
+    csv, npz, covariance : bool
+        Whether a file or a table of that kind is made of all problems.
+    in_subprocess : bool
+        Whether the work is done in another process.
+    """
+
+    phi: Positions | None
+    position: int | None = None
+    ruler: float | None
+    profile: str | None
+    as_json: bool
+    csv: bool
+    npz: bool
+    quantities: tuple[str, ...] | None
+    partial: bool
+    sigma: bool
+    covariance: bool
+    referee: int | None
+    lang: str | None
+    in_subprocess: bool
+
+    @property
+    def profile_and_ruler(self) -> tuple[str | None, float | None]:
+        """Drafting profile and ruler."""
+        return self.profile, self.ruler
+
+    @property
+    def returns_data(self) -> bool:
+        """Whether the results are data for a file or a table, not printed documents."""
+        return self.as_json or self.csv or self.npz or self.covariance
+
+    @property
+    def can_batch(self) -> bool:
+        """Whether many problems can be solved together, not each alone."""
+        moved = self.phi is not None or self.referee is not None or self.partial
+        whole = self.as_json or self.npz or self.csv
+        return whole and not moved and self.quantities is None
+
+    def of_linkages(self) -> dict[str, bool]:
+        """Return which options that only linkages have are given."""
+        return {
+            "--csv": self.csv,
+            "--npz": self.npz,
+            "--ask": self.quantities is not None,
+            "--phi": self.phi is not None,
+            "--position": self.position is not None,
+            "--sigma": self.sigma,
+            "--covariance": self.covariance,
+            "--referee": self.referee is not None,
+        }
+
+
+class PlanRequest(Struct, frozen=True, kw_only=True):
+    """Options of the sheets and protocols of a problem.
+
+    Attributes
+    ----------
+    profile : Profile
+        Accuracy of the drawing.
+    fields : mapping of str to str
+        Texts of the title block that outrank the file's.
+    before, total : int
+        Sheets of the set that go before, and all of them.
+    phi : ndarray, optional
+        Other positions than the problem's; ``position``: the number of the main one.
+    layout : str, optional
+        Composition of the sheets; ``quantities``: what its graphs are of.
+    structural : bool
+        Whether the structural sheet is meant, not the plans.
+    """
+
+    profile: Profile
+    fields: Mapping[str, str] = {}
+    before: int = 0
+    total: int | None = None
+    phi: Positions | None = None
+    position: int | None = None
+    layout: str | None = None
+    quantities: tuple[str, ...] = ()
+    compact: bool = False
+    errors: bool = False
+    sigma: bool | None = None
+    all_positions: bool = False
+    structural: bool = False
+
+    def of_linkages(self) -> dict[str, bool]:
+        """Return which options that only plans of linkages have are given."""
+        return {
+            "--phi": self.phi is not None,
+            "--position": self.position is not None,
+            "--layout": self.layout is not None,
+            "--errors": self.errors,
+            "--sigma": bool(self.sigma),
+            "--structure": self.structural,
+        }
+
+
+class SketchedFile(Struct, frozen=True):
+    """Sketch of a problem file in an editor (эскиз файла).
+
+    Attributes
+    ----------
+    drawing : Drawing or None
+    title : str
+    faults : tuple of Fault
+        Faults of the file.
+    error : PlanMethodError or None
+        Why the whole cannot be solved.
+    assemblies : int
+        How many assembly modes the file leaves.
+    moves : bool
+        Whether all of it can be drawn.
+    """
+
+    drawing: Drawing | None
+    title: str
+    faults: tuple[Fault, ...] = ()
+    error: PlanMethodError | None = None
+    assemblies: int = 0
+    moves: bool = True
+
+
+# The kind ----------------------------------------------------------------------------------------
+
+
 class ProblemKind(ABC, Generic[P]):
     """A kind of problem; its methods import what they need when they are called.
+
+    A method that a kind does not override is a feature that it lacks, and refuses it here.
 
     Attributes
     ----------
@@ -32,17 +177,77 @@ class ProblemKind(ABC, Generic[P]):
         The table of the problem file by which it is recognised.
     scales : str
         Where its file has the scales.
-    is_of_project : bool
-        Whether a linkage's file may have it as a part of its project.
     """
 
     table: ClassVar[str]
     scales: ClassVar[str] = "[scales]"
-    is_of_project: ClassVar[bool] = True
+
+    def has(self, method: str) -> bool:
+        """Return whether this kind of problem implements the method of this name."""
+        return getattr(type(self), method) is not getattr(ProblemKind, method)
+
+    # Reading
 
     @abstractmethod
     def load(self, path: Path, variant: str | None) -> P:
         """Read a problem file."""
+
+    def load_each(self, path: Path, variants: Iterable[str | None]) -> Iterator[P]:
+        """Read some variants of a problem file, None for its main part."""
+        return (self.load(path, variant) for variant in variants)
+
+    def decided(self, problem: P, *, drawn: bool = True) -> P:
+        """Return a problem with the decisions of its project, if it has one.
+
+        Without ``drawn`` only its positions are decided, not the scales of its sheets.
+        """
+        return problem
+
+    def reading_warnings(self, problem: P) -> Iterable[object]:
+        """Return the warnings about a problem as read."""
+        return ()
+
+    def unused_table_warnings(self, problem: P) -> Iterable[object]:
+        """Return the warnings about tables of its file that are not used."""
+        return ()
+
+    def accuracy_warnings(self, problem: P) -> Iterable[object]:
+        """Return the warnings about positions in which its results have few digits."""
+        return ()
+
+    def reject_options(self, problem: P, options: Mapping[str, bool]) -> None:
+        """Reject the given options that this kind of problem does not have.
+
+        Raises
+        ------
+        click.UsageError
+        """
+        names = [option for option, is_given in options.items() if is_given]
+        if self.has("spreadsheet"):
+            names = [name for name in names if name != "--csv"]
+        if names:
+            raise UsageError(
+                "{0} {3:|is|are} for linkages, {1} is none; leave such options out for [{2}]",
+                ", ".join(names),
+                message_name(problem),
+                self.table,
+                len(names),
+            )
+
+    def reject_as_project(self, path: Path) -> None:
+        """Reject a file that cannot be a course project.
+
+        Raises
+        ------
+        click.UsageError
+        """
+        raise UsageError(
+            "{}: a project is that of a linkage; [{}] alone: planmethod sheet",
+            path.name,
+            self.table,
+        )
+
+    # Numbers
 
     @abstractmethod
     def record(self, problem: P, lang: str) -> dict[str, Any]:
@@ -52,37 +257,77 @@ class ProblemKind(ABC, Generic[P]):
     def solved_document(self, problem: P, language: Language) -> Document:
         """Return the document of ``solve``."""
 
-    def spreadsheet(self, problem: P) -> SpreadsheetRows | None:
-        """Return the text that ``solve --csv`` prints; None for a kind without a table."""
-        return None
+    def spreadsheet(self, problem: P) -> SpreadsheetRows:
+        """Return the table of ``solve --csv``, of a kind that has one."""
+        raise NotImplementedError
 
-    def structure_record(self, problem: P) -> dict[str, Any] | None:
-        """Return the record of ``structure --json``; None for a kind without a structure."""
-        return None
+    def solved_documents(
+        self, problem: P, language: Language, options: SolveOptions
+    ) -> Iterator[Document]:
+        """Yield the documents that ``solve`` prints with its options."""
+        yield self.solved_document(problem, language)
 
-    def structure_document(self, problem: P, language: Language) -> Document | None:
-        """Return the document of ``structure``; None for a kind without a structure."""
-        return None
+    def solved_data(self, problem: P, lang: str, options: SolveOptions) -> Any:
+        """Return the data that ``solve`` gives with its options: a record, rows or arrays."""
+        return self.spreadsheet(problem) if options.csv else self.record(problem, lang)
+
+    def solved_together(self, problems: Sequence[P], options: SolveOptions) -> Mapping[int, Any]:
+        """Return the same of those problems that can be solved together, by index."""
+        return {}
+
+    def batches(self, problems: Sequence[P], profile: Profile) -> Sequence[tuple[Batch, list[int]]]:
+        """Return the problems that can be solved together, as batches with their indices."""
+        return ()
+
+    # Structure
+
+    def structure_record(self, problem: P) -> dict[str, Any]:
+        """Return the record of ``structure --json``.
+
+        Raises
+        ------
+        click.UsageError
+            Such problems are not mechanisms.
+        """
+        raise self._without_structure(problem)
+
+    def structure_document(self, problem: P, language: Language) -> Document:
+        """Return the document of ``structure``.
+
+        Raises
+        ------
+        click.UsageError
+            Such problems are not mechanisms.
+        """
+        raise self._without_structure(problem)
+
+    def structure_drawings(self, problem: P, fields: Mapping[str, str]) -> list[Drawing]:
+        """Return the structural sheet, of a kind that has one."""
+        return []
+
+    # Texts and drawings
 
     @abstractmethod
-    def protocol_document(self, problem: P, language: Language, profile: Profile) -> Document:
+    def protocol_document(self, problem: P, language: Language, request: PlanRequest) -> Document:
         """Return the document of ``protocol``."""
 
     @abstractmethod
-    def drawings(
-        self,
-        problem: P,
-        *,
-        fields: Mapping[str, str],
-        profile: Profile,
-        before: int = 0,
-        total: int | None = None,
-    ) -> list[Drawing]:
-        """Return the sheets; ``before`` of the set of ``total`` go before them."""
+    def drawings(self, problem: P, request: PlanRequest) -> list[Drawing]:
+        """Return the sheets."""
 
-    def has(self, method: str) -> bool:
-        """Return whether this kind of problem implements the method of this name."""
-        return getattr(type(self), method, None) is not getattr(ProblemKind, method, None)
+    def in_positions(self, problem: P, request: PlanRequest) -> P:
+        """Return a problem with the positions in which it is drawn."""
+        return problem
+
+    def sheet_warnings(self, problem: P, request: PlanRequest) -> Iterable[object]:
+        """Return the warnings about its sheets before they are drawn."""
+        return ()
+
+    def checked_sheets(self, problem: P, request: PlanRequest) -> tuple[str, list[CheckedSheet]]:
+        """Return the kind of its sheets, and the sheets with the remarks of the norm control."""
+        from planmethod.render.sheets.controlled import check_drawings
+
+        return self.table, check_drawings(self.drawings(problem, request), self.scales)
 
     def live_page(self, problem: P, lang: str) -> str:
         """Return the page that ``live`` writes.
@@ -93,6 +338,39 @@ class ProblemKind(ABC, Generic[P]):
             Such problems have no page that moves.
         """
         raise self._without(problem, "live page")
+
+    def scheme(self, problem: P) -> Drawing | None:
+        """Return the scheme without any results; None for a kind without one."""
+        return None
+
+    def part(self, path: Path, *, variant: str | None, views: Views) -> tuple[str, MechanismPart]:
+        """Return the title of a file, finished or not, and as much of it as can be drawn.
+
+        Raises
+        ------
+        ProblemError
+            The file cannot be read at all, or only whole problems of the kind can be drawn.
+        """
+        hint = translate("Its picture: planmethod sheet {}", path)
+        raise ProblemError(str(path), [Fault(self.table, "only linkages have a sketch", hint)])
+
+    def sketched(self, path: Path, variant: str | None, language: Language) -> SketchedFile:
+        """Return the sketch of a file in an editor: the scheme, or the first sheet."""
+        from planmethod.construct.drafting import PROFILES
+
+        problem = self.load(path, variant)
+        whole: Any = problem
+        problem = replace(whole, sheet=replace(problem.sheet, lang=language.lang))
+        drawing = self.scheme(problem)
+        if drawing is None:
+            drawing = self.drawings(problem, PlanRequest(profile=PROFILES["board"]))[0]
+        return SketchedFile(drawing, problem.title)
+
+    def task_picture(self, path: Path, language: Language) -> Drawing | None:
+        """Return the picture of a shipped task, without results."""
+        return self.sketched(path, None, language).drawing
+
+    # Questions
 
     def audited(self, problem: P, ruler: float) -> list[Audited]:
         """Return printed values beside the exact ones and those read with a ruler.
@@ -108,12 +386,8 @@ class ProblemKind(ABC, Generic[P]):
         """Return the given data, one fact each; the file can be rebuilt from them."""
         return []
 
-    def scheme(self, problem: P) -> Drawing | None:
-        """Return the scheme without any results; None for a kind without one."""
-        return None
-
-    def question_quantities(self, problem: P) -> QuestionQuantities:
-        """Return the quantities for questions to students.
+    def answer_source(self, problem: P) -> Solution | QuestionQuantities:
+        """Return the plans or the computed quantities with which answers are compared.
 
         Raises
         ------
@@ -122,6 +396,15 @@ class ProblemKind(ABC, Generic[P]):
         """
         raise self._without(problem, "checking of answers")
 
+    def failing_conditions(self, problem: P) -> Iterable[tuple[str, str]]:
+        """Return the conditions that a problem does not meet, each with its place."""
+        return ()
+
+    # Refusals
+
     def _without(self, problem: P, item: str) -> ProblemError:
         message = translate("such a problem has no {}; its numbers: planmethod solve", item)
         return ProblemError(problem.name, [Fault(self.table, message)])
+
+    def _without_structure(self, problem: P) -> UsageError:
+        return UsageError("{} is not a mechanism, it has no structure", message_name(problem))

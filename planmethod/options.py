@@ -1,9 +1,9 @@
-"""Options of the commands: what they are called and how their values are read."""
+"""Options of the commands, their names and values, and how commands name problems and warn."""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from planmethod.construct.drafting import Profile
+    from planmethod.problem.records import KindProblem
 
 
 class UsageError(click.UsageError):
@@ -37,6 +38,27 @@ class BadParameter(click.BadParameter):
 
     def __init__(self, message: str, *facts: object) -> None:
         super().__init__(translate(message, *facts))
+
+
+def basename(problem: KindProblem) -> str:
+    """Return the base name of the files of a problem."""
+    return problem.name if problem.variant is None else f"{problem.name}-{problem.variant}"
+
+
+def message_name(problem: KindProblem) -> str:
+    """Return the name of a problem in messages: its file, or the file's name with the variant."""
+    return problem.source_file if problem.variant is None else basename(problem)
+
+
+def warn(problem: KindProblem, message: object) -> None:
+    """Print a warning about a problem's results: a sentence, or a record of one."""
+    click.echo(translate("Warning: {}: {}", message_name(problem), message), err=True)
+
+
+def warn_each(problem: KindProblem, messages: Iterable[object]) -> None:
+    """Print warnings about a problem's results as they are found."""
+    for message in messages:
+        warn(problem, message)
 
 
 class PathType(click.Path):
@@ -82,6 +104,9 @@ MAX_POSITIONS = 1_000_000
 
 MAX_SWEPT_POSITIONS = 10_000_000
 """The same where they are swept, not drawn: ``--npz`` and ``--ask``."""
+
+MAX_SHOWN_ROWS = 10_000
+"""Rows of a table on the terminal."""
 
 COUNTED = 72
 """Number of positions up to which a missing last one would be noticed."""

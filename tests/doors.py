@@ -7,7 +7,6 @@ in a test: ``from doors import gears_reader_load as load``. The public interface
 
 from __future__ import annotations
 
-from planmethod import kinds
 from planmethod.arguments import UnknownNameError
 from planmethod.bench import (
     fairness as checking,
@@ -43,8 +42,8 @@ from planmethod.cams.results import CamQuantities, follower_drive
 from planmethod.cams.sheet import drawings as cams_sheet_drawings
 from planmethod.cams.text import given_facts as text_given_facts, positions as text_positions
 from planmethod.check import checking as check_group, form, submissions as check_submissions
-from planmethod.check.calculation import Calculation
-from planmethod.check.checking import Variants, check, check_works, key_of_problem, task_of_problem
+from planmethod.check.calculation import Calculation, task_of_problem
+from planmethod.check.checking import Variants, check, check_works, key_of_problem
 from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
 from planmethod.check.exchange.quiz import (
     QuizPart,
@@ -153,9 +152,8 @@ from planmethod.cli import COMMANDS, cli, command_of
 from planmethod.commands import batch
 from planmethod.commands.batch import VariantOrder
 from planmethod.commands.output import bar
-from planmethod.commands.problems import LoadedProblem, load_unchanged, named, run_steps
+from planmethod.commands.problems import LoadedProblem, named, run_steps
 from planmethod.commands.processes import in_processes
-from planmethod.commands.sheet import compacted
 from planmethod.commands.studio import settings_of
 from planmethod.commands.studio_jobs import LACKING, act
 from planmethod.compiled import (
@@ -359,13 +357,8 @@ from planmethod.gears.teeth_selection import (
 )
 from planmethod.gears.text import by_velocities, equation_of as text_equation_of, tabular
 from planmethod.gears.views import ARROW_INSIDE, front
-from planmethod.kinds import (
-    KINDS as KINDS_KINDS,
-    kind_of,
-    load as kinds_load,
-    load_each,
-    loads as kinds_loads,
-)
+from planmethod.kind import PlanRequest
+from planmethod.kinds import KINDS as KINDS_KINDS, LINKAGES, kind_of
 from planmethod.languages import (
     LANGUAGES as LANGUAGES_LANGUAGES,
     OWN_VARIABLE,
@@ -379,6 +372,13 @@ from planmethod.languages import (
     translate,
     visible,
 )
+from planmethod.linkages import reading as kinds
+from planmethod.linkages.reading import (
+    load as kinds_load,
+    load_each,
+    loads as kinds_loads,
+)
+from planmethod.linkages.sheets import compacted
 from planmethod.mechanism.groups import AssurGroup, links_of, triad_of
 from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import (
@@ -759,13 +759,13 @@ from planmethod.problem.tasks import (
 )
 from planmethod.project.notes import NoteOptions, note_files
 from planmethod.project.numbers import numbers_workbook
+from planmethod.project.parts import PART_KINDS, PartName
 from planmethod.project.report import note_document
 from planmethod.project.report.context import LETTER, WIDTH as FIGURES_WIDTH, FittedView, Report
 from planmethod.project.report.flywheel import flywheel_chapter
 from planmethod.project.report.gears import cam_chapter, train_chapter
 from planmethod.project.report.note import compared, conclusion
 from planmethod.project.settle import (
-    PartName,
     Project,
     ProjectPart,
     first_scales,
@@ -1262,9 +1262,9 @@ from planmethod.varying.choice import VariantChoice, choose as choice_choose
 from planmethod.varying.evaluation import (
     MIN_LENGTH_MM,
     MIN_MARGIN,
-    CandidateEvaluator,
     Rejection,
     RejectionReason,
+    evaluator_of,
     free_scales,
     screen_linkages,
 )

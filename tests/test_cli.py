@@ -25,7 +25,7 @@ from doors import (
     PROJECT_PARTS,
     PartName,
     cli,
-    load_unchanged,
+    kinds_load,
     output_write as write,
     part_drawings,
     problem_load as load,
@@ -487,7 +487,7 @@ def test_a_new_machine_is_one_from_the_loads_to_the_flywheel(family: str) -> Non
 def test_a_new_project_has_all_parts_and_its_train_drives_the_crank() -> None:
     assert run("new", "project", "mine.toml").exit_code == 0
     path = Path("mine.toml")
-    made = settle(load_unchanged(path, None), path)
+    made = settle(kinds_load(path), path)
     wanted = [part for part in PROJECT_PARTS[:-1] if part != "balancing"]
     assert [part.name.value for part in made.parts] == wanted
     assert made.problem.drive.rate == pytest.approx(80 * math.pi / 30)

@@ -12,7 +12,13 @@ from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from doors import ModelProblem as Problem, kind_of, kinds_load as load_any, problem_load as load
+from doors import (
+    LINKAGES,
+    ModelProblem as Problem,
+    kind_of,
+    kinds_load as load_any,
+    problem_load as load,
+)
 
 if TYPE_CHECKING:
     import pytest
@@ -144,7 +150,7 @@ def every_file() -> list[Path]:
     The tasks and problems of other kinds have their own tests.
     """
     files = sorted({*PROBLEMS.rglob("*.toml")} - {*every_task()})
-    return [path for path in files if kind_of(path) is None]
+    return [path for path in files if kind_of(path) is LINKAGES]
 
 
 @cache

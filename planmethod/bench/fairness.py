@@ -15,7 +15,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.bench.measurements import clock
-from planmethod.check.calculation import Calculation
+from planmethod.check.calculation import Calculation, task_of_problem
 from planmethod.check.checking import check
 from planmethod.check.explain import Explanation
 from planmethod.check.following import QuantityKey, find_routes, quantity_keys_of
@@ -137,8 +137,7 @@ def family_of(task: Task) -> str:
     """Return what a task is counted with."""
     if isinstance(task, Calculation):
         return task.table
-    assert isinstance(task.problem, Problem)
-    return "levers" if task.problem.dynamics is None else "forces"
+    return "levers" if task.solution.problem.dynamics is None else "forces"
 
 
 def first_items(task: Task) -> list[TaskItem]:
@@ -364,7 +363,7 @@ def _seconds(act: Callable[[], object]) -> float:
     return time.perf_counter() - start
 
 
-Computed = tuple[ProblemKind[Any], KindProblem]
+ProblemOfKind = tuple[ProblemKind[Any], KindProblem]
 
 PAIRS = 12
 """Pairs of mistakes that are planted in a problem, chosen at random."""
@@ -397,15 +396,15 @@ class Inherited(Struct):
     faulted: int = 0
 
 
-def tasks_of_kinds(problems: Sequence[Computed]) -> list[Calculation]:
-    """Return the tasks of problems that are computed; variants of one file know each other."""
-    tasks: list[Calculation] = []
+def tasks_of_kinds(problems: Sequence[ProblemOfKind]) -> list[Task]:
+    """Return the tasks of problems of any kind; variants of one file know each other."""
+    tasks: list[Task] = []
     for kind, problem in problems:
 
         def list_variants(name: str = problem.name) -> Iterator[Task]:
             return (task for task in tasks if task.problem.name == name)
 
-        tasks.append(Calculation(kind, problem, DEFAULT, list_variants))
+        tasks.append(task_of_problem(kind, problem, DEFAULT, list_variants, verified=False))
     return tasks
 
 
@@ -661,7 +660,7 @@ class Confusion(Struct, frozen=True):
     inherited: list[Inherited]
 
 
-def confused(problems: Sequence[Problem], computed: Sequence[Computed], works: int) -> Confusion:
+def confused(tasks: Sequence[Task], works: int) -> Confusion:
     """Check submissions of every kind for every problem.
 
     Parameters
@@ -671,13 +670,14 @@ def confused(problems: Sequence[Problem], computed: Sequence[Computed], works: i
     """
     few = max(1, works // 10)
     found = Confusion([], [], [], [])
-    for task in tasks_of(problems):
-        found.faultless.append((family_of(task), check_faultless(task, works)))
-        found.detected.extend(detection(task, few))
-        found.two.append(two_at_once(task, few))
-        found.inherited.extend((by_plans(task, 1), by_routes(task, 1)))
-    for one in tasks_of_kinds(computed):
-        found.faultless.append((family_of(one), check_computed(one, works)))
-        found.detected.extend(computed_detection(one, few))
-        found.inherited.append(computed_inherited(one, few))
+    for task in tasks:
+        if isinstance(task, Calculation):
+            found.faultless.append((family_of(task), check_computed(task, works)))
+            found.detected.extend(computed_detection(task, few))
+            found.inherited.append(computed_inherited(task, few))
+        else:
+            found.faultless.append((family_of(task), check_faultless(task, works)))
+            found.detected.extend(detection(task, few))
+            found.two.append(two_at_once(task, few))
+            found.inherited.extend((by_plans(task, 1), by_routes(task, 1)))
     return found

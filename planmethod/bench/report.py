@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from planmethod.bench import fairness, measurements
 from planmethod.bench.measurements import DRAWS, Compared, compare_all
+from planmethod.check.calculation import Calculation
 from planmethod.check.key import Key
 from planmethod.problem.model import Problem
 from planmethod.solved.machine.flywheel import Flywheel
@@ -315,22 +316,20 @@ def checking_speed(timings: Sequence[fairness.Speed]) -> Table:
     )  # fmt: skip
 
 
-def checking_section(
-    problems: Sequence[Problem],
-    works: int = WORKS,
-    computed: Sequence[fairness.Computed] = (),
-) -> Table:
-    """Return the results of checking simulated submissions, drawn and computed.
+def checking_section(items: Sequence[fairness.ProblemOfKind], works: int = WORKS) -> Table:
+    """Return the results of checking simulated submissions, first those drawn, then computed.
 
     Parameters
     ----------
     works : int
         Honest ones of each problem and profile; with each mistake at each place a tenth of them.
-    computed : sequence of Computed
-        Problems other than linkages, with their kinds.
     """
     mistaken = max(1, works // 10)
-    confused = fairness.confused(problems, computed, works)
+    tasks = fairness.tasks_of_kinds(items)
+    drawn = [task for task in tasks if not isinstance(task, Calculation)]
+    problems = [task.solution.problem for task in drawn]
+    computed = [task for task in tasks if isinstance(task, Calculation)]
+    confused = fairness.confused([*drawn, *computed], works)
     together = [
         "## By families",
         "",
@@ -482,6 +481,5 @@ SECTIONS: dict[str, Callable[[Sequence[Problem]], Table]] = {
     "drafting": lambda problems: drafting_section(compare_all(problems)),
     "cycle": _cycle,
     "machine": machine_section,
-    "checking": checking_section,
 }
-"""Sections of measurements by their names."""
+"""Sections of measurements of linkages by their names."""

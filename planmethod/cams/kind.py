@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planmethod.kind import ProblemKind
+from planmethod.kind import PlanRequest, ProblemKind
 from planmethod.note.document import Document, GivenFact
 
 if TYPE_CHECKING:
     from planmethod.cams.model import CamProblem
-    from planmethod.construct.drafting import Profile
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.note.wording import Language
     from planmethod.problem.records import QuestionQuantities
@@ -48,26 +46,24 @@ class Cams(ProblemKind["CamProblem"]):
         return Document.of(solved_document(problem, language))
 
     def protocol_document(
-        self, problem: CamProblem, language: Language, profile: Profile
+        self, problem: CamProblem, language: Language, request: PlanRequest
     ) -> Document:
         """Return the document of ``protocol``."""
         from planmethod.cams.results import protocol_document
 
-        return Document.of(protocol_document(problem, language, profile))
+        return Document.of(protocol_document(problem, language, request.profile))
 
-    def drawings(
-        self,
-        problem: CamProblem,
-        *,
-        fields: Mapping[str, str],
-        profile: Profile,
-        before: int = 0,
-        total: int | None = None,
-    ) -> list[Drawing]:
+    def drawings(self, problem: CamProblem, request: PlanRequest) -> list[Drawing]:
         """Return the sheets."""
         from planmethod.cams.sheet import drawings
 
-        return drawings(problem, fields=fields, profile=profile, before=before, total=total)
+        return drawings(
+            problem,
+            fields=request.fields,
+            profile=request.profile,
+            before=request.before,
+            total=request.total,
+        )
 
     def live_page(self, problem: CamProblem, lang: str) -> str:
         """Return the page that ``live`` writes."""
@@ -81,8 +77,8 @@ class Cams(ProblemKind["CamProblem"]):
 
         return given_facts(problem, language, numbered=True)
 
-    def question_quantities(self, problem: CamProblem) -> QuestionQuantities:
-        """Return the quantities for questions to students."""
+    def answer_source(self, problem: CamProblem) -> QuestionQuantities:
+        """Return the computed quantities with which answers are compared."""
         from planmethod.cams.results import CamQuantities
 
         return CamQuantities(problem)

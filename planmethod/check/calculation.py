@@ -44,6 +44,8 @@ from planmethod.problem.records import (
     QuestionSpec,
 )
 from planmethod.solved.selectors.steps import NoValue, NoValueError
+from planmethod.solved.selfcheck import verify
+from planmethod.solved.solution import Solution
 
 READ = "read"
 """Kind of a value read from a picture."""
@@ -121,20 +123,20 @@ class Calculation(Task):
     Raises
     ------
     ProblemError
-        It cannot be solved, or requests a quantity without a value.
+        It requests a quantity without a value, or has none.
     """
 
     def __init__(
         self,
-        kind: ProblemKind[Any],
+        table: str,
         problem: KindProblem,
+        quantities: QuestionQuantities,
         settings: Settings,
         other_variants: Callable[[], Iterable[Task]] | None = None,
     ) -> None:
         self.problem, self.settings = problem, replace(settings, floor_mm=0.0)
         self.variant, self._other_variants = problem.variant, other_variants
-        self.table = kind.table
-        self.quantities = kind.question_quantities(problem)
+        self.table, self.quantities = table, quantities
         self._question_cache: dict[tuple[str, int, bool, bool], Question] = {}
         self._forms: dict[str, TaskItem] = {}
         self._numbers: dict[tuple[object, ...], CalculationSheet] = {}
@@ -143,7 +145,7 @@ class Calculation(Task):
             lambda: tuple(self.quantities.mistaken())
         )
         if not (problem.answers or self.quantities.names):
-            fault = Fault(kind.table, "no quantity has a value that could be requested")
+            fault = Fault(table, "no quantity has a value that could be requested")
             raise ProblemError(problem.name, [fault])
         self.declared = tuple(self._declare_item(at, one) for at, one in enumerate(problem.answers))
 
@@ -210,6 +212,15 @@ class Calculation(Task):
     def count(self) -> int:
         """Positions, or moments."""
         return self.quantities.count
+
+    @property
+    def first(self) -> int:
+        """Default position: the first."""
+        return 0
+
+    def scales(self, student_scales: Mapping[str, float], position: int) -> dict[str, float]:
+        """Return no scales: only drawings have them."""
+        return {}
 
     def find(self, written: WrittenAnswer) -> TaskItem:
         """Return the item of an answer; an answer in millimetres is read from the picture.
@@ -355,6 +366,26 @@ class Calculation(Task):
                 apart = distance(one.item, one.value, value, signed=one.signed)
                 one.follows, one.contradicts = apart <= slack, apart > slack * self.settings.near
                 one.closely = one.follows
+
+
+def task_of_problem(
+    kind: ProblemKind[Any],
+    problem: KindProblem,
+    settings: Settings,
+    other_variants: Callable[[], Iterable[Task]] | None = None,
+    *,
+    verified: bool = True,
+) -> Task:
+    """Return a problem with its requested items, its answers drawn or computed.
+
+    Where plans are drawn their motion is verified first: a key is made from it.
+    """
+    source = kind.answer_source(problem)
+    if isinstance(source, Solution):
+        if verified:
+            verify(source)
+        return Task(source, settings, other_variants)
+    return Calculation(kind.table, problem, source, settings, other_variants)
 
 
 def _question_of(name: str, quantity: AnswerValue, *, drawn: bool, turns: bool) -> Question:

@@ -8,13 +8,13 @@ import traceback
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.arguments import of_type
-from planmethod.check.calculation import Calculation, CalculationSheet
+from planmethod.check.calculation import Calculation, CalculationSheet, task_of_problem
 from planmethod.check.diagnosis import diagnose
 from planmethod.check.following import follow_routes
 from planmethod.check.grading import ExaminedAnswer, UnusableError, assign_verdicts, examine, replay
@@ -36,16 +36,12 @@ from planmethod.check.task import Task, TaskItem
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import PlanMethodError
 from planmethod.kind import ProblemKind
-from planmethod.kinds import kind_of, load
+from planmethod.kinds import kind_of
 from planmethod.languages import translate, visible
 from planmethod.plans.model import FACTS
-from planmethod.problem import Problem, variant_names
+from planmethod.problem import variant_names
 from planmethod.problem.records import KindProblem
-from planmethod.project.settle import with_decisions
-from planmethod.solved.many.variants import in_batches
 from planmethod.solved.selectors.steps import NoValueError
-from planmethod.solved.selfcheck import verify
-from planmethod.solved.solution import Solution
 
 SCALED = {facts.scale for facts in FACTS.values() if facts.scale}
 
@@ -275,24 +271,9 @@ _UNKNOWN = "\n"
 """Stands for a variant that the file has not: no name has it."""
 
 
-def key_of_problem(kind: ProblemKind[Any] | None, problem: KindProblem, settings: Settings) -> Key:
-    """Return the key of a problem; its kind is None for a linkage."""
+def key_of_problem(kind: ProblemKind[Any], problem: KindProblem, settings: Settings) -> Key:
+    """Return the key of a problem."""
     return key_of_task(task_of_problem(kind, problem, settings))
-
-
-def task_of_problem(
-    kind: ProblemKind[Any] | None, problem: KindProblem, settings: Settings
-) -> Task:
-    """Return a problem with its requested items; its kind is None for a linkage."""
-    if kind is None:
-        return Task(_verified(Solution(cast("Problem", problem))), settings)
-    return Calculation(kind, problem, settings)
-
-
-def _verified(solution: Solution) -> Solution:
-    """Return a solution after verifying its motion: a key is made from it."""
-    verify(solution)
-    return solution
 
 
 class Variants:
@@ -325,25 +306,19 @@ class Variants:
         """
         if name not in self._tasks:
             kind = kind_of(self.path)
-            if kind is not None:
-                problem = kind.load(self.path, name)
-                self._tasks[name] = Calculation(kind, problem, self.settings, self._all)
-            else:
-                solution = _verified(Solution(with_decisions(load(self.path, variant=name))))
-                self._tasks[name] = Task(solution, self.settings, self._all)
+            problem = kind.decided(kind.load(self.path, name))
+            self._tasks[name] = task_of_problem(kind, problem, self.settings, self._all)
         return self._tasks[name]
 
     def solve_in_batch(self, names: Iterable[str | None]) -> None:
         """Solve several variants in one batch, if their plans and requested items are the same."""
-        if kind_of(self.path) is not None:
-            return
-        problems = []
+        kind, problems = kind_of(self.path), []
         for name in dict.fromkeys(names):
             if name not in self._tasks:
                 with suppress(PlanMethodError):  # it says why when it is needed
-                    problems.append(load(self.path, variant=name))
+                    problems.append(kind.load(self.path, name))
         with suppress(Exception):  # then each is solved alone; faults go to its submissions
-            for batch, _ in in_batches(problems, PROFILES["board"]):
+            for batch, _ in kind.batches(problems, PROFILES["board"]):
                 for task in batch_tasks(batch, self.settings, self._all):
                     self._tasks[task.variant] = task
 

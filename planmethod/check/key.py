@@ -18,14 +18,13 @@ from planmethod.check.questions import Question, Sign, worded
 from planmethod.check.sheet import DRAWS, Sheet, drafted_of, sense_of, single_float
 from planmethod.check.task import Task, TaskItem
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.drafting import PROFILES
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.problem.records import KindProblem
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.many.variants import Batch, in_batches
+from planmethod.solved.many.variants import Batch
 from planmethod.solved.solution import Solution, at_positions
 
 
@@ -287,10 +286,12 @@ def batch_named(
     return {number: shown[number] for number in of}
 
 
-def compute_keys(problems: Sequence[Problem], settings: Settings) -> dict[int, Key]:
-    """Return the keys of linkages with the same steps and requests, by their numbers."""
+def compute_keys(
+    batches: Iterable[tuple[Batch, Sequence[int]]], settings: Settings
+) -> dict[int, Key]:
+    """Return the keys of problems in batches, of those with the same requests, by their numbers."""
     found: dict[int, Key] = {}
-    for batch, members in in_batches(problems, PROFILES["board"]):
+    for batch, members in batches:
         found.update(zip(members, batch_keys(batch, settings), strict=False))  # all, or none
     return found
 

@@ -9,20 +9,20 @@ import click
 from planmethod.commands.output import LocalizedCommand
 from planmethod.commands.problems import (
     LoadedProblem,
-    basename,
     finish,
     for_each_problem,
     guarded,
     language_of,
-    warn,
-    warn_of_accuracy,
 )
 from planmethod.options import (
     BadParameter,
     NumberRange,
+    basename,
     out_option,
     problem_lang_option,
     problem_options,
+    warn,
+    warn_each,
 )
 
 FORMATS = ("gif", "svg")
@@ -77,7 +77,7 @@ def animate(
     def draw(item: LoadedProblem) -> None:
         problem = item.linkage
         film = make_animation(problem, language_of(problem, lang), frames=frames, plans=plans)
-        warn_of_accuracy(problem)
+        warn_each(problem, item.kind.accuracy_warnings(problem))
         if film.skipped:
             warn(problem, film.skipped)
         made = {}

@@ -36,18 +36,14 @@ def audit(
     file: str | None,
 ) -> None:
     """Compare what the sources print with the exact values and with the ruler's."""
-    from planmethod.note.audit import AuditDocument, audit as examine
+    from planmethod.note.audit import AuditDocument
 
     if file is not None and file.lower().endswith(".toml"):
         raise UsageError("-o would write over the problem file {}; name another one", file)
     audits: list[tuple[KindProblem, Any]] = []
 
     def compare(item: LoadedProblem) -> None:
-        kind, problem = item.kind, item.problem
-        printed = (
-            examine(item.linkage, ruler=ruler) if kind is None else kind.audited(problem, ruler)
-        )
-        audits.append((problem, printed))
+        audits.append((item.problem, item.kind.audited(item.problem, ruler)))
 
     # A faulty problem ends the command here: the document is written whole or not at all.
     finish(for_each_problem(problems, variant, all_variants, compare))

@@ -19,7 +19,6 @@ from planmethod.commands.output import LocalizedCommand, answering
 from planmethod.commands.problems import (
     AT_ONCE_DRAWN,
     LoadedProblem,
-    basename,
     finish,
     guarded,
     language_of,
@@ -34,6 +33,7 @@ from planmethod.options import (
     PathType,
     Positions,
     UsageError,
+    basename,
     drawing_options,
     format_option,
     jobs_option,

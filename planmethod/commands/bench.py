@@ -53,15 +53,13 @@ def bench(
     items: list[LoadedProblem] = []
     kinds = wanted == ["checking"]  # trains and points are checked, too
     finish(for_each_problem(problems, variant, all_variants, items.append, kinds=kinds))
-    loaded = [one.linkage for one in items if one.kind is None]
-    computed = [(one.kind, one.problem) for one in items if one.kind is not None]
     from planmethod.bench import report
 
     for name in wanted:
         click.echo(translate("measuring: {}", name), err=True)
         if name == "checking":
-            section = report.checking_section(loaded, works, computed)
+            section = report.checking_section([(one.kind, one.problem) for one in items], works)
         else:
-            section = report.SECTIONS[name](loaded)
+            section = report.SECTIONS[name]([one.linkage for one in items])
         if section:
             click.echo("\n".join([*section, ""]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from msgspec import Struct
@@ -14,18 +14,24 @@ from msgspec.structs import replace
 from planmethod.commands.output import LocalizedCommand, bar, json_text
 from planmethod.commands.problems import (
     LoadedProblem,
-    basename,
+    act_by_kind,
     fail,
     finish,
     for_each_problem,
     guarded,
     language_of_file,
-    of_linkages,
-    warn_of_accuracy,
 )
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import current_language, translate
-from planmethod.options import PathType, UsageError, jobs_option, out_option, problem_lang_option
+from planmethod.options import (
+    PathType,
+    UsageError,
+    basename,
+    jobs_option,
+    out_option,
+    problem_lang_option,
+    warn_each,
+)
 
 if TYPE_CHECKING:
     from planmethod.check.checking import Variants
@@ -34,6 +40,7 @@ if TYPE_CHECKING:
     from planmethod.check.marks import Settings
     from planmethod.check.model import CheckFailure, GradedSubmission, Submission
     from planmethod.check.pages.files import Table
+    from planmethod.kind import ProblemKind
     from planmethod.note.wording import Language
 
 POLICIES = ("construction", "department", "wider", "stricter")
@@ -564,12 +571,11 @@ def key_question(
 
     Without ``mistakes`` it has none, which saves half of the time.
     """
-    from planmethod.check.checking import task_of_problem
+    from planmethod.check.calculation import task_of_problem
     from planmethod.check.key import key_of_task
 
     task = task_of_problem(item.kind, item.problem, settings)
-    if item.kind is None:
-        warn_of_accuracy(item.linkage)
+    warn_each(item.problem, item.kind.accuracy_warnings(item.problem))
     key = key_of_task(task, named=None if mistakes else lambda _: ())
     if lang is None:
         return KeyQuestion(key, None)
@@ -580,10 +586,14 @@ def key_question(
 
 
 def keys_ahead(items: Sequence[LoadedProblem], settings: Settings) -> dict[int, KeyQuestion]:
-    """Return the keys of linkages with the same questions, by their numbers."""
+    """Return the keys of problems that can be solved together, by their numbers."""
     from planmethod.check.key import compute_keys
+    from planmethod.construct.drafting import PROFILES
 
-    keys = of_linkages(items, lambda problems: compute_keys(problems, settings))
+    def keys_of(kind: ProblemKind[Any], problems: list[Any]) -> dict[int, Key]:
+        return compute_keys(kind.batches(problems, PROFILES["board"]), settings)
+
+    keys = act_by_kind(items, keys_of)
     return {k: KeyQuestion(key, None) for k, key in keys.items()}
 
 

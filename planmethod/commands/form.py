@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import click
 
 from planmethod.commands.output import LocalizedCommand
-from planmethod.commands.problems import basename, finish, for_each_problem, guarded, language_of
+from planmethod.commands.problems import finish, for_each_problem, guarded, language_of
 from planmethod.options import (
     PathType,
     UsageError,
+    basename,
     out_option,
     problem_lang_option,
     problem_options,

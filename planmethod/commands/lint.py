@@ -4,37 +4,31 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 from msgspec import Struct
-from msgspec.structs import replace
 
 from planmethod.commands.output import LocalizedCommand, json_text
 from planmethod.commands.problems import (
     LoadedProblem,
-    basename,
     finish,
     for_each_problem,
     guarded,
     language_of,
-    reject_plan_options,
 )
 from planmethod.commands.sheet_options import PaperRequest, ResolvedRequest, sheet_options
 from planmethod.errors import ExitCode
 from planmethod.options import (
     Positions,
     UsageError,
+    basename,
     drawn_by,
     jobs_option,
     layout_option,
     problem_options,
     reading_options,
 )
-
-if TYPE_CHECKING:
-    from planmethod.problem.model import Problem
-    from planmethod.render.sheets.controlled import CheckedSheet
 
 
 class LintOptions(Struct, frozen=True, kw_only=True):
@@ -127,11 +121,22 @@ def lint(
 
 def inspect_problem(item: LoadedProblem, options: LintOptions) -> tuple[dict[str, Any] | None, int]:
     """Inspect the sheets of a problem; return the record, if requested, and the error count."""
+    from planmethod.kind import PlanRequest
     from planmethod.render.control.remarks import Severity
     from planmethod.render.sheets.controlled import control_record, control_text, counted
 
-    problem = options.request.over(item.problem)
-    what, sheets = _inspected_sheets(replace(item, problem=problem), options)
+    kind, problem = item.kind, options.request.over(item.problem)
+    request = PlanRequest(
+        profile=drawn_by(options.profile, options.ruler),
+        fields=options.request.fields,
+        phi=options.phi,
+        layout=options.layout,
+        errors=options.errors,
+        sigma=options.sigma,
+        structural=options.structural,
+    )
+    kind.reject_options(problem, request.of_linkages())
+    what, sheets = kind.checked_sheets(problem, request)
     lang = language_of(problem, None)
     marked = counted(sheets, Severity.ERROR)
     if options.strict:
@@ -140,67 +145,3 @@ def inspect_problem(item: LoadedProblem, options: LintOptions) -> tuple[dict[str
         return control_record(problem.name, problem.variant, what, sheets, lang), marked
     click.echo(control_text(basename(problem), sheets, lang))
     return None, marked
-
-
-def _inspected_sheets(item: LoadedProblem, options: LintOptions) -> tuple[str, list[CheckedSheet]]:
-    """Return the kind of the sheets of a problem, and the sheets with their remarks."""
-    from planmethod.render.sheets.controlled import (
-        check_drawings,
-        controlled_kinematics,
-        controlled_structure,
-    )
-
-    phi, errors, sigma, layout = options.phi, options.errors, options.sigma, options.layout
-    fields, kind = options.request.fields, item.kind
-    if kind is not None:
-        reject_plan_options(
-            kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma),
-            structure=options.structural,
-        )  # fmt: skip
-        hand = drawn_by(options.profile, options.ruler)
-        drawings = kind.drawings(item.problem, fields=fields, profile=hand)
-        return kind.table, check_drawings(drawings, kind.scales)
-    usual = phi is None and layout is None and not errors and sigma is None
-    if usual and _is_project(item.linkage) and not options.structural:
-        return "project", _of_project(item, options)
-    if options.structural:
-        return "structure", controlled_structure(item.linkage, fields=fields)
-    linkage = item.linkage
-    if phi is not None:  # a project's decisions apply to its own positions
-        linkage = replace(linkage, calculated=None)
-    return "kinematics", controlled_kinematics(
-        linkage,
-        positions=None if phi is None else phi.tolist(),
-        profile=drawn_by(options.profile, options.ruler),
-        fields=fields,
-        errors=errors,
-        sigma=sigma,
-        layout=layout,
-    )
-
-
-def _is_project(linkage: Problem) -> bool:
-    """Return whether a file has [project], or parts of a project beside its linkage.
-
-    A cam that drives the linkage is not such a part.
-    """
-    from planmethod.kinds import PROJECT_KINDS
-
-    driving = set() if linkage.drive.cam_drive is None else {"cam"}
-    parts = {kind.table for kind in PROJECT_KINDS} - driving
-    return linkage.project is not None or bool(linkage.tables.keys() & parts)
-
-
-def _of_project(item: LoadedProblem, options: LintOptions) -> list[CheckedSheet]:
-    """Return the sheets of all parts of a project, as it draws them, inspected."""
-    from planmethod.project.settle import settle
-    from planmethod.project.sheets import numbered_set, part_drawings
-    from planmethod.render.sheets.controlled import check_drawings
-
-    project = settle(item.linkage, item.path)
-    drawn = [part_drawings(project, part, options.request.fields) for part in project.parts]
-    return [
-        sheet
-        for part, sheets in zip(project.parts, numbered_set(project, drawn), strict=True)
-        for sheet in check_drawings(sheets, "[scales]" if part.kind is None else part.kind.scales)
-    ]

@@ -9,14 +9,19 @@ import click
 from planmethod.commands.output import LocalizedCommand, show, write_text
 from planmethod.commands.problems import (
     LoadedProblem,
-    basename,
     finish,
     for_each_problem,
     guarded,
     language_of,
-    warn_of_accuracy,
 )
-from planmethod.options import open_option, out_option, problem_lang_option, problem_options
+from planmethod.options import (
+    basename,
+    open_option,
+    out_option,
+    problem_lang_option,
+    problem_options,
+    warn_each,
+)
 
 
 @click.command(cls=LocalizedCommand)
@@ -34,18 +39,13 @@ def live(
     shown: bool,
 ) -> None:
     """Write a page where a mechanism and its plans, or a gear train, move, for any browser."""
-    from planmethod.render.live.page import live_page
-
     written: list[Path] = []
 
     def write(item: LoadedProblem) -> None:
         page = out / f"{basename(item.problem)}-live.html"
         words = language_of(item.problem, lang)
-        if item.kind is None:
-            write_text(live_page(item.linkage, words), str(page), folder=out)
-            warn_of_accuracy(item.linkage)
-        else:
-            write_text(item.kind.live_page(item.problem, words), str(page), folder=out)
+        write_text(item.kind.live_page(item.problem, words), str(page), folder=out)
+        warn_each(item.problem, item.kind.accuracy_warnings(item.problem))
         written.append(page)
 
     code = for_each_problem(problems, variant, all_variants, write)

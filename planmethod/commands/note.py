@@ -7,10 +7,10 @@ from pathlib import Path
 import click
 
 from planmethod.commands.output import LocalizedCommand, show
-from planmethod.commands.problems import basename, guarded
+from planmethod.commands.problems import guarded
 from planmethod.commands.project_context import load_project, note_options
 from planmethod.commands.sheet_options import PaperRequest, sheet_options
-from planmethod.options import BadParameter, open_option, out_option, position_option
+from planmethod.options import BadParameter, basename, open_option, out_option, position_option
 
 FORMATS = ("docx", "pdf")
 

@@ -17,29 +17,26 @@ import click
 from msgspec import Struct
 
 from planmethod.commands.output import is_terminal
-from planmethod.errors import AssemblyError, ExitCode, PlanMethodError, ProblemError
+from planmethod.errors import ExitCode, PlanMethodError, ProblemError
 from planmethod.languages import current_language, translate
-from planmethod.options import UsageError
+from planmethod.options import UsageError, basename, message_name, warn_each
 
 if TYPE_CHECKING:
     from planmethod.commands.processes import Outcome
-    from planmethod.construct.drafting import Profile
     from planmethod.kind import ProblemKind
-    from planmethod.options import Positions
     from planmethod.problem.model import Problem
     from planmethod.problem.records import KindProblem
-    from planmethod.solved.machine.flywheel import Flywheel
-    from planmethod.solved.solution import Solution
 
 F = TypeVar("F", bound=Callable[..., Any])
 T = TypeVar("T")
+P = TypeVar("P", bound="KindProblem")
 
 
 class LoadedProblem(Struct, frozen=True):
-    """A problem that was read: its file, its kind (None for a linkage), what was read."""
+    """A problem that was read: its file, its kind, what was read."""
 
     path: Path
-    kind: ProblemKind[Any] | None
+    kind: ProblemKind[Any]
     problem: KindProblem
 
     @property
@@ -47,8 +44,6 @@ class LoadedProblem(Struct, frozen=True):
         """The problem of a linkage."""
         return cast("Problem", self.problem)
 
-
-_PLACES = " The places exist there: --ask positions."
 
 AT_ONCE = 256
 """Problems that are acted on at once, where they can be."""
@@ -108,80 +103,30 @@ def guarded(command: F) -> F:
     return wrapper  # type: ignore[return-value]
 
 
+def read_each(
+    kind: ProblemKind[P], path: Path, variants: Callable[[], Iterable[str | None]]
+) -> Iterator[P]:
+    """Yield variants of a problem file unchanged; warnings about them are printed."""
+    with of_file(path, path.stem):
+        for problem in kind.load_each(path, variants()):
+            warn_each(problem, kind.reading_warnings(problem))
+            yield problem
+
+
 def load(
-    path: Path, variant: str | None, all_variants: bool, *, drawn: bool = True
-) -> list[Problem]:
-    """Read a problem file: one problem, or one for each variant, with its project's decisions.
+    kind: ProblemKind[P], path: Path, variants: Callable[[], Iterable[str | None]], *, drawn: bool
+) -> list[P]:
+    """Read variants of a problem file, with the decisions of its project.
 
     Sheet 1 is laid out to decide the scales; without ``drawn`` only the positions are decided.
     """
     found = []
-    for problem in _read(path, variant, all_variants):
-        if problem.project is not None:
-            from planmethod.project.settle import in_positions, with_decisions
-
-            with of_file(path, problem.name):
-                problem = with_decisions(problem) if drawn else in_positions(problem)
-        found.append(problem)
-    if found and found[0].project is None:  # an author of [project] knows its use
-        warn_of_unused_tables(found[0])
+    for problem in read_each(kind, path, variants):
+        with of_file(path, problem.name):
+            found.append(kind.decided(problem, drawn=drawn))
+    if found:
+        warn_each(found[0], kind.unused_table_warnings(found[0]))
     return found
-
-
-def load_unchanged(path: Path, variant: str | None) -> Problem:
-    """Read a problem file unchanged."""
-    (problem,) = _read(path, variant, all_variants=False)
-    return problem
-
-
-def _read(path: Path, variant: str | None, all_variants: bool) -> Iterator[Problem]:
-    from planmethod.kinds import load_each
-    from planmethod.problem.plausibility import unlikely
-
-    with of_file(path, path.stem):
-        for problem in load_each(path, variants_of(path, variant, all_variants)):
-            for phrase in unlikely(problem):
-                warn(problem, phrase)
-            if problem.cycle is not None and problem.cycle.working is not None:
-                _warn_of_working_stroke(problem)
-            yield problem
-
-
-def _warn_of_working_stroke(problem: Problem) -> None:
-    """Warn of a working stroke on which the loads do not do their work."""
-    from planmethod.note.document import plain_text
-    from planmethod.solved.solution import Solution
-    from planmethod.solved.turn.cycle import crank_cycle_of
-
-    with contextlib.suppress(PlanMethodError):  # reported where the positions are solved
-        turn = crank_cycle_of(Solution(problem))
-        loads, strokes = turn.contradicting, turn.strokes
-        if loads is not None and strokes is not None and problem.cycle is not None:
-            text = translate(
-                '[cycle] working = "{}" makes the stroke of {:.2f}° the working one, and the work '
-                "of {} is done on the other one, of {:.2f}°. Mend one of them.",
-                getattr(problem.cycle.working, "value", ""),
-                strokes.working_deg,
-                plain_text(loads.partition(" ")[2]),
-                strokes.idle_deg,
-            )
-            warn(problem, text)
-
-
-def warn_of_unused_tables(problem: Problem) -> None:
-    """Warn of tables of other kinds of problem in a linkage's file, which are not used."""
-    for table in problem.tables:
-        if table == "point":
-            warn(problem, "[point] is left out; give it a file of its own.")
-        elif {"gears": problem.drive.gear_drive, "cam": problem.drive.cam_drive}.get(table) is None:
-            warn(problem, translate("[{}] is left out; planmethod project draws it.", table))
-
-
-def _load_other(
-    kind: ProblemKind[Any], path: Path, variant: str | None, all_variants: bool
-) -> list[KindProblem]:
-    """Read problems of another kind likewise."""
-    return [kind.load(path, name) for name in variants_of(path, variant, all_variants)]
 
 
 def variants_of(path: Path, variant: str | None, all_variants: bool) -> Sequence[str | None]:
@@ -213,7 +158,7 @@ def for_each_problem(
         Acts on one problem. Where there are jobs it is pickled: a function of a module, its
         arguments in `functools.partial`.
     kinds : bool
-        Whether problems of other kinds are accepted, too; else they are faulty.
+        Whether all kinds of problem are accepted; else every file is read as a linkage.
     jobs : int
         Number of processes; their output is printed here, in order, so that the outcome is the
         same.
@@ -252,14 +197,17 @@ def for_each_problem(
     )
 
 
-def of_linkages(
-    items: Sequence[LoadedProblem], build: Callable[[list[Problem]], Mapping[int, T]]
+def act_by_kind(
+    items: Sequence[LoadedProblem],
+    act: Callable[[ProblemKind[Any], list[Any]], Mapping[int, T]],
 ) -> dict[int, T]:
-    """Return the results of the linkages among problems, made together, by index."""
-    linkages = [k for k, one in enumerate(items) if one.kind is None]
-    if not linkages:
-        return {}
-    return {linkages[k]: one for k, one in build([items[k].linkage for k in linkages]).items()}
+    """Return the results of problems that are acted on together, those of each kind, by index."""
+    found: dict[int, T] = {}
+    for kind in dict.fromkeys(one.kind for one in items):
+        own = [k for k, one in enumerate(items) if one.kind is kind]
+        results = act(kind, [items[k].problem for k in own])
+        found.update((own[k], result) for k, result in results.items())
+    return found
 
 
 @contextmanager
@@ -291,21 +239,18 @@ def run_steps(
     make_steps : callable
         Returns the callables to run in turn for the problems.
     kinds : bool
-        Whether problems of other kinds are accepted, too.
+        Whether all kinds of problem are accepted; else every file is read as a linkage.
     """
-    from planmethod.kinds import kind_of
+    from planmethod.kinds import LINKAGES, kind_of
 
     codes: list[ExitCode] = []
     items: list[LoadedProblem] = []
     for path in paths:
         try:
-            kind = kind_of(path) if kinds else None
-            if kind is None:
-                found = load(path, variant, all_variants, drawn=drawn)
-                items += [LoadedProblem(path, None, problem) for problem in found]
-            else:
-                others = _load_other(kind, path, variant, all_variants)
-                items += [LoadedProblem(path, kind, one) for one in others]
+            kind = kind_of(path) if kinds else LINKAGES
+            variants = partial(variants_of, path, variant, all_variants)
+            found = load(kind, path, variants, drawn=drawn)
+            items += [LoadedProblem(path, kind, problem) for problem in found]
         except PlanMethodError as error:
             codes.append(error.exit_code)
             fail(error)
@@ -403,31 +348,6 @@ def finish(code: ExitCode) -> None:
         sys.exit(code)
 
 
-def reject_plan_options(kind: ProblemKind[Any], **options: object) -> None:
-    """Reject options that only the plans of linkages have.
-
-    Raises
-    ------
-    click.UsageError
-        Naming the options that were given.
-    """
-    given = [f"--{name.replace('_', '-')}" for name, value in options.items() if value]
-    if given:
-        text = ", ".join(given)
-        raise UsageError(
-            "{}: only plans of linkages have such options; leave them out for [{}]",
-            text,
-            kind.table,
-        )
-
-
-def no_position(number: int, problem: KindProblem, count: int) -> UsageError:
-    """Return the error of a position that a problem does not have."""
-    return UsageError(
-        "--position {}: the last of {} is {}", number, message_name(problem), count - 1
-    )
-
-
 def with_progress(steps: Iterable[T], length: int) -> Iterator[T]:
     """Yield the steps, with a progress bar on a terminal if they take about a second."""
     if length < MANY or not is_terminal(sys.stderr):
@@ -435,16 +355,6 @@ def with_progress(steps: Iterable[T], length: int) -> Iterator[T]:
         return
     with click.progressbar(steps, length, label="planmethod", file=sys.stderr) as bar:
         yield from bar
-
-
-def basename(problem: KindProblem) -> str:
-    """Return the base name of the files of a problem."""
-    return problem.name if problem.variant is None else f"{problem.name}-{problem.variant}"
-
-
-def message_name(problem: KindProblem) -> str:
-    """Return the name of a problem in messages: its file, or the file's name with the variant."""
-    return problem.source_file if problem.variant is None else basename(problem)
 
 
 def language_of(problem: KindProblem, named: str | None) -> str:
@@ -467,90 +377,3 @@ def language_of_file(path: Path, named: str | None) -> str:
         if isinstance(sheet, dict):
             return known_language(str(sheet.get("lang", ""))) or current_language()
     return current_language()
-
-
-def warn(problem: Problem, message: object) -> None:
-    """Print a warning about a problem's results: a sentence, or a record of one."""
-    click.echo(translate("Warning: {}: {}", message_name(problem), message), err=True)
-
-
-def warn_of_wide_flywheel(wheel: Flywheel) -> None:
-    """Warn of a flywheel that is wide for its diameter."""
-    from planmethod.solved.machine.sizes import too_wide
-
-    said = too_wide(wheel.machine.wheel, wheel.exact.inertia, wheel.middle_speed)
-    if said is not None:
-        warn(wheel.problem, said)
-
-
-def warn_of_change_points(problem: Problem, phi: Positions | None) -> None:
-    """Warn of change points between the positions of a problem that is solved elsewhere."""
-    from planmethod.solved.selfcheck import changed_branches
-    from planmethod.solved.solution import Solution
-
-    way = None if phi is None else [float(phi.min()), float(phi.max())]
-    for said in changed_branches(Solution(problem, positions=way)):
-        warn(problem, said)
-
-
-def warn_of_accuracy(
-    problem: Problem, positions: Sequence[float] | None = None, *, forces: bool = True
-) -> None:
-    """Warn of positions with few digits, for a problem that is solved elsewhere.
-
-    Impossible or rejected positions are reported where it is solved.
-    """
-    from planmethod.solved.selfcheck import warnings
-    from planmethod.solved.solution import Solution
-
-    with contextlib.suppress(PlanMethodError):
-        for doubt in warnings(Solution(problem, positions=positions), forces=forces):
-            warn(problem, doubt)
-
-
-def solution_of(
-    problem: Problem,
-    phi: Positions | None,
-    profile: Profile,
-    *,
-    hint: str = "",
-    forces: bool = False,
-    machine: bool = False,
-) -> Solution:
-    """Solve a problem, check the solution, and print its warnings.
-
-    Parameters
-    ----------
-    profile : Profile
-        Accuracy of drawing the plans.
-    hint : str
-        Alternative to suggest where one of several positions is rejected.
-    forces : bool
-        The forces must exist, too, where there are loads.
-    machine : bool
-        The flywheel is checked as well.
-    """
-    from planmethod.solved.failures import Cause, PositionError
-    from planmethod.solved.selfcheck import changed_branches, verify, warnings
-    from planmethod.solved.solution import Solution
-
-    solution = Solution(problem, positions=None if phi is None else phi.tolist(), profile=profile)
-    for said in changed_branches(solution):
-        warn(problem, said)
-    try:
-        verify(solution, forces=forces)
-    except AssemblyError as error:
-        if hint and isinstance(error, PositionError) and error.failure.cause is Cause.RAYS:
-            hint = f"{translate(_PLACES)}{translate(hint) if len(solution.positions) > 1 else ''}"
-        elif len(solution.positions) < 2:
-            raise
-        else:
-            hint = translate(hint)
-        raise AssemblyError(f"{error}{hint}") from error
-    for doubt in warnings(solution, forces=forces):
-        warn(problem, doubt)
-    if machine and problem.machine is not None:
-        from planmethod.solved.machine.flywheel import flywheel_of
-
-        warn_of_wide_flywheel(flywheel_of(solution))
-    return solution

@@ -12,19 +12,22 @@ import msgspec
 from msgspec import Struct
 
 from planmethod.commands.output import LocalizedCommand, bar, json_text, show
-from planmethod.commands.problems import basename, guarded, message_name, warn_of_wide_flywheel
+from planmethod.commands.problems import guarded
 from planmethod.commands.project_context import load_project, note_options
 from planmethod.commands.sheet_options import PaperRequest, sheet_options
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.options import (
     BadParameter,
     UsageError,
+    basename,
     dxf_text_option,
     format_option,
     jobs_option,
+    message_name,
     open_option,
     out_option,
     position_option,
+    warn_each,
 )
 from planmethod.problem.machine_records import PROJECT_PARTS
 
@@ -128,9 +131,9 @@ def project(
     wanted = _requested_parts(chosen, parts)
     written = SheetFormats(formats, settled.author(chosen.problem), dxf_text)
     if "flywheel" in wanted:
-        from planmethod.solved.machine.flywheel import Flywheel
+        from planmethod.solved.machine.flywheel import Flywheel, flywheel_warnings
 
-        warn_of_wide_flywheel(Flywheel(chosen.problem))
+        warn_each(chosen.problem, flywheel_warnings(Flywheel(chosen.problem)))
     options = NoteOptions(settled.fields, template, frame)
     made, files = _make_parts(chosen, wanted, options, written, jobs)
     name = basename(chosen.problem)
@@ -183,7 +186,8 @@ def _make_parts(
     All sheets are drawn, whichever are requested: they are numbered as one set. An unrequested one
     that cannot be drawn does not stop the others, and is not counted.
     """
-    from planmethod.project.settle import PartFiles, PartName
+    from planmethod.project.parts import PartName
+    from planmethod.project.settle import PartFiles
     from planmethod.project.sheets import numbered_set, sheet_list
 
     parts = chosen.parts

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 from msgspec.structs import replace
 
-from planmethod.commands.problems import load_unchanged, solution_of, warn
+from planmethod.commands.problems import read_each
 from planmethod.errors import ProblemError
-from planmethod.options import UsageError, drawn_by
+from planmethod.options import UsageError, drawn_by, warn
 
 if TYPE_CHECKING:
     from planmethod.commands.sheet_options import ResolvedRequest
@@ -51,17 +51,14 @@ def load_project(
         It is not a linkage.
     """
     from planmethod.kinds import kind_of
+    from planmethod.linkages.solving import solution_of
     from planmethod.problem.machine_records import ProjectTask
     from planmethod.project.settle import settle, warn_of_separate_train
 
     kind = kind_of(path)
-    if kind is not None:
-        raise UsageError(
-            "{}: a project is that of a linkage; [{}] alone: planmethod sheet",
-            path.name,
-            kind.table,
-        )
-    problem = request.over(load_unchanged(path, variant))
+    kind.reject_as_project(path)
+    (problem,) = read_each(kind, path, lambda: (variant,))
+    problem = request.over(problem)
     if position is not None:
         task = replace(problem.project or ProjectTask(), calculated=position)
         problem = replace(problem, project=task)

@@ -9,18 +9,15 @@ import click
 from planmethod.commands.output import LocalizedCommand, write_text
 from planmethod.commands.problems import (
     LoadedProblem,
-    basename,
     finish,
     for_each_problem,
     guarded,
     language_of,
-    no_position,
-    reject_plan_options,
-    solution_of,
 )
 from planmethod.options import (
     PathType,
     Positions,
+    basename,
     drawn_by,
     problem_lang_option,
     problem_options,
@@ -66,7 +63,7 @@ def protocol(
     lang: str | None,
 ) -> None:
     """Describe the construction step by step, as the explanatory note does."""
-    from planmethod.note.protocol import protocol_document
+    from planmethod.kind import PlanRequest
     from planmethod.note.wording import get_language
 
     if form == "md":
@@ -74,25 +71,15 @@ def protocol(
     else:
         from planmethod.note.writers.terminal import plain_document as write
 
-    hand = drawn_by(profile, ruler)
+    request = PlanRequest(profile=drawn_by(profile, ruler), phi=phi, position=position)
 
     def write_protocol(item: LoadedProblem) -> None:
         kind, problem = item.kind, item.problem
         language = get_language(language_of(problem, lang))
-        if kind is not None:
-            reject_plan_options(kind, phi=phi is not None, position=position is not None)
-            told = kind.protocol_document(problem, language, hand)
-        else:
-            solution = solution_of(item.linkage, phi, hand, forces=True, machine=True)
-            count = len(solution.positions)
-            chosen = position
-            if chosen is None:
-                chosen = (None if phi is not None else item.linkage.calculated) or 0
-            if chosen >= count:
-                raise no_position(chosen, problem, count)
-            told = protocol_document(solution, language, chosen)
+        kind.reject_options(problem, request.of_linkages())
+        document = kind.protocol_document(problem, language, request)
         suffix = "txt" if form == "text" else form
-        text = write(told, language) + "\n"
+        text = write(document, language) + "\n"
         write_text(
             text, None if out is None else str(out / f"{basename(problem)}-protocol.{suffix}")
         )

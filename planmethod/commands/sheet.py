@@ -17,27 +17,13 @@ from planmethod.commands.output import (
     write_drawings,
     write_set,
 )
-from planmethod.commands.problems import (
-    LoadedProblem,
-    basename,
-    finish,
-    for_each_problem,
-    guarded,
-    message_name,
-    reject_plan_options,
-    warn,
-    warn_of_accuracy,
-    warn_of_change_points,
-    warn_of_unused_tables,
-    warn_of_wide_flywheel,
-)
+from planmethod.commands.problems import LoadedProblem, finish, for_each_problem, guarded
 from planmethod.commands.sheet_options import PaperRequest, ResolvedRequest, sheet_options
-from planmethod.errors import LayoutError
-from planmethod.languages import translate
 from planmethod.options import (
     BadParameter,
     Positions,
     UsageError,
+    basename,
     drawing_options,
     drawn_by,
     format_option,
@@ -49,13 +35,14 @@ from planmethod.options import (
     problem_options,
     read_labels,
     reading_options,
+    warn_each,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
     from planmethod.construct.drafting import Profile
-    from planmethod.problem.model import Problem
+    from planmethod.kind import PlanRequest
     from planmethod.render.ink.drawing import Drawing
 
 
@@ -78,9 +65,26 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
     dxf_text: Literal["text", "strokes"]
     all_positions: bool = False
 
+    def plan_request(
+        self, *, before: int = 0, total: int | None = None, profile: Profile | None = None
+    ) -> PlanRequest:
+        """Return the options of drawing a problem, with another profile if one is given."""
+        from planmethod.kind import PlanRequest
 
-MAX_SHEETS = 6
-"""Maximum number of sheets of one problem without confirmation."""
+        return PlanRequest(
+            profile=profile or drawn_by(self.profile, self.ruler),
+            fields=self.request.fields,
+            before=before,
+            total=total,
+            phi=self.phi,
+            position=self.position,
+            layout=self.layout,
+            quantities=self.quantities,
+            compact=self.compact,
+            errors=self.errors,
+            sigma=self.sigma,
+            all_positions=self.all_positions,
+        )
 
 
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -88,29 +92,6 @@ def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     if value is not None and Path(value).suffix.lower() != ".pdf":
         raise BadParameter("{!r} does not end in .pdf", value)
     return value
-
-
-def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
-    """Return a problem without its scales, which are for larger paper.
-
-    Raises
-    ------
-    LayoutError
-        There are more positions than fit on small paper.
-    """
-    from planmethod.problem.model import Scales
-    from planmethod.solved.legibility import FEW
-
-    asked = problem.drive.positions if positions is None else positions
-    if len(asked) > FEW:
-        raise LayoutError(
-            "{}: --compact is for at most {} positions, {} are requested. Request fewer "
-            "(--phi 30,150), or omit --compact.",
-            problem.name,
-            FEW,
-            len(asked),
-        )
-    return replace(problem, scales=Scales(convention=problem.scales.convention))
 
 
 @click.command(cls=LocalizedCommand)
@@ -244,91 +225,10 @@ def draw(item: LoadedProblem, options: SheetOptions) -> Path:
 
 def resolve_problem(item: LoadedProblem, options: SheetOptions) -> LoadedProblem:
     """Return a problem with all settings of its sheets; print its warnings."""
-    item = replace(item, problem=options.request.over(item.problem))
-    if item.kind is not None:
-        return item
-    if item.linkage.project is not None and options.layout is None:
-        warn_of_unused_tables(item.linkage)
-    if options.phi is not None or options.position is not None:
-        # The decisions of a project apply to its own positions.
-        item = replace(item, problem=replace(item.linkage, calculated=options.position))
-    warn_of_change_points(item.linkage, options.phi)
-    drawn = _drawn_positions(item.linkage, options)
-    warn_of_accuracy(item.linkage, drawn, forces=_has_forces(options.layout))
-    if options.layout is not None and options.phi is None:
-        _warn_of_unused_positions(item.linkage, options.layout)
-    if item.linkage.machine is not None and _has_flywheel(options.layout):
-        from planmethod.solved.machine.flywheel import Flywheel
-
-        warn_of_wide_flywheel(Flywheel(item.linkage))
-    return item
-
-
-def _drawn_positions(problem: Problem, options: SheetOptions) -> list[float] | None:
-    """Return the positions of the sheets; None for those of the file."""
-    if options.phi is not None:
-        return [float(place) for place in options.phi]
-    if options.layout is None or not problem.drive.goes_round:
-        return None
-    from planmethod.render.sheets.composition import composition
-
-    if not composition(options.layout).cycle:
-        return None
-    from planmethod.solved.solution import Solution
-    from planmethod.solved.turn.extremes import numbered_positions
-
-    return [float(place) for place in numbered_positions(Solution(problem))]
-
-
-def _warn_of_unused_positions(problem: Problem, layout: str) -> None:
-    """Warn that the sheets of the cycle leave the positions of a file without [cycle] out."""
-    from planmethod.render.sheets.composition import composition
-
-    drive = problem.drive
-    if problem.cycle is not None or not drive.goes_round or len(drive.positions) < 2:
-        return
-    if not composition(layout).cycle:
-        return
-    from planmethod.problem.model import SAME_DEG
-    from planmethod.solved.solution import Solution
-    from planmethod.solved.turn.extremes import numbered_positions
-
-    positions = numbered_positions(Solution(problem)).tolist()
-    apart = [abs((a - b + 180.0) % 360.0 - 180.0)
-             for a, b in zip(positions, drive.positions, strict=False)]  # fmt: skip
-    if len(positions) != len(drive.positions) or max(apart) > SAME_DEG:
-        text = translate(
-            "layout {} has the positions of the cycle, {} from {:.5g}° on, not the {} of "
-            "driver.phi from {:.5g}° on. With [cycle] zero = {:g}, count = {} in place of phi all "
-            "outputs have the same; --phi asks others.",
-            layout,
-            len(positions),
-            positions[0],
-            len(drive.positions),
-            drive.positions[0],
-            drive.positions[0],
-            len(drive.positions),
-        )
-        warn(problem, text)
-
-
-def _has_forces(layout: str | None) -> bool:
-    """Return whether the sheets show forces, or results of them."""
-    from planmethod.render.sheets.blocks import has_forces
-    from planmethod.render.sheets.composition import composition
-
-    return layout is not None and any(
-        has_forces(entry.kind) for entry in composition(layout).blocks
-    )
-
-
-def _has_flywheel(layout: str | None) -> bool:
-    """Return whether the sheets show the sizes of a flywheel."""
-    from planmethod.render.sheets.composition import composition
-
-    return layout is not None and any(
-        entry.kind == "flywheel" for entry in composition(layout).blocks
-    )
+    request = options.plan_request()
+    problem = item.kind.in_positions(options.request.over(item.problem), request)
+    warn_each(problem, item.kind.sheet_warnings(problem, request))
+    return replace(item, problem=problem)
 
 
 def drawn_for(
@@ -340,40 +240,9 @@ def drawn_for(
     profile: Profile | None = None,
 ) -> list[Drawing]:
     """Draw the sheets of a problem; ``before`` of the set of ``total`` go before them."""
-    phi, errors, sigma, layout = options.phi, options.errors, options.sigma, options.layout
-    fields = options.request.fields
-    profile = profile or drawn_by(options.profile, options.ruler)
-    kind = item.kind
-    if kind is not None:
-        reject_plan_options(
-            kind,
-            phi=phi is not None,
-            position=options.position is not None,
-            layout=layout,
-            errors=errors,
-            sigma=bool(sigma),
-        )
-        return kind.drawings(
-            item.problem, fields=fields, profile=profile, before=before, total=total
-        )
-    from planmethod.render.frame import Furniture
-    from planmethod.render.sheets.kinematics import kinematics_sheets
-
-    problem, positions = item.linkage, None if phi is None else phi.tolist()
-    if options.quantities and not problem.drive.goes_round:
-        raise UsageError("--ask: {}: the driver slides and has no turn", message_name(problem))
-    return kinematics_sheets(
-        compacted(problem, positions) if options.compact else problem,
-        positions=positions,
-        profile=profile,
-        fields=fields,
-        furniture=Furniture.of(problem.sheet, before=before, total=total),
-        errors=errors,
-        sigma=sigma,
-        layout=layout,
-        most=None if options.all_positions or options.compact else MAX_SHEETS,
-        asked=options.quantities,
-    )
+    request = options.plan_request(before=before, total=total, profile=profile)
+    item.kind.reject_options(item.problem, request.of_linkages())
+    return item.kind.drawings(item.problem, request)
 
 
 def _write(

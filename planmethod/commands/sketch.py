@@ -15,8 +15,7 @@ from planmethod.commands.problems import (
     names_of,
     variants_of,
 )
-from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
-from planmethod.languages import translate
+from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.options import (
     format_option,
     open_option,
@@ -76,30 +75,20 @@ def _draw(
     path: Path, variant: str | None, out: Path, formats: tuple[str, ...], lang: str | None
 ) -> PlanMethodError | None:
     """Draw the sketch of a file; return the faults of the file."""
-    from planmethod.kinds import kind_of, part_of
-
-    kind = kind_of(path)
-    if kind is not None:
-        hint = translate("Its picture: planmethod sheet {}", path)
-        raise ProblemError(str(path), [Fault(kind.table, "only linkages have a sketch", hint)])
+    from planmethod.kinds import kind_of
     from planmethod.note.wording import get_language
     from planmethod.render.sketch import VIEWS, sketch as drawn
 
-    title, part = part_of(path, variant=variant, views=VIEWS)
+    title, part = kind_of(path).part(path, variant=variant, views=VIEWS)
     language = get_language(language_of_file(path, lang))
-    trouble = part.trouble
-    if trouble is None and part.failure is not None:
-        from planmethod.solved.failures import PositionError
-
-        trouble = PositionError(part.failure)
-    said = [str(fault) for fault in part.faults] or ([str(trouble)] if trouble else [])
+    said = [str(fault) for fault in part.faults] or ([str(part.error)] if part.error else [])
     if part.solution is not None:
         from planmethod.problem.plausibility import unlikely
 
         said += unlikely(part.solution.problem)
     drawing = drawn(part, title, language, said)
     write_drawings([drawing], out, _basename(path, variant), formats)
-    return trouble
+    return part.error
 
 
 def _show(picture: Path) -> None:

@@ -5,54 +5,41 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator, Sequence
+import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from msgspec import Struct
 
 from planmethod.commands.output import (
     JsonTexts,
     LocalizedCommand,
+    bar,
+    is_terminal,
     json_text,
     watch_option,
     write_parts,
 )
-from planmethod.commands.position_tables import (
-    HINT,
-    MAX_SHOWN_ROWS,
-    examine_positions,
-    reject_huge_array,
-    reject_long_table,
-    requested_positions,
-    sweep_of,
-    table_of,
-    write_arrays_file,
-    write_text,
-)
 from planmethod.commands.problems import (
     LoadedProblem,
+    act_by_kind,
     finish,
     for_each_problem,
     guarded,
     language_of,
-    message_name,
-    no_position,
-    of_linkages,
-    solution_of,
-    warn_of_change_points,
 )
 from planmethod.errors import ExitCode
 from planmethod.languages import translate
 from planmethod.options import (
     MAX_POSITIONS,
+    MAX_SHOWN_ROWS,
     MAX_SWEPT_POSITIONS,
     PathType,
     Positions,
     UsageError,
+    basename,
     drafting_options,
-    drawn_by,
     jobs_option,
     positions_option,
     problem_lang_option,
@@ -61,59 +48,16 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.construct.drafting import Profile
-    from planmethod.kind import ProblemKind
+    from planmethod.kind import SolveOptions
     from planmethod.note.records.spreadsheet import SolvedArrays, SpreadsheetRows
     from planmethod.problem.model import Problem
-    from planmethod.problem.records import KindProblem
     from planmethod.solved.many.gaps import GappedSweep
-    from planmethod.solved.many.variants import Batch
-    from planmethod.solved.solution import Solution
 
+MANY_PROBLEMS = 500
+"""Problems whose arrays take about a second to write."""
 
-class SolveOptions(Struct, frozen=True, kw_only=True):
-    """Results to compute and their form; the options of the command.
-
-    Attributes
-    ----------
-    csv, npz, covariance : bool
-        Whether a file or a table of that kind is made of all problems.
-    in_subprocess : bool
-        Whether the work is done in another process.
-    """
-
-    phi: Positions | None
-    position: int | None = None
-    ruler: float | None
-    profile: str | None
-    as_json: bool
-    csv: bool
-    npz: bool
-    quantities: tuple[str, ...] | None
-    partial: bool
-    sigma: bool
-    covariance: bool
-    referee: int | None
-    lang: str | None
-    in_subprocess: bool
-
-    @property
-    def profile_and_ruler(self) -> tuple[str | None, float | None]:
-        """Drafting profile and ruler."""
-        return self.profile, self.ruler
-
-    def of_linkages(self) -> dict[str, bool]:
-        """Return the given options that only linkages have."""
-        return {
-            "--csv": self.csv,
-            "--npz": self.npz,
-            "--ask": self.quantities is not None,
-            "--phi": self.phi is not None,
-            "--position": self.position is not None,
-            "--sigma": self.sigma,
-            "--covariance": self.covariance,
-            "--referee": self.referee is not None,
-        }
+LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
+"""Count of numbers that take about a second to write."""
 
 
 @click.command(cls=LocalizedCommand)
@@ -236,6 +180,8 @@ def solve(
         )
     if npz_file is not None or (phi is not None and len(phi) > MAX_SHOWN_ROWS):
         jobs = 1  # large tables are solved while they are written
+    from planmethod.kind import SolveOptions
+
     options = SolveOptions(
         phi=phi,
         position=position,
@@ -259,7 +205,9 @@ def solve(
         all_variants,
         functools.partial(compute, options=options),
         jobs=jobs,
-        act_on_many=_batch_solver(options),
+        act_on_many=(
+            functools.partial(_solve_together, options=options) if options.can_batch else None
+        ),
         drawn=not sweeping,
     )
     if as_json:
@@ -283,186 +231,82 @@ def solve(
     finish(code)
 
 
-def compute(
-    item: LoadedProblem, options: SolveOptions
-) -> dict[str, Any] | SpreadsheetRows | GappedSweep | SolvedArrays | Solution | None:
+def compute(item: LoadedProblem, options: SolveOptions) -> Any:
     """Compute a problem; print its numbers, or return what several problems print together."""
-    kind, problem = item.kind, item.problem
-    if kind is None:
-        return _computed(item.linkage, options)
-    table = kind.spreadsheet(problem) if options.csv else None
-    for option, given in options.of_linkages().items():
-        if given and not (table is not None and option == "--csv"):
-            raise UsageError("{} is for linkages, {} is none", option, message_name(problem))
-    if table is not None:
-        return table
-    if options.as_json:
-        return kind.record(problem, language_of(problem, options.lang))
     from planmethod.note.wording import get_language
+
+    kind, problem = item.kind, item.problem
+    kind.reject_options(problem, options.of_linkages())
+    lang = language_of(problem, options.lang)
+    if options.returns_data:
+        return kind.solved_data(problem, lang, options)
     from planmethod.note.writers.terminal import plain_document
 
-    language = get_language(language_of(problem, options.lang))
-    click.echo(plain_document(kind.solved_document(problem, language), language))
+    language = get_language(lang)
+    for number, document in enumerate(kind.solved_documents(problem, language, options)):
+        click.echo("\n" * min(number, 1) + plain_document(document, language))
     return None
-
-
-def _batch_solver(
-    options: SolveOptions,
-) -> Callable[[Sequence[LoadedProblem]], dict[int, Any]] | None:
-    """Return the batch solver of many problems; None where each is to be solved alone."""
-    moved = options.phi is not None or options.referee is not None or options.partial
-    if (
-        moved
-        or options.quantities is not None
-        or not (options.as_json or options.npz or options.csv)
-    ):
-        return None
-    return functools.partial(_solve_together, options=options)
-
-
-def _convert_batch(options: SolveOptions, batch: Batch) -> Iterator[Any]:
-    """Return the numbers of a batch in the requested form."""
-    if options.as_json:
-        from planmethod.note.records.solution import batch_records
-
-        return batch_records(batch)
-    if options.npz:
-        from planmethod.note.records.spreadsheet import batch_arrays
-
-        return batch_arrays(batch)
-    from planmethod.note.records.spreadsheet import batch_tables
-
-    return batch_tables(batch)
 
 
 def _solve_together(items: Sequence[LoadedProblem], options: SolveOptions) -> dict[int, Any]:
-    """Return the output of linkages that are solved together, by index."""
-
-    def solved(problems: list[Problem]) -> dict[int, Any]:
-        from planmethod.solved.many.variants import in_batches
-
-        found: dict[int, Any] = {}
-        for batch, members in in_batches(problems, drawn_by(*hand)):
-            found.update(zip(members, _convert_batch(options, batch), strict=True))
-        if options.as_json:
-            for number, one in found.items():
-                found[number] = one | _other_parts_record(problems[number], options)
-        return found
-
-    hand = ("board", options.ruler) if options.csv else options.profile_and_ruler
-    return of_linkages(items, solved)
+    """Return the data of problems that can be solved together, by index."""
+    return act_by_kind(items, lambda kind, problems: kind.solved_together(problems, options))
 
 
-def _computed(
-    problem: Problem, options: SolveOptions
-) -> dict[str, Any] | SpreadsheetRows | GappedSweep | SolvedArrays | Solution | None:
-    phi, referee = options.phi, options.referee
-    hand = drawn_by(options.profile, options.ruler)  # a train needs no arrays
-    if options.npz and _batch_solver(options) is not None and _is_short(problem):
-        from planmethod.note.records.spreadsheet import solved_arrays
+# Files -------------------------------------------------------------------------------------------
 
-        return solved_arrays(solution_of(problem, None, hand, hint=HINT, forces=True))
-    if options.npz or options.quantities is not None:
-        warn_of_change_points(problem, phi)
-        if not (options.csv or options.npz):
-            reject_long_table(len(requested_positions(problem, phi)))
-        made = sweep_of(problem, phi, options.quantities, options.partial)
-        if options.npz:
-            reject_huge_array(made)
-            return made
-        from planmethod.note.records.spreadsheet import swept_table
-        from planmethod.note.tables.requested_table import requested_document
-        from planmethod.note.wording import get_language
-        from planmethod.note.writers.terminal import plain_document
 
-        if options.csv:
-            table = swept_table(made, partial=options.partial)
-            return table.materialized() if options.in_subprocess else table
-        language = get_language(language_of(problem, options.lang))
-        click.echo(plain_document(requested_document(made, language), language))
-    elif options.csv:
-        table = table_of(problem, phi, hand.ruler, options.partial)
-        return table.materialized() if options.in_subprocess else table
-    elif options.as_json and options.partial:
-        return _partial(problem, options, hand)
-    elif options.as_json:
-        from planmethod.note.records.solution import record_in_columns
+def write_text(tables: list[SpreadsheetRows], file: str) -> None:
+    """Write tables as one CSV."""
+    from planmethod.note.records.spreadsheet import csv_text
 
-        solution, more = _requested_solution(problem, options, hand), {}
-        if referee is not None:
-            from planmethod.note.tables.referee import referee_record
+    rows = sum(table.count for table in tables)
+    cells = sum(table.count * len(table.header) for table in tables)
+    seen = file != "-" or not is_terminal(sys.stdout)  # no bar amid the table
+    with bar(rows, long=cells > LONG_TEXT and seen) as done:
+        write_parts(csv_text(tables, done=done), file)
 
-            more["referee"] = referee_record(solution, referee)
-        return record_in_columns(solution, **more) | _other_parts_record(problem, options)
-    elif options.covariance:
-        return solution_of(problem, phi, hand, hint=HINT)
-    else:
-        from planmethod.note.tables.results import results_document
-        from planmethod.note.wording import get_language
-        from planmethod.note.writers.terminal import plain_document
 
-        language = get_language(language_of(problem, options.lang))
-        solution = _requested_solution(problem, options, hand)
-        click.echo(
-            plain_document(results_document(solution, language, sigma=options.sigma), language)
+def write_arrays_file(sweeps: list[GappedSweep | SolvedArrays], file: str) -> None:
+    """Write sweeps into one file; names of several begin with the variant or the problem."""
+    from planmethod.note.records.spreadsheet import SolvedArrays, swept_arrays, write_arrays
+    from planmethod.render.backends.output import opened
+
+    prefixes = _prefixes([made.problem for made in sweeps])
+    long = [made for made in sweeps if not isinstance(made, SolvedArrays)]
+    numbers = sum(len(made.names) * len(made.positions) for made in long)
+
+    def named() -> Iterator[tuple[str, Any]]:
+        for made, prefix in zip(sweeps, prefixes, strict=True):
+            if isinstance(made, SolvedArrays):
+                yield from made.named(prefix)
+            else:
+                yield from swept_arrays(made, prefix)
+            done(1)
+
+    many = numbers > LONG_ARRAYS or len(sweeps) > MANY_PROBLEMS
+    with opened(file) as target, bar(len(sweeps), long=many) as done:
+        write_arrays(target, named())
+    click.echo(file)
+
+
+def _prefixes(problems: list[Problem]) -> list[str]:
+    """Return the name prefixes of every problem's arrays."""
+    if len(problems) == 1:
+        return [""]
+    one_file = len({problem.name for problem in problems}) == 1
+    names = [(problem.variant if one_file else None) or basename(problem) for problem in problems]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise UsageError(
+            "--npz: two problems are called {}, their arrays would have the same names; "
+            "write them into two files",
+            twice[0],
         )
-        if referee is not None:
-            from planmethod.note.tables.referee import referee_document
-
-            judged = referee_document(solution, referee, language)
-            click.echo("\n" + plain_document(judged, language))
-        for part, kind in _other_parts(problem):
-            click.echo("\n" + plain_document(kind.solved_document(part, language), language))
-    return None
+    return [f"{name}:" for name in names]
 
 
-def _partial(problem: Problem, options: SolveOptions, profile: Profile) -> dict[str, Any]:
-    """Return the record of a problem some of whose positions may be impossible."""
-    from planmethod.note.records.solution import partial_record
-
-    positions, number = requested_positions(problem, options.phi), options.position
-    gaps = examine_positions(problem, options.phi, partial=True)
-    record = partial_record(problem, positions, gaps, profile)
-    if number is None:
-        return record
-    if number >= len(positions):
-        raise no_position(number, problem, len(positions))
-    return {**record, "positions": record["positions"][number : number + 1]}
-
-
-def _other_parts(problem: Problem) -> list[tuple[KindProblem, ProblemKind[Any]]]:
-    """Return the wheels, the meshing and the cam of a project, which have numbers, too."""
-    if problem.project is None:
-        return []
-    from planmethod.project.settle import settle
-
-    parts = settle(problem, Path(problem.source_file)).parts
-    return [(part.problem, part.kind) for part in parts if part.kind is not None]
-
-
-def _other_parts_record(problem: Problem, options: SolveOptions) -> dict[str, Any]:
-    """Return the records of the other parts of a project than its linkage, by table."""
-    lang = language_of(problem, options.lang)
-    found = {kind.table: kind.record(part, lang) for part, kind in _other_parts(problem)}
-    return {"parts": found} if found else {}
-
-
-def _is_short(problem: Problem) -> bool:
-    """Return whether a problem has few enough positions to be solved in a batch."""
-    from planmethod.solved.solution import FEW_ROWS
-
-    return len(problem.drive.positions) <= FEW_ROWS
-
-
-def _requested_solution(problem: Problem, options: SolveOptions, profile: Profile) -> Solution:
-    """Return the solution to print; for a single position it has the scales of all."""
-    solution = solution_of(problem, options.phi, profile, hint=HINT, forces=True, machine=True)
-    number, positions = options.position, solution.positions
-    if number is None:
-        return solution
-    if number >= len(positions):
-        raise no_position(number, problem, len(positions))
-    return solution.with_positions([float(positions[number])]).drawn_at(solution.scales)
+# Contradictions ----------------------------------------------------------------------------------
 
 
 def _need_mpmath() -> None:

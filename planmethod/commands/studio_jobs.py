@@ -5,21 +5,17 @@ from __future__ import annotations
 import io
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import redirect_stderr, redirect_stdout, suppress
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from planmethod.commands.output import answering
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.languages import translate
-
-if TYPE_CHECKING:
-    from planmethod.solved.partial_mechanism import MechanismPart
-
 
 _BAR = re.compile(r"planmethod\s+\[[^\]\r\n]*+\]\s+(\d++)%[^\r\n]*")
 _ORDERS = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]")
@@ -104,12 +100,13 @@ LACKING = {
         "This problem has no links and joints, hence no structure.",
     ),
     "assemblies": (
-        "",
+        "part",
         "Only linkages have several assembly configurations. This problem has only one.",
     ),
-    "note": ("", _NO_PROJECT),
-    "project": ("", _NO_PROJECT),
-    **dict.fromkeys(("form", "key", "questions", "verdicts", "checked"), ("figures", _NO_ANSWERS)),
+    **dict.fromkeys(("note", "project"), ("reject_as_project", _NO_PROJECT)),
+    **dict.fromkeys(
+        ("form", "key", "questions", "verdicts", "checked"), ("answer_source", _NO_ANSWERS)
+    ),
 }
 """Features that some kinds of problem lack: their method, and the message when it is missing."""
 
@@ -123,12 +120,12 @@ def _reject_unsupported(request: StudioRequest) -> None:
     """
     from planmethod.kinds import kind_of
 
-    method, phrase = LACKING.get(request.get("what") or request["do"], ("", ""))
-    if not phrase:
+    what = request.get("what") or request["do"]
+    if what not in LACKING:
         return
+    method, phrase = LACKING[what]
     with suppress(ProblemError):  # an unreadable file is reported where it is read
-        kind = kind_of(_file(request))
-        if kind is not None and not (method and kind.has(method)):
+        if not kind_of(_file(request)).has(method):
             raise PlanMethodError(translate(phrase))
 
 
@@ -171,59 +168,28 @@ def _file(request: StudioRequest) -> Path:
 
 def sketched(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     """Return the scheme as SVG, with the faults of the file at their places."""
-    from planmethod.kinds import kind_of, part_of
+    from planmethod.kinds import kind_of
     from planmethod.note.wording import get_language
     from planmethod.problem import variant_names
-    from planmethod.render.sketch import VIEWS, sketch as drawn
 
-    path, variant = _file(request), request.get("variant")
-    kind = kind_of(path)
-    if kind is not None:
-        return _sketch_other_kind(kind, path, variant, request["lang"])
-    title, part = part_of(path, variant=variant, views=VIEWS)
-    found, trouble = _report_part(request, part)
-    ways = len(part.assemblies)
-    is_there = part.solution is not None or ways or part.fixed
-    return found | {
-        "svg": _svg(drawn(part, title, get_language(request["lang"]), [])) if is_there else "",
-        "title": title,
-        "kind": "",
-        "variants": [] if part.faults else list(variant_names(path)),
-        "ways": ways,
-        "moves": part.solution is not None and trouble is None,
+    path, language = _file(request), get_language(request["lang"])
+    found = kind_of(path).sketched(path, request.get("variant"), language)
+    return _report_sketched(request, found.faults, found.error) | {
+        "svg": "" if found.drawing is None else _svg(found.drawing),
+        "title": found.title,
+        "variants": [] if found.faults else list(variant_names(path)),
+        "ways": found.assemblies,
+        "moves": found.moves,
     }
 
 
-def _report_part(
-    request: StudioRequest, part: MechanismPart
-) -> tuple[StudioResponse, PlanMethodError | None]:
-    """Return the faults of a linkage's file, and the reason why it cannot be solved."""
-    from planmethod.solved.failures import PositionError
-
-    trouble = part.trouble
-    if trouble is None and part.failure is not None:
-        trouble = PositionError(part.failure)
-    if trouble is not None and not part.faults:
-        return _report_faults(request, [Fault("", str(trouble))], placed=False), trouble
-    return _report_faults(request, part.faults), trouble
-
-
-def _sketch_other_kind(kind: Any, path: Path, variant: str | None, lang: str) -> StudioResponse:
-    """Return the same for a problem of another kind: its scheme, or else its first sheet."""
-    from msgspec.structs import replace
-
-    from planmethod.options import drawn_by
-    from planmethod.problem import variant_names
-
-    problem = kind.load(path, variant)
-    problem = replace(problem, sheet=replace(problem.sheet, lang=lang))
-    drawing = kind.scheme(problem)
-    if drawing is None:
-        drawing = kind.drawings(problem, fields={}, profile=drawn_by(None, None))[0]
-    return {
-        "faults": [], "svg": _svg(drawing), "title": problem.title, "kind": kind.table,
-        "variants": list(variant_names(path)), "ways": 0, "moves": True,
-    }  # fmt: skip
+def _report_sketched(
+    request: StudioRequest, faults: Sequence[Fault], error: PlanMethodError | None
+) -> StudioResponse:
+    """Return the faults of a file, or else the reason why it cannot be solved."""
+    if error is not None and not faults:
+        return _report_faults(request, [Fault("", str(error))], placed=False)
+    return _report_faults(request, faults)
 
 
 def _svg(drawing: Any) -> str:
@@ -239,21 +205,20 @@ def assemblies(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     """
     from msgspec.structs import replace
 
-    from planmethod.kinds import part_of
+    from planmethod.kinds import kind_of
     from planmethod.note.wording import get_language
     from planmethod.render.sketch import ASSEMBLY_VIEWS, sketch as drawn
 
     path = _file(request)
-    whole = part = part_of(path, variant=request.get("variant"), views=ASSEMBLY_VIEWS)[1]
+    kind = kind_of(path)
+    whole = part = kind.part(path, variant=request.get("variant"), views=ASSEMBLY_VIEWS)[1]
     if not part.assemblies:
         bare = _without_assembly(request["text"])
         path.write_bytes(bare.encode("utf-8", "replace"))
-        part = part_of(path, variant=request.get("variant"), views=ASSEMBLY_VIEWS)[1]
+        part = kind.part(path, variant=request.get("variant"), views=ASSEMBLY_VIEWS)[1]
     language = get_language(request["lang"])
-    if not part.assemblies:
-        found, trouble = _report_part(request, whole)
-        if trouble is not None:
-            return found
+    if not part.assemblies and whole.error is not None:
+        return _report_sketched(request, whole.faults, whole.error)
     return {
         "faults": [],
         "ways": [
@@ -276,19 +241,13 @@ def _without_assembly(text: str) -> str:
 
 def pictured(request: StudioRequest, _: ProgressCallback) -> StudioResponse:
     """Return the picture of a shipped task: its scheme, without results."""
-    from planmethod.kinds import kind_of, part_of
+    from planmethod.kinds import kind_of
     from planmethod.note.wording import get_language
     from planmethod.problem.tasks import home
-    from planmethod.render.sketch import VIEWS, assigned, sketch as drawn
 
     path = home() / request["file"]
-    kind = kind_of(path)
-    if kind is not None:
-        return _sketch_other_kind(kind, path, None, request["lang"])
-    title, part = part_of(path, variant=request.get("variant"), views=VIEWS)
-    if part.solution is None:
-        return {"svg": _svg(drawn(part, title, get_language(request["lang"]), []))}
-    return {"svg": _svg(assigned(part.solution))}
+    picture = kind_of(path).task_picture(path, get_language(request["lang"]))
+    return {"svg": "" if picture is None else _svg(picture)}
 
 
 # Sheets ------------------------------------------------------------------------------------------

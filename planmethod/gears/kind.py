@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planmethod.kind import ProblemKind
+from planmethod.kind import PlanRequest, ProblemKind
 from planmethod.note.document import Document, GivenFact
 
 if TYPE_CHECKING:
-    from planmethod.construct.drafting import Profile
     from planmethod.gears.model import GearProblem
     from planmethod.note.audit import Audited
     from planmethod.note.wording import Language
@@ -55,26 +54,24 @@ class GearTrains(ProblemKind["GearProblem"]):
         return Document.of(structure_document(problem, language))
 
     def protocol_document(
-        self, problem: GearProblem, language: Language, profile: Profile
+        self, problem: GearProblem, language: Language, request: PlanRequest
     ) -> Document:
         """Return what ``protocol`` prints."""
         from planmethod.gears.protocol import protocol_document
 
-        return Document.of(protocol_document(problem, language, profile))
+        return Document.of(protocol_document(problem, language, request.profile))
 
-    def drawings(
-        self,
-        problem: GearProblem,
-        *,
-        fields: Mapping[str, str],
-        profile: Profile,
-        before: int = 0,
-        total: int | None = None,
-    ) -> list[Drawing]:
+    def drawings(self, problem: GearProblem, request: PlanRequest) -> list[Drawing]:
         """Return the sheets."""
         from planmethod.gears.sheet import drawings
 
-        return drawings(problem, fields=fields, profile=profile, before=before, total=total)
+        return drawings(
+            problem,
+            fields=request.fields,
+            profile=request.profile,
+            before=request.before,
+            total=request.total,
+        )
 
     def live_page(self, problem: GearProblem, lang: str) -> str:
         """Return the page that ``live`` writes."""
@@ -101,8 +98,17 @@ class GearTrains(ProblemKind["GearProblem"]):
 
         return draw_scheme(problem)
 
-    def question_quantities(self, problem: GearProblem) -> QuestionQuantities:
-        """Return the quantities that students can be asked for."""
+    def answer_source(self, problem: GearProblem) -> QuestionQuantities:
+        """Return the computed quantities with which answers are compared."""
         from planmethod.gears.results import TrainQuantities
 
         return TrainQuantities(problem)
+
+    def failing_conditions(self, problem: GearProblem) -> Iterator[tuple[str, str]]:
+        """Yield the conditions of teeth that a train does not meet, with the wheel of each."""
+        from planmethod.gears.motion import solve_motion
+        from planmethod.gears.solution import conditions
+
+        for one in conditions(solve_motion(problem)):
+            if not one.is_satisfied:
+                yield one.name, one.facts.get("wheel") or one.facts.get("carrier", "")

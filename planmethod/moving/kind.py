@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planmethod.kind import ProblemKind
+from planmethod.kind import PlanRequest, ProblemKind
 from planmethod.note.document import Document, GivenFact
 
 if TYPE_CHECKING:
-    from planmethod.construct.drafting import Profile
     from planmethod.moving.motion import PointProblem
     from planmethod.note.audit import Audited
     from planmethod.note.wording import Language
@@ -22,7 +20,6 @@ class MovingPoints(ProblemKind["PointProblem"]):
     """Points that move by formulas (движение точки), as a kind of problem."""
 
     table = "point"
-    is_of_project = False
 
     def load(self, path: Path, variant: str | None) -> PointProblem:
         """Read a problem file."""
@@ -43,26 +40,24 @@ class MovingPoints(ProblemKind["PointProblem"]):
         return Document.of(solved_document(problem, language))
 
     def protocol_document(
-        self, problem: PointProblem, language: Language, profile: Profile
+        self, problem: PointProblem, language: Language, request: PlanRequest
     ) -> Document:
         """Return the document of ``protocol``."""
         from planmethod.moving.results import protocol_document
 
-        return Document.of(protocol_document(problem, language, profile))
+        return Document.of(protocol_document(problem, language, request.profile))
 
-    def drawings(
-        self,
-        problem: PointProblem,
-        *,
-        fields: Mapping[str, str],
-        profile: Profile,
-        before: int = 0,
-        total: int | None = None,
-    ) -> list[Drawing]:
+    def drawings(self, problem: PointProblem, request: PlanRequest) -> list[Drawing]:
         """Return the sheets."""
         from planmethod.moving.sheet import drawings
 
-        return drawings(problem, fields=fields, profile=profile, before=before, total=total)
+        return drawings(
+            problem,
+            fields=request.fields,
+            profile=request.profile,
+            before=request.before,
+            total=request.total,
+        )
 
     def audited(self, problem: PointProblem, ruler: float) -> list[Audited]:
         """Return printed values beside the exact ones and those read with a ruler."""
@@ -76,8 +71,8 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
         return given_facts(problem, language)
 
-    def question_quantities(self, problem: PointProblem) -> QuestionQuantities:
-        """Return the quantities for questions to students."""
+    def answer_source(self, problem: PointProblem) -> QuestionQuantities:
+        """Return the computed quantities with which answers are compared."""
         from planmethod.moving.results import PointQuantities
 
         return PointQuantities(problem)

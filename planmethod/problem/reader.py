@@ -472,7 +472,7 @@ def load(
     variant : str, optional
         Name of a ``[variants]`` table to lay over the main part.
     train : callable, optional
-        Reads the train that drives the crank (`planmethod.kinds`). Default: no train.
+        Reads the train that drives the crank (`planmethod.linkages`). Default: no train.
 
     Raises
     ------

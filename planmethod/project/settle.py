@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Mapping, Sequence
-from enum import Enum
 from fractions import Fraction
 from functools import cached_property, partial
 from math import pi
@@ -23,7 +22,6 @@ from planmethod.gears.involute.geometry import MeshingProblem
 from planmethod.gears.model import HALF_MODULES, DiagramSettings, GearProblem, MeshKind, Train
 from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.kind import ProblemKind
-from planmethod.kinds import KINDS
 from planmethod.languages import LANGUAGES, translate
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import plain_text
@@ -32,6 +30,7 @@ from planmethod.problem.machine_records import CycleTask, ProjectTask
 from planmethod.problem.model import SAME_DEG, Problem, Scales
 from planmethod.problem.records import KindProblem, SizeTable, TurningSense
 from planmethod.problem.source import parse, read_source
+from planmethod.project.parts import PART_KINDS, PartName
 from planmethod.render.frame import merged
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.composition import composition
@@ -50,19 +49,6 @@ from planmethod.solved.turn.extremes import number_positions, strokes_of
 from planmethod.solved.turn.output import Strokes
 
 
-class PartName(Enum):
-    """Parts of a project in the order of their sheets, as options and records name them."""
-
-    KINEMATICS = "kinematics"
-    FORCES = "forces"
-    FLYWHEEL = "flywheel"
-    BALANCING = "balancing"
-    GEARS = "gears"
-    MESHING = "meshing"
-    CAM = "cam"
-    NOTE = "note"
-
-
 class ProjectPart(Struct, frozen=True):
     """A part of a project that the file has (часть проекта).
 
@@ -71,13 +57,13 @@ class ProjectPart(Struct, frozen=True):
     name : PartName
     problem : KindProblem
         Its subject: the linkage with its decisions, the train, the meshing, the cam.
-    kind : ProblemKind or None
-        Kind of the problem; None for the linkage.
+    scales : str
+        Where the file has its scales.
     """
 
     name: PartName
     problem: KindProblem
-    kind: ProblemKind[Any] | None = None
+    scales: str = ProblemKind.scales
 
 
 class SheetEntry(Struct, frozen=True):
@@ -571,7 +557,7 @@ def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
     for name in PartName:
         if name is PartName.NOTE or name not in asked or not there[name]:
             continue
-        if name not in (PartName.GEARS, PartName.MESHING, PartName.CAM):
+        if name not in PART_KINDS:
             yield ProjectPart(name, problem)
         elif path is not None:
             yield _of_kind(problem, name, path, str(getattr(task, name.value)))
@@ -596,7 +582,7 @@ def _has(problem: Problem, task: ProjectTask, name: PartName) -> bool:
 
 def _of_kind(problem: Problem, name: PartName, path: Path, file_name: str) -> ProjectPart:
     """Return the part of another kind of problem, of this file or of the file that it names."""
-    kind = next(kind for kind in KINDS if kind.table == name.value)
+    kind = PART_KINDS[name]
     file, variant = (path.with_name(file_name), None) if file_name else (path, problem.variant)
     if file_name:
         _check_other_file(problem, kind.table, file)
@@ -610,7 +596,7 @@ def _of_kind(problem: Problem, name: PartName, path: Path, file_name: str) -> Pr
         stamp = merged(stamp, found.title_block)
     stamp.pop("title", None)
     title = found.title if file_name else ""
-    return ProjectPart(name, replace(found, stamp=stamp, stamp_in={}, title=title), kind)
+    return ProjectPart(name, replace(found, stamp=stamp, stamp_in={}, title=title), kind.scales)
 
 
 def _check_other_file(problem: Problem, table: str, file: Path) -> None:

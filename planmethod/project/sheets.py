@@ -8,10 +8,12 @@ from typing import assert_never
 from msgspec.structs import replace
 
 from planmethod.construct.drafting import PROFILES
+from planmethod.kind import PlanRequest
 from planmethod.note.tables.forces import rubbed
 from planmethod.note.wording import Language, get_language
 from planmethod.paper import FORMATS
-from planmethod.project.settle import PAPER, PartName, Project, ProjectPart, SheetEntry, first_sheet
+from planmethod.project.parts import PART_KINDS, PartName
+from planmethod.project.settle import PAPER, Project, ProjectPart, SheetEntry, first_sheet
 from planmethod.render.frame import Furniture, numbered
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.composition import composition
@@ -69,15 +71,11 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
         case PartName.BALANCING:
             return kinematics_sheets(problem, layout="balancing", fields=fields, furniture=around)
         case PartName.GEARS | PartName.MESHING | PartName.CAM:
-            assert part.kind is not None
             titled = replace(part.problem, title=language.project["titles"][part.name.value])
-            drawn: list[Drawing] = part.kind.drawings(
-                part.problem if part.problem.title else titled,
-                fields=fields,
-                profile=PROFILES["board"],
-                before=before,
+            request = PlanRequest(profile=PROFILES["board"], fields=fields, before=before)
+            return PART_KINDS[part.name].drawings(
+                part.problem if part.problem.title else titled, request
             )
-            return drawn
         case PartName.NOTE:
             return []
         case _:

@@ -85,6 +85,13 @@ class MechanismPart(Struct, frozen=True):
     unsure: tuple[str, ...] = ()
     assemblies: tuple[PartAssembly, ...] = ()
 
+    @property
+    def error(self) -> PlanMethodError | None:
+        """Why the whole file cannot be solved in its requested positions."""
+        if self.trouble is None and self.failure is not None:
+            return PositionError(self.failure)
+        return self.trouble
+
 
 def largest_part(
     table: Mapping[str, Any],
@@ -107,7 +114,7 @@ def largest_part(
     views : Views, optional
         Boxes that the plans should fill if the file gives no scale.
     posed : callable, optional
-        Finds the positions of a whole problem that its output determines (`planmethod.kinds`).
+        Finds the positions of a whole problem that its output determines (`planmethod.linkages`).
     """
     try:
         problem = read_parsed(table, source=source, name=name, variant=variant, train=train)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 from warnings import warn
@@ -15,7 +15,7 @@ from planmethod.errors import DoubtWarning, PlanMethodError
 from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.motion.position import inner_point, parallelogram
-from planmethod.problem.model import SAME_DEG
+from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.problem.plausibility import unlikely
 from planmethod.solved.assembly_modes import drive_data
 from planmethod.solved.conditioning import SPOILT, WARN_RELATIVE_ERROR, error_bound
@@ -113,6 +113,23 @@ def _list_doubts(
         )
         for i in map(int, np.flatnonzero((estimate > WARN_RELATIVE_ERROR) & np.isfinite(estimate)))
     ]
+
+
+def accuracy_warnings(
+    problem: Problem, positions: Sequence[float] | None = None, *, forces: bool = True
+) -> Iterator[Doubt | OmittedWarnings]:
+    """Yield the warnings of `warnings` for a problem that is solved elsewhere.
+
+    Impossible or rejected positions are reported there.
+    """
+    with suppress(PlanMethodError):
+        yield from warnings(Solution(problem, positions=positions), forces=forces)
+
+
+def change_point_warnings(problem: Problem, positions: Reals | None) -> list[Passed]:
+    """Return the warnings of `changed_branches` for a problem that is solved elsewhere."""
+    way = None if positions is None else [float(positions.min()), float(positions.max())]
+    return changed_branches(Solution(problem, positions=way))
 
 
 def changed_branches(solution: Solution) -> list[Passed]:

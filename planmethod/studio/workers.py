@@ -35,7 +35,7 @@ READY = 60.0
 """Seconds in which a process must be ready."""
 
 PRELOADED = (
-    "planmethod.kinds", "planmethod.render.sketch", "planmethod.render.backends.svg",
+    "planmethod.linkages.reading", "planmethod.render.sketch", "planmethod.render.backends.svg",
     "planmethod.render.sheets.kinematics",
 )  # fmt: skip
 """Modules preloaded in the parent of every process, if the system can."""

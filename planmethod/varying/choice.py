@@ -27,6 +27,7 @@ from planmethod.varying.evaluation import (
     Place,
     Rejection,
     RejectionReason,
+    evaluator_of,
 )
 from planmethod.varying.parameters import (
     WHEEL,
@@ -162,9 +163,9 @@ def choose(
     (main,) = source.read({})
     if isinstance(main, PlanMethodError):
         raise main
-    judge = CandidateEvaluator(source.kind, main, settings)
+    judge = evaluator_of(source.kind, main, settings)
     found = VariantChoice(
-        count, tuple(chosen), waived=tuple(sorted(judge.waived)), drawn=source.kind is None
+        count, tuple(chosen), waived=tuple(sorted(judge.waived)), drawn=judge.draws
     )
     lots, pool = ValueSampler(chosen, Random(seed)), _Pool(found)
     pool.main = judge.main

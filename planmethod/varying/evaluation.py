@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from enum import Enum
-from typing import Any, cast
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from planmethod.check.calculation import Calculation
+from planmethod.check.calculation import task_of_problem
 from planmethod.check.key import MistakeEffect, batch_named, batch_tasks
 from planmethod.check.marks import Settings, Tolerance, limit_of
 from planmethod.check.questions import Question, Questions, Sign
@@ -23,9 +23,6 @@ from planmethod.construct.drafting import PROFILES, Profile, Propagated, causes_
 from planmethod.construct.dual import as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import AssemblyError, PlanMethodError
-from planmethod.gears.model import GearProblem
-from planmethod.gears.motion import solve_motion
-from planmethod.gears.solution import conditions
 from planmethod.kind import ProblemKind
 from planmethod.plans.model import FACTS, MOTION
 from planmethod.problem.answers import Selector
@@ -260,12 +257,11 @@ class EvaluatedVariant(Struct, frozen=True, eq=False):
 
 
 class CandidateEvaluator:
-    """Judges candidates of one file (отбор).
+    """Judges candidates of one file (отбор), whose answers are computed.
 
     Parameters
     ----------
-    kind : ProblemKind or None
-        None of a linkage.
+    kind : ProblemKind
     main : KindProblem
         The file itself: what does not move there need not move in a variant, and a condition of
         teeth that fails there may fail in a variant.
@@ -275,68 +271,36 @@ class CandidateEvaluator:
     ----------
     main : EvaluatedVariant or None
         The file itself, however good; None where it cannot be solved.
+    draws : bool
+        Whether plans are drawn.
     """
 
-    def __init__(
-        self, kind: ProblemKind[Any] | None, main: KindProblem, settings: Settings
-    ) -> None:
+    draws: ClassVar[bool] = False
+
+    def __init__(self, kind: ProblemKind[Any], main: KindProblem, settings: Settings) -> None:
         self.kind, self.settings = kind, settings
-        self.waived = frozenset(_failing(main))
+        self.waived = frozenset(kind.failing_conditions(main))
         self.zero_answers: frozenset[str] = frozenset()
         self.main: EvaluatedVariant | None = None
         self._moving: tuple[tuple[Selector, int, str], ...] = ()
         self._learn_from(main)
 
-    def evaluate(self, problems: Sequence[KindProblem]) -> Iterator[EvaluatedVariant | Rejection]:
+    def evaluate(self, problems: Sequence[Any]) -> Iterator[EvaluatedVariant | Rejection]:
         """Yield what each candidate is, in order."""
-        if self.kind is not None:
-            yield from map(self._evaluate_computed, problems)
-            return
-        linkages = [free_scales(cast("Problem", problem)) for problem in problems]
-        sieve = screen_linkages(linkages, self._moving, self.settings)
-        found: dict[int, EvaluatedVariant | Rejection] = {**sieve.rejections}
-        for k, solution in sieve.solutions.items():
-            found[k] = self._evaluate_linkage(solution)
-        for batch, members in sieve.batches:
-            found.update(zip(members, self._evaluate_batch(batch), strict=True))
-        yield from (found[k] for k in range(len(linkages)))
+        return map(self._evaluate_alone, problems)
 
-    def _evaluate_computed(self, problem: KindProblem) -> EvaluatedVariant | Rejection:
-        assert self.kind is not None
+    def _evaluate_alone(self, problem: KindProblem) -> EvaluatedVariant | Rejection:
         try:
-            failing = next((one for one in _failing(problem) if one not in self.waived), None)
-            if failing is not None:
-                return Rejection(RejectionReason.CONDITION, failing[0])
-            return self._evaluate_task(Calculation(self.kind, problem, self.settings))
+            failing = self.kind.failing_conditions(problem)
+            first = next((one for one in failing if one not in self.waived), None)
+            if first is not None:
+                return Rejection(RejectionReason.CONDITION, first[0])
+            return self._evaluate_task(self._task(problem))
         except PlanMethodError:
             return Rejection(RejectionReason.FAULTY)
 
-    def _evaluate_linkage(self, solution: Solution) -> EvaluatedVariant | Rejection:
-        try:
-            return self._evaluate_task(Task(solution, self.settings))
-        except PlanMethodError:
-            return Rejection(RejectionReason.FAULTY)
-
-    def _evaluate_batch(self, batch: Batch) -> Sequence[EvaluatedVariant | Rejection]:
-        """Return what each variant of a batch is: errors and mistakes are rows of one reading."""
-        try:
-            tasks = batch_tasks(batch, self.settings)
-            limits = dict(enumerate(map(self._limits, tasks)))
-            kept = [k for k, own in limits.items() if not isinstance(own, Rejection)]
-            positions = dict.fromkeys(
-                item.position for task in tasks[:1] for item in task.list_items()
-            )
-            named = {p: batch_named(batch, tasks, p, kept) for p in positions}
-        except PlanMethodError:
-            tasks = []
-        if not tasks:
-            return [self._evaluate_linkage(one) for one in batch.solutions]
-        found: list[EvaluatedVariant | Rejection] = []
-        for k, task in enumerate(tasks):
-            own = limits[k]
-            shown = {position: every.get(k, []) for position, every in named.items()}
-            found.append(own if isinstance(own, Rejection) else self._accept(task, own, shown))
-        return found
+    def _task(self, problem: KindProblem) -> Task:
+        return task_of_problem(self.kind, problem, self.settings, verified=False)
 
     def _evaluate_task(self, task: Task, *, strictly: bool = True) -> EvaluatedVariant | Rejection:
         limits = self._limits(task, strictly=strictly)
@@ -387,16 +351,17 @@ class CandidateEvaluator:
             {name_of(item): item.points for item in items},
             told,
             made,
-            _scales_of(task) if self.kind is None else {},
+            self._scales(task),
         )
+
+    def _scales(self, task: Task) -> dict[str, float]:
+        """Return the scales of a task as its file would have them."""
+        return {}
 
     def _learn_from(self, main: KindProblem) -> None:
         """Learn from the file itself the requested items, and which of its answers are zero."""
         try:
-            if self.kind is not None:
-                task: Task = Calculation(self.kind, main, self.settings)
-            else:
-                task = Task(Solution(cast("Problem", main)), self.settings)
+            task = self._task(main)
             items = task.list_items()
             exact = [task.sheet(item.position).exact_answers[item.question.id] for item in items]
             made = self._evaluate_task(task, strictly=False)
@@ -409,6 +374,68 @@ class CandidateEvaluator:
         )
         moving = [item for item in items if name_of(item) not in self.zero_answers]
         self._moving = tuple((item.question.selector, item.position, item.name) for item in moving)
+
+
+class PlanEvaluator(CandidateEvaluator):
+    """Judges candidates whose answers are drawn: most are read together."""
+
+    draws = True
+
+    def evaluate(self, problems: Sequence[Problem]) -> Iterator[EvaluatedVariant | Rejection]:
+        """Yield what each candidate is, in order."""
+        linkages = [free_scales(problem) for problem in problems]
+        sieve = screen_linkages(linkages, self._moving, self.settings)
+        found: dict[int, EvaluatedVariant | Rejection] = {**sieve.rejections}
+        for k, solution in sieve.solutions.items():
+            found[k] = self._evaluate_linkage(solution)
+        for batch, members in sieve.batches:
+            found.update(zip(members, self._evaluate_batch(batch), strict=True))
+        yield from (found[k] for k in range(len(linkages)))
+
+    def _evaluate_linkage(self, solution: Solution) -> EvaluatedVariant | Rejection:
+        try:
+            return self._evaluate_task(Task(solution, self.settings))
+        except PlanMethodError:
+            return Rejection(RejectionReason.FAULTY)
+
+    def _evaluate_batch(self, batch: Batch) -> Sequence[EvaluatedVariant | Rejection]:
+        """Return what each variant of a batch is: errors and mistakes are rows of one reading."""
+        try:
+            tasks = batch_tasks(batch, self.settings)
+            limits = dict(enumerate(map(self._limits, tasks)))
+            kept = [k for k, own in limits.items() if not isinstance(own, Rejection)]
+            positions = dict.fromkeys(
+                item.position for task in tasks[:1] for item in task.list_items()
+            )
+            named = {p: batch_named(batch, tasks, p, kept) for p in positions}
+        except PlanMethodError:
+            tasks = []
+        if not tasks:
+            return [self._evaluate_linkage(one) for one in batch.solutions]
+        found: list[EvaluatedVariant | Rejection] = []
+        for k, task in enumerate(tasks):
+            own = limits[k]
+            shown = {position: every.get(k, []) for position, every in named.items()}
+            found.append(own if isinstance(own, Rejection) else self._accept(task, own, shown))
+        return found
+
+    def _scales(self, task: Task) -> dict[str, float]:
+        """Return the scales of a task as its file would have them."""
+        convention = task.solution.problem.scales.convention
+        whole = dict(task.scales({}, task.first))
+        found = {FACTS[kind].scale: whole[FACTS[kind].scale] for kind in MOTION}
+        found |= {name: value for name, value in whole.items() if name == "mu_F"}
+        if convention is not Convention.UNIT_PER_MM:
+            found = {name: 1.0 / value for name, value in found.items()}
+        return {name: float(f"{value:.9g}") for name, value in found.items()}
+
+
+def evaluator_of(
+    kind: ProblemKind[Any], main: KindProblem, settings: Settings
+) -> CandidateEvaluator:
+    """Return the evaluator of candidates of a file, with drawn or computed answers."""
+    drawn = isinstance(kind.answer_source(main), Solution)
+    return (PlanEvaluator if drawn else CandidateEvaluator)(kind, main, settings)
 
 
 def name_of(item: TaskItem) -> str:
@@ -431,25 +458,6 @@ def _sheet(task: Task, item: TaskItem) -> Sheet:
     """Return the sheet of an answer: among other variants as it was read with them."""
     sheet = task.sheet(item.position)
     return sheet if sheet.row is None else sheet.answer_key_sheet
-
-
-def _scales_of(task: Task) -> dict[str, float]:
-    """Return the scales of a task as its file would have them."""
-    convention = task.solution.problem.scales.convention
-    whole = dict(task.scales({}, task.first))
-    found = {FACTS[kind].scale: whole[FACTS[kind].scale] for kind in MOTION}
-    found |= {name: value for name, value in whole.items() if name == "mu_F"}
-    if convention is not Convention.UNIT_PER_MM:
-        found = {name: 1.0 / value for name, value in found.items()}
-    return {name: float(f"{value:.9g}") for name, value in found.items()}
-
-
-def _failing(problem: KindProblem) -> Iterator[Place]:
-    """Yield the conditions of teeth that a train does not meet, with the wheel of each."""
-    if isinstance(problem, GearProblem):
-        for one in conditions(solve_motion(problem)):
-            if not one.is_satisfied:
-                yield one.name, one.facts.get("wheel") or one.facts.get("carrier", "")
 
 
 # Mistakes ---------------------------------------------------------------------------------------

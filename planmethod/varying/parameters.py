@@ -18,7 +18,6 @@ from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.solution import coaxial_paths
 from planmethod.kind import ProblemKind
-from planmethod.kinds import load_each
 from planmethod.problem.faults import is_number
 from planmethod.problem.formula import read_decimal
 from planmethod.problem.names import segment, split_names
@@ -452,8 +451,7 @@ class VariantCandidates:
     Attributes
     ----------
     path : Path
-    kind : ProblemKind or None
-        None of a linkage.
+    kind : ProblemKind
     text : str
         The file without its variants.
     table : mapping
@@ -465,7 +463,7 @@ class VariantCandidates:
         The file is faulty, or its variants cannot be removed from its text.
     """
 
-    def __init__(self, path: Path, kind: ProblemKind[Any] | None) -> None:
+    def __init__(self, path: Path, kind: ProblemKind[Any]) -> None:
         self.path, self.kind = path, kind
         text = read_source(path)
         whole = parse(text, name=str(path))
@@ -484,10 +482,7 @@ class VariantCandidates:
             path.write_text(self.with_variants(variants), encoding="utf-8")
             for name in variants or (None,):
                 try:
-                    if self.kind is None:
-                        yield from load_each(path, (name,))
-                    else:
-                        yield self.kind.load(path, name)
+                    yield self.kind.load(path, name)
                 except PlanMethodError as error:
                     yield error
 

@@ -24,8 +24,8 @@ from worked import path_of, problem_of
 
 def computed(name: str) -> Calculation:
     kind = kind_of(path_of(name))
-    assert kind is not None
     (task,) = confusion.tasks_of_kinds([(kind, kind.load(path_of(name), None))])
+    assert isinstance(task, Calculation)
     return task
 
 

@@ -39,7 +39,7 @@ from doors import (
     families_template as template,
     get_language,
     inspect,
-    load_unchanged,
+    kinds_load,
     nodes_of,
     settle,
     text_positions as positions,
@@ -193,7 +193,7 @@ def test_a_project_has_the_cam_as_a_part_of_its_own(tmp_path: Path) -> None:
     text = template("project").replace("[project] ", '[project]\nparts = ["cam"] ')
     text += "\n[scales]\nmu_l = 0.002\nmu_v = 0.04\nmu_a = 0.2\n"  # given, they are not searched
     path.write_text(text, "utf-8")
-    project = settle(load_unchanged(path, None), path)
+    project = settle(kinds_load(path), path)
     (part,) = project.parts
     assert isinstance(part.problem, CamProblem)
     assert part.problem.oscillates
@@ -207,7 +207,7 @@ def test_a_project_has_the_cam_as_a_part_of_its_own(tmp_path: Path) -> None:
     beside = tmp_path / "cam.toml"
     beside.write_text(template("cam"), "utf-8")
     path.write_text(text.replace('["cam"]', '["cam"]\ncam = "cam.toml"'), "utf-8")
-    (part,) = settle(load_unchanged(path, None), path).parts
+    (part,) = settle(kinds_load(path), path).parts
     assert isinstance(part.problem, CamProblem)
     assert not part.problem.oscillates
 

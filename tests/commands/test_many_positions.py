@@ -175,7 +175,7 @@ def test_failed_arrays_leave_no_file(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_too_many_numbers_for_one_file(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("planmethod.commands.position_tables.MAX_NUMBERS", 1000)
+    monkeypatch.setattr("planmethod.linkages.solving.MAX_NUMBERS", 1000)
     said = refused(2, "solve", EX3, "--phi", "0:360:1", "--npz", "a.npz")
     assert "at most 1000 are written" in said and "--ask" in said
     assert "phi_deg" in arrays(EX3, "--phi", "0:360:1", "--ask", "omega_3")

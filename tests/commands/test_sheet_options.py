@@ -66,7 +66,7 @@ def test_a_plan_that_takes_more_sheets_than_it_should_is_not_written() -> None:
 
 
 def test_all_positions_are_drawn_on_request(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("planmethod.commands.sheet.MAX_SHEETS", 1)
+    monkeypatch.setattr("planmethod.linkages.sheets.MAX_SHEETS", 1)
     args = ("sheet", EX2, "--phi", "0:360:20", "--format", "svg")
     assert run(*args).exit_code == 2
     done = run(*args, "--all-positions")

@@ -12,7 +12,7 @@ import pytest
 from cases import each
 from click.testing import CliRunner
 from doors import (
-    KINDS_KINDS as KINDS,
+    LINKAGES,
     ExitCode,
     ProblemError,
     RequestedQuantityError,
@@ -256,7 +256,6 @@ def test_that_a_train_is_not_coaxial_has_numbers_in_every_language(
     path = tmp_path / "faulty.toml"
     path.write_text(f"[gears]\n{SET.replace('100', '101')}", encoding="utf-8")
     kind = kind_of(path)
-    assert kind is not None
     with speaking(lang), pytest.raises(ProblemError, match=said):
         kind.solved_document(kind.load(path, None), get_language(lang))
 
@@ -268,10 +267,10 @@ def test_options_of_linkages_are_rejected() -> None:
 
 
 def test_a_kind_is_known_by_its_table_and_links_make_a_linkage(tmp_path: Path) -> None:
-    assert {kind_of(path) for path in FILES} == {KINDS[0]}
+    assert {kind_of(path).table for path in FILES} == {"gears"}
     both = tmp_path / "both.toml"
     both.write_text("[gears]\n[links]\n")
-    assert kind_of(both) is None
+    assert kind_of(both) is LINKAGES
 
 
 def test_names_of_requested_quantities_are_parsed() -> None:

@@ -19,6 +19,7 @@ from doors import (
     SCALE_SERIES as SERIES,
     Disc,
     ExitCode,
+    PlanRequest,
     Scale,
     Stroke,
     Text,
@@ -247,9 +248,8 @@ def test_printed_values_are_audited(tmp_path: Path) -> None:
 
 def test_sheets_of_a_set_are_numbered_after_those_before_them() -> None:
     kind = kind_of(K11)
-    assert kind is not None
-    (sheet,) = kind.drawings(load(K11), fields={}, profile=BOARD, before=2, total=5)
-    (alone,) = kind.drawings(load(K11), fields={}, profile=BOARD)
+    (sheet,) = kind.drawings(load(K11), PlanRequest(profile=BOARD, before=2, total=5))
+    (alone,) = kind.drawings(load(K11), PlanRequest(profile=BOARD))
     texts = Counter(item.text for item in sheet.items if isinstance(item, Text))
     texts.subtract(Counter(item.text for item in alone.items if isinstance(item, Text)))
     assert texts["3"] == 1, +texts

@@ -13,7 +13,6 @@ from doors import (
     Audited,
     AuditVerdict,
     KindProblem,
-    ModelProblem as Problem,
     NoValue,
     Published,
     audit,
@@ -173,15 +172,14 @@ def audited(stem: str) -> dict[str, Audited]:
 
 
 @cache
-def audits() -> tuple[tuple[Problem | KindProblem, list[Audited]], ...]:
+def audits() -> tuple[tuple[KindProblem, list[Audited]], ...]:
     return tuple(map(audited_file, TABLES))
 
 
-def audited_file(path: Path) -> tuple[Problem | KindProblem, list[Audited]]:
-    if (kind := kind_of(path)) is None:
-        return (problem := load(path)), audit(problem)
-    train = kind.load(path, None)
-    return train, kind.audited(train, 0.5)
+def audited_file(path: Path) -> tuple[KindProblem, list[Audited]]:
+    kind = kind_of(path)
+    problem = kind.load(path, None)
+    return problem, kind.audited(problem, 0.5)
 
 
 @pytest.mark.parametrize(

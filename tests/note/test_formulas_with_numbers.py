@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from cases import each
 from doors import (
+    LINKAGES,
     Document,
     Language,
-    Solution,
+    PlanRequest,
     drawn_by,
     get_language,
     kind_of,
-    kinds_load as load,
-    protocol_document,
 )
 from evaluated import count_equations_that_hold, texts_of
 from worked import path_of
@@ -32,11 +31,10 @@ def documents_of(name: str, words: Language) -> list[Document]:
     """Return the protocol of a file and, of other kinds than linkages, its solution."""
     path = path_of(name)
     kind = kind_of(path)
-    if kind is None:
-        return [protocol_document(Solution(load(path)), words)]
     problem = kind.load(path, None)
-    protocol = kind.protocol_document(problem, words, drawn_by(None, None))
-    return [kind.solved_document(problem, words), protocol]
+    request = PlanRequest(profile=drawn_by(None, None))
+    protocol = kind.protocol_document(problem, words, request)
+    return [protocol] if kind is LINKAGES else [kind.solved_document(problem, words), protocol]
 
 
 @each("name, least, lang", FILES)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from cases import each, sampled, some
 from doors import (
+    LINKAGES,
     ForceReading,
     GivenFact,
     Language,
@@ -38,7 +39,7 @@ from planmethod import loads
 
 ROOT = Path(__file__).parents[2]
 TEMPLATE = ROOT / "planmethod/problem/templates/project.toml"
-FILES = [path for path in sorted((ROOT / "problems").rglob("*.toml")) if kind_of(path) is None]
+FILES = [path for path in sorted((ROOT / "problems").rglob("*.toml")) if kind_of(path) is LINKAGES]
 STATED = [
     path
     for path in sorted((ROOT / "tests" / "problem" / "statement").glob("*.toml"))

@@ -327,6 +327,5 @@ def test_reading_needs_no_heavy_modules() -> None:
 @each("path", PROBLEMS)
 def test_a_problem_goes_to_another_process_and_comes_back(path: Path) -> None:
     """Everything read from a file can be pickled, since `--jobs` sends it."""
-    kind = kind_of(path)
-    problem = load(path) if kind is None else kind.load(path, None)
+    problem = kind_of(path).load(path, None)
     assert type(pickle.loads(pickle.dumps(problem))) is type(problem)

@@ -10,6 +10,7 @@ import pytest
 import worked
 from doors import (
     MAX_SIDE,
+    PART_KINDS,
     TURN_SMALL as SMALL,
     Drawing,
     ModelProblem as Problem,
@@ -168,7 +169,7 @@ def test_every_sheet_has_the_scales_of_the_project() -> None:
     keys = {"position": "mu_l", "velocity": "mu_v", "acceleration": "mu_a", "forces": "mu_F"}
     found: dict[str, set[float]] = {key: set() for key in keys.values()}
     for part, drawings in zip(project.parts, sheets_of("shaper"), strict=True):
-        for view in [view for one in drawings for view in one.views if part.kind is None]:
+        for view in [view for one in drawings for view in one.views if part.name not in PART_KINDS]:
             if view.kind in keys:
                 found[keys[view.kind]].add(view.per_mm)
     assert found == {key: {getattr(project.scales, key)} for key in found}

@@ -13,6 +13,7 @@ from doors import (
     FULL,
     MOTION,
     RATES,
+    PlanRequest,
     Solution,
     clear_position,
     kind_of,
@@ -51,8 +52,7 @@ def test_scales_are_of_the_series(
 )
 def test_scales_of_trains_are_of_the_series(path: object) -> None:
     kind = kind_of(path)  # type: ignore[arg-type]
-    assert kind is not None
-    made = kind.drawings(kind.load(path, None), fields={}, profile=PROFILES["board"])  # type: ignore[arg-type]
+    made = kind.drawings(kind.load(path, None), PlanRequest(profile=PROFILES["board"]))  # type: ignore[arg-type]
     for sheet in made:
         assert list(uneven_scales(sheet)) == []
 

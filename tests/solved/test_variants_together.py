@@ -162,7 +162,7 @@ def test_arrays_of_few_positions_are_those_of_a_sweep() -> None:
 @each("file", sampled(thinned([PROBLEMS / "linkages" / "ex3.toml", *loaded_files()], 12), 2))
 def test_the_key_of_a_variant_is_the_same_among_others_and_alone(file: Path) -> None:
     problems = varied(file, 4)
-    found = compute_keys(problems, DEFAULT)
+    found = compute_keys(in_batches(problems, PROFILES["board"]), DEFAULT)
     assert len(found) > 1, file.name
     for k, key in found.items():
         alone = key_of_task(Task(Solution(problems[k])))

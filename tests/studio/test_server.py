@@ -27,7 +27,6 @@ from doors import (
     cli,
     get_language,
     kind_of,
-    kinds_load as load,
     place_of,
     settings_of,
     tasks,
@@ -286,8 +285,7 @@ def test_a_fault_is_shown_at_its_place(client: TestClient, old: str, new: str) -
 
 def faults_of(path: Path) -> list[Fault]:
     try:
-        kind = kind_of(path)
-        _ = load(path) if kind is None else kind.load(path, None)
+        kind_of(path).load(path, None)
     except ProblemError as error:
         return [*error.faults]
     return []

@@ -19,8 +19,7 @@ from cases import sampled
 from click.testing import CliRunner, Result
 from doors import (
     DEFAULT,
-    Calculation,
-    CandidateEvaluator,
+    LINKAGES,
     ModelProblem as Problem,
     Rejection,
     RejectionReason,
@@ -33,14 +32,15 @@ from doors import (
     cli,
     coaxial_rows,
     default_keys,
+    evaluator_of,
     free_scales,
     gears_reader_load as load,
     key_of_task,
     kind_of,
-    load_each,
     overrides,
     parse_vary,
     solve_motion,
+    task_of_problem,
     variant_names,
     with_followers,
 )
@@ -77,9 +77,7 @@ def rows_of(table: Path) -> list[dict[str, float]]:
 def tasks_of(path: Path) -> list[Task]:
     """Return the tasks of all variants of a file, as check reads them."""
     kind, names = kind_of(path), variant_names(path)
-    if kind is None:
-        return [Task(Solution(one)) for one in load_each(path, names)]
-    return [Calculation(kind, kind.load(path, name), DEFAULT) for name in names]
+    return [task_of_problem(kind, one, DEFAULT) for one in kind.load_each(path, names)]
 
 
 @pytest.fixture(scope="module")
@@ -150,7 +148,7 @@ def test_variants_of_a_linkage_assemble_and_are_long_enough_by_its_own_formulas(
 
 
 def test_every_position_of_the_crank_is_judged_by_independent_formulas() -> None:
-    source = VariantCandidates(EX3, None)
+    source = VariantCandidates(EX3, LINKAGES)
     (main,) = source.read({})
     assert isinstance(main, Problem)
     places = {
@@ -161,7 +159,7 @@ def test_every_position_of_the_crank_is_judged_by_independent_formulas() -> None
     problems = [one for one in source.read(places) if isinstance(one, Problem)]
     why = Counter[str]()
     for problem, one in zip(
-        problems, CandidateEvaluator(None, main, DEFAULT).evaluate(problems), strict=True
+        problems, evaluator_of(LINKAGES, main, DEFAULT).evaluate(problems), strict=True
     ):
         row = {"driver.phi": problem.drive.positions[0], "driver.omega": 50.0}
         lengths = {"links.1.AB": 0.064, "links.3.CD": 0.22}
@@ -270,13 +268,13 @@ def test_a_linkage_with_loads_has_its_reactions_judged(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["linkages/ex3", "levers/task-12", "levers/task-1"])
 def test_candidates_judged_together_are_judged_as_alone(name: str) -> None:
     path = path_of(name)
-    source = VariantCandidates(path, None)
+    source = VariantCandidates(path, LINKAGES)
     chosen = with_followers(source.table, default_keys(source.table, 0.1))
     lots = ValueSampler(chosen, Random(3))
     drawn = [overrides(source.table, lots.with_followers(lots.draw())) for _ in range(60)]
     (main,) = source.read({})
     assert isinstance(main, Problem)
-    judge = CandidateEvaluator(None, main, DEFAULT)
+    judge = evaluator_of(LINKAGES, main, DEFAULT)
     read = source.read({str(k): own for k, own in enumerate(drawn)})
     problems = [one for one in read if isinstance(one, Problem)]
     together = list(judge.evaluate(problems))

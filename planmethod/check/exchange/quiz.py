@@ -23,16 +23,10 @@ from planmethod.check.task import Task, TaskItem
 from planmethod.kind import ProblemKind
 from planmethod.note.document import GivenFact, plain_text
 from planmethod.note.formula import escape
-from planmethod.note.narrate.forces.statement import statement
-from planmethod.note.narrate.statement import drawn, given_facts
 from planmethod.note.numbers import finite_or_none
 from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.html import markup, without_control_characters
-from planmethod.problem.model import Problem
 from planmethod.render.backends import Options, render
-from planmethod.render.ink.drawing import Drawing
-from planmethod.render.sketch import assigned
-from planmethod.solved.forces.reading import ForceReading
 
 MAX_WRONG_VALUES = 12
 """Wrong values of a part that are named; the usual ones first."""
@@ -500,29 +494,17 @@ DPI = 110.0
 """About 800 dots across a scheme: read on a screen, some ten kilobytes."""
 
 
-def question_of(task: Task, kind: ProblemKind[Any] | None, language: Language) -> QuizQuestion:
-    """Return a variant as a question; its kind is None for a linkage."""
+def question_of(task: Task, kind: ProblemKind[Any], language: Language) -> QuizQuestion:
+    """Return a variant as a question."""
     problem = task.problem
-    drawing: Drawing | None
-    if kind is None:
-        assert isinstance(problem, Problem)
-        facts = [drawn(problem, language), *given_facts(problem, language)]
-        if problem.dynamics is not None:
-            known = {fact.text.partition(" = ")[0] for fact in facts}
-            loaded = statement(ForceReading(task.solution, task.first), language)
-            facts += [fact for fact in loaded if fact.text.partition(" = ")[0] not in known]
-        drawing = assigned(task.solution)
-    else:
-        facts = kind.given_facts(problem, language)
-        drawing = kind.scheme(problem)
+    facts, drawing = kind.given_facts(problem, language), kind.scheme(problem)
     parts = tuple(quiz_of(task, language))
     used = {"mu_l", *(part.entry.scale for part in parts)}
-    scales = task.scales({}, task.first) if kind is None else {}
     return QuizQuestion(
         problem.title or problem.name,
         task.variant,
         tuple(facts),
-        {name: per_mm for name, per_mm in scales.items() if name in used},
+        {name: per_mm for name, per_mm in task.scales({}, task.first).items() if name in used},
         parts,
         render(drawing, "png", options=Options(dpi=DPI)) if drawing is not None else b"",
     )

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planmethod.kind import ProblemKind
+from planmethod.kind import PlanRequest, ProblemKind
 from planmethod.note.document import Document, GivenFact
 
 if TYPE_CHECKING:
-    from planmethod.construct.drafting import Profile
     from planmethod.gears.involute.geometry import MeshingProblem
     from planmethod.note.wording import Language
     from planmethod.render.ink.drawing import Drawing
@@ -40,26 +38,24 @@ class Meshings(ProblemKind["MeshingProblem"]):
         return Document.of(solved_document(problem, language))
 
     def protocol_document(
-        self, problem: MeshingProblem, language: Language, profile: Profile
+        self, problem: MeshingProblem, language: Language, request: PlanRequest
     ) -> Document:
         """Return what ``protocol`` prints."""
         from planmethod.gears.involute.text import protocol_document
 
-        return Document.of(protocol_document(problem, language, profile))
+        return Document.of(protocol_document(problem, language, request.profile))
 
-    def drawings(
-        self,
-        problem: MeshingProblem,
-        *,
-        fields: Mapping[str, str],
-        profile: Profile,
-        before: int = 0,
-        total: int | None = None,
-    ) -> list[Drawing]:
+    def drawings(self, problem: MeshingProblem, request: PlanRequest) -> list[Drawing]:
         """Return the sheets."""
         from planmethod.gears.involute.sheet import drawings
 
-        return drawings(problem, fields=fields, profile=profile, before=before, total=total)
+        return drawings(
+            problem,
+            fields=request.fields,
+            profile=request.profile,
+            before=request.before,
+            total=request.total,
+        )
 
     def given_facts(self, problem: MeshingProblem, language: Language) -> list[GivenFact]:
         """Return the given facts; the file can be rebuilt from their data."""

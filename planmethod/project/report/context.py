@@ -20,7 +20,8 @@ from planmethod.note.numbers import Notation, with_unit
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import FACTS, PlanKind, Vector
-from planmethod.project.settle import PartName, Project
+from planmethod.project.parts import PartName
+from planmethod.project.settle import Project
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Row

@@ -23,8 +23,9 @@ from planmethod.note.numbers import with_unit
 from planmethod.note.tables.forces import push_direction, rubbed
 from planmethod.note.wording import MessageTable
 from planmethod.problem.records import Against, Couple, Fixed, Interpolation, Load, SizeTable
+from planmethod.project.parts import PartName
 from planmethod.project.report.context import NBSP, Report, figure, items, lettered, sentences
-from planmethod.project.settle import PartName, meshed
+from planmethod.project.settle import meshed
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.machine.drawing import drawing_of

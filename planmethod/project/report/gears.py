@@ -35,6 +35,7 @@ from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import MessageTable
+from planmethod.project.parts import PartName
 from planmethod.project.report.context import (
     Report,
     chain,
@@ -44,7 +45,7 @@ from planmethod.project.report.context import (
     sentences,
     without_heading,
 )
-from planmethod.project.settle import PartName, meshed, output_of
+from planmethod.project.settle import meshed, output_of
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes
 

@@ -39,6 +39,7 @@ from planmethod.note.tables.results import lead_columns
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.build import MOTION_KINDS, QuantityKind, kinds_on
 from planmethod.plans.model import RATES, PlanKind
+from planmethod.project.parts import PartName
 from planmethod.project.report.context import NBSP, Report, sentences
 from planmethod.project.report.flywheel import balancing_chapter, flywheel_chapter, machine_of
 from planmethod.project.report.forces import ForceChapter, largest_reactions
@@ -61,7 +62,7 @@ from planmethod.project.report.position import (
     transfer_chapter,
 )
 from planmethod.project.report.structure import structure_chapter
-from planmethod.project.settle import PartName, Project, SheetEntry
+from planmethod.project.settle import Project, SheetEntry
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import crank_cycle_of

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 from math import pi
 from typing import TypeVar
@@ -451,6 +452,15 @@ def turning_points(one: float, two: float, slope_1: float, slope_2: float) -> li
     b = 6.0 * (two - one) - 4.0 * slope_1 - 2.0 * slope_2
     found = np.roots([a, b, slope_1]) if a else np.array([-slope_1 / b])
     return [1.0, *(float(x.real) for x in found if abs(x.imag) < 1e-12 and 0.0 < x.real < 1.0)]
+
+
+def flywheel_warnings(wheel: Flywheel) -> Iterator[str]:
+    """Yield the warning that a flywheel is wide for its diameter."""
+    from planmethod.solved.machine.sizes import too_wide
+
+    said = too_wide(wheel.machine.wheel, wheel.exact.inertia, wheel.middle_speed)
+    if said is not None:
+        yield said
 
 
 RATED_KW = (

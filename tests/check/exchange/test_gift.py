@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 from doors import (
+    LINKAGES,
     WORDING_LANGUAGES as LANGUAGES,
     QuizPart,
     Variants,
@@ -47,7 +48,8 @@ def read_gift(text: str) -> list[tuple[str, str, list[tuple[float, float, float,
 def test_every_number_is_a_question_with_the_intervals_of_its_part(lang: str) -> None:
     words = get_language(lang)
     questions = [
-        question_of(Variants(path_of("linkages/ex3-variants")).task(n), None, words) for n in "12"
+        question_of(Variants(path_of("linkages/ex3-variants")).task(n), LINKAGES, words)
+        for n in "12"
     ]
     text = gift(questions, words).decode()
     assert text.startswith("$CATEGORY: $course$/top/")
@@ -70,7 +72,7 @@ def test_every_number_is_a_question_with_the_intervals_of_its_part(lang: str) ->
 
 def test_signs_of_the_format_in_a_title_are_escaped() -> None:
     words = get_language("ru")
-    whole = question_of(Variants(path_of("linkages/ex3")).task(None), None, words)
+    whole = question_of(Variants(path_of("linkages/ex3")).task(None), LINKAGES, words)
     evil = "a::b {#=5} ~ \\ x\n// y"
     found = read_gift(gift([replace(whole, title=evil, parts=whole.parts[:1])], words).decode())
     assert [name for name, _, _ in found] == ["a::b {#=5} ~ \\ x // y, v_B"]

@@ -14,6 +14,7 @@ import openpyxl
 import pytest
 from doors import (
     DEFAULT,
+    LINKAGES,
     TERMINAL_WIDTH as WIDTH,
     WORDING_LANGUAGES as LANGUAGES,
     Key,
@@ -79,7 +80,7 @@ def test_small_numbers_are_no_zeros() -> None:
     """A crank that creeps has speeds, scales and tolerances below the rounding of others."""
     text = (ROOT / "problems/linkages/ex1.toml").read_text("utf-8")
     creeping = loads(re.sub(r"(?m)^omega = \S+", "omega = 1e-12", text), name="creeping")
-    told = key_text([key_of_problem(None, creeping, DEFAULT)], get_language("en"))
+    told = key_text([key_of_problem(LINKAGES, creeping, DEFAULT)], get_language("en"))
     assert not re.search(r"μ_\w = 0 |± 0 +\S*/s", told)
     (row,) = (line for line in told.splitlines() if line.startswith("v_B "))
     assert re.search(r"\d·10⁻\S+ ± \d\S*·10⁻", row), row

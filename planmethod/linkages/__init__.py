@@ -1,0 +1,1 @@
+"""Linkages (рычажные механизмы) as a kind of problem: their files, and what the commands ask."""
