@@ -203,7 +203,8 @@ def test_places_are_the_same_however_few_are_compared_at_once(
     sizes: list[int] = []
 
     def compared(one: Floats, two: Floats, i: Places, j: Places) -> NDArray[np.bool_]:
-        sizes.append(len(i))
+        if i is not j:  # places with lines; leaders of placed labels are compared pair by pair
+            sizes.append(len(i))
         return crossing(one, two, i, j)
 
     monkeypatch.setattr(paper, "crossing", compared)
