@@ -71,15 +71,12 @@ from planmethod.check.grading import (
 from planmethod.check.key import Key, compute_keys, key_of, key_of_task
 from planmethod.check.marks import (
     DEFAULT,
-    FOLDED,
     KEYS,
     POLICIES,
     PROFILES as MARKS_PROFILES,
     VALUES,
     Settings,
     SettingsError,
-    Tolerance,
-    limit_of as tolerance_limit_of,
     load_settings,
 )
 from planmethod.check.measured.drawing import plan_of_layer, read_layers
@@ -148,6 +145,7 @@ from planmethod.check.submissions.cells import (
 from planmethod.check.submissions.gather import read_json
 from planmethod.check.submissions.table import read_csv, read_head
 from planmethod.check.task import Task, TaskItem
+from planmethod.check.tolerance import FOLDED, Tolerance, limit_of as tolerance_limit_of
 from planmethod.cli import COMMANDS, cli, command_of
 from planmethod.commands import batch
 from planmethod.commands.batch import VariantOrder

@@ -19,7 +19,7 @@ from planmethod.check.diagnosis import diagnose
 from planmethod.check.following import follow_routes
 from planmethod.check.grading import ExaminedAnswer, UnusableError, assign_verdicts, examine, replay
 from planmethod.check.key import Key, batch_tasks, entry_of, key_of_task
-from planmethod.check.marks import DEFAULT, Settings, limit_of
+from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.measured.drawing_questions import list_drawing_items
 from planmethod.check.model import (
     CheckFailure,
@@ -33,6 +33,7 @@ from planmethod.check.model import (
 from planmethod.check.questions import Sign, normalize
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
+from planmethod.check.tolerance import limit_of
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import PlanMethodError
 from planmethod.kind import ProblemKind

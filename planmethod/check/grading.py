@@ -13,11 +13,11 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.check.explain import Explanation, Fact, exceeds
-from planmethod.check.marks import Tolerance, limit_of
 from planmethod.check.model import GradedSubmission, PencilTrace, Verdict, WrittenAnswer
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Sheet, StudentValues, is_right, single_float
 from planmethod.check.task import Task, TaskItem
+from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import FACTS, PlanKind

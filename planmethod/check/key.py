@@ -10,13 +10,14 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from msgspec import Struct
 
-from planmethod.check.marks import DEFAULT, Settings, Tolerance, limit_of
+from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.mistakes import changes
 from planmethod.check.mistakes.plans import Change, MistakeContext
 from planmethod.check.model import KeyEntry
 from planmethod.check.questions import Question, Sign, worded
 from planmethod.check.sheet import DRAWS, Sheet, drafted_of, sense_of, single_float
 from planmethod.check.task import Task, TaskItem
+from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.plans.model import FACTS, RATES, PlanKind

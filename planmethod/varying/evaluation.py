@@ -14,10 +14,11 @@ from msgspec.structs import replace
 
 from planmethod.check.calculation import task_of_problem
 from planmethod.check.key import MistakeEffect, batch_named, batch_tasks
-from planmethod.check.marks import Settings, Tolerance, limit_of
+from planmethod.check.marks import Settings
 from planmethod.check.questions import Question, Questions, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
+from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.drafting import PROFILES, Profile, Propagated, causes_of
 from planmethod.construct.dual import as_dual

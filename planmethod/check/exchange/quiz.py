@@ -13,13 +13,13 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.check.key import Key, entry_of
-from planmethod.check.marks import Tolerance, limit_of
 from planmethod.check.model import KeyEntry, Sense
 from planmethod.check.pages.keypage import format_scales
 from planmethod.check.pages.remarks import AnswerFormatter, displayed_value
 from planmethod.check.questions import Sign
 from planmethod.check.sheet import Sheet, is_right
 from planmethod.check.task import Task, TaskItem
+from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.kind import ProblemKind
 from planmethod.note.document import GivenFact, plain_text
 from planmethod.note.formula import escape
