@@ -311,13 +311,13 @@ from planmethod.gears.involute.quantities import (
 )
 from planmethod.gears.involute.reader import load as involute_reader_load
 from planmethod.gears.involute.sheet import (
-    HIGH,
-    LOW,
+    LARGEST_DRAWN_SHIFT,
+    SMALLEST_DRAWN_SHIFT,
     Contour,
     Window,
     contour_picture,
     drawings as involute_sheet_drawings,
-    working,
+    working_region,
 )
 from planmethod.gears.involute.text import solved_document
 from planmethod.gears.live import live_page as gears_live_live_page

@@ -46,7 +46,7 @@ from planmethod.solved.selectors.steps import NoValueError
 
 SCALED = {facts.scale for facts in FACTS.values() if facts.scale}
 
-MAX_ACCURACY_CHANCE = 1e-4
+SUSPICIOUS_ACCURACY_CHANCE = 1e-4
 """Chance of such accurate answers by hand, below which they are suspicious."""
 
 
@@ -262,7 +262,7 @@ def _is_suspicious(examined: Sequence[ExaminedAnswer]) -> bool:
     for one in seen:
         off = max(one.off, one.step / 2)
         chance *= min(1.0, math.erf(off / one.limit.sigma / math.sqrt(2.0)))
-    return bool(chance < MAX_ACCURACY_CHANCE ** (len(seen) / 2))
+    return bool(chance < SUSPICIOUS_ACCURACY_CHANCE ** (len(seen) / 2))
 
 
 FEW = 2

@@ -444,7 +444,7 @@ class Symbolic(Exact, Struct):
         make = self.tape.add_node
         return Symbol(self.tape, make("cosd", angle), make("sind", angle), 1.0)
 
-    def joined(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
+    def line_through(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
         """Return the line, its length if it is known."""
         return tail, self.known(vector)
 

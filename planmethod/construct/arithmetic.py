@@ -56,7 +56,7 @@ class Arithmetic(Protocol):
         """Return a given point as plotted."""
         ...
 
-    def joined(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
+    def line_through(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
         """Return the line (a point, its direction) drawn through two points ``vector`` apart."""
         ...
 
@@ -94,7 +94,7 @@ class Exact:
         """Return the point."""
         return point
 
-    def joined(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
+    def line_through(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
         """Return the line."""
         return tail, vector
 

@@ -139,7 +139,7 @@ class Pencil:
         """Return a given point as pricked."""
         return point if out in self.free else point + self._spot(out)
 
-    def joined(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
+    def line_through(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
         """Return a line as drawn with the ruler through its two points."""
         across = self._unit_normal(vector)
         one, two = self._off(out, self.profile.point), self._off(out, self.profile.point)

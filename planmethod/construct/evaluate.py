@@ -165,7 +165,7 @@ def apply(
         case GivenNumber(out):
             return data[out], None
         case Join(out, a, b):
-            return ar.joined(out, env[a], env[b] - env[a]), None
+            return ar.line_through(out, env[a], env[b] - env[a]), None
         case Parallel(out, t, line):
             return ar.drawn(out, env[t], env[line][1]), None
         case Perpendicular(out, t, line):

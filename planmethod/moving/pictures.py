@@ -41,7 +41,7 @@ SMALL = 3.5
 _OVERSHOOT = 9.0  # mm: an axis extends beyond the drawing
 _HEAD = 3.5  # mm: arrowhead of an axis
 _TICK = 1.0  # mm: half of a tick
-_NUMBER_SPACING = 14.0  # mm: between the numbers of an axis
+_AXIS_NUMBER_SPACING = 14.0  # mm: between the numbers of an axis
 _DOT = 0.8  # mm: a numbered instant
 _MIN_VECTOR = 0.6  # mm: a shorter vector is not drawn
 _CURVED = 45.0  # mm: a circle of curvature up to this radius is drawn
@@ -384,7 +384,7 @@ def _axes(
         if scale is None or say is None:
             continue
         first, last = (float((p / way).real) for p in (start, end - 6.0 * way))
-        step = series_near(_NUMBER_SPACING * scale.per_mm, up=True)
+        step = series_near(_AXIS_NUMBER_SPACING * scale.per_mm, up=True)
         for k in range(ceil(first * scale.per_mm / step), floor(last * scale.per_mm / step) + 1):
             place = way * (k * step / scale.per_mm) + (1j * y0 if way.real else x0)
             if not k and (x0, y0) == (0.0, 0.0) and way.imag:

@@ -59,7 +59,7 @@ HEIGHT, SMALL, WIDTH, EDGE = 5.0, 3.5, 190.0, 6.0
 _MAX_TIMES = 6.0
 """Largest ratio of a scheme at the scale of the file to its box."""
 
-_MAX_MARKED_POINTS = 3
+_MAX_MARKS_OF_MISSING_LINK = 3
 """Number of points with the number of a link that is not drawn."""
 
 _SAME = 1e-2  # degrees, or m: the shown position is the requested one
@@ -212,7 +212,7 @@ def _at(solution: Solution, name: str) -> complex:
 def _mark_missing(marks: _Marks, part: MechanismPart, places: Mapping[str, complex]) -> None:
     """Put the numbers of links that are not drawn at their drawn points."""
     for link, points in (part.links or {}).items():
-        for point in [one for one in points if one in places][:_MAX_MARKED_POINTS]:
+        for point in [one for one in points if one in places][:_MAX_MARKS_OF_MISSING_LINK]:
             text = typeset(f"{link}?", HEIGHT)
             marks.labels.append(
                 Label(text, places[point], prefer=1 - 1j, gap=4.0, name=f"missing {link}")

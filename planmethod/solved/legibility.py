@@ -249,10 +249,10 @@ def measured(
 
 
 Box: TypeAlias = tuple[float, float]
-BlockSizes: TypeAlias = frozenset[Box]
+SizeAlternatives: TypeAlias = frozenset[Box]
 """Sizes of a block that can be laid out in several ways."""
 
-Blocks: TypeAlias = "Box | BlockSizes | Sequence[Blocks]"
+Blocks: TypeAlias = "Box | SizeAlternatives | Sequence[Blocks]"
 """A block, or a group of blocks in reading order."""
 
 FEW = 5
@@ -315,7 +315,7 @@ def _blocks(texts: Texts, paper: Format, positions: int) -> Sequence[Blocks]:
 def fits_format(
     paper: Format,
     texts: Sequence[Blocks],
-    views: Sequence[BlockSizes],
+    views: Sequence[SizeAlternatives],
     positions: int,
     over: float = 1.0,
 ) -> bool:

@@ -21,8 +21,8 @@ from planmethod.solved.legibility import (
     AROUND,
     FEW,
     NAMED,
-    BlockSizes,
     Box,
+    SizeAlternatives,
     Texts,
     enlargement_of,
     fits_format,
@@ -581,7 +581,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         width, height = self.size[0] / per_mm, self.size[1] / per_mm
         return width + BESIDE + several, height + name + several + stroke
 
-    def size_alternatives(self, per_mm: float) -> BlockSizes:
+    def size_alternatives(self, per_mm: float) -> SizeAlternatives:
         """Return the possible sizes of the view at a scale, mm: plans in rows of some lengths."""
         found, count = {self.on_paper(per_mm)}, self.si.count
         if self.rows and count <= ROWS * per_row(count):

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from doors import (
-    HIGH,
-    LOW,
+    LARGEST_DRAWN_SHIFT,
+    SMALLEST_DRAWN_SHIFT,
     Arc,
     Contour,
     MeshView,
@@ -26,7 +26,7 @@ from doors import (
     meshing_picture,
     sweep,
     view_for,
-    working,
+    working_region,
 )
 from shapely import LineString, Point
 from worked import path_of
@@ -106,9 +106,14 @@ def test_the_rim_is_broken_off_at_both_ends(name: str) -> None:
 @pytest.mark.parametrize("name", FILES)
 def test_the_blocking_contour_is_not_cut(name: str) -> None:
     solved = SolvedMeshing(load(path_of(name)))
-    left, low, right, high = working(solved, Window(LOW, HIGH, LOW, HIGH)).bounds
-    assert min(left, low) > LOW + 0.1
-    assert max(right, high) < HIGH - 0.1
+    left, low, right, high = working_region(
+        solved,
+        Window(
+            SMALLEST_DRAWN_SHIFT, LARGEST_DRAWN_SHIFT, SMALLEST_DRAWN_SHIFT, LARGEST_DRAWN_SHIFT
+        ),
+    ).bounds
+    assert min(left, low) > SMALLEST_DRAWN_SHIFT + 0.1
+    assert max(right, high) < LARGEST_DRAWN_SHIFT - 0.1
 
 
 @pytest.mark.parametrize("name", FILES)

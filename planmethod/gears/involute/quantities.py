@@ -31,7 +31,7 @@ from planmethod.note.wording import Language, get_language
 STEP = 0.01
 """Chosen shifts are multiples of it."""
 
-LOW, HIGH = -1.0, 1.5
+LOWEST_SHIFT, HIGHEST_SHIFT = -1.0, 1.5
 """Between them shifts are looked for."""
 
 _HALVINGS = 60
@@ -135,7 +135,7 @@ def candidate_shifts(total: float | None, side: int = 1) -> Reals:
 
     With ``total``, only those of that sum; with ``side`` -1, of that difference x₂ − x₁.
     """
-    row = np.round(np.arange(round(LOW / STEP), round(HIGH / STEP) + 1) * STEP, 9)
+    row = np.round(np.arange(round(LOWEST_SHIFT / STEP), round(HIGHEST_SHIFT / STEP) + 1) * STEP, 9)
     return np.stack([row, total - side * row] if total is not None else np.meshgrid(row, row))
 
 
@@ -147,9 +147,9 @@ def choose(
 ) -> tuple[float, float] | None:
     """Return the shifts that meet all limits and are the best for an aim.
 
-    All multiples of `STEP` from `LOW` to `HIGH` are compared, so that nothing is missed. The best
-    shifts have the least maximum of specific sliding at the lower points, or the greatest contact
-    ratio. For equal sliding x₁ is a multiple and x₂ follows from it.
+    All multiples of `STEP` from `LOWEST_SHIFT` to `HIGHEST_SHIFT` are compared, so that nothing is
+    missed. The best shifts have the least maximum of specific sliding at the lower points, or the
+    greatest contact ratio. For equal sliding x₁ is a multiple and x₂ follows from it.
 
     Parameters
     ----------

@@ -12,8 +12,8 @@ from planmethod.errors import ProblemError
 from planmethod.gears.angles import involute
 from planmethod.gears.involute.geometry import MeshingProblem, Pair, Rack, ShiftAim, Tooth
 from planmethod.gears.involute.quantities import (
-    HIGH,
-    LOW,
+    HIGHEST_SHIFT,
+    LOWEST_SHIFT,
     LimitKind,
     candidate_shifts,
     choose,
@@ -209,7 +209,9 @@ def _explain_no_shifts(
         most = np.max(np.where(meets_limits(every, others), every.epsilon, 0.0))
     sum_of = "x2 - x1" if pair.cutter else "x1 + x2"
     fixed = "" if total is None else translate(", {} being {:.4f} by a_w", sum_of, total)
-    what = translate("no shifts from {:g} to {:g} meet all limits{}", LOW, HIGH, fixed)
+    what = translate(
+        "no shifts from {:g} to {:g} meet all limits{}", LOWEST_SHIFT, HIGHEST_SHIFT, fixed
+    )
     if most >= 1:
         hint = (
             "If the others are met, ε_α is at most {:.3f}: give a smaller epsilon_min than "

@@ -60,7 +60,7 @@ if TYPE_CHECKING:
 CONTOUR = "diagram contour"
 """Tag of the curves of the contour, with the kind of the limit."""
 
-LOW, HIGH = -4.0, 4.0
+SMALLEST_DRAWN_SHIFT, LARGEST_DRAWN_SHIFT = -4.0, 4.0
 """Shifts between which the contour is drawn."""
 
 _COARSE, _FINE = 321, 161  # rows of the grids that the region and the curves are found on
@@ -96,7 +96,7 @@ class Window(Struct, frozen=True):
         return np.stack(np.meshgrid(across, up))
 
 
-def working(solved: SolvedMeshing, window: Window) -> Polygon:
+def working_region(solved: SolvedMeshing, window: Window) -> Polygon:
     """Return the largest region of a window where pairs work, a little widened."""
     grid = window.grid(_COARSE)
     every = solved.pair.shifted(grid)
@@ -205,8 +205,19 @@ class Contour(Struct, frozen=True):
     @classmethod
     def of(cls, solved: SolvedMeshing) -> Contour:
         """Return the contour of a pair."""
-        window = window_of(solved, working(solved, Window(LOW, HIGH, LOW, HIGH)))
-        parts = list(curves(solved, working(solved, window), window))
+        window = window_of(
+            solved,
+            working_region(
+                solved,
+                Window(
+                    SMALLEST_DRAWN_SHIFT,
+                    LARGEST_DRAWN_SHIFT,
+                    SMALLEST_DRAWN_SHIFT,
+                    LARGEST_DRAWN_SHIFT,
+                ),
+            ),
+        )
+        parts = list(curves(solved, working_region(solved, window), window))
         step = 2 * (window.right - window.left) / _FINE
         bounds = [
             part for limit, found in parts if limit.hard and limit not in BASES for part in found

@@ -281,7 +281,7 @@ class Positions:
         scheme = Scheme(self.shown, index, self.letter_height, pen=pen)
         for link in self.solution.problem.mechanism.links:
             scheme.draw_link(link)
-        return map(_readable, scheme.lines)
+        return map(_thin_if_too_short, scheme.lines)
 
     def marks(self, thinned: Thinned = Thinned.NONE) -> list[Item]:
         """Return the joints in the other positions: small circles, smaller where they are dense.
@@ -360,7 +360,7 @@ class Positions:
         )
 
 
-def _readable(item: Item) -> Item:
+def _thin_if_too_short(item: Item) -> Item:
     """Return a line too short to show its pattern as a thin line (GOST 2.303)."""
     if not isinstance(item, Stroke) or item.pen is not Pen.PHANTOM:
         return item
