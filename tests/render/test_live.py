@@ -275,11 +275,14 @@ def test_a_position_that_does_not_exist_is_reported_and_play_turns_back(
     }
     # Where the motion is blocked, the driver turns back; it does not jump over the gap.
     # In one evaluation: frames of the browser's own clock must not come between.
-    turned = page.ask(
-        "planmethod.show(57); sense = 1; playing = 1; for (let t = 20; t < 2000; t += 20) tick(t);"
-        " playing = 0; sense"
+    seen = page.ask(
+        "(() => { planmethod.show(57); sense = 1; playing = 1; const seen = [];"
+        " for (let t = 20; t < 2000; t += 20) { tick(t); seen.push([position, sense]); }"
+        " playing = 0; return seen; })()"
     )
-    assert turned == -1
+    places, senses = np.array([57.0, *(place for place, _ in seen)]), [one for _, one in seen]
+    assert -1 in senses[:5]
+    assert np.abs((np.diff(places) + 180.0) % 360.0 - 180.0).max() < 1.0
     assert page.ask("exists(now)")
     assert not page.said
 
