@@ -94,9 +94,6 @@ def compare_all(problems: Sequence[Problem]) -> list[Compared]:
     return [compare(problem, profile) for problem in problems for profile in PROFILES.values()]
 
 
-# no messages: a document for developers
-
-
 class Timing(Struct, frozen=True):
     """Median and spread of repeated runs, seconds."""
 
@@ -236,6 +233,7 @@ def row_error(right: Array, results: Array) -> float:
     return float((error[some] / size[some]).max())
 
 
+# no messages: a document for developers
 def sweeps(
     problem: Problem, counts: Sequence[int], labels: Sequence[str] | None = None
 ) -> list[ReadSpeed]:
@@ -274,6 +272,7 @@ def sweeps(
     return found
 
 
+# no messages: a document for developers
 def single_readings(problem: Problem) -> list[ReadSpeed]:
     """Time the step by step readings of one position: float64, referee, hand at several rulers."""
     position, name = problem.drive.positions[0], problem.name
@@ -363,9 +362,6 @@ def _reading_error(solution: Solution) -> float:
     return float(worst)
 
 
-# no messages: a document for developers
-
-
 CHECKED_FORCES = 12
 """Positions of a batch checked in high precision, evenly spread."""
 
@@ -432,6 +428,7 @@ def readings(problem: Problem, counts: Sequence[int]) -> list[ReadSpeed]:
     return [*found, *_of_one(problem)]
 
 
+# no messages: a document for developers
 def _of_one(problem: Problem) -> list[ReadSpeed]:
     """Time the readings of one position: planning, high precision, ruler."""
     position = problem.drive.positions[0]

@@ -1,5 +1,7 @@
 """Verdicts on answers, by exact and by the student's own values; copied submissions."""
 
+# Cyrillic letters: the unit mm, as works of students write it
+
 from __future__ import annotations
 
 import math
@@ -22,9 +24,6 @@ from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.solved.selectors.steps import NoValueError
-
-# Cyrillic letters: the unit mm, as works of students write it
-
 
 USABLE = 3.0
 """An earlier number may be off by this factor for others to follow from it (Numbas)."""

@@ -23,9 +23,6 @@ import numpy.typing as npt
 from planmethod.compiled.source import BINARY, EQUAL, used_by
 from planmethod.compiled.tape import Guard, Ref, Tape
 
-# no messages: source of a program
-
-
 BLOCK = 512
 """Positions between two checks of the margins."""
 
@@ -180,6 +177,7 @@ def c_source(
     return Source(_wrap_function(lines, needs, words), tuple(lines.constants), tuple(lines.inputs))
 
 
+# no messages: source of a program
 class _Lines:
     """Lines of the loops while they are written."""
 
@@ -331,6 +329,7 @@ def _bits(number: int) -> str:
     return f"UINT64_C({number:#x})"
 
 
+# no messages: source of a program
 def _wrap_function(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
     """Wrap the loop in a function, followed by the handling of margins that do not hold."""
     rows = range(len(needs))
@@ -412,9 +411,6 @@ def _expression(kind: str, refs: list[str]) -> str:
         case _:
             names = {"abs": "fabs", "min": "least", "max": "most", "atan2": "angle"}
             return f"{names.get(kind, kind)}({', '.join(refs)})"
-
-
-# no messages: reasons for developers, source of a program
 
 
 Array = npt.NDArray[Any]
@@ -530,6 +526,7 @@ def _machine() -> str:
     return f"{sys.platform} {platform.machine()} {said[:1]}"
 
 
+# no messages: reasons for developers, source of a program
 def _folder() -> Path:
     """Return the folder of the libraries; made if it is not there.
 
@@ -559,6 +556,7 @@ def _mine(status: os.stat_result, kind: Callable[[int], bool]) -> bool:
     return kind(status.st_mode) and status.st_uid == os.getuid() and not status.st_mode & 0o022
 
 
+# no messages: reasons for developers, source of a program
 def _library(text: str, *, may_compile: bool) -> ctypes.CDLL:
     """Return a library from the cache, or a newly compiled one."""
     if os.environ.get(SWITCH) == "0":
@@ -586,6 +584,7 @@ def _library(text: str, *, may_compile: bool) -> ctypes.CDLL:
 _ALIASES = itertools.count(1)
 
 
+# no messages: reasons for developers, source of a program
 def _loaded(path: Path) -> ctypes.CDLL | None:
     """Load a library; return None if its bytes do not match the hash in its name.
 
@@ -613,6 +612,7 @@ def _loaded(path: Path) -> ctypes.CDLL | None:
 _SLASHES = {ord("0"): "/", ord("1"): "./"}
 
 
+# no messages: reasons for developers, source of a program
 def _compile(text: str, folder: Path, name: str) -> Path:
     """Compile a source to a file, atomically, and return it."""
     compiler = next(filter(None, map(shutil.which, COMPILERS)), None)

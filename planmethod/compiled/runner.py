@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from planmethod.compiled.native import Native
 
 
-# no messages: source of a program
-
-
 Array = npt.NDArray[Any]
 
 BLOCK = 16384
@@ -366,6 +363,7 @@ def _partners(tape: Tape, needed: list[int]) -> dict[int, int]:
     return result
 
 
+# no messages: source of a program
 def _line(steps: list[_Step], rows: int) -> Callable[..., None]:
     """Compile the calls to one function; its source holds numbered places only."""
     constants: dict[float, str] = {}

@@ -9,9 +9,6 @@ from typing import Any
 
 from planmethod.compiled.tape import Guard, Ref, Tape
 
-# no messages: source of a program
-
-
 EQUAL = 1e-9
 """Largest departure from equal steps, degrees, that a table of angles corrects."""
 
@@ -68,6 +65,7 @@ def straight(tape: Tape, results: Sequence[Ref], guards: Sequence[Guard]) -> Str
     return made
 
 
+# no messages: source of a program
 class _Lines:
     """Lines of the function while it is written."""
 
@@ -187,9 +185,6 @@ class _Lines:
         return self.angles[ref]
 
 
-# no messages: source of a program
-
-
 _TURN = """function turn(a) {
   const q = Math.round(a / 90), r = (a - 90 * q) * %r, c = Math.cos(r), s = Math.sin(r);
   return [[c, s], [-s, c], [-c, -s], [s, -c]][((q %% 4) + 4) %% 4] || [NaN, NaN];
@@ -197,6 +192,7 @@ _TURN = """function turn(a) {
 """ % (math.pi / 180.0)  # exact at quadrants, as `unit_vectors` is
 
 
+# no messages: source of a program
 def javascript(
     tape: Tape,
     results: Sequence[Ref],

@@ -17,9 +17,8 @@ from planmethod.construct.dual import CauseRows, Dual, Duals, as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Program
 
+
 # no messages: mistakes in a program
-
-
 class RulerArithmetic(Float64, Struct, frozen=True):
     """Draughtsman who draws exactly and reads with a ruler (чертёжник с линейкой).
 

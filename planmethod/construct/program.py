@@ -43,9 +43,8 @@ from planmethod.construct.steps import (
 )
 from planmethod.errors import ProgramError
 
+
 # no messages: mistakes in a program
-
-
 class Program(Struct, frozen=True):
     """Ordered steps of a construction (программа построения).
 
@@ -313,8 +312,6 @@ class Builder(Struct):
 
 
 # no messages: mistakes in a program
-
-
 def substituted(program: Program, names: Iterable[Name]) -> Program:
     """Return a program in which some points and numbers are given instead of made.
 
@@ -342,6 +339,7 @@ def substituted(program: Program, names: Iterable[Name]) -> Program:
     return rewritten(program, change)
 
 
+# no messages: mistakes in a program
 def rewritten(program: Program, change: Callable[[Step], Step | tuple[Step, ...]]) -> Program:
     """Return a program with every step changed or kept.
 

@@ -29,9 +29,6 @@ if TYPE_CHECKING:
     from planmethod.note.wording import MessageTable
 
 
-# no messages: mistakes in a program
-
-
 _REFERENCE = r"\\ref\{([^{}]*)\}"
 
 
@@ -412,6 +409,7 @@ def lines_of(page: TitlePage, words: Mapping[str, Any]) -> Iterator[Rich]:
     )
 
 
+# no messages: mistakes in a program
 def resolve_references(written: Document) -> Document:
     r"""Return a document with its references ``\ref{key}`` replaced by numbers.
 

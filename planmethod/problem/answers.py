@@ -1,5 +1,7 @@
 """Published values and ``[[answers]]`` of a problem file, in one short grammar."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 import re
@@ -28,9 +30,6 @@ from planmethod.problem.records import AnswerForm, DirectionMode, Published, Que
 
 if TYPE_CHECKING:
     from planmethod.problem.records import Dynamics
-
-
-# Cyrillic letters: what a file may say, or a field term in brackets
 
 
 class Selector(Struct, frozen=True):

@@ -1,5 +1,7 @@
 """Loads and ``[dynamics]``, ``[balancing]``, ``[friction]``, ``[bearings]`` of a problem file."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 import re
@@ -34,9 +36,6 @@ from planmethod.problem.records import (
     SizeTable,
 )
 from planmethod.problem.sizes import LIKE, TURN, liken, read_phase, read_size
-
-# Cyrillic letters: what a file may say, or a field term in brackets
-
 
 NAME_LIMIT = 40
 _NAME_RE = r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z"

@@ -1,5 +1,7 @@
 """Formulas, and numbers with units: a grammar without code execution (формулы, единицы)."""
 
+# Cyrillic letters: units as they are written
+
 from __future__ import annotations
 
 import math
@@ -349,9 +351,6 @@ def _tokens(text: str, token: str) -> list[tuple[str, str, int]]:
         found.append((str(match.lastgroup), match[0], at + 1))
         at = match.end()
     return [*found, ("end", "", len(text) + 1)]
-
-
-# Cyrillic letters: units as they are written
 
 
 TEXT_LIMIT = 32

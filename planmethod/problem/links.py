@@ -1,5 +1,7 @@
 """Links of the file as written: points, lengths, third points, slides, not yet placed."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -110,9 +112,6 @@ _READERS: dict[str, FormReader] = {
     "from": _read_from,
     "vertex": _read_vertex,
 }
-
-
-# Cyrillic letters: what a file may say, or a field term in brackets
 
 
 class Length(Struct, frozen=True):

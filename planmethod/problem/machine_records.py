@@ -1,5 +1,7 @@
 """Plain records of the cycle, of a project's decisions, flywheel, motor, counterweights."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
@@ -90,9 +92,6 @@ def ratio_of(link: str, crank: str, links: Collection[str]) -> str:
     """Return the index of a ratio: ``21``; ``12/1`` where that is ambiguous."""
     plain = f"{link}{crank}"
     return plain if len(plain) == 2 and plain not in links else f"{link}/{crank}"
-
-
-# Cyrillic letters: what a file may say, or a field term in brackets
 
 
 DIAGRAM_HINT = "Millimetres of the diagrams."
@@ -274,9 +273,6 @@ class ProjectTask(Struct, frozen=True):
             absent="all that the file has",
         ),
     ] = ()
-
-
-# Cyrillic letters: what a file may say, or a field term in brackets
 
 
 class MeanSpeed(Enum):

@@ -1,5 +1,7 @@
 """Read a problem file, and lay a variant over it: all faults at once."""
 
+# Cyrillic letters: units as the head of a table may have them
+
 from __future__ import annotations
 
 import io
@@ -36,9 +38,6 @@ from planmethod.problem.names import (
 )
 from planmethod.problem.records import TITLE_BLOCK, TITLE_BLOCK_IN
 from planmethod.problem.source import TABLE_LIMIT, parse, read_source, table_text
-
-# Cyrillic letters: units as the head of a table may have them
-
 
 KeyPath = tuple[str, ...]
 

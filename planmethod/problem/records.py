@@ -1,5 +1,7 @@
 """Plain records common to all problem files, and of checked masses and loads (SI units)."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
@@ -24,9 +26,6 @@ from planmethod.problem.tables import (
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
-
-
-# Cyrillic letters: what a file may say, or a field term in brackets
 
 
 STAMP_LIMIT = 200
@@ -304,9 +303,6 @@ def reading_record(problem: KindProblem) -> dict[str, object]:
     if not problem.reading:
         return {}
     return {"reading": problem.reading, "other_readings": list(problem.other_readings)}
-
-
-# Cyrillic letters: what a file may say, or a field term in brackets
 
 
 GRAVITY = 9.81

@@ -1,5 +1,7 @@
 """Flat tables of problem files and the declaration of their keys (таблицы задач)."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -153,9 +155,6 @@ def _declared(record: type[object]) -> Iterator[FlatField]:
             kinds = [kind for kind in get_args(hint.__origin__) if kind is not NoneType]
             kind = kinds[0] if kinds else hint.__origin__
             yield FlatField(field, key.name or field, key, kind)
-
-
-# Cyrillic letters: what a file may say, or a field term in brackets
 
 
 class HigherPairSection(Struct, frozen=True):

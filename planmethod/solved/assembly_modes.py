@@ -69,9 +69,6 @@ def structure_of(problem: Problem) -> Structure:
         raise StructureError(f"{error} {text}") from error
 
 
-# no messages: rules, in the words of the file
-
-
 def drive_data(
     problem: Problem, draft: Draft, positions: Reals
 ) -> dict[str, complex | float | Reals]:
@@ -426,6 +423,7 @@ def _choose_side(
     return AssemblyMode(1 if plus > minus else -1, start=float(positions[first]))
 
 
+# no messages: rules, in the words of the file
 def _missing(
     group: AssurGroup, both: list[Tried], positions: Reals, suggested_rule: Rule | None
 ) -> Fault:

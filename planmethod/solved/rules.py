@@ -27,9 +27,6 @@ from planmethod.problem.model import AssemblyRelation, Problem, Rule
 from planmethod.problem.names import format_length, format_place
 from planmethod.solved.reading import Complexes, Reading, Reals
 
-# no messages: rules, in the words of the file
-
-
 Tried: TypeAlias = tuple[Draft, Reading]
 """An assembly mode of a group, and its reading."""
 
@@ -164,6 +161,7 @@ def ambiguous_fault(rule: Rule, both: list[Tried], index: int, location: str) ->
     )
 
 
+# no messages: rules, in the words of the file
 def distinguishing_rules(point: str, both: list[Tried], rows: slice) -> list[str]:
     """Return the rules, one for each mode, that separate them most in the given positions.
 

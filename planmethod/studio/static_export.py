@@ -28,8 +28,6 @@ from planmethod.render.backends.output import write
 from planmethod.studio.requests import LOCAL_LIMITS, find_tasks, page_data
 
 # no messages: headers of HTTP
-
-
 SERVER_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; "
     "img-src 'self' blob: data:; connect-src 'self'; frame-src 'self'; base-uri 'none'; "
@@ -77,9 +75,6 @@ def page_of(lang: str, page_data: Mapping[str, Any], static: str = "static") -> 
     return text.replace("[[data]]", whole), nonce
 
 
-# no messages: HTML
-
-
 VERSION = "314.0.7"
 """Version of Pyodide: the first whose index has the library versions of the project."""
 
@@ -101,6 +96,7 @@ encodings, reportlab brings one."""
 
 ARCHIVE = "planmethod.zip"
 
+# no messages: HTML
 STATIC_POLICY = (
     "default-src 'none'; script-src 'self' blob: 'wasm-unsafe-eval'{hosts}; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; connect-src 'self'{hosts}; "
@@ -211,6 +207,7 @@ def write_studio(
         done(1)
 
 
+# no messages: HTML
 def _files(runtime: Runtime, layouts: tuple[str, ...], lang: str) -> Iterator[tuple[str, bytes]]:
     """Yield the files and their contents, without the pictures."""
     pages = {one: "index.html" if one == lang else f"{one}.html" for one in LANGUAGES}

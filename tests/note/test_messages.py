@@ -65,8 +65,9 @@ NOTES = {
 }  # fmt: skip
 """Methods of a `FileNode` that take texts of faults."""
 
-MARKED = re.compile(r"(?m)^# no messages: \w")
-"""A comment of a module whose English texts no reader sees as a message, with the reason."""
+MARKED = re.compile(r"# no messages: \w")
+"""A comment where no reader sees the English texts as messages, with the reason: above the imports
+of a module it speaks of all of it, elsewhere of the statement that it stands above."""
 
 READS = re.compile(
     r"(?!<)"  # HTML
@@ -89,6 +90,21 @@ def is_said(call: ast.Call) -> bool:
     return name in SAYS or name.endswith("Error") or (is_method and name in NOTES)
 
 
+def without_messages(text: str, tree: ast.Module) -> list[ast.stmt]:
+    """Return the statements of a module that are marked."""
+    lines = text.split("\n")
+    starts = {
+        one: min(n.lineno for n in [one, *getattr(one, "decorator_list", [])]) for one in tree.body
+    }
+    first = min(
+        (starts[one] for one in tree.body if isinstance(one, ast.Import | ast.ImportFrom)),
+        default=0,
+    )
+    if any(map(MARKED.match, lines[:first])):
+        return tree.body
+    return [one for one, start in starts.items() if MARKED.match(lines[start - 2])]
+
+
 @cache
 def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
     """Return the messages of the source, f-strings that read as messages, and all texts."""
@@ -98,14 +114,15 @@ def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
     for path in sorted(HOME.rglob("*.py")):
         module = path.relative_to(HOME).as_posix()
         text = path.read_text("utf-8")
-        silent = bool(MARKED.search(text))
-        if module.startswith("note/wording/") or (
-            silent and not re.search(r"(Error|Fault)\(", text)
-        ):
+        tree = ast.parse(text)
+        marked = without_messages(text, tree)
+        is_quiet = marked == tree.body and not re.search(r"(Error|Fault)\(", text)
+        if module.startswith("note/wording/") or is_quiet:
             continue
         inside: set[ast.AST] = set()
         direct: set[ast.AST] = set()
-        nodes = list(ast.walk(ast.parse(text)))
+        nodes = list(ast.walk(tree))
+        silent = {node for one in marked for node in ast.walk(one)}
         for node in nodes:
             match node:
                 case ast.Expr(ast.Constant(str(told)) as value):  # a docstring
@@ -125,9 +142,13 @@ def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
                 case ast.Constant(str(told)) if node not in inside:
                     every.add(told)
                     message = node in direct and SENTENCE.match(told)
-                    if (message or READS.match(told)) and told not in REFERENCE and not silent:
+                    if (
+                        (message or READS.match(told))
+                        and told not in REFERENCE
+                        and node not in silent
+                    ):
                         said.setdefault(told, where)
-                case ast.JoinedStr() if not silent:
+                case ast.JoinedStr() if node not in silent:
                     parts = [part.value for part in node.values if isinstance(part, ast.Constant)]
                     words = " ".join(map(str, parts))
                     if re.search(r"[a-z]{3,} +[a-z]{3,}|[A-Za-z]{3,} [a-z]{2,}", words):

@@ -1,5 +1,7 @@
 """Elements and layers of a drawing: straight lines, inscriptions, marks; mm, y up."""
 
+# Cyrillic letters: names of layers and colours, as drawings of students have them
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
@@ -147,9 +149,6 @@ def _goes_on(one: complex, two: complex, three: complex) -> bool:
 def _is_on_sheet(*places: complex) -> bool:
     """Return whether places are numbers, and on a sheet."""
     return all(abs(place) < REACH_LIMIT for place in places)  # False for NaN
-
-
-# Cyrillic letters: names of layers and colours, as drawings of students have them
 
 
 PLANS = "plans"

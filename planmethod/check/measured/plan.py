@@ -1,5 +1,7 @@
 """A measured drawing: letters at the vertices, segments and directions of its plans."""
 
+# Cyrillic letters: the unit mm, as drawings of students write it
+
 from __future__ import annotations
 
 import math
@@ -284,9 +286,6 @@ def letter(
         for name in told[min(beside)[1]][1]:
             vertices.unlabelled.setdefault(name, []).append(vertex)
     return vertices
-
-
-# Cyrillic letters: the unit mm, as drawings of students write it
 
 
 STEP_MM = 0.01

@@ -247,9 +247,6 @@ def _plan_of_mistake(
             )
 
 
-# no messages: SVG
-
-
 LETTERING = OutlineLettering(STYLES["B-upright"])
 
 STYLE = """
@@ -266,6 +263,7 @@ RIGHT_COLOUR, OFF_COLOUR = "#1f5fbf", "#c0271b"
 DASHES = (2.4, 1.2)
 
 
+# no messages: SVG
 class OverlayView(Struct, frozen=True):
     """An overlay, shrunk by a factor, as a figure of a document."""
 
@@ -319,6 +317,7 @@ def true_svg(solution: Solution, kind: PlanKind, index: int) -> str:
     return text[start : text.rindex("</svg>")]
 
 
+# no messages: SVG
 def _student_svg(plan: Overlay) -> Iterator[str]:
     def path(points: tuple[complex, ...]) -> str:
         return "M" + "L".join(f"{p.real:.2f} {plan.drawing.height - p.imag:.2f}" for p in points)

@@ -1,5 +1,8 @@
 """Cells of a submission: their texts, numbers and units, and the answer that they mean."""
 
+# Cyrillic letters: multiplication signs and e that numbers are written with
+# Cyrillic letters: heads and words that works of students are written with
+
 from __future__ import annotations
 
 import re
@@ -54,9 +57,6 @@ def read_bytes(path: Path, limit: int = SIZE_LIMIT) -> bytes:
             limit // 2**20,
         )
     return data
-
-
-# Cyrillic letters: multiplication signs and e that numbers are written with
 
 
 def ratio(answer: WrittenAnswer, unit: str) -> float | None:
@@ -152,9 +152,6 @@ def _decimal(digits: str) -> str | None:
     if any(len(group) != 3 for group in groups[1:]):
         return None
     return "".join(groups) + ("" if last is None else f".{last}")
-
-
-# Cyrillic letters: heads and words that works of students are written with
 
 
 def key(text: str) -> str:

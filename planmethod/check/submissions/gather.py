@@ -1,5 +1,7 @@
 """Answers collected by student: scales, duplicates, remarks; JSON and TOML objects."""
 
+# Cyrillic letters: scales that they are written with
+
 from __future__ import annotations
 
 import json
@@ -27,9 +29,6 @@ from planmethod.errors import ProblemError
 from planmethod.problem.formula import Dimension, read_unit
 from planmethod.problem.names import fold
 from planmethod.problem.source import parse
-
-# Cyrillic letters: scales that they are written with
-
 
 STUDENT_LIMIT = 2000
 ANSWER_LIMIT = 2000

@@ -20,8 +20,6 @@ from planmethod.solved.machine.sizes import adopted, size_of
 from planmethod.solved.reading import Complexes
 from planmethod.solved.solution import Solution
 
-# no messages: reasons in JSON
-
 
 def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
     """Return the data of a machine as plain data, SI, full precision.
@@ -146,6 +144,7 @@ def _segment(drawing: FlywheelDrawing) -> dict[str, float]:
     }
 
 
+# no messages: reasons in JSON
 def _inertias(flywheel: Flywheel, drawing: FlywheelDrawing) -> dict[str, Any]:
     """Return the flywheel by every way, kg·m²; null where none is needed."""
     machine, middle = flywheel.machine, flywheel.middle_speed
@@ -203,6 +202,7 @@ def _extreme(flywheel: Flywheel, extreme: SpeedExtreme) -> dict[str, float]:
 _ROWS = 25
 
 
+# no messages: reasons in JSON
 def run_up_record(flywheel: Flywheel) -> dict[str, Any]:
     """Return motor, run-up and stop, SI and degrees; null where the file has neither of them.
 
@@ -244,6 +244,7 @@ def run_up_record(flywheel: Flywheel) -> dict[str, Any]:
     }
 
 
+# no messages: reasons in JSON
 def _failure_text(run: RunUp) -> str:
     failure, motor = run.failure, run.machine.motor
     assert motor is not None

@@ -479,9 +479,6 @@ def finite(value: Any) -> bool:
     return not isinstance(value, float) or bool(np.isfinite(value))
 
 
-# no messages: reasons in JSON
-
-
 def structure_in_full(
     structure: Structure, mechanism: Mechanism, aligned: SelfAligning
 ) -> dict[str, Any]:
@@ -504,6 +501,7 @@ def structure_in_full(
     }
 
 
+# no messages: reasons in JSON
 def aligned_record(aligned: SelfAligning) -> dict[str, Any]:
     """Return the schemes without redundant constraints, best first; else the reason for none.
 

@@ -317,9 +317,6 @@ def small_paragraph(paragraph: Any, *, space: float = 0.0) -> None:
     form.first_line_indent, form.space_before, form.space_after = 0, Pt(0), Pt(space)
 
 
-# no messages: XML of Word
-
-
 PAD = 4.0
 """White at the sides of a cell, mm."""
 
@@ -386,6 +383,7 @@ def strip_above(table: Any) -> _Cell:
     return _Cell(cell, table)
 
 
+# no messages: XML of Word
 def cover(paragraph: Any, width: float) -> None:
     """Hide the strip below a paragraph of one point under a white area of a width in mm.
 

@@ -259,9 +259,6 @@ def lines_of(items: Iterable[Item]) -> Iterable[Segment]:
                 continue
 
 
-# no messages: tags of items
-
-
 ARM, ACTION = "arm", "action beyond an arrow"
 """Tags of the perpendicular, before the force's letter, and of the line of action that it meets."""
 
@@ -370,6 +367,7 @@ def _is_same(one: ForceArm, second: ForceArm) -> bool:
     return apart < _SAME and one.read == second.read
 
 
+# no messages: tags of items
 def _action(arm: ForceArm, placed: Sequence[tuple[Acting, Segment]]) -> list[Item]:
     """Return the line of action from an arrow to the foot of its arm, with the right angle."""
     arrow = next((ends for force, ends in placed if force.symbol == arm.symbol), None)

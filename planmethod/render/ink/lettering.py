@@ -1,5 +1,7 @@
 """Lettering (шрифт): widths, strokes and proportions of the letters (GOST 2.304)."""
 
+# Cyrillic letters: letters that the lettering is measured by
+
 from __future__ import annotations
 
 import json
@@ -56,9 +58,6 @@ TYPES: Mapping[str, Proportions] = MappingProxyType(
 
 SLANT = tan(radians(15.0))
 """Lean of slanted letters to the right per unit of height: about 75° to the base line."""
-
-
-# Cyrillic letters: letters that the lettering is measured by
 
 
 FONTS = Path(__file__).parent / "fonts"

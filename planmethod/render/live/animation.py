@@ -30,9 +30,6 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.live.scene import LETTER, LiveScene, LiveView, Ref
 from planmethod.render.symbols import vector_arrow
 
-# no messages: SVG
-
-
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
 
@@ -73,6 +70,7 @@ class AnimatedSegment(Struct, frozen=True):
         return [Stroke((tail, head), self.pen)]
 
 
+# no messages: SVG
 class Animation(Struct):
     """Frames of a moving mechanism (кадры); all is mm, y up, from the lower left corner.
 

@@ -1,5 +1,7 @@
 """Composition files (файлы компоновки): read with all faults at once, like problem files."""
 
+# Cyrillic letters: what a file may say, or a field term in brackets
+
 from __future__ import annotations
 
 from collections import Counter
@@ -277,9 +279,6 @@ def _check_order(blocks: list[tuple[FileNode, BlockSpec]]) -> None:
                 node["group"].note("group '{}' is resumed after another group", name, hint=hint)
                 break
         before = entry
-
-
-# Cyrillic letters: what a file may say, or a field term in brackets
 
 
 TOP = (

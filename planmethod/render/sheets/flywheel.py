@@ -346,9 +346,6 @@ def _measure(one: complex, two: complex, offset: complex, letter: str, size: flo
     return [*items, *text.at(place)]
 
 
-# no messages: tags of items
-
-
 _TIMES, _HIGH = (1.0, 0.8, 1.2, 1.5), (0.7, 0.9)  # sizes of the diagrams that are tried
 _POINTS, _MAX_POINTS = 400, 4000  # of a curve, and of one of many turns
 
@@ -440,6 +437,7 @@ def _numbered(symbol: str, largest: float, width: float, style: BlockStyle) -> A
     return Abscissae(symbol, tuple(width * k * step / largest for k in range(count)), numbers)
 
 
+# no messages: tags of items
 def _speed_diagram(
     narrator: MachineNarrator,
     style: BlockStyle,

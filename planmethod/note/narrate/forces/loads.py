@@ -236,8 +236,6 @@ def undetermined(groups: list[AssurGroup], texts: MessageTable) -> Rich:
 
 
 # no messages: mistakes in a program
-
-
 class LoadNarrator:
     """Tells what acts on the links beside the reactions."""
 

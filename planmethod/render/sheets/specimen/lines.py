@@ -1,5 +1,7 @@
 """Specimens of the lines (GOST 2.303) and of the lettering: every letter on its grid."""
 
+# Cyrillic letters: the letters themselves, one by one
+
 from __future__ import annotations
 
 import cmath
@@ -261,9 +263,6 @@ def _meanings() -> Iterator[SymbolCell]:
             *symbols.revolute(0j),
         ),
     )
-
-
-# Cyrillic letters: the letters themselves, one by one
 
 
 LETTERING_PAPER = "A2"
