@@ -57,13 +57,7 @@ class Cams(ProblemKind["CamProblem"]):
         """Return the sheets."""
         from planmethod.cams.sheet import drawings
 
-        return drawings(
-            problem,
-            fields=request.fields,
-            profile=request.profile,
-            before=request.before,
-            total=request.total,
-        )
+        return drawings(problem, request)
 
     def live_page(self, problem: CamProblem, lang: str) -> str:
         """Return the page that ``live`` writes."""

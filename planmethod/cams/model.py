@@ -92,11 +92,6 @@ class UnitLaw(Struct, frozen=True, dict=True):
         found.append((value, slope))
         return found
 
-    @property
-    def breakpoints(self) -> tuple[float, ...]:
-        """Boundaries of the bits."""
-        return (*(bit.start for bit in self.bits), 1.0)
-
     def on(self, k: int, u: Reals) -> Reals:
         """Return value and derivatives by bit ``k``, shape (3, n), within it or extrapolated."""
         bit, (value, slope) = self.bits[k], self._constants[k]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import product
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import asdict, replace
@@ -40,6 +41,9 @@ from planmethod.render.sheets.composer import (
     grow_scales,
 )
 
+if TYPE_CHECKING:
+    from planmethod.kind import PlanRequest
+
 TEXT_WIDTH = STAMP_WIDTH - 5.0
 
 
@@ -71,14 +75,7 @@ GROW = ("profile", "region", "s")
 """Scales that are enlarged in turn while the sheet fits."""
 
 
-def drawings(
-    problem: CamProblem,
-    *,
-    fields: Mapping[str, str],
-    profile: Profile,
-    before: int = 0,
-    total: int | None = None,
-) -> list[Drawing]:
+def drawings(problem: CamProblem, request: PlanRequest) -> list[Drawing]:
     """Draw the diagrams, the region, the profile, the pressure angle and the tables of a cam.
 
     Raises
@@ -89,11 +86,13 @@ def drawings(
         The content does not fit on the requested paper.
     """
     language = get_language(problem.sheet.lang or LANGUAGES[0])
-    furniture = Furniture.of(problem.sheet, before=before, total=total)
-    strategy = _Cam(CamDesign(problem), language, profile)
+    furniture = Furniture.of(problem.sheet, before=request.before, total=request.total)
+    strategy = _Cam(CamDesign(problem), language, request.profile)
     title = problem.title or language.cam.sheet
     misfit = _no_space_advice(problem)
-    return compose(problem, strategy, misfit, fields=fields, furniture=furniture, title=title)
+    return compose(
+        problem, strategy, misfit, fields=request.fields, furniture=furniture, title=title
+    )
 
 
 def sheet_scales(problem: CamProblem) -> CamScales:

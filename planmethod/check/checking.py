@@ -10,7 +10,6 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.arguments import of_type
@@ -342,13 +341,6 @@ class Variants:
         if not self.names:
             return None
         return self._forms[normalize(submission.variant)]
-
-
-class CheckedGroup(Struct, frozen=True):
-    """Graded submissions with the keys used for them."""
-
-    checked: tuple[GradedSubmission, ...]
-    keys: dict[str | None, Key]
 
 
 def check_works(variants: Variants, works: Sequence[Submission]) -> Iterator[GradedSubmission]:

@@ -18,7 +18,7 @@ from msgspec import Struct
 
 from planmethod.commands.output import is_terminal
 from planmethod.errors import ExitCode, PlanMethodError, ProblemError
-from planmethod.languages import current_language, translate
+from planmethod.languages import current_language, known_language, translate
 from planmethod.options import UsageError, basename, message_name, warn_each
 
 if TYPE_CHECKING:
@@ -367,7 +367,6 @@ def language_of(problem: KindProblem, named: str | None) -> str:
 
 def language_of_file(path: Path, named: str | None) -> str:
     """Return the output language of a problem file that may have faults."""
-    from planmethod.languages import known_language
     from planmethod.problem.source import parse, read_source
 
     if named is not None:

@@ -11,7 +11,7 @@ import click
 import msgspec
 from msgspec import Struct
 
-from planmethod.commands.output import LocalizedCommand, bar, json_text, show
+from planmethod.commands.output import LocalizedCommand, bar, drawing_files, json_text, show
 from planmethod.commands.problems import guarded
 from planmethod.commands.project_context import load_project, note_options
 from planmethod.commands.sheet_options import PaperRequest, sheet_options
@@ -253,8 +253,6 @@ def write(
         from planmethod.project.notes import note_files
 
         return task.name, MadePart(note_files(project, "note", options, sheets=task.sheets))
-    from planmethod.commands.output import drawing_files
-
     kinds = ("pdf",) if task.name == ALL_SHEETS else formats.formats
     return task.name, MadePart(
         drawing_files(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 from msgspec.structs import replace
 
-from planmethod.commands.output import LocalizedCommand
+from planmethod.commands.output import LocalizedCommand, bar
 from planmethod.commands.problems import guarded
 from planmethod.languages import translate
 from planmethod.options import NumberRange, PathType, UsageError, lang_option
@@ -110,7 +110,6 @@ def studio(
 
 def _write(folder: Path, runtime: str | None, lang: str) -> None:
     """Write the page that needs no server."""
-    from planmethod.commands.output import bar
     from planmethod.commands.studio_jobs import act
     from planmethod.render.sheets.compositions import SHIPPED
     from planmethod.studio.static_export import VERSION, runtime_of, task_names, write_studio

@@ -21,7 +21,7 @@ from planmethod.commands.output import (
 )
 from planmethod.commands.problems import finish, guarded
 from planmethod.commands.sheet_options import PaperRequest, sheet_options
-from planmethod.errors import ExitCode
+from planmethod.errors import AssemblyError, ExitCode, ProblemError
 from planmethod.languages import current_language, translate
 from planmethod.options import (
     BadParameter,
@@ -157,7 +157,6 @@ def synthesize(
     KIND is slotted, slider-crank, crank-rocker, three-positions or three-angles; what each is made
     from: docs/synthesis.md. Lengths are metres, angles degrees.
     """
-    from planmethod.errors import AssemblyError, ProblemError
     from planmethod.note.wording import get_language
     from planmethod.problem import loads
     from planmethod.synthesis import KINDS, options_of, synthesize as find

@@ -65,13 +65,7 @@ class GearTrains(ProblemKind["GearProblem"]):
         """Return the sheets."""
         from planmethod.gears.sheet import drawings
 
-        return drawings(
-            problem,
-            fields=request.fields,
-            profile=request.profile,
-            before=request.before,
-            total=request.total,
-        )
+        return drawings(problem, request)
 
     def live_page(self, problem: GearProblem, lang: str) -> str:
         """Return the page that ``live`` writes."""

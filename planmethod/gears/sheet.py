@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise, product
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -54,6 +55,9 @@ from planmethod.render.sheets.composer import (
     view_of,
 )
 
+if TYPE_CHECKING:
+    from planmethod.kind import PlanRequest
+
 TARGETS = (210.0, 165.0, 130.0, 105.0, 85.0, 65.0)
 """Target heights of the scheme, mm, for scales that the sheet chooses."""
 
@@ -82,25 +86,8 @@ GAP = 12.0
 """Space between the side view and the diagram beside it, mm."""
 
 
-def drawings(
-    problem: GearProblem,
-    *,
-    fields: Mapping[str, str],
-    profile: Profile,
-    before: int = 0,
-    total: int | None = None,
-) -> list[Drawing]:
+def drawings(problem: GearProblem, request: PlanRequest) -> list[Drawing]:
     """Draw the sheet of a train (лист зубчатого механизма).
-
-    Parameters
-    ----------
-    problem : GearProblem
-    fields : mapping
-        Texts of the title block that outrank the file's.
-    profile : Profile
-        Drafting accuracy of the diagrams.
-    before, total : int
-        Sheets of the set before this one, and of the whole set.
 
     Raises
     ------
@@ -109,10 +96,10 @@ def drawings(
     LayoutError
         It does not fit the paper.
     """
-    strategy = _Train(problem, solve_motion(problem), profile)
-    furniture = Furniture.of(problem.sheet, before=before, total=total)
+    strategy = _Train(problem, solve_motion(problem), request.profile)
+    furniture = Furniture.of(problem.sheet, before=request.before, total=request.total)
     return compose(
-        problem, strategy, _no_space_advice(strategy), fields=fields, furniture=furniture
+        problem, strategy, _no_space_advice(strategy), fields=request.fields, furniture=furniture
     )
 
 

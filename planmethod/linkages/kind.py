@@ -10,6 +10,7 @@ from planmethod.kind import PlanRequest, ProblemKind, SketchedFile, SolveOptions
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
+    from planmethod.mechanism.structure import Structure
     from planmethod.note.audit import Audited
     from planmethod.note.document import Document, GivenFact
     from planmethod.note.records.spreadsheet import SpreadsheetRows
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from planmethod.problem.model import Problem
     from planmethod.render.ink.drawing import Drawing
     from planmethod.render.sheets.controlled import CheckedSheet
+    from planmethod.solved.aligned.schemes import SelfAligning
     from planmethod.solved.many.variants import Batch
     from planmethod.solved.partial_mechanism import MechanismPart
     from planmethod.solved.scaling import Views
@@ -130,22 +132,16 @@ class Linkages(ProblemKind["Problem"]):
     def structure_record(self, problem: Problem) -> dict[str, Any]:
         """Return the record of ``structure --json``."""
         from planmethod.note.records.solution import structure_in_full
-        from planmethod.solved.aligned.schemes import self_aligning
-        from planmethod.solved.assembly_modes import structure_of
 
-        found = structure_of(problem)
-        aligned = self_aligning(problem, found)
+        found, aligned = _structure_of(problem)
         whole = structure_in_full(found, problem.mechanism, aligned)
         return {"schema": 1, "problem": problem.name, "structure": whole}
 
     def structure_document(self, problem: Problem, language: Language) -> Document:
         """Return the document of ``structure``."""
         from planmethod.note.narrate.structure import structure_document
-        from planmethod.solved.aligned.schemes import self_aligning
-        from planmethod.solved.assembly_modes import structure_of
 
-        found = structure_of(problem)
-        aligned = self_aligning(problem, found)
+        found, aligned = _structure_of(problem)
         return structure_document(
             problem.mechanism, found, language, problem.sheet.notation, aligned
         )
@@ -153,11 +149,8 @@ class Linkages(ProblemKind["Problem"]):
     def structure_drawings(self, problem: Problem, fields: Mapping[str, str]) -> list[Drawing]:
         """Return the structural sheet."""
         from planmethod.render.sheets.structure import structure_sheet
-        from planmethod.solved.aligned.schemes import self_aligning
-        from planmethod.solved.assembly_modes import structure_of
 
-        found = structure_of(problem)
-        return [structure_sheet(problem, found, self_aligning(problem, found), fields=fields)]
+        return [structure_sheet(problem, *_structure_of(problem), fields=fields)]
 
     # Texts and drawings
 
@@ -266,3 +259,12 @@ class Linkages(ProblemKind["Problem"]):
         from planmethod.solved.solution import Solution
 
         return Solution(problem)
+
+
+def _structure_of(problem: Problem) -> tuple[Structure, SelfAligning]:
+    """Return the structure of a mechanism, and its schemes without redundant constraints."""
+    from planmethod.solved.aligned.schemes import self_aligning
+    from planmethod.solved.assembly_modes import structure_of
+
+    found = structure_of(problem)
+    return found, self_aligning(problem, found)

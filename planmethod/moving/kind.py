@@ -51,13 +51,7 @@ class MovingPoints(ProblemKind["PointProblem"]):
         """Return the sheets."""
         from planmethod.moving.sheet import drawings
 
-        return drawings(
-            problem,
-            fields=request.fields,
-            profile=request.profile,
-            before=request.before,
-            total=request.total,
-        )
+        return drawings(problem, request)
 
     def audited(self, problem: PointProblem, ruler: float) -> list[Audited]:
         """Return printed values beside the exact ones and those read with a ruler."""

@@ -154,7 +154,7 @@ def trajectory_picture(
             labels.append(Label(typeset(f"M{own}", letter_height), complex(here[k]), gap=2.2,
                                 priority=2, name=f"point {k}"))  # fmt: skip
     items = [
-        *_axes(items, ("x", "y"), letter_height, labels, scale=scales["l"], say=notation),
+        *_axes(items, ("x", "y"), letter_height, labels, scale=scales["l"], notation=notation),
         *items,
     ]
     items += _dots(here, labels, "instant")
@@ -360,7 +360,7 @@ def _plan(built: MomentConstruction, plan: str, height: float) -> tuple[list[Ite
 
 def _axes(
     items: Sequence[Item], names: Sequence[str], height: float, labels: list[Label],
-    *, scale: Scale | None = None, say: Notation | None = None,
+    *, scale: Scale | None = None, notation: Notation | None = None,
 ) -> list[Item]:  # fmt: skip
     """Return both axes around the drawing, with numbers where a scale is named.
 
@@ -381,7 +381,7 @@ def _axes(
         drawn += arrowhead(end, way, length=_HEAD, tag=AXIS)
         labels.append(Label(typeset(name, height), end, prefer=side, gap=2.0, priority=3,
                             name=f"axis {name}"))  # fmt: skip
-        if scale is None or say is None:
+        if scale is None or notation is None:
             continue
         first, last = (float((p / way).real) for p in (start, end - 6.0 * way))
         step = series_near(_AXIS_NUMBER_SPACING * scale.per_mm, up=True)
@@ -390,6 +390,6 @@ def _axes(
             if not k and (x0, y0) == (0.0, 0.0) and way.imag:
                 continue  # the zero of both axes
             drawn.append(Stroke((place - side * _TICK, place + side * _TICK), Pen.THIN, tag=AXIS))
-            number = typeset(say.number(trimmed(k * step, 4)), 2.5)
+            number = typeset(notation.number(trimmed(k * step, 4)), 2.5)
             labels.append(Label(number, place, prefer=side, gap=1.6, name=f"axis {name} {k}"))
     return drawn

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations, pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import Struct, field
@@ -54,6 +55,9 @@ from planmethod.render.sheets.composer import (
     find_layout,
     grow_scales,
 )
+
+if TYPE_CHECKING:
+    from planmethod.kind import PlanRequest
 
 SIZES = Sizes(5.0, 5.0, 3.5, 120.0)
 """Sizes of letters and texts."""
@@ -317,24 +321,8 @@ class _Sheets(Struct, frozen=True):
         return laid
 
 
-def drawings(
-    problem: PointProblem,
-    *,
-    fields: Mapping[str, str] | None = None,
-    profile: Profile,
-    before: int = 0,
-    total: int | None = None,
-) -> list[Drawing]:
+def drawings(problem: PointProblem, request: PlanRequest) -> list[Drawing]:
     """Draw the motion of a point in the language of ``problem.sheet``; on A4 on several sheets.
-
-    Parameters
-    ----------
-    fields : mapping, optional
-        Texts of the title block that outrank the file's.
-    profile : Profile
-        Drafting accuracy: the ruler and the errors of readings.
-    before, total : int
-        Sheets of the set before this one, and of the whole set.
 
     Raises
     ------
@@ -343,13 +331,15 @@ def drawings(
     LayoutError
         The content fits no format, or not the requested one.
     """
-    furniture = Furniture.of(problem.sheet, before=before, total=total)
+    furniture = Furniture.of(problem.sheet, before=request.before, total=request.total)
     strategy, title = (
-        _strategy(problem, drawn_interval(problem), profile),
+        _strategy(problem, drawn_interval(problem), request.profile),
         problem.title or problem.name,
     )
     misfit = _no_space_advice(problem)
-    return compose(problem, strategy, misfit, fields=fields, furniture=furniture, title=title)
+    return compose(
+        problem, strategy, misfit, fields=request.fields, furniture=furniture, title=title
+    )
 
 
 def sheet_scales(

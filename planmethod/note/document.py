@@ -340,20 +340,6 @@ class Document(Struct, frozen=True):
         return shown
 
 
-def demote_headings(written: Document) -> Iterator[Node]:
-    """Yield the nodes of a document as a chapter of another: each heading a level lower."""
-    for node in written.nodes:
-        match node:
-            case Title(text):
-                yield Chapter(text)
-            case Chapter(title):
-                yield Part(title)
-            case Part(title):
-                yield Subpart(title)
-            case _:
-                yield node
-
-
 def numbers_of(written: Document) -> Iterator[tuple[Node, str]]:
     """Yield the nodes, each with its number: ``2``, ``2.1``, ``3``; empty where it has none.
 

@@ -258,12 +258,7 @@ class FileNode:
         self, key: str, reader: Callable[[FileNode], R], absent: S | None = None
     ) -> R | S | None:
         """Return the value of a key; None after a fault, ``absent`` if the key is missing."""
-        if key not in self:
-            return absent
-        try:
-            return reader(FileNode(self.faults, self.value[key], key, self))
-        except _NotedError:
-            return None
+        return self[key].attempt(reader) if key in self else absent
 
     def require(self, key: str, reader: Callable[[FileNode], R], hint: LazyText = "") -> R | None:
         """Return the value of a key that must be present; None after a fault."""

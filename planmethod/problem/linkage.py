@@ -28,10 +28,17 @@ from planmethod.problem.joints import (
     join,
     order_hosts,
     read_frame,
+    read_higher,
     read_slide,
 )
 from planmethod.problem.links import LinkText, check_arcs, read_links
-from planmethod.problem.machine import cycle_count, read_cycle, read_project, with_cycle_count
+from planmethod.problem.machine import (
+    cycle_count,
+    read_cycle,
+    read_machine,
+    read_project,
+    with_cycle_count,
+)
 from planmethod.problem.model import Body, CamDrive, Drive, GearDrive, Problem, Scales, Slide
 from planmethod.problem.names import listed
 from planmethod.problem.placement import place_points
@@ -76,8 +83,6 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
         return None
     higher: tuple[HigherPair, ...] = ()
     if "higher_pairs" in file:
-        from planmethod.problem.joints import read_higher  # few files have any
-
         higher = file.read("higher_pairs", partial(read_higher, links=links, frame=frame)) or ()
     check_arcs(links, frame.points)
     for guide in frame.guides:
@@ -117,8 +122,6 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
     assembly = file.read("assembly", rules) or ()
     machine = None
     if "machine" in file:
-        from planmethod.problem.machine import read_machine  # few files have one
-
         machine = file.attempt(partial(read_machine, drive=drive))
     dynamics, drive, balancing = _read_forces(file, links, frame, drive, machine, mechanism)
     cycle = None

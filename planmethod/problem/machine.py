@@ -39,13 +39,13 @@ from planmethod.problem.names import nearest_name_hint, short
 
 R = TypeVar("R")
 
-_EXAMPLE = '[machine] delta = "1/18", constant = "driving"'
+_MACHINE_EXAMPLE = '[machine] delta = "1/18", constant = "driving"'
 
 
 def read_machine(file: FileNode, drive: Drive | None) -> Machine:
     """Read ``[machine]``; ``drive`` is None where it has a fault of its own."""
     node = file["machine"]
-    node.table(_EXAMPLE)
+    node.table(_MACHINE_EXAMPLE)
     hint = "The cycle of a machine is that of a driving crank: give it phi and n."
     require_turning(node, drive, hint, "Give its mean speed: [driver] n or omega.")
     if not file["loads"].value:

@@ -23,6 +23,7 @@ from doors import (
     CamQuantities,
     Drawing,
     GradedSubmission,
+    PlanRequest,
     Report,
     Severity,
     Stroke,
@@ -55,7 +56,7 @@ def ran(*arguments: str | Path) -> str:
 
 
 def drawn(path: Path) -> Drawing:
-    (found,) = drawings(load(path), fields={}, profile=PROFILES["board"])
+    (found,) = drawings(load(path), PlanRequest(profile=PROFILES["board"]))
     return found
 
 

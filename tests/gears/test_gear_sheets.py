@@ -22,6 +22,7 @@ from doors import (
     Drawing,
     ExitCode,
     LayoutError,
+    PlanRequest,
     SchemeData,
     Severity,
     Stroke,
@@ -84,7 +85,7 @@ OTHERS = {
 
 
 def sheet(path: Path) -> Drawing:
-    (drawing,) = drawings(load(path), fields={}, profile=PROFILES["board"])
+    (drawing,) = drawings(load(path), PlanRequest(profile=PROFILES["board"]))
     return drawing
 
 
@@ -220,7 +221,8 @@ def test_paper_language_and_stamp_follow_the_request(tmp_path: Path) -> None:
     assert "A3" in done.output
     problem = load(FILES[0])
     (drawing,) = drawings(
-        problem, fields={"author": "Иванов"}, profile=PROFILES["board"], before=1, total=3
+        problem,
+        PlanRequest(fields={"author": "Иванов"}, profile=PROFILES["board"], before=1, total=3),
     )
     assert "Иванов" in texts(drawing)
     many = told(

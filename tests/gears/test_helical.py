@@ -15,6 +15,7 @@ from click.testing import CliRunner
 from doors import (
     DRAFTING_PROFILES as PROFILES,
     Pair,
+    PlanRequest,
     Rack,
     cli,
     inspect,
@@ -152,7 +153,7 @@ def test_overlap_and_equivalent_teeth_are_printed(tmp_path: Path) -> None:
 def test_the_sheet_and_the_protocol(lang: str, tmp_path: Path) -> None:
     body = f'z = [17, 40]\nm = 4\nbeta = 15\nb = 40\nx = "blocking"\n[sheet]\nlang = "{lang}"'
     path = written(tmp_path, body)
-    (sheet,) = drawings(load(path), fields={}, profile=PROFILES["board"])
+    (sheet,) = drawings(load(path), PlanRequest(profile=PROFILES["board"]))
     assert [f"{one.code} {one.message}" for one in inspect(sheet)] == []
     run = CliRunner().invoke(cli, ["protocol", str(path), "--lang", lang])
     assert run.exit_code == 0, run.output

@@ -25,6 +25,7 @@ from doors import (
     LimitKind,
     LineOfAction,
     Pair,
+    PlanRequest,
     Points,
     Rack,
     SolvedMeshing,
@@ -374,7 +375,7 @@ def test_a_faulty_file_is_reported_with_a_remedy(tmp_path: Path, body: str, said
 
 @cache
 def drawn(path: Path, variant: str | None = None) -> Drawing:
-    (sheet,) = drawings(load(path, variant=variant), fields={}, profile=PROFILES["board"])
+    (sheet,) = drawings(load(path, variant=variant), PlanRequest(profile=PROFILES["board"]))
     return sheet
 
 

@@ -49,13 +49,7 @@ class Meshings(ProblemKind["MeshingProblem"]):
         """Return the sheets."""
         from planmethod.gears.involute.sheet import drawings
 
-        return drawings(
-            problem,
-            fields=request.fields,
-            profile=request.profile,
-            before=request.before,
-            total=request.total,
-        )
+        return drawings(problem, request)
 
     def given_facts(self, problem: MeshingProblem, language: Language) -> list[GivenFact]:
         """Return the given facts; the file can be rebuilt from their data."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise, product
 from math import ceil, floor
 from typing import TYPE_CHECKING
@@ -54,7 +54,7 @@ from planmethod.render.sheets.composer import (
 from planmethod.render.symbols import arrowhead
 
 if TYPE_CHECKING:
-    from planmethod.construct.drafting import Profile
+    from planmethod.kind import PlanRequest
 
 
 CONTOUR = "diagram contour"
@@ -441,14 +441,7 @@ Tried in turn until everything fits.
 """
 
 
-def drawings(
-    problem: MeshingProblem,
-    *,
-    fields: Mapping[str, str],
-    profile: Profile,
-    before: int = 0,
-    total: int | None = None,
-) -> list[Drawing]:
+def drawings(problem: MeshingProblem, request: PlanRequest) -> list[Drawing]:
     """Draw the pair in mesh, its blocking contour, specific sliding and the table of sizes.
 
     Raises
@@ -457,7 +450,7 @@ def drawings(
         All this does not fit the requested paper.
     """
     language = get_language(problem.sheet.lang or LANGUAGES[0])
-    furniture = Furniture.of(problem.sheet, before=before, total=total)
+    furniture = Furniture.of(problem.sheet, before=request.before, total=request.total)
     misfit = NoFitAdvice(
         lambda paper, advice: LayoutError(
             "{}: the meshing, its contour, its diagram and its tables do not fit {}. {}",
@@ -469,7 +462,9 @@ def drawings(
     )
     strategy = _Meshing(SolvedMeshing(problem), language)
     title = problem.title or language.meshing.sheet
-    return compose(problem, strategy, misfit, fields=fields, furniture=furniture, title=title)
+    return compose(
+        problem, strategy, misfit, fields=request.fields, furniture=furniture, title=title
+    )
 
 
 class _Meshing(Struct, frozen=True):

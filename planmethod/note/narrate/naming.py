@@ -68,10 +68,10 @@ def pair_letters(name: str) -> str:
     return f"{mark(point)}{bracket}{links}"
 
 
-def direction_text(direction: Direction | None, say: Notation | None = None) -> str:
+def direction_text(direction: Direction | None, notation: Notation | None = None) -> str:
     """Return a direction as it stands under a term, in rich text: ``⊥ BC``, ``C → B``, ``= 0``.
 
-    ``say`` writes the degrees of an angle in a language.
+    ``notation`` writes the degrees of an angle in a language.
     """
     if direction is None:
         return ""
@@ -83,7 +83,7 @@ def direction_text(direction: Direction | None, say: Notation | None = None) -> 
             return " → ".join(mark(point) for point in direction.points)
         case Relation.ANGLED:
             degrees = f"{direction.angle:.4g}"
-            return f"∠ {say.number(degrees) if say else degrees}° {base}"
+            return f"∠ {notation.number(degrees) if notation else degrees}° {base}"
         case Relation.PARALLEL | Relation.PERPENDICULAR:
             return f"{SIGN[direction.relation]} {base}"
 

@@ -259,8 +259,6 @@ def forces_columns(solution: Solution, texts: MessageTable) -> list[list[str]]:
     head = f"{drive.balancing.letter}{of}, {texts['units'][drive.balancing.unit]}"
     columns.append([head, *(computed_text(float(value), texts) for value in statics.balance)])
     if rubbed(solution.problem):
-        from planmethod.solved.forces.friction import friction_of  # few files have any
-
         friction = friction_of(solution)
         more: list[tuple[str, Reals]] = [
             (

@@ -244,7 +244,9 @@ class ForceChapter:
             template = texts["balance"]["one" if len(balance.links) == 1 else "many"]
             yield sentences(template.format(links="–".join(balance.links)))
             summed = balance_equation(
-                balance, self.context, partial(direction_text, say=self.report.language.notation)
+                balance,
+                self.context,
+                partial(direction_text, notation=self.report.language.notation),
             )
             yield Equations((summed,), numbered=True)
         *steps, _ = narrator.steps()

@@ -152,7 +152,7 @@ class PlanChapter:
         form = "one" if len(found) == 1 else "pair" if len(heads) == 1 else "many"
         template = str(self.texts["equations"][self.kind.value][form])
         yield sentences(template.format(points=self.report.listed(heads)))
-        directed = partial(direction_text, say=self.report.language.notation)
+        directed = partial(direction_text, notation=self.report.language.notation)
         equations = tuple(equation_of(equation, directed) for equation in found)
         yield Equations(equations, numbered=True)
         if self.kind is PlanKind.VELOCITY and found[0] is self._first:

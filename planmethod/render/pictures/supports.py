@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
-from shapely import LineString, Polygon
+from shapely import LineString, MultiLineString, Point, Polygon
 
 from planmethod.render import symbols
 from planmethod.render.ink.drawing import Item, Stroke
@@ -114,8 +114,6 @@ def free_sides(
     The arguments are those of `guide_plates`; both sides if neither is free, since a slider needs a
     guide.
     """
-    from shapely import Polygon
-
     lines = _lines(drawn)
     turn = cmath.exp(1j * radians(angle))
     half, edge = length / 2 * factor, width / 2 * factor
@@ -133,8 +131,6 @@ def free_sides(
 
 
 def _lines(drawn: Iterable[Item]) -> BaseGeometry | None:
-    from shapely import MultiLineString
-
     paths = [
         [(p.real, p.imag) for p in ((*item.points, item.points[0]) if item.closed else item.points)]
         for item in drawn
@@ -145,8 +141,6 @@ def _lines(drawn: Iterable[Item]) -> BaseGeometry | None:
 
 def _ground(at: complex, direction: complex, factor: float) -> BaseGeometry:
     """Return the area of a support: legs, base and hatching, from the edge of the joint on."""
-    from shapely import Polygon
-
     top = SIZES.joint * 0.8 * factor
     foot = SIZES.support_height * factor
     deep = foot + SIZES.hatch_stroke * sin(pi / 4) * factor
@@ -186,8 +180,6 @@ def _against(
     one: complex, direction: complex, two: complex, other_direction: complex, factor: float
 ) -> float:
     """Return the cost of two supports beside each other, mm of line."""
-    from shapely import Point
-
     area = _meet(one, direction, two, other_direction, factor)
     if direction == other_direction and _joinable(one, two, direction, factor):
         return _JOINED if area > 0.0 else 0.0

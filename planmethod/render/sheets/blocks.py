@@ -160,8 +160,6 @@ def _turn() -> Mapping[str, Maker]:
 
 
 def _measured() -> Mapping[str, Maker]:
-    from planmethod.render.sheets import results
-
     return {"measured-results": results.measured_table}
 
 

@@ -237,7 +237,7 @@ def equations_of(reading: ForceReading, style: BlockStyle) -> Block:
             if (one.force is not None) is of_forces:
                 yield from map(Formula, voice.lines(one))
 
-    directed = partial(direction_text, say=style.language.notation)
+    directed = partial(direction_text, notation=style.language.notation)
     balances = (balance_equation(balance, context, directed) for balance in plan.balances)
     nodes: list[TextNode] = [
         *moments(of_forces=True),

@@ -42,7 +42,7 @@ from planmethod.solved.legibility import FEW, is_too_dense
 from planmethod.solved.scaling import MAX_DRAWN, PLAN, Views, smallest_plan
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.extremes import counting
+from planmethod.solved.turn.extremes import counting, numbered_positions
 
 STEPS = 3
 """Largest number of members of the series by which a scale is changed."""
@@ -283,8 +283,6 @@ def _over_the_cycle(solution: Solution) -> Solution:
     PositionError
         One of these positions does not exist.
     """
-    from planmethod.solved.turn.extremes import numbered_positions
-
     if not solution.problem.drive.goes_round:
         return solution
     solution = solution.with_positions(numbered_positions(solution).tolist())

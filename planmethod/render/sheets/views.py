@@ -255,7 +255,7 @@ def plan_spans(
 def scheme_view(
     solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> ViewBlock:
-    """Return the scheme in one position; `sheets.several` makes that of several."""
+    """Return the scheme in one position; `scheme_views` shows several."""
     (index,) = position_indices
     picture = scheme_picture(
         solution,
@@ -270,7 +270,7 @@ def scheme_view(
 
 
 def plan_view(solution: Solution, position_indices: Sequence[int], style: BlockStyle) -> Block:
-    """Return a plan with its enlarged views; `sheets.several` makes those of several positions.
+    """Return a plan with its enlarged views; `plan_views` shows those of several positions.
 
     It is drawn with the readings of the ruler, so that a ruler finds the numbers of the
     calculation; with error ellipses, which are around the exact points, it is exact.
@@ -545,7 +545,7 @@ def equations_block(
     size = style.text(style.sizes.text)
     height, width = max(3.5, min(5.0, size)), style.width(style.sizes.column)
     title = heading(style.entry.title or style.language.sheets["equations"][kind.value], size)
-    directed = partial(direction_text, say=style.language.notation)
+    directed = partial(direction_text, notation=style.language.notation)
     equations = Equations(tuple(equation_of(one, directed) for one in plan.equations))
     return Column([title, *blocks_of([equations], height, width=width)], gap=4.0)
 

@@ -36,7 +36,7 @@ from planmethod.solved.assembly_modes import (
 from planmethod.solved.conditioning import WARN_RELATIVE_ERROR
 from planmethod.solved.failures import failing
 from planmethod.solved.legibility import SHORT, SMALL
-from planmethod.solved.many.rows import SweepRow, quantities_for, rows_of
+from planmethod.solved.many.rows import LoadColumns, SweepRow, quantities_for, rows_of
 from planmethod.solved.quantities import Quantities
 from planmethod.solved.reading import Flags, Reading, Reals, driven
 from planmethod.solved.selfcheck import changed_branches, flag_rejected
@@ -44,7 +44,7 @@ from planmethod.solved.solution import FEW_ROWS, Solution, at_positions, unit_ra
 from planmethod.solved.turn.posed import pose
 
 if TYPE_CHECKING:
-    from planmethod.solved.many.rows import LoadColumns, Motion
+    from planmethod.solved.many.rows import Motion
 
 
 class Batch(Solution):
@@ -448,8 +448,6 @@ class SweepTask(Struct, frozen=True):
         """Return the loads that must be given for every position; None if there are none."""
         if not (results.changing and any(result.kind.is_force for result in chosen)):
             return None
-        from planmethod.solved.many.rows import LoadColumns
-
         problem = solution.problem
         return LoadColumns(problem, solution.construction, results.changing, self.motion(problem))
 

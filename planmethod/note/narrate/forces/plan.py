@@ -30,6 +30,7 @@ from planmethod.note.document import (
 from planmethod.note.narrate.forces.lever import LeverNarrator, thrust_lines
 from planmethod.note.narrate.forces.loads import (
     ForceContext,
+    FrictionNarrator,
     LoadNarrator,
     balance_equation,
     closed,
@@ -527,7 +528,6 @@ def _lever(context: ForceContext) -> Iterator[Node]:
 
 def _friction(context: ForceContext, formulas: Formulas) -> Iterator[Node]:
     """Yield the friction of the pairs, and the force plans with one correction."""
-    from planmethod.note.narrate.forces.loads import FrictionNarrator  # few need it
     from planmethod.solved.forces.friction import rubbed_reading
 
     narrator, texts = FrictionNarrator(context), context.note_texts
