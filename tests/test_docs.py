@@ -327,7 +327,8 @@ def test_the_house_is_as_the_linter_holds_it() -> None:
 
 
 def test_decisions_are_numbered_and_listed() -> None:
-    assert [path.name[:5] for path in ADRS] == [f"{n:04d}-" for n in range(1, len(ADRS) + 1)]
+    numbers = [path.name[:4] for path in ADRS]
+    assert len(set(numbers)) == len(numbers)  # those of records that are gone are not used again
     listed = re.findall(r"\((\d{4}-[\w-]+\.md)\) \| (.+) \|", text_of("docs/adr/README.md"))
     titles = [path.read_text("utf-8").splitlines()[0].split(". ", 1)[1] for path in ADRS]
     assert listed == [(path.name, title) for path, title in zip(ADRS, titles, strict=True)]
@@ -337,7 +338,6 @@ def test_decisions_are_numbered_and_listed() -> None:
 def test_a_decision_has_its_parts(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert text.startswith(f"# {path.name[:4]}. ")
-    assert re.search(r"(?m)^Date: \d{4}-\d\d-\d\d\. Status: \w+", text)
     assert re.findall(r"(?m)^## (.*)$", text) == ["Context", "Decision", "Consequences"]
 
 
