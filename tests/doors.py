@@ -1099,6 +1099,14 @@ from planmethod.solved.conditioning import (
     SCALES as CONDITIONING_SCALES,
     error_bound,
 )
+from planmethod.solved.curves import (
+    crossings,
+    resolved,
+    root as curve_root,
+    roots,
+    roots_between,
+    top,
+)
 from planmethod.solved.cycle import Cycle, DriverPath, cycle, cycle_efficiency, without_corners
 from planmethod.solved.cycle_motion import CycleMotion
 from planmethod.solved.errors.forces import (

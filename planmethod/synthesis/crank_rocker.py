@@ -18,7 +18,7 @@ import numpy as np
 from planmethod.construct.steps import LineSense, Side
 from planmethod.errors import AssemblyError
 from planmethod.languages import translate
-from planmethod.solved.turn.output import top
+from planmethod.solved.curves import top
 from planmethod.synthesis.model import (
     Board,
     FileTable,

@@ -15,7 +15,7 @@ import numpy as np
 
 from planmethod.construct.steps import LineSense, Side
 from planmethod.errors import AssemblyError
-from planmethod.solved.turn.output import root, top
+from planmethod.solved.curves import root, top
 from planmethod.synthesis.model import (
     Board,
     FileTable,

@@ -1,26 +1,28 @@
 """Problem file of a synthesized mechanism (файл задачи), and its verification.
 
-The file is commented, ready to solve; the actual motion is found with the solver.
-Extreme positions are the roots of the output's velocity, found in the compiled position and
-velocity programs to the last digits; the transmission angle is sampled over the whole turn.
+The file is commented, ready to solve; the actual motion is that of the solved mechanism's cycle.
+The transmission angle is sampled over the whole turn.
 """
 
 # no messages: mistakes in sizes that the program makes
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from msgspec.structs import replace
 
+from planmethod.construct.steps import PointName
 from planmethod.errors import PlanMethodError
 from planmethod.note.wording import Language
+from planmethod.problem.machine_records import CycleTask
 from planmethod.problem.model import Problem
-from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.reading import Reals
-from planmethod.solved.turn.output import Function, crossings, root
+from planmethod.solved.curves import roots
+from planmethod.solved.reading import Reading, Reals
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.cycle import CrankCycle
 from planmethod.synthesis.model import Synthesis, place, ray_angle
 
 COUNT = 12
@@ -133,102 +135,59 @@ class _DriverTurn:
     """The mechanism over the turn of its driver."""
 
     def __init__(self, synthesis: Synthesis, problem: Problem) -> None:
-        self.synthesis, self.problem = synthesis, problem
-        output = synthesis.output
-        self.is_link = output in problem.mechanism.links
-        self.value, self.rate = (
-            (f"{output}.phi_deg", f"{output}.omega")
-            if self.is_link
-            else (f"{output}.x", f"{output}.vx")
-        )
-        points = sorted({p for p in synthesis.pressure if p and p not in synthesis.pivots})
-        motion = [f"phi_{output}", f"omega_{output}"] if self.is_link else [output, f"v_{output}"]
+        self.synthesis = synthesis
+        task = CycleTask(output=synthesis.output)
+        self.turn = CrankCycle(Solution(replace(problem, cycle=task)), middles(synthesis))
         # The link whose angle to the output shows how it is driven; a sliding block has 90 degrees.
-        self._coupler = ""
-        if synthesis.pressure[0]:
-            self._coupler = "4" if "5" in problem.mechanism.links else "2"
-            motion.append(f"omega_{self._coupler}")
-            motion += ["phi_3"] if self._coupler == "4" else ["omega_3"]
-        self._sweep = Sweep(problem, [*motion, *points])
+        links = problem.mechanism.links
+        self._coupler = ("4" if "5" in links else "2") if synthesis.pressure[0] else ""
         self.start = problem.drive.positions[0]
-        turns = self.start + np.linspace(0.0, 360.0, _GRID + 1)
-        self.full = bool(np.isfinite(self._table(turns)[self.rate]).all())
-
-    def _table(self, phi: Reals) -> Mapping[str, Reals]:
-        return self._sweep.table(phi)
+        self.full = self.turn.range is None
 
     # Extreme positions -----------------------------------------------------------------------
 
     def extremes(self) -> dict[str, Any]:
         """Return stroke, swing, phases and K_v; None without two extreme positions."""
+        turn, unit = self.turn, self.turn.output.unit
         found: dict[str, Any] = dict.fromkeys(("K_v", "stroke", "swing", "slow_deg", "quick_deg"))
-        found["stroke_unit"] = "deg" if self.is_link else "m"
+        found["stroke_unit"] = unit
         found["extremes"] = []
         if not self.full:
             found["reason"] = "the driver does not turn fully"
             return found
-        roots = self._stops()
-        values = self._table(np.array(roots))[self.value] if roots else np.zeros(0)
+        phi = [extreme.phi for extreme in turn.turnings]
+        reading = turn.read(phi)
+        values = turn.output.value(turn.unit, reading)
         found["extremes"] = [
-            {"phi_deg": phi % 360.0, "value": float(value)}
-            for phi, value in zip(roots, values, strict=True)
+            {"phi_deg": at % 360.0, "value": float(value)}
+            for at, value in zip(phi, values, strict=True)
         ]
-        if len(roots) != 2:
-            found["reason"] = f"the output has {len(roots)} extreme positions, not 2"
+        if len(phi) != 2:
+            found["reason"] = f"the output has {len(phi)} extreme positions, not 2"
             return found
-        apart = float(values[1] - values[0])
-        size = abs((apart + 180.0) % 360.0 - 180.0) if self.is_link else abs(apart)
-        phases = sorted((roots[1] - roots[0], 360.0 - (roots[1] - roots[0])))
+        quick, slow = sorted((phi[1] - phi[0], 360.0 - (phi[1] - phi[0])))
         found |= {
-            "K_v": phases[1] / phases[0],
-            "stroke": size,
-            "swing": size if self.is_link else None,
-            "slow_deg": phases[1],
-            "quick_deg": phases[0],
+            "K_v": slow / quick,
+            "stroke": turn.stroke,
+            "swing": turn.stroke if unit == "deg" else None,
+            "slow_deg": slow,
+            "quick_deg": quick,
         }
         if self._coupler == "4":  # a shaper
-            found["swing"] = float(abs(np.ptp(self._table(np.array(roots))["3.phi_deg"])))
+            slotted = reading.line_vector(turn.unit.construction.draft.axes["3"])
+            found["swing"] = float(np.ptp(np.degrees(np.angle(slotted))))
         return found
-
-    def _stops(self) -> list[float]:
-        """Return the driver's positions where the output stops, degrees from the first one."""
-        board = self.synthesis.exact()
-        grid = self.start + 360.0 / _GRID * (np.arange(_GRID + 1) + 0.37)
-        if len(self.synthesis.poses) == 2:  # both phases are seen, however short one is
-            pins = [pose.links[0][0:2] for pose in self.synthesis.poses]
-            dead = [ray_angle(place(board, o), place(board, a)) for o, a in pins]
-            middle = (dead[0] + dead[1]) / 2
-            extra = grid[0] + (np.array([middle, middle + 180.0]) - grid[0]) % 360.0
-            grid = np.sort(np.append(grid, extra))
-        return self._roots(self._rate, np.asarray(grid, dtype=float))
-
-    def _rate(self, phi: Reals) -> Reals:
-        return self._table(phi)[self.rate]
-
-    @staticmethod
-    def _roots(rate: Function, grid: Reals) -> list[float]:
-        """Return the position of a sign change of a rate."""
-        return [root(rate, float(grid[k]), float(grid[k + 1])) for k in crossings(rate(grid))]
 
     # Angles ----------------------------------------------------------------------------------
 
-    def _transmission(self, phi: Reals) -> Reals:
+    def _transmission(self, reading: Reading) -> Reals:
         """Return the angle at which the coupler drives the output, 90 degrees at best."""
-        tail, head, pivot = self.synthesis.pressure
+        tail, head, pivot = map(PointName, self.synthesis.pressure)
         if not tail:
-            return np.full(phi.shape, 90.0)
-        found = self._table(phi)
-        at = {p: found[f"{p}.x"] + 1j * found[f"{p}.y"] for p in (tail, head)}
-        drives = at[head] - at[tail]
-        if not pivot:
-            return _acute(1j * drives)
-        arm = at[head] - (place(self.synthesis.exact(), pivot) - self._origin)
-        return _acute(np.conj(arm) * drives)
-
-    @property
-    def _origin(self) -> complex:
-        made = self.synthesis
-        return place(made.exact(), made.pivots[0]) if made.pivot_at_origin else 0j
+            return np.full(reading.count, 90.0)
+        arm = reading.vector(pivot, head) if pivot else -1j
+        across = np.conj(arm) * reading.vector(tail, head)
+        return np.degrees(np.arctan2(np.abs(across.imag), np.abs(across.real)))
 
     def angles(self) -> dict[str, Any]:
         """Return the minimum transmission and the maximum pressure angle, and their positions.
@@ -240,8 +199,8 @@ class _DriverTurn:
         if not self.full:
             low, high = min(self.synthesis.positions), max(self.synthesis.positions)
         grid = np.linspace(low, high, _GRID + 1) + (0.37 * 360.0 / _GRID if self.full else 0.0)
-        places = np.append(grid, self._roots(self._turning, grid))
-        angles = self._transmission(places)
+        places = np.append(grid, roots(self._turning, grid)) if self._coupler else grid
+        angles = self._transmission(self.turn.read(places))
         none = not np.isfinite(angles).any()
         k = 0 if none else int(len(angles) - 1 - np.nanargmin(angles[::-1]))
         where = {"phi_deg": None if none else float(places[k]) % 360.0}
@@ -253,28 +212,30 @@ class _DriverTurn:
 
     def _turning(self, phi: Reals) -> Reals:
         """Return the angular velocity of the coupler relative to the link it drives, 1/s."""
-        if not self._coupler:
-            return np.zeros(phi.shape)
-        found = self._table(phi)
-        rate = found[f"{self._coupler}.omega"]
-        return rate - found["3.omega"] if self.synthesis.pressure[2] else rate
+        reading, omega = self.turn.read(phi), self.turn.unit.construction.kinematics.omega
+        rate = reading.number(omega[self._coupler])
+        return rate - reading.number(omega["3"]) if self.synthesis.pressure[2] else rate
 
     # Three positions -------------------------------------------------------------------------
 
     def positions(self) -> dict[str, Any]:
         """Return the deviation of the coupler's points from their three positions, m."""
         made, exact = self.synthesis, self.synthesis.exact()
-        tail, head, _ = made.pressure
-        found = self._table(np.array(made.positions))
+        origin = place(exact, made.pivots[0]) if made.pivot_at_origin else 0j
+        reading = self.turn.read(made.positions)
         missed = []
-        for letter in (tail, head):
-            at = found[f"{letter}.x"] + 1j * found[f"{letter}.y"]
-            asked = np.array([place(exact, f"{letter}{k}") for k in (1, 2, 3)]) - self._origin
+        for letter in made.pressure[:2]:
+            at = reading.point(PointName(letter)) + self.turn.unit.construction.draft.origin
+            asked = np.array([place(exact, f"{letter}{k}") for k in (1, 2, 3)]) - origin
             missed.append(np.abs(at - asked))
         worst = float(np.max(missed))
         return {"missed": worst if np.isfinite(worst) else None}
 
 
-def _acute(vector: npt.NDArray[np.complex128]) -> Reals:
-    """Return the angle between vectors and the x axis, 0 to 90 degrees."""
-    return np.asarray(np.degrees(np.arctan2(np.abs(vector.imag), np.abs(vector.real))), float)
+def middles(synthesis: Synthesis) -> tuple[float, ...]:
+    """Return a position within each phase of the driver, degrees, however short it is."""
+    if len(synthesis.poses) != 2:
+        return ()
+    board, pins = synthesis.exact(), [pose.links[0][:2] for pose in synthesis.poses]
+    middle = sum(ray_angle(place(board, o), place(board, a)) for o, a in pins) / 2
+    return middle, middle + 180.0

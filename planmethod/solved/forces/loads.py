@@ -33,6 +33,7 @@ from planmethod.problem.records import (
     SizeTable,
     TurningSense,
 )
+from planmethod.solved.curves import roots
 from planmethod.solved.cycle_motion import CycleMotion, MotionState
 from planmethod.solved.reading import Complexes, Memoizing, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
@@ -53,7 +54,7 @@ MOTION_DIRECTIONS = {
 }
 """Unit vector of each sense of a point's motion."""
 
-_LOOKS, _HALVINGS = 720, 40  # positions between which a load may begin and end, and how finely
+_LOOKS = 720  # positions between which a load may begin and end
 
 Span = tuple[float, float]
 
@@ -264,19 +265,14 @@ def acting(solution: Solution, load: Load | Couple, start: float, turn: float) -
     if phase is None:
         return [(start, start + turn)]
 
-    def acts(positions: Reals) -> Mask:
-        return _acts(solution.with_positions(positions.tolist()), load, phase)
+    def acts(positions: Reals) -> Reals:
+        moved = solution.with_positions(positions.tolist())
+        return np.where(_acts(moved, load, phase), 1.0, -1.0)
 
     grid = start + turn * np.arange(_LOOKS + 1) / _LOOKS
-    there = acts(grid)
-    change = np.flatnonzero(there[1:] != there[:-1])
-    low, high, after = grid[change], grid[change + 1], there[change + 1]
-    for _ in range(_HALVINGS if change.size else 0):
-        middle = (low + high) / 2.0
-        beyond = acts(middle) == after
-        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
-    marks = ((low + high) / 2.0).tolist()
-    ends = [*([start] if there[0] else []), *marks, *([start + turn] if there[-1] else [])]
+    marks = roots(acts, grid).tolist()
+    first, last = acts(grid[[0, -1]]) > 0.0
+    ends = [*([start] if first else []), *marks, *([start + turn] if last else [])]
     return list(zip(ends[::2], ends[1::2], strict=True))
 
 

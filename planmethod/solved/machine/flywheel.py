@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 from math import pi
-from typing import TypeVar
 
 import numpy as np
 from msgspec import Struct
@@ -25,7 +24,8 @@ from planmethod.problem.machine_records import (
 )
 from planmethod.problem.model import Problem
 from planmethod.problem.records import Dynamics, Fixed, Load
-from planmethod.solved.cycle_motion import CycleMotion, Piecewise, joined
+from planmethod.solved.curves import Piecewise, hermite, joined, root, turning_points
+from planmethod.solved.cycle_motion import CycleMotion
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.machine.reduced import Reduced, reduce, reduced_curves
 from planmethod.solved.reading import Memoizing, Reading, Reals, memoized
@@ -237,13 +237,14 @@ class Flywheel(Memoizing):
         """Return the energy of position 0 of a machine without flywheel, J."""
         at = self.gain.samples
         gain, inertia = self.gain.value(at), self.inertia.value(at)
-        low, high = float(np.max(-gain)), float(np.max(-gain)) + 4.0 * middle**2 * inertia.max()
-        for _ in range(200):
-            energy = (low + high) / 2.0
-            speeds = np.sqrt(np.maximum(2.0 * (energy + gain) / inertia, 0.0))
-            slow = speeds.max() + speeds.min() < 2.0 * middle
-            low, high = (energy, high) if slow else (low, energy)
-        return float(low + high) / 2.0
+        least = float(np.max(-gain))
+
+        def excess_speed(energies: Reals) -> Reals:
+            squares = 2.0 * (energies[:, np.newaxis] + gain) / inertia
+            speeds = np.sqrt(np.maximum(squares, 0.0))
+            return np.asarray(speeds.max(axis=1) + speeds.min(axis=1) - 2.0 * middle)
+
+        return root(excess_speed, least, least + 4.0 * middle**2 * float(inertia.max()))
 
     @cached_property
     def exact(self) -> Tangents:
@@ -430,28 +431,6 @@ def touching(
 def flywheel_of(solution: Solution) -> Flywheel:
     """Return the machine of a solution, computed at the first call."""
     return Flywheel(solution.problem)
-
-
-_Value = TypeVar("_Value", float, Reals)
-
-
-def hermite(one: _Value, two: _Value, slope_1: _Value, slope_2: _Value, fraction: _Value) -> _Value:
-    """Return a cubic with given ends and slopes, the step being 1."""
-    rest = 1.0 - fraction
-    ends = one * rest * rest * (1.0 + 2.0 * fraction) + two * fraction * fraction * (
-        3.0 - 2.0 * fraction
-    )
-    return ends + slope_1 * fraction * rest * rest - slope_2 * fraction * fraction * rest
-
-
-def turning_points(one: float, two: float, slope_1: float, slope_2: float) -> list[float]:
-    """Return the end of a step, and where a cubic turns within it."""
-    if slope_1 * slope_2 >= 0.0:
-        return [1.0]
-    a = 3.0 * (slope_1 + slope_2) - 6.0 * (two - one)
-    b = 6.0 * (two - one) - 4.0 * slope_1 - 2.0 * slope_2
-    found = np.roots([a, b, slope_1]) if a else np.array([-slope_1 / b])
-    return [1.0, *(float(x.real) for x in found if abs(x.imag) < 1e-12 and 0.0 < x.real < 1.0)]
 
 
 def flywheel_warnings(wheel: Flywheel) -> Iterator[str]:

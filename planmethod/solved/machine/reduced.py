@@ -16,7 +16,8 @@ from planmethod.languages import translate
 from planmethod.plans.forces.polygons import Applied
 from planmethod.problem.machine_records import Machine, WeightSigns
 from planmethod.problem.records import Against, Couple, Interpolation, Load, Over, SizeTable
-from planmethod.solved.cycle_motion import CycleMotion, MotionState, Piecewise, resolved
+from planmethod.solved.curves import Piecewise, resolved
+from planmethod.solved.cycle_motion import CycleMotion, MotionState
 from planmethod.solved.forces.loads import MotionValues, external
 from planmethod.solved.reading import Reals
 

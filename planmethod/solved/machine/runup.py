@@ -17,8 +17,8 @@ from typing import TypeAlias
 import numpy as np
 from msgspec import Struct
 
-from planmethod.solved.cycle_motion import joined
-from planmethod.solved.machine.flywheel import Flywheel, hermite, turning_points
+from planmethod.solved.curves import hermite, joined, roots_between, turning_points
+from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.reading import Memoizing, Reals, memoized
 
 STEADY_SPEED_TOLERANCE = 0.01
@@ -70,7 +70,7 @@ class TimeMotion(Struct, frozen=True):
         return np.sqrt(2.0 * self.half)
 
     def at(self, rotation: Reals) -> tuple[Reals, Reals]:
-        """Return the speed and the time at angles turned, ndarrays of shape (n,)."""
+        """Return the speed and the time at angles turned, ndarrays of their shape."""
         k = np.clip(
             np.searchsorted(self.rotation, rotation, side="right") - 1, 0, len(self.half) - 2
         )
@@ -86,12 +86,8 @@ class TimeMotion(Struct, frozen=True):
 
     def rotation_at(self, time: Reals) -> Reals:
         """Return the angles turned at times, ndarray of shape (n,)."""
-        low, high = np.full(len(time), self.rotation[0]), np.full(len(time), self.rotation[-1])
-        for _ in range(60):
-            middle = (low + high) / 2.0
-            early = self.at(middle)[1] < time
-            low, high = np.where(early, middle, low), np.where(early, high, middle)
-        return np.asarray((low + high) / 2.0, dtype=float)
+        ends = (np.full(len(time), self.rotation[k]) for k in (0, -1))
+        return roots_between(lambda at: self.at(at)[1] - time[:, np.newaxis], *ends)
 
     def rows(self, count: int) -> tuple[Reals, Reals, Reals]:
         """Return time, angle turned and speed at equally spaced times, with the ends."""

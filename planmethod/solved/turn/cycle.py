@@ -34,6 +34,7 @@ from planmethod.problem.machine_records import CycleTask, Zero
 from planmethod.problem.model import Problem
 from planmethod.problem.records import TurningSense
 from planmethod.solved.assembly_modes import drive_data
+from planmethod.solved.curves import root, roots, top
 from planmethod.solved.reading import Flags, Memoizing, Reading, Reals, memoized, near_piece
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.output import (
@@ -43,14 +44,11 @@ from planmethod.solved.turn.output import (
     Output,
     Strokes,
     by_loads,
-    crossings,
     find_output,
     over_strokes,
     powers,
     pressure_on,
-    root,
     sample_positions,
-    top,
 )
 
 TURN = 360.0
@@ -105,6 +103,8 @@ class CrankCycle(Memoizing):
     Parameters
     ----------
     solution : Solution
+    sampled : sequence of float, optional
+        Positions that are sampled beside the even ones, degrees: in each stroke that may be short.
 
     Raises
     ------
@@ -112,8 +112,9 @@ class CrankCycle(Memoizing):
         The driver slides, or the mechanism has no output.
     """
 
-    def __init__(self, solution: Solution) -> None:
+    def __init__(self, solution: Solution, sampled: Sequence[float] = ()) -> None:
         super().__init__()
+        self._also = sampled
         problem = solution.problem
         if not problem.drive.goes_round:
             raise ProblemError(
@@ -202,7 +203,7 @@ class CrankCycle(Memoizing):
         start = float(asked[there[0]]) if there.size else float(asked[0])
         looks = start + _SINGULAR_OFFSET + np.arange(0.0, self.period, _STEP)
         # A closing step that fails only between two samples: where its margin is smallest.
-        reading, narrow = self.read(looks), []
+        reading, more = self.read(looks), list(self._also)
         for _, name in self._closing_steps:
             margin = np.broadcast_to(
                 np.asarray(reading.trace.margin[name], dtype=float), looks.shape
@@ -212,9 +213,9 @@ class CrankCycle(Memoizing):
             for k in np.flatnonzero(least):
                 at, size = top(partial(self._short, name), looks[k] - _STEP, looks[k] + _STEP)
                 if size > -TANGENT:
-                    narrow.append(at)
-        if narrow:
-            looks = np.sort([*looks, *((np.array(narrow) - looks[0]) % self.period + looks[0])])
+                    more.append(at)
+        if more:
+            looks = np.sort([*looks, *((np.array(more) - looks[0]) % self.period + looks[0])])
             reading = self.read(looks)
         return looks, reading, self._closed(reading)
 
@@ -322,19 +323,14 @@ class CrankCycle(Memoizing):
         return self.fastest <= _ZERO_RATE * (size if self.output.slide is not None else 1.0)
 
     @cached_property
-    def _turnings(self) -> list[Extreme]:
+    def turnings(self) -> list[Extreme]:
         """Extreme positions in the order of the angle, within the course."""
         if self.is_stationary:
             return []
-        looks, _, rates = self._continuous_range
-        found = []
-        for k in crossings(rates):
-            at = root(self.rate, float(looks[k]), float(looks[k + 1]))
-            if abs(self.rate(np.array([at]))[0]) < 1e-6 * self.fastest:
-                found.append(near_piece(self.unit.problem.drive, at))
-        if not found:
-            return []
-        places = np.array(found)
+        found = roots(self.rate, self._continuous_range[0])
+        found = found[np.abs(self.rate(found)) < 1e-6 * self.fastest]
+        drive = self.unit.problem.drive
+        places = np.array([near_piece(drive, at) for at in found.tolist()])
         return [
             Extreme(float(p), float(v)) for p, v in zip(places, self.values(places), strict=True)
         ]
@@ -350,7 +346,7 @@ class CrankCycle(Memoizing):
     @cached_property
     def ends(self) -> tuple[Extreme, Extreme] | None:
         """The extreme from which the quicker stroke starts, and the other one."""
-        found = self._turnings
+        found = self.turnings
         if len(found) < 2 or self.gain:
             return None
         values = np.array([one.value for one in found])
@@ -394,7 +390,7 @@ class CrankCycle(Memoizing):
     def stroke(self) -> float | None:
         """Stroke H, m, or swing psi, degrees (ход, угол размаха); over a range its whole extent."""
         if self.range is not None and not self.is_stationary:
-            places = np.array([*self.range, *(one.phi for one in self._turnings)])
+            places = np.array([*self.range, *(one.phi for one in self.turnings)])
             values = self.values(places)
             return float(np.nanmax(values) - np.nanmin(values))
         if self.ends is None:
@@ -469,7 +465,7 @@ class CrankCycle(Memoizing):
             return self.why_no_stroke or NoNumber.PARTIAL
         ends = [value for end in self.ends or () for value in (end.value,)]
         near = _SAME * abs(ends[0] - ends[1])
-        at_ends = [e for e in self._turnings if min(abs(e.value - v) for v in ends) <= near]
+        at_ends = [e for e in self.turnings if min(abs(e.value - v) for v in ends) <= near]
         return NoNumber.SEVERAL if len(at_ends) > 2 else None
 
     # Position zero -------------------------------------------------------------------------------
@@ -487,7 +483,7 @@ class CrankCycle(Memoizing):
             found = asked + TURN * round(((low + high) / 2 - asked) / TURN)
             return found if low <= found <= high else first
         if self.ends is None:
-            single = self._turnings
+            single = self.turnings
             found = single[0].phi if single else first
         else:
             found = self.ends_from_zero[0].phi
@@ -555,7 +551,7 @@ class CrankCycle(Memoizing):
     @cached_property
     def extremes(self) -> list[Extreme]:
         """All extreme positions, from position zero on in the sense of the driver."""
-        ahead = [(self._distance_to(self.zero, one.phi), one.value) for one in self._turnings]
+        ahead = [(self._distance_to(self.zero, one.phi), one.value) for one in self.turnings]
         return [Extreme(self.zero + self.sense * way, value) for way, value in sorted(ahead)]
 
     # Pressure angle ------------------------------------------------------------------------------
@@ -587,7 +583,7 @@ class CrankCycle(Memoizing):
             low, high = self.range or (-np.inf, np.inf)
             around = [(max(at - _STEP, low), min(at + _STEP, high)) for at in looks[near]]
             tops = [top(size, *ends) for ends in around]
-            extreme = np.array([one.phi for one in self._turnings])
+            extreme = np.array([one.phi for one in self.turnings])
             tops += zip(extreme.tolist(), size(extreme).tolist(), strict=True)
             most = max(value for _, value in tops)
             alike = np.array([at for at, value in tops if value >= most - _SAME])

@@ -19,11 +19,11 @@ from planmethod.problem.keys import EXTREMES, GOING
 from planmethod.problem.machine_records import Zero
 from planmethod.problem.model import OutputPositionKind, OutputPositions, Problem
 from planmethod.problem.names import UNITS, format_length, split_pair
+from planmethod.solved.curves import crossings, roots_between, tops
 from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import SAMPLES, TURN, CrankCycle, Extreme
-from planmethod.solved.turn.output import crossings, root, tops
 
 _TRIES = 36  # positions of a turn in which it is tried how the groups close
 _SLIDER_TRIES = 120
@@ -278,20 +278,15 @@ def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> DriverPositions:
 
     A change of sign by a jump, of an angle by a turn, is none.
     """
-    looks, found = off(grid), []
+    looks = off(grid)
     size = float(np.nanmax(np.abs(looks))) if np.isfinite(looks).any() else 0.0
 
-    def add(low: float, high: float, going: float) -> None:
-        at = root(off, low, high)
-        round_one = round(at, 6)  # 90 degrees, not its rounded value
-        missed, of_round = np.abs(off(np.array([at, round_one])))
-        if of_round <= max(missed, _ROUNDING * size) and abs(round_one - at) < _SAME:
-            at = round_one
-        if missed <= _OFF * size:
-            found.append((at, going))
+    def by_rows(places: Reals) -> Reals:
+        return off(places.ravel()).reshape(places.shape)
 
-    for k in crossings(looks):
-        add(float(grid[k]), float(grid[k + 1]), float(np.sign(looks[k + 1] - looks[k])))
+    k = crossings(looks)
+    brackets = [np.stack([grid[k], grid[k + 1], np.sign(looks[k + 1] - looks[k])])]
+    touching: DriverPositions = []
     # Between neighbours it may touch zero, or pass it and return. All such places are looked at
     # together: where the output stays as it is, each position is one of them.
     near, signs = np.abs(looks), np.sign(looks)
@@ -303,20 +298,21 @@ def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> DriverPositions:
     high, sign = grid[one[same & least] + 1], signs[one[same & least]]
     there = np.isfinite(off(low)) if low.size else np.zeros(0, dtype=bool)
     low, high, sign = low[there], high[there], sign[there]
-
-    def short(places: Reals) -> Reals:
-        return np.asarray(-sign[:, np.newaxis] * off(places.ravel()).reshape(places.shape))
-
     if low.size:
-        for start, at, beyond, end, way in zip(
-            low, *tops(short, low, high), high, sign, strict=True
-        ):
-            if beyond > 1e-12 * size:
-                add(float(start), float(at), -float(way))
-                add(float(at), float(end), float(way))
-            elif -beyond <= _OFF * size:
-                found.append((float(at), 0.0))
-    return found
+        at, beyond = tops(lambda places: -sign[:, np.newaxis] * by_rows(places), low, high)
+        twice = beyond > 1e-12 * size
+        brackets += [np.stack([low, at, -sign])[:, twice], np.stack([at, high, sign])[:, twice]]
+        touching = [(float(place), 0.0) for place in at[~twice & (-beyond <= _OFF * size)]]
+    low, high, going = np.concatenate(brackets, axis=1)
+    if not low.size:
+        return touching
+    at = roots_between(by_rows, low, high)
+    round_one = np.round(at, 6)  # 90 degrees, not its rounded value
+    missed, of_round = np.abs(off(at)), np.abs(off(round_one))
+    is_round = of_round <= np.maximum(missed, _ROUNDING * size)
+    at = np.where(is_round & (np.abs(round_one - at) < _SAME), round_one, at)
+    kept = missed <= _OFF * size
+    return [*touching, *zip(at[kept].tolist(), going[kept].tolist(), strict=True)]
 
 
 def _ends(cycle: CrankCycle) -> tuple[Extreme, Extreme]:
