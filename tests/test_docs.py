@@ -47,6 +47,10 @@ DOCUMENTS = sorted(
         ROOT / "out" / "README.md",
     ]
 )
+DEVELOPMENT = [
+    ROOT / name for name in ("CONTRIBUTING.md", "docs/architecture.md", "docs/extending.md")
+]
+"""Pages for developers."""
 PICTURES = sorted((ROOT / "docs" / "gallery").glob("*"))
 LARGEST = 150 * 1024
 """Bytes of a picture of the documentation."""
@@ -289,7 +293,7 @@ def test_links_lead_to_files(document: Path) -> None:
         assert not anchor or anchor in anchors(target), link
 
 
-@each("document", [ROOT / "CONTRIBUTING.md", *ADRS, *DOCUMENTS])
+@each("document", DOCUMENTS)
 def test_files_that_the_text_speaks_of_exist(document: Path) -> None:
     text = document.read_text(encoding="utf-8")
     folders = ("planmethod", "benchmarks", "tests", "docs", "problems")
@@ -316,9 +320,28 @@ def test_every_promise_has_a_test() -> None:
         assert found and all(found), row
 
 
-def test_the_house_is_as_the_linter_holds_it() -> None:
+@pytest.fixture(scope="module")
+def words_of_the_code() -> set[str]:
+    """Return all words of the code and its catalogues, and the names of its files."""
+    folders = [ROOT / name for name in ("planmethod", "benchmarks", "scripts", "tests")]
+    paths = [path for folder in folders for path in folder.rglob("*.*")]
+    texts = [path for path in paths if path.suffix in (".py", ".toml")]
+    texts += [ROOT / "Makefile", ROOT / "pyproject.toml"]
+    found = {word for path in texts for word in re.findall(r"\w+", path.read_text("utf-8"))}
+    return found.union(*(re.findall(r"\w+", path.name) for path in paths))
+
+
+@each("document", [*DEVELOPMENT, *ADRS])
+def test_names_that_the_text_speaks_of_exist(document: Path, words_of_the_code: set[str]) -> None:
+    text = re.sub(r"(?ms)^```.*?^```$", "", document.read_text("utf-8"))
+    names = {word for span in re.findall(r"`([^`\n]+)`", text) for word in re.findall(r"\w+", span)}
+    names = {word for word in names if not word.isdecimal() and not word.endswith("_")}
+    assert names <= words_of_the_code, sorted(names - words_of_the_code)
+
+
+def test_the_packages_are_in_the_order_of_the_linter() -> None:
     contracts = tomllib.loads(text_of("pyproject.toml"))["tool"]["importlinter"]["contracts"]
-    rows = first_cells("CONTRIBUTING.md", r"`((?:benchmarks|planmethod)/[\w./]*)`")
+    rows = first_cells("docs/architecture.md", r"`((?:benchmarks|planmethod)/[\w./]*)`")
     said = [row.rstrip("/").removesuffix(".py").replace("/", ".") for row in rows]
     assert said == contracts[0]["layers"]
 

@@ -1,4 +1,16 @@
-"""The smallest cam within the allowed pressure angles (синтез кулачка), for every angle."""
+"""The smallest cam within the allowed pressure angles (синтез кулачка), for every angle.
+
+At each angle of the cam the permitted pressure angle confines the cam's axis to two half-planes, as
+seen from the roller at its lowest place. Their boundaries are the limiting lines of the drawing.
+For an oscillating follower the lines rotate with the arm. The permitted places are thus a convex
+set, and the smallest cam has its axis at the point nearest to the roller. That point is found by
+exchange: the nearest point of finitely many half-planes, then the angle at which a limit is
+exceeded most, until none is. So the extremes are those over all angles, not over a grid.
+
+Both signs of the pressure angle are limited: otherwise a return without a limit would request an
+offset as large as the cam. If offset or centre distance is given, one number remains to be found.
+Extremes are sought on each smooth part of a law, so that jumps are ends of parts.
+"""
 
 from __future__ import annotations
 

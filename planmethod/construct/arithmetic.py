@@ -1,4 +1,8 @@
-"""Number types a program can be read in, and time derivatives; the only module that says Any."""
+"""Number types a program can be read in, and time derivatives; the only module that says Any.
+
+Angles are given in degrees, in which the quadrants are exact. The cosine of pi/2 in float64 is not
+zero: a guide at that angle would lean, and a slider on it would have a velocity across the guide.
+"""
 
 from __future__ import annotations
 

@@ -333,7 +333,7 @@ class Document(Struct, frozen=True):
         """Return what a notebook shows, in the language of the environment, else in Russian."""
         from pkgutil import resolve_name
 
-        # A document knows no writer: the page asks for one by name (ADR 0044).
+        # Writers are in a higher layer: this one is found by name, as public names are.
         shown: str = resolve_name("planmethod.note.writers.html:html_part")(
             self, choose_language(())
         )

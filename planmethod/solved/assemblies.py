@@ -4,6 +4,13 @@ In one position: the base link is rotated as a virtual crank, two legs locate it
 of the third is a smooth function of the angle. Its zeros are bracketed, bisected and refined by
 Newton's method. From position to position Newton's method starts from the extrapolated motion, with
 steps as short as necessary.
+
+The start of `TriadPose` in each position is interpolated between the places of a tracked assembly
+(`TrackedAssembly`): it is data of the step, so every arithmetic finds the same pose. The
+determinant of the lines of the three legs has one sign along an assembly, and is zero in a dead
+position, where the assembly ends. The plans need nothing more: the point where the lines of two
+legs meet (особая точка Ассура) moves as two rays say. Of the three such points the one nearest to
+the link is used.
 """
 
 from __future__ import annotations

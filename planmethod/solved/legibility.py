@@ -1,4 +1,13 @@
-"""Legibility of a sheet before it is drawn: density of labels, enlarged clusters, space."""
+"""Legibility of a sheet before it is drawn: density of labels, enlarged clusters, space.
+
+Labels that do not overlap can still be too many to read. So the letters of points are counted in
+squares of `SIDE` before any is placed, since the points are known. A scheme with more than
+`MAX_LABELS` omits letters step by step (`Thinned` in `planmethod.render.pictures.seriesview`).
+
+The space of a sheet is estimated by the sizes of its blocks, divided as
+`planmethod.render.layout.pack` divides them. The estimate is adjusted to the shipped compositions:
+other blocks or letters need other numbers.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,11 @@
-"""Choice of the plans' scales: each plan fills its view, the same scale for all positions."""
+"""Choice of the plans' scales: each plan fills its view, the same scale for all positions.
+
+Paper and scales are one decision. A table by format gives the initial size of scheme and plans.
+While the estimate (`planmethod.solved.legibility`) finds no space, scales become coarser; then they
+become finer as long as it does. The first format is used on which everything fits and no view is
+much smaller than intended. Nothing is drawn for this, and `solve` and the sheets use the same
+result. A solution in other positions than the file's does not keep scales that are too fine for it.
+"""
 
 from __future__ import annotations
 

@@ -204,7 +204,7 @@ class Solution(Memoizing):
         """Return the notebook's view: the tables of `solve`."""
         from pkgutil import resolve_name
 
-        # Numbers do not know documents: the page is resolved by name (ADR 0044).
+        # Documents are in a higher layer: the page is found by name, as public names are.
         shown: str = resolve_name("planmethod.note.tables.results:results_part")(self)
         return shown
 

@@ -2,7 +2,8 @@
 
 The machine pitch point P₀ is the origin, the wheel is below it and the rack above, its tooth to the
 right of P₀ with a flank through it. The space to the left shows earlier and later positions of the
-rack relative to the wheel: flank and fillet are their envelope. Millimetres of paper.
+rack relative to the wheel: flank and fillet are their envelope. The profile is drawn by its
+formulas, so the positions of the rack verify it: they must touch it. Millimetres of paper.
 """
 
 from __future__ import annotations

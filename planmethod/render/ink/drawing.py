@@ -178,7 +178,7 @@ class Drawing(Struct):
         """Return the SVG that a notebook shows."""
         from pkgutil import resolve_name
 
-        # Ink knows no format: the notebook's one is found by name (ADR 0044).
+        # Formats are in a higher layer: this one is found by name, as public names are.
         data: bytes = resolve_name("planmethod.render.backends:render")(self, "svg")
         return data.decode()
 

@@ -1,4 +1,8 @@
-"""Lettering (шрифт): widths, strokes and proportions of the letters (GOST 2.304)."""
+"""Lettering (шрифт): widths, strokes and proportions of the letters (GOST 2.304).
+
+It is not passed from function to function: a context has a lettering (`in_use`, `using`), as it has
+the context of decimal numbers, and a drawing records the one that it was set in.
+"""
 
 # Cyrillic letters: letters that the lettering is measured by
 

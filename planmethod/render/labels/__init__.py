@@ -1,13 +1,9 @@
 """Placing of labels (размещение надписей): labels overlap neither each other nor lines.
 
-``model``          labels to be placed, and labels with their places
-``candidates``     the candidate places of a label
-``paper``          their costs from items already drawn
-``placed_labels``  their costs from labels already placed
-``label_column``   columns for the labels of points that are close together
-``merged_labels``  one label for points in one place
-``place``          greedy placement, hardest labels first, then local repair
-``spare``          labels that are left out for lack of space
+``model``         labels, their candidate places, and the geometry of boxes and leader lines
+``paper``         costs of a place from items and labels that are already on the paper
+``label_column``  labels of points that coincide or are close together: merged, or in a column
+``place``         greedy placement, hardest labels first, then local repair; optional labels last
 """
 
 from planmethod.render.labels.model import (

@@ -6,6 +6,11 @@ Every contour of a group must be free in all three; the freedoms of its pairs, s
 contours, are a square matrix, and q = 0 without loose motions exactly when it is regular. In the
 plane nothing changes: no freedom here has a part in it. A group's outer links count as the frame,
 so the whole is block-triangular, and regular when each group is.
+
+A count of freedoms is not enough: a cylindrical pair whose line passes through the centre of a
+sphere has one rotation twice, so one constraint stays redundant and one link is loose. The search
+is by groups, as in the textbooks, although a search of the whole mechanism would find schemes with
+fewer changes: in these a group has redundant constraints and another one loose links.
 """
 
 from __future__ import annotations
