@@ -273,8 +273,10 @@ def grow_scales(
     draw : callable
         Draws the sheets at other scales, or returns None if they do not fit.
 
-    Notes ----- A larger view is accepted if it needs no more pages, no smaller letters and no more
-    ungrouping. A scale that did not fit once is not tried again after others have grown.
+    Notes
+    -----
+    A larger view is accepted if it needs no more pages, no smaller letters and no more ungrouping.
+    A scale that did not fit once is not tried again after others have grown.
     """
     refused = set()
     for key in turns:
