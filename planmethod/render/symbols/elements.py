@@ -187,8 +187,10 @@ def ground_line(
     side : int
         +1: hatching on the left of the way from ``start`` to ``end``; -1: on the right.
 
-    Notes ----- The strokes are at 45° to the line and lean to the right of the paper if possible,
-    have a fixed step and are clipped at the ends of the line; both ends look alike::
+    Notes
+    -----
+    The strokes are at 45° to the line and lean to the right of the paper if possible, have a fixed
+    step and are clipped at the ends of the line; both ends look alike::
 
         ___________________
          / / / / / / / / /
