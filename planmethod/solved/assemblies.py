@@ -9,8 +9,8 @@ The start of `TriadPose` in each position is interpolated between the places of 
 (`TrackedAssembly`): it is data of the step, so every arithmetic finds the same pose. The
 determinant of the lines of the three legs has one sign along an assembly, and is zero in a dead
 position, where the assembly ends. The plans need nothing more: the point where the lines of two
-legs meet (особая точка Ассура) moves as two rays say. Of the three such points the one nearest to
-the link is used.
+legs meet (особая точка Ассура) moves as two rays say. There are three such points; the one nearest
+to the link is used.
 """
 
 from __future__ import annotations

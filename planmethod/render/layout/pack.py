@@ -1,11 +1,11 @@
 """Packing of a sheet's blocks (компоновка листа): cuttings by straight lines, columns, rows.
 
 For each run of blocks in reading order the cuttings are kept that no other beats in both width and
-height. Of those that fit the sheet the cheapest is used: the squares of the white around each
-block, the way of the eye back up between groups, and the largest empty rectangle. Then blocks whose
-larger layouts have larger scales grow, and all are moved inside their areas to as few left and
-upper edges as possible (`on_grid`). The last block is placed at the title block. White space
-therefore gathers at the right and below.
+height. The cheapest one that fits the sheet is used. Its cost is the sum of three parts: squares of
+the white around each block, the way of the eye back up between groups, and the largest empty
+rectangle. Then blocks whose larger layouts have larger scales grow, and all are moved inside their
+areas to as few left and upper edges as possible (`on_grid`). The last block is placed at the title
+block. White space therefore gathers at the right and below.
 """
 
 from __future__ import annotations

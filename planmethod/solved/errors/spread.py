@@ -3,7 +3,7 @@
 Errors are propagated to first order, stroke by stroke. The error of a segment that is short
 relative to its sigma is not normal: any deviation across it makes it longer, and its direction is
 undetermined. If no step before it is nearly impossible, the ends of the segment still err to first
-order, together: only what is read from them is evaluated again, at the points of a lattice
+order, together: only the readings between them are evaluated again, at the points of a lattice
 (`LatticeSampled`) with their covariance. Rounding to the ruler counts as an error that is uniform
 over a division. If a step is nearly impossible, sigma comes from random drawings of the whole
 construction, which take far longer.
