@@ -5,6 +5,18 @@ it does is known to the modules below alone.
 """
 
 from planmethod.compiled.runner import FEW, Array, Runner
-from planmethod.compiled.tape import Ref, Symbol, TapeProgram, write
+from planmethod.compiled.source import javascript_function
+from planmethod.compiled.tape import PiecewiseTape, Ref, Symbol, Tape, TapeProgram, write
 
-__all__ = ["FEW", "Array", "Ref", "Runner", "Symbol", "TapeProgram", "write"]
+__all__ = [
+    "FEW",
+    "Array",
+    "PiecewiseTape",
+    "Ref",
+    "Runner",
+    "Symbol",
+    "Tape",
+    "TapeProgram",
+    "javascript_function",
+    "write",
+]

@@ -408,6 +408,8 @@ def _expression(kind: str, refs: list[str]) -> str:
             return f"-{refs[0]}"
         case "at_zero":
             return f"{refs[0]} == 0.0 ? {refs[1]} : {refs[2]}"
+        case "above":
+            return f"{refs[0]} > {refs[1]} ? 1.0 : 0.0"
         case _:
             names = {"abs": "fabs", "min": "least", "max": "most", "atan2": "angle"}
             return f"{names.get(kind, kind)}({', '.join(refs)})"

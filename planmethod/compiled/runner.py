@@ -49,6 +49,8 @@ UFUNC: dict[str, np.ufunc] = {
     "min": np.minimum,
     "max": np.maximum,
     "atan2": np.arctan2,
+    "above": np.greater,
+    "floor": np.floor,
 }
 
 

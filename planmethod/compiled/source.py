@@ -157,6 +157,10 @@ class _Lines:
                 return f"180.0 if {angle} <= {-math.pi!r} else {whole}"
             case "at_zero":
                 return f"{said[1]} if {said[0]} == 0.0 else {said[2]}"
+            case "above":
+                return f"1.0 if {said[0]} > {said[1]} else 0.0"
+            case "floor":
+                return f"{said[0]} // 1.0"
             case _:  # cosd, sind
                 c, s = self._write_angle(refs[0], said[0]).split()
                 return c if kind == "cosd" else s
@@ -218,6 +222,51 @@ def javascript(
         Of ``run(x0, x1, ...)``, which returns an array of the results and last the number of the
         first guard that does not hold, or -1; NaN for a result that depends on such a guard.
     """
+    names = [f"x{number}" for number in range(inputs)]
+    margins = [guard.margin for guard in guards]
+    steps, told = _javascript_steps(tape, [*results, *margins], names)
+    fails = [
+        f"  if (!({margin} > {_number(guard.limit)})) bad.push({place});\n"
+        for place, (guard, margin) in enumerate(zip(guards, told[len(results) :], strict=True))
+    ]
+    needs = [f"[{','.join(map(str, sorted(one)))}]" for one in depends]
+    return (
+        f"{_TURN}const NEEDS = [{','.join(needs)}];\n"
+        f"function run({', '.join(names)}) {{\n"
+        f"{steps}  const bad = [];\n{''.join(fails)}"
+        f"  const out = [{', '.join(told[: len(results)])}];\n"
+        "  if (bad.length) out.forEach((_, k) => {\n"
+        "    if (NEEDS[k].some(g => bad.includes(g))) out[k] = NaN;\n  });\n"
+        "  out.push(bad.length ? bad[0] : -1);\n  return out;\n}\n"
+    )
+
+
+# no messages: source of a program
+def javascript_function(
+    head: str, tape: Tape, results: Sequence[Ref], inputs: Sequence[str]
+) -> str:
+    """Print a tape without margins as the source of a function.
+
+    Parameters
+    ----------
+    head : str
+        Its name and arguments: ``loads(x, out)``.
+    inputs : sequence of str
+        What each input of the tape is there: ``x``, ``out[3]``.
+
+    Returns
+    -------
+    str
+        Of a function that returns an array of the results.
+    """
+    steps, told = _javascript_steps(tape, results, inputs)
+    return f"function {head} {{\n{steps}  return [{', '.join(told)}];\n}}\n"
+
+
+def _javascript_steps(
+    tape: Tape, results: Sequence[Ref], inputs: Sequence[str]
+) -> tuple[str, list[str]]:
+    """Return the declarations that some results need, and what each result is called there."""
     said: dict[int, str] = {}
     lines: list[str] = []
     turned: dict[str, str] = {}
@@ -225,10 +274,10 @@ def javascript(
     def name(ref: Ref) -> str:
         return _number(ref) if type(ref) is float else said[int(ref)]
 
-    for number in used_by(tape, [*results, *(guard.margin for guard in guards)]):
+    for number in used_by(tape, results):
         kind, refs = tape.nodes[number]
         if kind == "input":
-            said[number] = f"x{refs[0]}"
+            said[number] = inputs[int(refs[0])]
             continue
         here = [name(ref) for ref in refs]
         if kind in ("cosd", "sind"):
@@ -239,21 +288,8 @@ def javascript(
             continue
         said[number] = f"t{number}"
         lines.append(f"t{number} = {_expression(kind, here)}")
-    fails = [
-        f"  if (!({name(guard.margin)} > {_number(guard.limit)})) bad.push({place});\n"
-        for place, guard in enumerate(guards)
-    ]
-    needs = [f"[{','.join(map(str, sorted(one)))}]" for one in depends]
     steps = f"  const {', '.join(lines)};\n".replace(", t", ",\n    t") if lines else ""
-    return (
-        f"{_TURN}const NEEDS = [{','.join(needs)}];\n"
-        f"function run({', '.join(f'x{k}' for k in range(inputs))}) {{\n"
-        f"{steps}  const bad = [];\n{''.join(fails)}"
-        f"  const out = [{', '.join(name(ref) for ref in results)}];\n"
-        "  if (bad.length) out.forEach((_, k) => {\n"
-        "    if (NEEDS[k].some(g => bad.includes(g))) out[k] = NaN;\n  });\n"
-        "  out.push(bad.length ? bad[0] : -1);\n  return out;\n}\n"
-    )
+    return steps, [name(ref) for ref in results]
 
 
 def _number(value: float) -> str:
@@ -276,5 +312,7 @@ def _expression(kind: str, refs: list[str]) -> str:
             return f"{angle} <= {_number(-math.pi)} ? 180.0 : {whole}"
         case "at_zero":
             return f"{refs[0]} === 0.0 ? {refs[1]} : {refs[2]}"
-        case _:  # abs, sqrt, min, max, atan2
+        case "above":
+            return f"{refs[0]} > {refs[1]} ? 1.0 : 0.0"
+        case _:  # abs, sqrt, min, max, atan2, floor
             return f"Math.{kind}({', '.join(refs)})"

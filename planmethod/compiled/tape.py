@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple, TypeAlias
 
 from msgspec import Struct, field
@@ -23,7 +24,8 @@ class Node(NamedTuple):
 
     ``input`` has the number of the input as its only operand; ``cosd`` and ``sind`` take degrees;
     ``at_zero`` has three operands (size, other, value): the other where the size is zero;
-    ``degrees`` of an angle in radians are in (-180, 180].
+    ``above`` is 1 where the first operand is greater than the second, else 0; ``degrees`` of an
+    angle in radians are in (-180, 180].
     """
 
     kind: str
@@ -49,6 +51,8 @@ FOLD: dict[str, Callable[..., float]] = {
     "atan2": math.atan2,
     "degrees": lambda angle: 180.0 if angle <= -math.pi else angle * (180.0 / math.pi),
     "at_zero": lambda size, other, value: other if size == 0.0 else value,
+    "above": lambda a, b: 1.0 if a > b else 0.0,
+    "floor": lambda a: float(math.floor(a)),
 }
 """Functions that fold an operation on constants."""
 
@@ -447,6 +451,100 @@ class Symbolic(Exact, Struct):
     def line_through(self, out: str, tail: Number, vector: Number) -> tuple[Number, Number]:
         """Return the line, its length if it is known."""
         return tail, self.known(vector)
+
+
+class PiecewiseTape:
+    """Piecewise arithmetic that records operations on a tape: conditions are 1 or 0."""
+
+    def __init__(self, tape: Tape) -> None:
+        self.tape, self._symbols = tape, Symbolic(tape)
+
+    def input(self, number: int) -> Symbol:
+        """Return an input of the tape as a number."""
+        return Symbol(self.tape, self.tape.input(number))
+
+    def _make(self, kind: str, *numbers: Number) -> Symbol:
+        return Symbol(self.tape, self.tape.add_node(kind, *(self._ref(one) for one in numbers)))
+
+    def _ref(self, number: Number) -> Ref:
+        return as_symbol(self.tape, number).re
+
+    def above(self, one: Number, other: Number) -> Number:
+        """Return whether ``one > other``."""
+        return self._make("above", one, other)
+
+    def reaches(self, one: Number, other: Number) -> Number:
+        """Return whether ``one >= other``."""
+        return self.where(self.above(other, one), 0.0, 1.0)
+
+    def both(self, one: Number, other: Number) -> Number:
+        """Return whether two conditions hold."""
+        return self._make("min", one, other)
+
+    def either(self, one: Number, other: Number) -> Number:
+        """Return whether one of two conditions holds."""
+        return self._make("max", one, other)
+
+    def where(self, condition: Number, value: Number, fallback: Number) -> Number:
+        """Return the value where a condition holds, else ``fallback``."""
+        return self._symbols.unless_zero(condition, value, fallback)
+
+    def larger(self, one: Number, other: Number) -> Number:
+        """Return the larger of two real numbers."""
+        return self._make("max", one, other)
+
+    def clipped(self, value: Number, low: float, high: float) -> Number:
+        """Return a real number moved into a range."""
+        return self._make("min", self._make("max", value, low), high)
+
+    def modulo(self, value: Number, turn: float) -> Number:
+        """Return what remains of a real number above a multiple of ``turn``."""
+        return value - self._make("floor", value / turn) * turn
+
+    def angle(self, vector: Number) -> Number:
+        """Return the angle of a vector, radians."""
+        return self._make("atan2", vector.imag, vector.real)
+
+    def degrees(self, angle: Number) -> Number:
+        """Return degrees in (-180, 180] of an angle in radians."""
+        return self._make("degrees", angle)
+
+    def passed(self, marks: Sequence[float], value: Number) -> Number:
+        """Return how many of some rising marks a number has reached."""
+        reached = (self.reaches(value, mark) for mark in marks)
+        return sum(reached, as_symbol(self.tape, 0.0))
+
+    def interpolated(self, at: Sequence[float], values: Sequence[float], value: Number) -> Number:
+        """Read a table straight between its rows."""
+        found: Number = values[0]
+        for (x0, y0), (x1, y1) in pairwise(zip(at, values, strict=True)):
+            if x1 > x0:  # else a jump
+                piece = y0 + (value - x0) * ((y1 - y0) / (x1 - x0))
+                found = self.where(self.above(x0, value), found, piece)
+        # NaN is not beyond the end.
+        beyond = self.above(value, math.nextafter(at[-1], -math.inf))
+        return self.where(beyond, values[-1], found)
+
+    def stepped(self, at: Sequence[float], values: Sequence[float], value: Number) -> Number:
+        """Read a table each row of which holds until the next one."""
+        found: Number = values[0]
+        for start, size in zip(at[1:], values[1:], strict=True):
+            found = self.where(self.above(start, value), found, size)
+        return found
+
+    def listed(
+        self,
+        at: Sequence[float],
+        values: Sequence[float],
+        value: Number,
+        tolerance: float,
+        reject: Callable[[float], Exception],
+    ) -> Number:
+        """Read a table that is known at its rows alone; NaN elsewhere."""
+        found: Number = math.nan
+        for own, size in zip(at, values, strict=True):
+            found = self.where(self.above(abs(value - own), tolerance), found, size)
+        return found
 
 
 class TapeProgram(Struct, frozen=True):

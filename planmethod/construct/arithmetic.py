@@ -7,6 +7,7 @@ zero: a guide at that angle would lean, and a slider on it would have a velocity
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -183,6 +184,155 @@ class Float64(Exact):
     def direction(self, degrees: Number) -> Number:
         """Return the unit complex number at an angle."""
         return unit_vectors(degrees)
+
+
+class PiecewiseArithmetic(Protocol):
+    """Operations of what is given piece by piece: conditions, tables, angles counted from a start.
+
+    A condition is a value of its own, which `where`, `both` and `either` take.
+    """
+
+    def above(self, one: Number, other: Number) -> Number:
+        """Return whether ``one > other``; not where either is NaN."""
+        ...
+
+    def reaches(self, one: Number, other: Number) -> Number:
+        """Return whether ``one >= other``, of numbers that are no NaN."""
+        ...
+
+    def both(self, one: Number, other: Number) -> Number:
+        """Return whether two conditions hold."""
+        ...
+
+    def either(self, one: Number, other: Number) -> Number:
+        """Return whether one of two conditions holds."""
+        ...
+
+    def where(self, condition: Number, value: Number, fallback: Number) -> Number:
+        """Return the value where a condition holds, else ``fallback``."""
+        ...
+
+    def larger(self, one: Number, other: Number) -> Number:
+        """Return the larger of two real numbers."""
+        ...
+
+    def clipped(self, value: Number, low: float, high: float) -> Number:
+        """Return a real number moved into a range."""
+        ...
+
+    def modulo(self, value: Number, turn: float) -> Number:
+        """Return what remains of a real number above a multiple of ``turn``, in [0, turn)."""
+        ...
+
+    def angle(self, vector: Number) -> Number:
+        """Return the angle of a vector, radians in [-π, π]."""
+        ...
+
+    def passed(self, marks: Sequence[float], value: Number) -> Number:
+        """Return how many of some rising marks a number has reached."""
+        ...
+
+    def interpolated(self, at: Sequence[float], values: Sequence[float], value: Number) -> Number:
+        """Read a table straight between its rows; beyond its ends it keeps their values."""
+        ...
+
+    def stepped(self, at: Sequence[float], values: Sequence[float], value: Number) -> Number:
+        """Read a table each row of which holds until the next one."""
+        ...
+
+    def listed(
+        self,
+        at: Sequence[float],
+        values: Sequence[float],
+        value: Number,
+        tolerance: float,
+        reject: Callable[[float], Exception],
+    ) -> Number:
+        """Read a table that is known at its rows alone.
+
+        Raises
+        ------
+        Exception
+            What ``reject`` makes of the first number that is at no row; without errors, NaN.
+        """
+        ...
+
+
+class PiecewiseArrays:
+    """Piecewise arithmetic of arrays."""
+
+    __slots__ = ()
+
+    def above(self, one: Number, other: Number) -> Number:
+        """Return whether ``one > other``."""
+        return one > other
+
+    def reaches(self, one: Number, other: Number) -> Number:
+        """Return whether ``one >= other``."""
+        return one >= other
+
+    def both(self, one: Number, other: Number) -> Number:
+        """Return whether two conditions hold."""
+        return one & other
+
+    def either(self, one: Number, other: Number) -> Number:
+        """Return whether one of two conditions holds."""
+        return one | other
+
+    def where(self, condition: Number, value: Number, fallback: Number) -> Number:
+        """Return the value where a condition holds, else ``fallback``."""
+        return np.where(condition, value, fallback)
+
+    def larger(self, one: Number, other: Number) -> Number:
+        """Return the larger of two real numbers."""
+        return np.maximum(one, other)
+
+    def clipped(self, value: Number, low: float, high: float) -> Number:
+        """Return a real number moved into a range."""
+        return np.clip(value, low, high)
+
+    def modulo(self, value: Number, turn: float) -> Number:
+        """Return what remains of a real number above a multiple of ``turn``."""
+        return np.mod(value, turn)
+
+    def angle(self, vector: Number) -> Number:
+        """Return the angle of a vector, radians."""
+        return np.angle(vector)
+
+    def passed(self, marks: Sequence[float], value: Number) -> Number:
+        """Return how many of some rising marks a number has reached."""
+        return np.searchsorted(marks, value, side="right")
+
+    def interpolated(self, at: Sequence[float], values: Sequence[float], value: Number) -> Number:
+        """Read a table straight between its rows."""
+        return np.asarray(np.interp(value, at, values), dtype=float)
+
+    def stepped(self, at: Sequence[float], values: Sequence[float], value: Number) -> Number:
+        """Read a table each row of which holds until the next one."""
+        row = np.searchsorted(at, value, side="right") - 1
+        return np.asarray(np.asarray(values)[np.maximum(row, 0)], dtype=float)
+
+    def listed(
+        self,
+        at: Sequence[float],
+        values: Sequence[float],
+        value: Number,
+        tolerance: float,
+        reject: Callable[[float], Exception],
+    ) -> Number:
+        """Read a table that is known at its rows alone."""
+        own, known = np.asarray(at), np.asarray(values)
+        if np.array_equal(own, value):
+            return known
+        order = np.argsort(own, kind="stable")
+        rank = np.minimum(np.searchsorted(own[order], value - tolerance), len(own) - 1)
+        strange = np.flatnonzero(~(np.abs(own[order[rank]] - value) <= tolerance))
+        if strange.size:
+            raise reject(float(value[strange[0]]))
+        return known[order[rank]]
+
+
+ARRAYS = PiecewiseArrays()
 
 
 class Single(Exact):

@@ -31,6 +31,7 @@ from planmethod.problem.records import (
     Fixed,
     FrictionTask,
     Load,
+    LoadSize,
     Mass,
     PairFriction,
     SizeTable,
@@ -198,11 +199,11 @@ def _read_force(node: FileNode, size: FileNode, link: LinkText | None, scene: Lo
         hint = 'Give angle = -90 (degrees from +x) or against = "velocity".'
         node.note("expected a direction, got neither angle nor against", hint=hint)
     read = partial(read_size, drive=scene.drive, turn=scene.cycle)
-    force: float | SizeTable | None = size.attempt(read)
+    force: LoadSize | None = size.attempt(read)
     phase = node.read("phases", partial(read_phase, drive=scene.drive, fixed_point=fixed_point))
     node.require_sound()
     assert force is not None and sense is not None, "no fault of it was noted"
-    return Load("", needed(link).name, needed(at), force, sense, phase)
+    return Load("", needed(link).name, needed(at), force, sense, phase, node.path)
 
 
 def _read_couple(node: FileNode, size: FileNode, link: LinkText | None, scene: LoadScope) -> Couple:
@@ -214,11 +215,11 @@ def _read_couple(node: FileNode, size: FileNode, link: LinkText | None, scene: L
             node[key].note("does not go with a couple", hint=why)
     sense = node.read("against", partial(_read_against, expected="rotation"))
     read = partial(read_size, drive=scene.drive, couple=True, turn=scene.cycle)
-    couple: float | SizeTable | None = size.attempt(read)
+    couple: LoadSize | None = size.attempt(read)
     phase = node.read("phases", partial(read_phase, drive=scene.drive, couple=True))
     node.require_sound()
     assert couple is not None, "no fault of it was noted"
-    return Couple("", needed(link).name, couple, sense, phase)
+    return Couple("", needed(link).name, couple, sense, phase, node.path)
 
 
 def _read_against(node: FileNode, expected: str) -> Against:

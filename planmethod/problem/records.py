@@ -7,7 +7,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from enum import Enum
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, NamedTuple, Protocol
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    ClassVar,
+    NamedTuple,
+    Protocol,
+    TypeAlias,
+    assert_never,
+)
 
 from msgspec import Struct, field
 from msgspec.structs import asdict, replace
@@ -408,6 +416,21 @@ class SizeTable(Struct, frozen=True):
     indicator: IndicatorDiagram | None = None
 
 
+LoadSize: TypeAlias = float | SizeTable
+"""Size of a load: the same in every position, or a table."""
+
+
+def largest_size(size: LoadSize) -> float:
+    """Return the size of a load, N or N·m, where it is largest, with its sign."""
+    match size:
+        case SizeTable():
+            return max(size.values, key=abs)
+        case int() | float():
+            return size
+        case _:
+            assert_never(size)
+
+
 class Fixed(Struct, frozen=True):
     """Direction that stays on the paper (неизменное направление), degrees from +x."""
 
@@ -478,9 +501,9 @@ class LoadEntry(Struct, frozen=True):
             "a force, not for a couple"
         ),
     ] = ""
-    force: Annotated[float | SizeTable, CustomKey("force, N: a number or a table")] = 0.0
+    force: Annotated[LoadSize, CustomKey("force, N: a number or a table")] = 0.0
     couple: Annotated[
-        float | SizeTable,
+        LoadSize,
         CustomKey("couple (момент), N·m: a number or a table; counter-clockwise positive"),
     ] = 0.0
     angle: Annotated[float | None, AngleKey("direction of the force from +x, degrees")] = None
@@ -521,14 +544,20 @@ class Load(Struct, frozen=True):
         Against the velocity of the point.
     phase : Phase or None
         None: it always acts.
+    path : str
+        Its place in the file, ``loads[2]``; empty where it is from no file.
     """
+
+    unit: ClassVar[str] = "N"
+    key: ClassVar[str] = "force"
 
     name: str
     link: str
     at: str
-    size: float | SizeTable
+    size: LoadSize
     sense: Fixed | Against
     phase: Phase | None = None
+    path: str = ""
 
 
 class Couple(Struct, frozen=True):
@@ -545,13 +574,19 @@ class Couple(Struct, frozen=True):
         Against the rotation of the link.
     phase : Phase or None
         None: it always acts.
+    path : str
+        Its place in the file, ``loads[2]``; empty where it is from no file.
     """
+
+    unit: ClassVar[str] = "N·m"
+    key: ClassVar[str] = "couple"
 
     name: str
     link: str
-    size: float | SizeTable
+    size: LoadSize
     sense: Against | None = None
     phase: Phase | None = None
+    path: str = ""
 
 
 class BalancingForceTask(Struct, frozen=True):

@@ -19,6 +19,7 @@ from planmethod.problem.records import (
     IndicatorDiagram,
     Interpolation,
     LoadLaw,
+    LoadSize,
     Over,
     Phase,
     SizeTable,
@@ -41,7 +42,7 @@ Spans = tuple[tuple[float, float], ...]
 
 def read_size(
     node: FileNode, drive: Drive | None, *, couple: bool = False, turn: float = TURN
-) -> float | SizeTable:
+) -> LoadSize:
     """Read a force, N, or a couple, N·m: a number or a table.
 
     Parameters

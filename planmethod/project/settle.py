@@ -28,7 +28,7 @@ from planmethod.note.document import plain_text
 from planmethod.paper import Format
 from planmethod.problem.machine_records import CycleTask, ProjectTask
 from planmethod.problem.model import SAME_DEG, Problem, Scales
-from planmethod.problem.records import KindProblem, SizeTable, TurningSense
+from planmethod.problem.records import KindProblem, TurningSense, largest_size
 from planmethod.problem.source import parse, read_source
 from planmethod.project.parts import PART_KINDS, PartName
 from planmethod.render.frame import merged
@@ -37,7 +37,8 @@ from planmethod.render.sheets.composition import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets, sheet_scales
 from planmethod.render.sheets.model import Composition
 from planmethod.render.sheets.views import clearest_position, is_clear
-from planmethod.solved.forces.loads import external, only_in_positions
+from planmethod.solved.forces.laws import only_in_positions
+from planmethod.solved.forces.loads import external
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.legibility import Box
 from planmethod.solved.reading import Flags
@@ -305,12 +306,11 @@ def loaded_positions(solution: Solution, fraction: float = CONSIDERABLE) -> tupl
     count, dynamics = len(solution.positions), solution.problem.dynamics
     acts: Flags = np.zeros(count, dtype=bool)
     if dynamics is not None:
-        tables = {load.name: load.size.values for load in dynamics.loads
-                  if isinstance(load.size, SizeTable)}  # fmt: skip
+        peaks = {load.name: abs(largest_size(load.size)) for load in dynamics.loads}
         for link in (FRAME, *solution.problem.mechanism.links):
             for one in external(solution, dynamics, link):
                 size = np.abs(np.broadcast_to(one.force if one.point else one.couple, acts.shape))
-                largest = max(float(size.max()), *map(abs, tables.get(one.name, ())), 1e-300)
+                largest = max(float(size.max()), peaks.get(one.name, 0.0), 1e-300)
                 large = size >= fraction * largest
                 acts |= large & (not large.all())  # one that is there always says nothing
     return tuple(np.flatnonzero(acts).tolist()) if acts.any() else tuple(range(count))

@@ -13,7 +13,7 @@ from msgspec import Struct
 from planmethod.errors import Fault, LayoutError, ProblemError
 from planmethod.languages import translate
 from planmethod.solved.forces.friction import ZERO_POWER_FRACTION, friction_of
-from planmethod.solved.forces.loads import only_in_positions
+from planmethod.solved.forces.laws import only_in_positions
 from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION, require_dynamics
 from planmethod.solved.forces.statics import JointForce, statics_of
 from planmethod.solved.many.positions import impossible_steps

@@ -10,6 +10,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.construct.arithmetic import ARRAYS, Number, PiecewiseArithmetic
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
@@ -18,7 +19,7 @@ from planmethod.problem.model import Problem
 from planmethod.problem.names import format_length
 from planmethod.problem.records import Load, Over, SizeTable, TurningSense
 from planmethod.solved.curves import Piecewise, resolved
-from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.reading import Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
 
 PANELS = 24
@@ -89,14 +90,15 @@ class PointStroke(Struct, frozen=True):
         ray = self.start - self.centre
         return float(np.angle((ray + self.towards) / ray))
 
-    def fraction(self, place: Complexes) -> Reals:
+    def fraction(self, place: Number, arithmetic: PiecewiseArithmetic = ARRAYS) -> Number:
         """Return how far a place is along the path, from 0 at the start to 1, shape (n,)."""
         if self.centre is None:
             way = (place - self.start) * self.towards.conjugate()
             along = way.real / abs(self.towards) ** 2
         else:
-            along = np.angle((place - self.centre) / (self.start - self.centre)) / self.swing
-        return np.asarray(np.clip(along, 0.0, 1.0), dtype=float)
+            turned = (place - self.centre) / (self.start - self.centre)
+            along = arithmetic.angle(turned) / self.swing
+        return arithmetic.clipped(along, 0.0, 1.0)
 
     def direction(self, fraction: float) -> complex:
         """Return the unit vector across which the path is cut after a share of it."""
@@ -114,16 +116,23 @@ class PointStroke(Struct, frozen=True):
             self.centre + (self.start - self.centre) * np.exp(1j * self.swing * fraction)
         )
 
-    def progress(self, rotation: Reals, place: Complexes, cycle: float) -> Reals:
+    def progress(
+        self,
+        rotation: Number,
+        place: Number,
+        cycle: float,
+        arithmetic: PiecewiseArithmetic = ARRAYS,
+    ) -> Number:
         """Return how many strokes of the cycle are done since the first began, shape (n,)."""
-        since = np.mod(rotation - self.dead[0], cycle)
+        ar, count = arithmetic, len(self.dead)
+        since = ar.modulo(rotation - float(self.dead[0]), cycle)
         slack = 1e-9  # rounding of a dead position, as of one that the file asks
-        count = len(self.dead)
-        marks = np.append(self.dead - self.dead[0], cycle)
-        number = np.searchsorted(marks, since + slack, side="right") - 1
-        share = self.fraction(place)
-        done = np.where(number % 2 == int(self.back), share, 1.0 - share)
-        return np.asarray(np.mod(number, count) + np.where(number >= count, 0.0, done), dtype=float)
+        marks = np.append(self.dead - self.dead[0], cycle).tolist()
+        number = ar.passed(marks, since + slack) - 1.0
+        share = self.fraction(place, ar)
+        returns = ar.above(ar.modulo(number + float(self.back), 2.0), 0.5)
+        done = ar.where(returns, 1.0 - share, share)
+        return ar.modulo(number, float(count)) + ar.where(ar.above(number, count - 0.5), 0.0, done)
 
 
 class CycleMotion:
@@ -189,10 +198,11 @@ class CycleMotion:
         """Return driver positions of the file, degrees, of angles turned."""
         return self.start_deg + self.sense * np.degrees(rotation)
 
-    def rotation_at(self, phi: Reals) -> Reals:
+    def rotation_at(self, phi: Number, arithmetic: PiecewiseArithmetic = ARRAYS) -> Number:
         """Return the angles turned from position 0, rad in [0, cycle), of driver positions."""
-        found = np.mod(np.radians(self.sense * (phi - self.start_deg)), self.cycle)
-        return np.where(found > self.cycle - 1e-9, 0.0, found)
+        turned = self.sense * (phi - self.start_deg) * (pi / 180.0)
+        found = arithmetic.modulo(turned, self.cycle)
+        return arithmetic.where(arithmetic.above(found, self.cycle - 1e-9), 0.0, found)
 
     def solved(self, rotation: Reals) -> Solution:
         """Return the mechanism solved at angles turned, rad, ndarray of shape (n,)."""
@@ -303,16 +313,11 @@ class CycleMotion:
     def _courses(self) -> dict[str, PointStroke]:
         return {}
 
-    def stroke_of(self, index: int) -> PointStroke:
+    def stroke_of(self, load: Load) -> PointStroke:
         """Return the stroke over which the table of a load is read (ход, по которому нагрузка).
 
         A path counts from its end that position 0 is nearer to, an indicator diagram from the top
         dead centre of its own piston.
-
-        Parameters
-        ----------
-        index : int
-            The number of the load in the file.
 
         Raises
         ------
@@ -320,31 +325,21 @@ class CycleMotion:
             As of `stroke`; or the cycle has other strokes than the diagram, or the piston of a
             diagram that is like another one is not at a dead position after the shift.
         """
-        load = self._load(index)
         assert isinstance(load.size, SizeTable)
         if load.size.over is not Over.STROKES:
             return self.stroke(load.at)
         if load.name not in self._courses:
-            self._courses[load.name] = self._indicated(index)
+            self._courses[load.name] = self._indicated(load, load.size)
         return self._courses[load.name]
 
-    def _load(self, index: int) -> Load:
-        dynamics = self.problem.dynamics
-        assert dynamics is not None
-        load = dynamics.loads[index]
-        assert isinstance(load, Load), "a couple has no point"
-        return load
-
-    def _indicated(self, index: int) -> PointStroke:
+    def _indicated(self, load: Load, size: SizeTable) -> PointStroke:
         """Return the stroke of a piston from its top dead centre, and with which it begins."""
-        load = self._load(index)
-        assert isinstance(load.size, SizeTable)
         own = self._from_top(self.stroke(load.at))
-        given, there = round(load.size.at[-1]), len(own.dead)
+        given, there = round(size.at[-1]), len(own.dead)
         if given != there:
             raise _fault(
                 self.problem,
-                f"loads[{index}].force.strokes",
+                f"{load.path}.{load.key}.strokes",
                 translate(
                     "{} strokes, point {} makes {} in a cycle of {:g} degrees",
                     given,
@@ -356,45 +351,45 @@ class CycleMotion:
             )
         dead = np.mod(own.dead, self.cycle)
         below = own.fraction(self.at(dead).points[load.at].place) > 0.5
-        if load.size.like is None:
+        if size.like is None:
             off = self._angular_distance(dead, 0.0)
             back = bool(off[below].min() < off[~below].min() - LEANING)
         else:
-            first = self.stroke_of(self._number(load.size.like))
-            back, began = first.back, first.dead[0] + np.radians(load.size.shift)
+            first = self.stroke_of(self._named(size.like))
+            back, began = first.back, first.dead[0] + np.radians(size.shift)
             off = self._angular_distance(dead, began)
-            self._check_shift(index, dead[below == back] - first.dead[0], off[below == back])
+            self._check_shift(load, size, dead[below == back] - first.dead[0], off[below == back])
         start = dead[int(np.argmin(np.where(below == back, off, np.inf)))]
         since = np.sort(np.mod(dead - start + _NEAR, self.cycle)) - _NEAR
         start -= self.cycle if start > self.cycle / 2.0 else 0.0
         return replace(own, dead=np.asarray(start + since), back=back)
 
-    def _number(self, name: str) -> int:
+    def _named(self, name: str) -> Load:
         dynamics = self.problem.dynamics
         assert dynamics is not None
-        return next(k for k, load in enumerate(dynamics.loads) if load.name == name)
+        load = next(load for load in dynamics.loads if load.name == name)
+        assert isinstance(load, Load), "a couple has no point"
+        return load
 
     def _angular_distance(self, dead: Reals, angle: float) -> Reals:
         """Return the distance of dead positions from an angle turned, rad, in either direction."""
         ahead = np.mod(dead - angle, self.cycle)
         return np.minimum(ahead, self.cycle - ahead)
 
-    def _check_shift(self, index: int, after: Reals, off: Reals) -> None:
+    def _check_shift(self, load: Load, size: SizeTable, after: Reals, off: Reals) -> None:
         """Reject a shift after which a piston is not near its dead position."""
         if off.min() <= ASTRAY:
             return
-        load = self._load(index)
-        assert isinstance(load.size, SizeTable)
         turned = np.sort(np.mod(np.degrees(after) + 1e-6, np.degrees(self.cycle)))
         known = ", ".join(f"{angle:.4g}" for angle in turned)
         raise _fault(
             self.problem,
-            f"loads[{index}].force.shift",
+            f"{load.path}.{load.key}.shift",
             translate(
                 "{0:g} degrees after the first stroke of {1} point {2} does not begin such "
                 "a stroke: it begins one {3} degrees after it",
-                load.size.shift,
-                load.size.like,
+                size.shift,
+                size.like,
                 load.at,
                 known,
             ),

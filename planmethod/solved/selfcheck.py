@@ -32,7 +32,7 @@ from planmethod.solved.failures import (
     Place,
     PositionError,
 )
-from planmethod.solved.forces.loads import only_in_positions
+from planmethod.solved.forces.laws import only_in_positions
 from planmethod.solved.reading import Complexes, Flags, Reals
 from planmethod.solved.rules import changes
 from planmethod.solved.solution import Solution

@@ -118,10 +118,12 @@ def test_forces_and_couples() -> None:
         phases = { turning = "cw", phi = [300, 30] }
         """
     assert dynamics_of(text).loads == (
-        Load("F_{5C}", "3", "C", -6000, Fixed(-90)),
-        Load("F_{2}", "2", "S2", 350.4, Against(), Phase(moving=MovingSense.DOWN)),
-        Couple("M_{1}", "1", 20),
-        Couple("M_{1}'", "1", 5, Against(), Phase(((300, 30),), turning=TurningSense.CW)),
+        Load("F_{5C}", "3", "C", -6000, Fixed(-90), path="loads[0]"),
+        Load("F_{2}", "2", "S2", 350.4, Against(), Phase(moving=MovingSense.DOWN), "loads[1]"),
+        Couple("M_{1}", "1", 20, path="loads[2]"),
+        Couple(
+            "M_{1}'", "1", 5, Against(), Phase(((300, 30),), turning=TurningSense.CW), "loads[3]"
+        ),
     )
 
 
@@ -161,7 +163,7 @@ def test_the_worked_files() -> None:
     six = problem_of("levers/six-link").dynamics
     assert six is not None
     assert (six.gravity, list(six.masses)) == (9.81, ["1", "2", "3", "5"])
-    assert six.loads == (Load("F_{5C}", "5", "H", 6000, Fixed(-90)),)
+    assert six.loads == (Load("F_{5C}", "5", "H", 6000, Fixed(-90), path="loads[0]"),)
     task = problem_of("levers/task12").dynamics
     assert task is not None
     assert (task.gravity, task.masses["5"]) == (9.8, Mass(30, "S5"))
@@ -230,7 +232,7 @@ def test_a_variant_replaces_a_table_whole_or_one_key_of_it() -> None:
 
 def test_a_variant_replaces_all_loads() -> None:
     assert variant('v = { loads = [{ link = "1", couple = 3 }] }').loads == (
-        Couple("M_{1}", "1", 3),
+        Couple("M_{1}", "1", 3, path="loads[0]"),
     )
 
 

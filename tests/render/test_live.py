@@ -297,7 +297,7 @@ def test_loads_that_change_are_those_of_the_program(page: Page, tmp_path: Path) 
     problems["arc"] = loads(SWUNG, name="arc")
     for told, problem in problems.items():
         scene = opened(page, problem, tmp_path)
-        assert scene.loads() is not None, told
+        assert scene.loads(), told
         positions = np.concatenate((np.linspace(-29.0, 57.0, 87) % 360.0, [20.0, 350.0]))
         if problem.machine is not None:
             positions = np.linspace(*scene.driver_range, 121)

@@ -15,7 +15,7 @@ from planmethod.note.numbers import MINUS, format_column
 from planmethod.note.series import compared_moment
 from planmethod.note.wording import Language
 from planmethod.problem.machine_records import WeightSigns
-from planmethod.problem.records import SizeTable
+from planmethod.problem.records import largest_size
 from planmethod.solved.forces.loads import external
 from planmethod.solved.machine.balancing import Balancing, balancing_of
 from planmethod.solved.machine.reduced import power
@@ -69,12 +69,10 @@ class ReductionNarrator:
 
     @cached_property
     def _peaks(self) -> dict[str, float]:
-        """The largest size in the table or the diagram of each load that has one."""
+        """The largest size of each load, N or N·m."""
         dynamics = self.problem.dynamics
         assert dynamics is not None
-        tables = ((load.name, load.size) for load in dynamics.loads)
-        return {name: max(map(abs, size.values)) for name, size in tables
-                if isinstance(size, SizeTable)}  # fmt: skip
+        return {load.name: abs(largest_size(load.size)) for load in dynamics.loads}
 
     def _loads(self) -> Iterator[ReducedTerm]:
         dynamics = self.problem.dynamics

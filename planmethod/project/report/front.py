@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import assert_never
 
 from planmethod.gears.involute.geometry import MeshingProblem
 from planmethod.gears.model import GearProblem
@@ -22,7 +23,15 @@ from planmethod.note.narrate.statement import given_facts, turns_symbol
 from planmethod.note.numbers import with_unit
 from planmethod.note.tables.forces import push_direction, rubbed
 from planmethod.note.wording import MessageTable
-from planmethod.problem.records import Against, Couple, Fixed, Interpolation, Load, SizeTable
+from planmethod.problem.records import (
+    Against,
+    Couple,
+    Fixed,
+    Interpolation,
+    Load,
+    SizeTable,
+    largest_size,
+)
 from planmethod.project.parts import PartName
 from planmethod.project.report.context import NBSP, Report, figure, items, lettered, sentences
 from planmethod.project.settle import meshed
@@ -276,7 +285,7 @@ def _load_tables(report: Report) -> Iterator[Node]:
         size = load.size
         if not isinstance(size, SizeTable) or size.like is not None:
             continue
-        unit, key = report.unit("N" if isinstance(load, Load) else "N·m"), f"load_{number}"
+        unit, key = report.unit(load.unit), f"load_{number}"
         head: tuple[Rich, ...]
         rows: list[tuple[Rich, ...]]
         if size.indicator is not None:
@@ -323,17 +332,18 @@ def _further_data(report: Report) -> Iterator[Rich]:
 def _load(load: Load | Couple, report: Report) -> Rich:
     texts: MessageTable = report.texts["front"]["loads"]
     force = isinstance(load, Load)
-    unit = "N" if force else "N·m"
-    if isinstance(load.size, SizeTable):
-        largest = report.quantity(max(load.size.values, key=abs), unit)
-        size = (texts.table if force else texts.table_couple).format(value=largest)
-        if load.size.like is not None:
+    match load.size:
+        case int() | float():
+            value = with_unit(report.notation.short(load.size), report.unit(load.unit))
+            size = texts.constant.format(value=value)
+        case SizeTable(like=None):
+            largest = report.quantity(largest_size(load.size), load.unit)
+            size = (texts.table if force else texts.table_couple).format(value=largest)
+        case SizeTable():
             shift = with_unit(report.notation.as_input(load.size.shift), report.unit("deg"))
             size = texts.like.format(other=load.size.like, shift=shift)
-    else:
-        size = texts.constant.format(
-            value=with_unit(report.notation.short(load.size), report.unit(unit))
-        )
+        case _:
+            assert_never(load.size)
     against = texts.against if force else texts.against_couple
     sense = against.format() if isinstance(load.sense, Against) else ""
     if isinstance(load.sense, Fixed):
@@ -353,8 +363,7 @@ def _load(load: Load | Couple, report: Report) -> Rich:
 
 def _direction_text(load: Load | Couple, fixed: Fixed, report: Report) -> Rich:
     """Return the direction of a force that is constant on the paper."""
-    largest = max(load.size.values, key=abs) if isinstance(load.size, SizeTable) else load.size
-    angle = (fixed.angle + (180.0 if largest < 0 else 0.0)) % 360.0
+    angle = (fixed.angle + (180.0 if largest_size(load.size) < 0 else 0.0)) % 360.0
     forces = report.language.forces
     quarter = QUARTERS.get(round(angle, 6) % 360.0)
     return (

@@ -1,9 +1,9 @@
 "use strict";
-// The page of a moving mechanism. `run` above is the program's own tape; here is only where its
-// numbers are drawn. Everything is in millimetres of a view, y down.
+// The page of a moving mechanism. `run` and `loads` above are the program's own tapes; here is only
+// where their numbers are drawn. Everything is in millimetres of a view, y down.
 const D = JSON.parse(document.getElementById("scene").textContent);
 const SVG = "http://www.w3.org/2000/svg", byId = id => document.getElementById(id);
-const TURN = 360, SLACK = 1e-9, STILL = 1e-10, SAMPLES = 720;
+const TURN = 360, SLACK = 1e-9, SAMPLES = 720;
 
 // Numbers -----------------------------------------------------------------------------------------
 
@@ -30,71 +30,6 @@ function within(x, start, turn) {  // angle from a start, [0, turn)
   return turned > turn - SLACK ? 0 : turned;
 }
 
-function course(load, x, out) {  // share of the stroke of a point, or strokes done in the cycle
-  const { start, towards, centre, swing, dead, first, sense, cycle, back } = load.stroke;
-  const ray = (from, end) => [end[0] - from[0], end[1] - from[1]];
-  const place = [out[load.place], out[load.place + 1]];
-  let along;
-  if (centre) {
-    const [[a, b], [c, d]] = [ray(centre, start), ray(centre, place)];
-    along = Math.atan2(a * d - b * c, a * c + b * d) / swing;
-  } else {
-    const [x, y] = ray(start, place);
-    along = (x * towards[0] + y * towards[1]) / (towards[0] ** 2 + towards[1] ** 2);
-  }
-  const share = Math.min(1, Math.max(0, along));
-  if (load.over === "path") return share;
-  let turned = modulo(sense * (x - first) * Math.PI / 180, cycle);
-  if (turned > cycle - 1e-9) turned = 0;
-  const since = modulo(turned - dead[0], cycle);
-  const number = [...dead.map(angle => angle - dead[0]), cycle].filter(m => m <= since + 1e-9).length - 1;
-  const done = number >= dead.length ? 0 : number % 2 === back ? share : 1 - share;
-  return Number.isNaN(share) ? NaN : number % dead.length + done;
-}
-
-function tabled(load, x, out) {  // size of a load that a table has
-  let { at, values } = load;
-  if (load.over === "position") {
-    const k = D.loads.positions.findIndex(own => Math.abs(own - x) <= SLACK);
-    return k < 0 ? NaN : values[k];
-  }
-  let place = load.over === "x" ? out[load.place] : load.over === "y" ? out[load.place + 1] : x;
-  if (load.over === "phi") {
-    place = within(x, at[0], load.turn);
-    at = at.map(node => node - load.at[0]);
-    if (at[at.length - 1] < load.turn) [at, values] = [[...at, load.turn], [...values, values[0]]];
-  }
-  if (load.stroke) place = course(load, x, out);
-  const last = at.length - 1;
-  if (load.step) {
-    const slack = SLACK * (at[last] - at[0]);
-    return values[Math.max(0, at.filter(node => node <= place + slack).length - 1)];
-  }
-  if (!(place >= at[0])) return Number.isNaN(place) ? NaN : values[0];
-  if (place >= at[last]) return values[last];
-  const k = at.findIndex(node => node > place) - 1;
-  return values[k] + (values[k + 1] - values[k]) / (at[k + 1] - at[k]) * (place - at[k]);
-}
-
-function loads(x, out) {  // what the tape is told of loads that differ from position to position
-  const speed = Math.max(...D.loads.speeds.map(k => Math.hypot(out[k], out[k + 1])));
-  const turning = Math.max(speed / D.loads.reach, ...D.loads.omegas.map(k => Math.abs(out[k])));
-  return D.loads.list.flatMap(load => {
-    const omega = out[load.omega], sense = Math.abs(omega) > STILL * turning ? Math.sign(omega) : 0;
-    const vx = out[load.speed], vy = out[load.speed + 1], v = Math.hypot(vx, vy);
-    let size = load.values ? tabled(load, x, out) : load.size;
-    const { spans, ahead } = load;
-    if (spans && spans.length && !spans.some(([start, end]) =>
-      within(x, start, TURN) <= (modulo(end - start, TURN) || TURN) + SLACK)) size = 0;
-    if (ahead && !(vx * ahead[0] + vy * ahead[1] > STILL * speed)) size = 0;
-    if (load.turning && sense !== load.turning) size = 0;
-    if (load.place === undefined) return [load.against ? -size * sense : size];
-    const along = load.along || (v > STILL * speed ? [-vx / v, -vy / v] : [0, 0]);
-    const fx = size * along[0], fy = size * along[1];
-    return [Math.atan2(fy, fx) * 180 / Math.PI, Math.hypot(fx, fy)];
-  });
-}
-
 function steady(x) {  // speed of the crank in the steady motion of a machine
   const { omega, first, sense, cycle } = D.motion, count = omega.length;
   const along = modulo(sense * (x - first), cycle) / cycle * count, k = Math.floor(along) % count;
@@ -119,8 +54,8 @@ function driven(x) {  // place, rate and acceleration of the link that a cam's f
 function solved(x) {
   const sides = [...D.cam ? driven(x) : [], ...D.branches.map(one => branch(one, x))];
   if (!D.loads) return run(x, ...sides);
-  const nothing = D.loads.list.flatMap(load => load.place === undefined ? [0] : [0, 0]);
-  const still = run(x, ...sides, ...nothing), told = loads(x, still), out = run(x, ...sides, ...told);
+  const still = run(x, ...sides, ...Array(D.loads).fill(0));
+  const told = loads(x, still), out = run(x, ...sides, ...told);
   if (told.some(Number.isNaN)) out[out.length - 1] = still[out.length - 1];
   return out;
 }

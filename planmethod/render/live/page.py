@@ -58,7 +58,7 @@ class _Page:
             credit=self.language.live.made,
             letters=self.canvas.letters(),
             scene=self._scene(),
-            script=self.scene.sweep.javascript() + script,
+            script=self.scene.sweep.javascript() + self.scene.loads() + script,
         )
 
     def _bar(self) -> str:
@@ -219,7 +219,7 @@ class _Page:
                 for one in closings
             ],
             "cam": self._cam(),
-            "loads": scene.loads(),
+            "loads": 0 if scene.sweep.loads is None else len(scene.sweep.loads.names),
             "places": scene.rows_of(lambda kind: kind is QuantityKind.PLACE),
             "forces": forces,
             "reasons": [runs(text) for text in scene.reasons()],

@@ -30,10 +30,11 @@ from planmethod.plans.motion.position import link_of_axis
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.ink.typeset import ink_bounds
-from planmethod.render.live.parts import MovingPart, cycle_deg, moving_loads, parts_of
+from planmethod.render.live.parts import MovingPart, cycle_deg, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
 from planmethod.render.symbols import SIZES
-from planmethod.solved.forces.loads import applied, only_in_positions
+from planmethod.solved.forces.laws import only_in_positions
+from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
 from planmethod.solved.many.rows import quantities_for
 from planmethod.solved.many.sweep import Sweep
@@ -462,12 +463,14 @@ class LiveScene:
 
     # Loads -----------------------------------------------------------------------------------
 
-    def loads(self) -> dict[str, Any] | None:
-        """Return the loads that differ from position to position; None if there are none."""
+    def loads(self) -> str:
+        """Return the function of the loads that differ from position to position, if there are any.
+
+        It is one of JavaScript, see `LoadColumns.javascript`.
+        """
         if self.sweep.loads is None:
-            return None
-        named = self.construction.kinematics.velocity.named
-        return moving_loads(self.problem, self.sweep.loads.loads, named, self._row)
+            return ""
+        return self.sweep.loads.javascript([row.name for row in self.sweep.rows])
 
     def reasons(self) -> list[str]:
         """Return for every guard of the tape why a position has no results if it fails."""

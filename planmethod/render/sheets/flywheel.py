@@ -176,7 +176,7 @@ def load_diagrams(solution: Solution, position_indices: Sequence[int], style: Bl
     blocks: list[Block] = []
     turned = _fine(flywheel)
     moved = flywheel.turn.at(turned)
-    for number, load in enumerate(dynamics.loads):
+    for load in dynamics.loads:
         if not isinstance(load, Load) or not isinstance(load.size, SizeTable) or load.size.like:
             continue
         (force,) = (one.force for one in external(moved, dynamics, load.link)
@@ -187,7 +187,7 @@ def load_diagrams(solution: Solution, position_indices: Sequence[int], style: Bl
         # from the end at or nearer to position 0
         start = along.min() if along[0] - along.min() <= along.max() - along[0] else along.max()
         if load.size.over is Over.STROKES:  # from the top dead centre
-            start = (flywheel.turn.stroke_of(number).start * way.conjugate()).real
+            start = (flywheel.turn.stroke_of(load).start * way.conjugate()).real
         share = np.abs(along - start) / stroke
         values = (force * way.conjugate()).real
         if values[int(np.argmax(np.abs(values)))] < 0.0:

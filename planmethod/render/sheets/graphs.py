@@ -22,7 +22,8 @@ from planmethod.render.pictures.diagram import Abscissae, Curve, Mark, Ordinates
 from planmethod.render.sheets.composer import ViewBlock
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.views import named, shown_position
-from planmethod.solved.forces.loads import abscissae, acting, closed, external, in_time, read
+from planmethod.solved.forces.laws import GivenLoads, acting, closed, in_time, read
+from planmethod.solved.forces.loads import external
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import CrankCycle
@@ -43,15 +44,16 @@ def load_curves(solution: Solution, position_indices: Sequence[int], style: Bloc
     dynamics, index = solution.problem.dynamics, shown_position(solution, position_indices, style)
     assert dynamics is not None
     blocks: list[Block] = []
-    for number, load in enumerate(dynamics.loads):
+    given = GivenLoads(solution)
+    for load in dynamics.loads:
         if not isinstance(load.size, SizeTable) or load.size.over is Over.POSITION:
             continue
         same = [one for one in external(solution, dynamics, load.link) if one.name == load.name]
         acts = any(one.force[index] if one.point else one.couple[index] for one in same)
-        table = _from_zero(in_time(solution, load.size, number))
+        table = _from_zero(in_time(solution, load, load.size))
         if table.over is Over.PHI and load.phase is not None:
             table = _limited(table, acting(solution, load, 0.0, table.turn))
-        at = float(abscissae(solution, load, number)[index])
+        at = float(given.abscissae(load, load.size)[index])
         at = at % table.turn if table.over is Over.PHI else at
         blocks.append(_diagram(solution, load, table, at if acts else None, style))
     return Column(blocks, gap=8.0)
@@ -75,7 +77,7 @@ def _diagram(
         foot = min(max(now - start, 0.0), span) / across
         marks.append((Mark.RING, complex(foot, value)))
         found.append(Stroke((foot, complex(foot, value), 1j * value), Pen.THIN, tag="found"))
-    symbol, newtons = ("F", "N") if isinstance(load, Load) else ("M", "N·m")
+    symbol = "F" if isinstance(load, Load) else "M"
     picture = diagram_picture(
         Abscissae(
             letter,
@@ -83,14 +85,14 @@ def _diagram(
             tuple(notation.as_input(tick) for tick in ticks),
             typeset(letter, style.letter).width + 5.0,
         ),
-        Ordinates(f"{load.name}, {notation.units[newtons]}", up, notation),
+        Ordinates(f"{load.name}, {notation.units[load.unit]}", up, notation),
         [Curve("", _table_parts(table, across, up))],
         marks,
         letter_height=style.letter,
         name=f"load {load.name}",
         construction=found,
     )
-    scales = [Scale(f"mu_{symbol}", up, newtons)]
+    scales = [Scale(f"mu_{symbol}", up, load.unit)]
     scales += [Scale(f"mu_{letter[0]}", across, unit)] if unit else []
     text = "; ".join(scale_inscription(one, Convention.UNIT_PER_MM, notation) for one in scales)
     title = style.language.sheets.load_curve.format(name=load.name)

@@ -29,7 +29,7 @@ from planmethod.plans.forces.polygons import Applied, LoadKind, numbers_of, reac
 from planmethod.problem.model import Problem, Slide
 from planmethod.problem.names import pair_name, segment
 from planmethod.problem.records import FrictionTask, PairFriction
-from planmethod.solved.forces.loads import ZERO_SPEED_FRACTION
+from planmethod.solved.forces.laws import ZERO_SPEED_FRACTION
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import (
     JointForce,

@@ -6,8 +6,6 @@ with the velocities of the plans. A moment is positive where it resists the turn
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 from msgspec import Struct
 
@@ -15,10 +13,10 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.plans.forces.polygons import Applied
 from planmethod.problem.machine_records import Machine, WeightSigns
-from planmethod.problem.records import Against, Couple, Interpolation, Load, Over, SizeTable
 from planmethod.solved.curves import Piecewise, resolved
 from planmethod.solved.cycle_motion import CycleMotion, MotionState
-from planmethod.solved.forces.loads import MotionValues, external
+from planmethod.solved.forces.laws import MotionValues, breaks
+from planmethod.solved.forces.loads import external
 from planmethod.solved.reading import Reals
 
 NEVER = 1e-12
@@ -108,15 +106,8 @@ def reduced_curves(cycle_motion: CycleMotion, machine: Machine) -> Piecewise:
     problem = cycle_motion.problem
     dynamics = problem.dynamics
     assert dynamics is not None
-    for index, load in enumerate(dynamics.loads):
-        if isinstance(load.size, SizeTable) and load.size.over is Over.POSITION:
-            raise _load_fault(
-                cycle_motion, index, "{} is given only for the positions of the file", _OVER
-            )
-    cuts = [
-        cycle_motion.curve.edges,
-        *(_breaks(cycle_motion, load, k) for k, load in enumerate(dynamics.loads)),
-    ]
+    own = [breaks(cycle_motion, load) for load in dynamics.loads]
+    cuts = [cycle_motion.curve.edges, *own]
     edges = np.unique(np.concatenate(cuts))
     edges = edges[np.append(True, np.diff(edges) > 1e-12)]
     edges[0], edges[-1] = 0.0, cycle_motion.cycle
@@ -135,72 +126,11 @@ def reduced_curves(cycle_motion: CycleMotion, machine: Machine) -> Piecewise:
     largest[:-2] = float(np.max(largest[:-2]))
     made = resolved(read, edges, np.where(largest > 0.0, largest, 1.0))
     peaks = np.max(np.abs(made(made.samples)), axis=0)
-    for index, peak in enumerate(peaks[:-3]):
+    for load, peak in zip(dynamics.loads, peaks[:-3], strict=True):
         if peak <= NEVER * peaks[:-2].max():
-            raise _load_fault(
-                cycle_motion, index, "{} does no work: its power is 0 over the whole cycle", _WORK
-            )
+            text = translate("{} does no work: its power is 0 over the whole cycle", load.name)
+            hint = "Check its point, its direction and its phases."
+            raise ProblemError(problem.name, [Fault(load.path, text, hint)])
     sums = np.zeros((len(peaks), 3))
     sums[:-2, 0] = sums[-2, 1] = sums[-1, 2] = 1.0
     return Piecewise(made.edges, made.terms @ sums)
-
-
-_OVER = "A cycle needs it at every angle: give the table over phi, x, y or path."
-_WORK = "Check its point, its direction and its phases."
-
-
-def _load_fault(motion: CycleMotion, index: int, message: str, hint: str) -> ProblemError:
-    dynamics = motion.problem.dynamics
-    assert dynamics is not None
-    fault = Fault(f"loads[{index}]", translate(message, dynamics.loads[index].name), hint)
-    return ProblemError(motion.problem.name, [fault])
-
-
-def _breaks(motion: CycleMotion, load: Load | Couple, index: int) -> Reals:
-    """Return the places where a load may jump or have a kink, angles turned, rad, in no order."""
-    return np.concatenate([np.zeros(0), *_iter_breaks(motion, load, index)])
-
-
-def _iter_breaks(motion: CycleMotion, load: Load | Couple, index: int) -> Iterator[Reals]:
-    phase, size = load.phase, load.size
-    if phase is not None and phase.phi:
-        yield _all_turns(motion, np.array(phase.phi).ravel(), 360.0)
-    if isinstance(load, Couple):
-        if isinstance(load.sense, Against) or (phase is not None and phase.turning is not None):
-            yield motion.omega(load.link).roots()
-    elif isinstance(load.sense, Against) or phase is not None:
-        ways = [motion.main_direction(load.at)]
-        if phase is not None and phase.moving is not None:
-            ways += [1.0 + 0j, 1j]
-        for way in ways:
-            yield motion.column(load.at, way, velocity=True).roots()
-        if phase is not None and phase.turning is not None:
-            yield motion.omega(load.link).roots()
-    if not isinstance(size, SizeTable):
-        return
-    nodes = np.unique(size.at)
-    if size.over is Over.PHI:
-        yield _all_turns(motion, nodes, size.turn)
-    elif size.over in (Over.X, Over.Y):
-        assert isinstance(load, Load)
-        way = 1.0 + 0j if size.over is Over.X else 1j
-        place = motion.column(load.at, way)
-        slack = 1e-9 * float(np.ptp(nodes)) if size.interpolation is Interpolation.STEP else 0.0
-        yield from (place.roots(node - slack) for node in nodes)
-    else:
-        assert isinstance(load, Load)
-        stroke = motion.stroke_of(index)
-        yield np.mod(stroke.dead, motion.cycle)
-        shares = np.unique(np.append(np.mod(nodes, 1.0), np.mod(-nodes, 1.0)))
-        for share in shares:
-            if 1e-9 < share < 1.0 - 1e-9:
-                along, there = stroke.direction(share), stroke.place(share)
-                yield motion.column(load.at, along).roots((there * along.conjugate()).real)
-
-
-def _all_turns(motion: CycleMotion, phi: Reals, period: float) -> Reals:
-    """Return where the driver is at some angles, degrees, in every turn of the cycle."""
-    first = motion.rotation_at(phi)
-    turns = max(round(motion.cycle / np.radians(period)), 1)
-    every = np.concatenate([first + np.radians(period) * k for k in range(turns)])
-    return np.asarray(np.mod(every, motion.cycle), dtype=float)

@@ -8,15 +8,18 @@ from functools import cached_property
 
 from msgspec import Struct
 
-from planmethod.compiled import Ref, Symbol, TapeProgram
+from planmethod.compiled import PiecewiseTape, Ref, Symbol, Tape, TapeProgram, javascript_function
+from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.build import TRANSFERS, Construction, Quantity, QuantityKind
 from planmethod.plans.forces.polygons import numbers_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.solved.forces.loads import changing, needs_motion
+from planmethod.problem.records import Load
+from planmethod.solved.forces.laws import GivenLoads, needs_motion
+from planmethod.solved.forces.loads import changing
 from planmethod.solved.quantities import Quantities, UnknownQuantityError, quantities_of
-from planmethod.solved.reading import Reals
+from planmethod.solved.reading import Memoizing, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
 
 FORCES = FACTS[PlanKind.FORCE].prefix
@@ -141,6 +144,48 @@ class SweptMotion:
         }
 
 
+class TapeMotion(Memoizing):
+    """Motion as numbers of a tape, for `laws`: its inputs are the driver and rows of a sweep.
+
+    Parameters
+    ----------
+    rows : sequence of str
+        Names of the rows, in the order of the inputs after the driver's position.
+    """
+
+    def __init__(self, problem: Problem, construction: Construction, rows: Sequence[str]) -> None:
+        super().__init__()
+        self.problem, self.construction = problem, construction
+        self.tape = Tape()
+        self.arithmetic = PiecewiseTape(self.tape)
+        self._inputs = {name: number for number, name in enumerate(rows, 1)}
+        self.positions: Number = self.arithmetic.input(0)
+
+    def _real(self, row: str) -> Number:
+        return self.arithmetic.input(self._inputs[row])
+
+    def _vector(self, row: str) -> Number:
+        return self._real(f"{row}x") + 1j * self._real(f"{row}y")
+
+    @cached_property
+    def points(self) -> dict[str, PointMotion]:
+        """Motion of every named point."""
+        return {
+            name: PointMotion(*(self._vector(f"{name}.{letter}") for letter in ("", "v", "a")))
+            for name in self.construction.kinematics.velocity.named
+        }
+
+    @cached_property
+    def links(self) -> dict[str, LinkMotion]:
+        """Motion of every moving link."""
+        return {
+            link: LinkMotion(
+                *(self._real(f"{link}.{row}") for row in ("phi_deg", "omega", "epsilon"))
+            )
+            for link in self.problem.mechanism.links
+        }
+
+
 class LoadColumns:
     """Loads of a problem that differ from position to position.
 
@@ -189,6 +234,28 @@ class LoadColumns:
         moved = SweptMotion(self.problem, self.construction, positions, self._motion)
         found = changing(moved)
         return [number for name, _ in self._loads for number in numbers_of(found[name])]
+
+    def javascript(self, rows: Sequence[str]) -> str:
+        """Return the source of ``loads(x, out)``: the inputs in a position, by rows of the motion.
+
+        Parameters
+        ----------
+        rows : sequence of str
+            Names of the outputs ``out`` of the program, the motion among them.
+        """
+        motion = TapeMotion(self.problem, self.construction, rows)
+        given, ar = GivenLoads(motion, motion.arithmetic), motion.arithmetic
+        assert self.problem.dynamics is not None
+        own = {load.name: load for load in self.problem.dynamics.loads}
+        told: list[Ref] = []
+        for name in self.loads:
+            value = given.value(own[name])
+            if isinstance(own[name], Load):
+                told += [ar.degrees(ar.angle(value)).re, abs(value).re]
+            else:
+                told.append(value.re)
+        outputs = ["x", *(f"out[{number}]" for number in range(len(rows)))]
+        return javascript_function("loads(x, out)", motion.tape, told, outputs)
 
 
 TRANSFER = re.compile("|".join(f"{kind.letter}_" for kind in TRANSFERS)).match

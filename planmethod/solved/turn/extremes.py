@@ -29,7 +29,7 @@ from planmethod.problem.machine_records import CycleTask, Zero
 from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.problem.records import TurningSense
 from planmethod.solved.errors.spread import Drafted, DrawnQuantity, Errors, number
-from planmethod.solved.forces.loads import only_in_positions
+from planmethod.solved.forces.laws import only_in_positions
 from planmethod.solved.reading import Complexes, Reals, memoized
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import TURN, CrankCycle, crank_cycle_of

@@ -16,7 +16,8 @@ from planmethod.plans.draft import cis
 from planmethod.problem.machine_records import StrokeSense
 from planmethod.problem.model import Problem, Slide
 from planmethod.problem.records import Over, SizeTable
-from planmethod.solved.forces.loads import external, only_in_positions
+from planmethod.solved.forces.laws import only_in_positions
+from planmethod.solved.forces.loads import external
 from planmethod.solved.reading import Complexes, Flags, Reading, Reals
 from planmethod.solved.solution import Solution
 

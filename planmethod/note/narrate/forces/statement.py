@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import assert_never
 
 from planmethod.note.document import GivenFact
 from planmethod.note.narrate.naming import point_name
@@ -15,7 +16,16 @@ from planmethod.plans.forces.polygons import Applied, ForcePlan, LoadKind, react
 from planmethod.problem.model import Problem
 from planmethod.problem.names import segment
 from planmethod.problem.placement import rotation
-from planmethod.problem.records import Against, Couple, Fixed, Interpolation, Load, Over, SizeTable
+from planmethod.problem.records import (
+    Against,
+    Couple,
+    Fixed,
+    Interpolation,
+    Load,
+    Over,
+    SizeTable,
+    largest_size,
+)
 from planmethod.solved.forces.friction import pair_data
 from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION, ForceReading
 from planmethod.solved.forces.statics import Statics, statics_of
@@ -50,30 +60,30 @@ def statement(reading: ForceReading, language: Language) -> list[GivenFact]:
             known = contact.joint.on in problem.slides
             own: dict[str, object] = {path: contact.length} if known else {}
             facts.append(GivenFact(f"{letter} = {text.metres(contact.length)}", own))
-    loads = {load.name: (k, load) for k, load in enumerate(dynamics.loads)}
+    loads = {load.name: load for load in dynamics.loads}
     for one in _external(reading):
         size = abs(complex(one.force[index])) if one.point else abs(float(one.couple[index]))
         if not size:
             continue
-        unit, key = ("N", "force") if one.point else ("N·m", "couple")
+        unit = language.notation.units["N" if one.point else "N·m"]
+        phrase = f"{language.notation.computed(size)} {unit}"
         if one.name not in loads:
-            notation = language.notation
-            facts.append(
-                GivenFact(f"{one.name} = {notation.computed(size)} {notation.units[unit]}")
-            )
+            facts.append(GivenFact(f"{one.name} = {phrase}"))
             continue
-        number, load = loads[one.name]
-        if isinstance(load.size, SizeTable):
-            signed = float(one.couple[index]) if isinstance(load, Couple) else size
-            if isinstance(load, Load) and isinstance(load.sense, Fixed):
-                along = complex(one.force[index]) / rotation(load.sense.angle)
-                signed = math.copysign(size, along.real)
-            phrase = f"{language.notation.computed(size)} {language.notation.units[unit]}"
-        else:
-            signed = load.size
-            phrase = text.number(size, unit, f"loads[{number}].{key}")
-        where, data = _placement(load, number, signed, language)
-        data[f"loads[{number}].{key}"] = signed
+        load = loads[one.name]
+        path = f"{load.path}.{load.key}"
+        match load.size:
+            case SizeTable():
+                signed = float(one.couple[index]) if isinstance(load, Couple) else size
+                if isinstance(load, Load) and isinstance(load.sense, Fixed):
+                    along = complex(one.force[index]) / rotation(load.sense.angle)
+                    signed = math.copysign(size, along.real)
+            case int() | float() as signed:
+                phrase = text.number(size, load.unit, path)
+            case _:
+                assert_never(load.size)
+        where, data = _placement(load, signed, language)
+        data[path] = signed
         facts.append(GivenFact(f"{one.name} = {phrase} ({where})", data))
     return [*facts, *_pushed(problem, language), *_in_pairs(reading.statics, language)]
 
@@ -100,10 +110,10 @@ def mass_lines(problem: Problem, language: Language) -> list[GivenFact]:
 
 
 def _placement(
-    load: Load | Couple, number: int, size: float, language: Language
+    load: Load | Couple, size: float, language: Language
 ) -> tuple[str, dict[str, object]]:
     """Return the point of action and the direction of a load, and the keys for them."""
-    note, path = language.note, f"loads[{number}]"
+    note, path = language.note, load.path
     data: dict[str, object] = {f"{path}.name": load.name, f"{path}.link": load.link}
     if isinstance(load, Couple):
         if isinstance(load.sense, Against):
@@ -224,39 +234,50 @@ def cycle_statement(solution: Solution, language: Language) -> list[GivenFact]:
 
 def load_facts(problem: Problem, language: Language) -> list[GivenFact]:
     """Return the loads of a whole cycle: sizes, or what they are tables of; where they act."""
-    loads = () if problem.dynamics is None else problem.dynamics.loads
     found = []
-    for k, load in enumerate(loads):
-        found.append(_load(problem, load, k, language))
-        if isinstance(load.size, SizeTable) and load.size.like is None:
-            found.append(_rows(problem, load, k, language))
+    for load in () if problem.dynamics is None else problem.dynamics.loads:
+        match load.size:
+            case int() | float():
+                found.append(_constant(load, load.size, language))
+            case SizeTable(like=None):
+                found += [
+                    _table(problem, load, language),
+                    _rows(problem, load, load.size, language),
+                ]
+            case SizeTable():
+                found.append(_likened(load, load.size, language))
+            case _:
+                assert_never(load.size)
     return found
 
 
-def _load(problem: Problem, load: Load | Couple, number: int, language: Language) -> GivenFact:
+def _constant(load: Load | Couple, size: float, language: Language) -> GivenFact:
     notation = language.notation
-    unit, key = ("N", "force") if isinstance(load, Load) else ("N·m", "couple")
-    if not isinstance(load.size, SizeTable):
-        where, data = _placement(load, number, load.size, language)
-        phase = _phase(load, number, language)
-        phrase = with_unit(notation.short(abs(load.size)), notation.units[unit])
-        data = {**data, **phase.data, f"loads[{number}].{key}": load.size}
-        return GivenFact(f"{load.name} = {phrase} ({where}{phase.text})", data)
-    if load.size.like is not None:
-        where, data = _placement(load, number, max(load.size.values, key=abs), language)
-        keys = {f"loads[{number}].like": load.size.like, f"loads[{number}].shift": load.size.shift}
-        return GivenFact(f"{like_line(load, language)} ({where})", {**data, **keys})
-    largest = max(load.size.values, key=abs)
+    where, data = _placement(load, size, language)
+    phase = _phase(load, language)
+    phrase = with_unit(notation.short(abs(size)), notation.units[load.unit])
+    data = {**data, **phase.data, f"{load.path}.{load.key}": size}
+    return GivenFact(f"{load.name} = {phrase} ({where}{phase.text})", data)
+
+
+def _likened(load: Load | Couple, size: SizeTable, language: Language) -> GivenFact:
+    where, data = _placement(load, largest_size(size), language)
+    keys = {f"{load.path}.like": size.like, f"{load.path}.shift": size.shift}
+    return GivenFact(f"{like_line(load, language)} ({where})", {**data, **keys})
+
+
+def _table(problem: Problem, load: Load | Couple, language: Language) -> GivenFact:
+    notation, largest = language.notation, largest_size(load.size)
     over = _over(problem, load, language)
     name, index, end = load.name.partition("_{")
     peak = f"{name}_{{{end.removesuffix('}')}{' ' if index else ''}max}}"
-    where, data = _placement(load, number, largest, language)
-    phase = _phase(load, number, language)
+    where, data = _placement(load, largest, language)
+    phase = _phase(load, language)
     text = language.sheets.load_table.format(
         name=load.name,
         over=over,
         peak=peak,
-        largest=f"{notation.short(abs(largest))} {notation.units[unit]}",
+        largest=f"{notation.short(abs(largest))} {notation.units[load.unit]}",
     )
     return GivenFact(f"{text} ({where}{phase.text})", {**data, **phase.data})
 
@@ -279,12 +300,10 @@ def _over(problem: Problem, load: Load | Couple, language: Language) -> str:
             return str(language.note.number)
 
 
-def _rows(problem: Problem, load: Load | Couple, number: int, language: Language) -> GivenFact:
+def _rows(problem: Problem, load: Load | Couple, size: SizeTable, language: Language) -> GivenFact:
     """Return the rows of a table, those of an indicator diagram stroke by stroke, as the file."""
-    notation, note, size = language.notation, language.note, load.size
-    assert isinstance(size, SizeTable)
-    unit, key = ("N", "force") if isinstance(load, Load) else ("N·m", "couple")
-    path = f"loads[{number}].{key}"
+    notation, note = language.notation, language.note
+    path = f"{load.path}.{load.key}"
     over = _over(problem, load, language)
     if size.over in (Over.PATH, Over.STROKES):
         over += "/H"
@@ -328,19 +347,19 @@ def _rows(problem: Problem, load: Load | Couple, number: int, language: Language
         data[f"{path}.interpolation"] = size.interpolation.value
     steps = size.interpolation is Interpolation.STEP
     template = note.load_steps if steps else note.load_rows
-    units = notation.units[unit]
+    units = notation.units[load.unit]
     return GivenFact(
         template.format(name=load.name, over=over, unit=units, rows=listed(rows)), data
     )
 
 
-def _phase(load: Load | Couple, number: int, language: Language) -> GivenFact:
+def _phase(load: Load | Couple, language: Language) -> GivenFact:
     """Return when a load acts: the phrase after its point of action."""
     phase, note = load.phase, language.note
     if phase is None:
         return GivenFact("")
     data: dict[str, object] = {}
-    phrase, path = "", f"loads[{number}].phases"
+    phrase, path = "", f"{load.path}.phases"
     if phase.phi:
         data[f"{path}.phi"] = [[*pair] for pair in phase.phi]
         pairs = (
