@@ -28,8 +28,6 @@ from doors import (
     Solution,
     cli,
     command_of,
-    problem_loads as loads,
-    verify,
 )
 from matplotlib.figure import Figure
 from worked import PROBLEMS, ROOT
@@ -107,7 +105,8 @@ def test_the_tour_works_from_the_first_command_to_the_last(desk: Path) -> None:
 
 @each("name", [*READMES, *COMMANDS, *PAGES, "CONTRIBUTING.md"])
 def test_every_command_line_parses(name: str) -> None:
-    for command, *rest in planmethod_lines(name):
+    cells = re.findall(r"(?m)^\| [^|]+ \| `planmethod ([a-z]+ [^`]+)` \|", text_of(name))
+    for command, *rest in [*planmethod_lines(name), *map(shlex.split, cells)]:
         command_of(command).make_context(command, rest)
 
 
@@ -212,13 +211,21 @@ def test_printed_examples_are_those_of_today(page: Path) -> None:
 
 
 @pytest.mark.parametrize("name", READMES)
-def test_the_problem_file_of_the_readme_is_solved(name: str) -> None:
+def test_the_example_of_the_readme_prints_what_is_shown(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A line of three dots stands for lines that are not shown."""
     (text,) = blocks(name, "toml")
-    solution = Solution(loads(text, name="readme"))
-    verify(solution)
-    assert len(solution.positions) == 12
-    slower = Solution(loads(text, name="readme", variant="Б"))
-    assert slower.links["1"].omega[0] == pytest.approx(0.75 * solution.links["1"].omega[0])
+    (tmp_path / "crank.toml").write_text(text, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    (session,) = blocks(name, "console")
+    steps = re.findall(r"(?m)^\$ planmethod (.*)\n((?:(?!\$).*\n)+)", session)
+    assert len(steps) == session.count("$ ") == 2
+    for command, shown in steps:
+        run = CliRunner().invoke(cli, shlex.split(command))
+        assert run.exit_code == ExitCode.DONE
+        same = doctest.OutputChecker().check_output(shown, run.output, doctest.ELLIPSIS)
+        assert same, (command, run.output)
 
 
 def code_of(block: str) -> str:
