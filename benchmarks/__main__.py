@@ -1,4 +1,4 @@
-"""Command ``python -m benchmarks``: measure, and write docs/speed-and-error.md."""
+"""Command ``python -m benchmarks``: measure, and write benchmarks/reports/speed-and-error.md."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from planmethod.render.backends.output import write
     "-o",
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
-    default=Path("docs"),
+    default=Path("benchmarks/reports"),
     show_default=True,
     help="Folder for speed-and-error.md and its figure.",
 )
@@ -43,7 +43,7 @@ from planmethod.render.backends.output import write
 def main(
     problems: tuple[Path, ...], out: Path, quick: bool, count: int | None, only: tuple[str, ...]
 ) -> None:
-    """Measure speed and error and write docs/speed-and-error.md.
+    """Measure speed and error and write benchmarks/reports/speed-and-error.md.
 
     The drafting errors are compared for each PROBLEM given. Everything together takes some
     minutes; the peers run when they are installed (pip install -e '.[bench]').

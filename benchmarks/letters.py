@@ -1,7 +1,7 @@
 """Placement of letters on sheets (расстановка букв): distance to their points, and density.
 
-Run ``python -m benchmarks.letters [EVERY]``: it takes every EVERY-th shipped linkage (default: 6),
-in 1 and 12 positions, and prints the lines of docs/paper.md.
+Run ``python -m benchmarks.letters [EVERY]``: it takes every EVERY-th shipped linkage (default: 6 in
+one position, 16 in twelve), and prints the last part of benchmarks/reports/paper.md.
 """
 
 from __future__ import annotations
@@ -20,6 +20,17 @@ from planmethod.render.control.texts import (
 )
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.legibility import SIDE, densest
+
+INTRODUCTION = """
+## Letters
+
+Measured by `python -m benchmarks.letters`. A letter is nearest to its own point if no other
+lettered point of its view is closer; most of the other letters have a leader line. Density counts
+the letters of points in the box of the view.
+"""
+
+EVERY = {1: 6, 12: 16}
+"""Step through the shipped linkages, by number of positions."""
 
 PROBLEMS = Path(__file__).parent.parent / "problems"
 
@@ -60,5 +71,6 @@ def measured(every: int, count: int) -> str:
 
 
 if __name__ == "__main__":
-    for number in (1, 12):
-        print(measured(int(sys.argv[1]) if len(sys.argv) > 1 else 6, number))
+    print(INTRODUCTION)
+    for number, every in EVERY.items():
+        print(measured(int(sys.argv[1]) if len(sys.argv) > 1 else every, number))

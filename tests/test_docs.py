@@ -42,6 +42,7 @@ DOCUMENTS = sorted(
     [
         *ROOT.glob("*.md"),
         *(ROOT / "docs").rglob("*.md"),
+        *(ROOT / "benchmarks" / "reports").glob("*.md"),
         ROOT / "out" / "README.md",
     ]
 )

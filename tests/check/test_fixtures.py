@@ -1,4 +1,4 @@
-"""The table of cases in docs/checking.md, each row put through the reader and the checking."""
+"""The table of cases in cases.md, each row put through the reader and the checking."""
 
 from __future__ import annotations
 
@@ -44,10 +44,10 @@ class Case:
 
 
 def cases() -> list[Case]:
-    text = (ROOT / "docs" / "checking.md").read_text("utf-8")
+    text = Path(__file__).with_name("cases.md").read_text("utf-8")
     _, _, below = text.partition(HEAD)
     rows = re.match(r"\n\|[-|: ]+\|\n((?:\|.*\|\n)+)", below)
-    assert rows, "docs/checking.md has no table of cases"
+    assert rows, "cases.md has no table of cases"
     return [Case(*(c.strip() for c in row.split("|")[1:-1])) for row in rows[1].splitlines()]
 
 
