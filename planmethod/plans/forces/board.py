@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from copy import copy
 from itertools import count
 
@@ -20,12 +20,9 @@ from planmethod.plans.forces.polygons import (
     CoupleOn,
     Edge,
     ForcePlan,
-    LoadKind,
     Moments,
     Shift,
     as_known,
-    free_letter,
-    numbers_of,
     reaction_edge,
     reaction_symbol,
 )
@@ -63,11 +60,15 @@ class Force(Struct, frozen=True):
 
 
 class GivenLoad(Struct, frozen=True):
-    """Load that does not come from a joint, as the plan has it; a force or a couple."""
+    """Load that does not come from a joint, as the plan has it; a force or a couple.
+
+    ``letters`` are those of the numbers that it is computed from, in rich text.
+    """
 
     applied: Applied
     force: Force | None
     couple: NumberName | None
+    letters: Mapping[NumberName, str] = {}
 
 
 class Reaction(Struct, frozen=True):
@@ -118,9 +119,8 @@ class ForceBoard:
         self.loose: list[PointName] = []
         self.arms: dict[tuple[PointName, PointName, NumberName], NumberName] = {}
         self.changing: list[tuple[str, tuple[NumberName, ...]]] = []
-        self._masses: dict[str, NumberName] = {}
         self._moments: dict[tuple[PointName, PointName, Ends], NumberName] = {}
-        self._gravity: NumberName | None = None
+        self._data: dict[str, NumberName] = {}
         self._counted = count(1)
         self.segments = Segments(draft.b, draft.b.known(SCALE), PREFIX)
         self.accelerations = kinematics.acceleration.segments.on(draft.b)
@@ -151,105 +151,18 @@ class ForceBoard:
         self.data[name] = value
         return name
 
+    def datum(self, letter: str, hint: str, value: Number) -> NumberName:
+        """Take a number of the data as known, once, by its letter in rich text, ``m_{2}``."""
+        if letter not in self._data:
+            self._data[letter] = self.known(hint, value)
+        return self._data[letter]
+
     def start(self) -> PointName:
         """Put down the first point of a force plan."""
         point = self.draft.b.take_point(self.name("o"))
         self.data[point] = 0j
         self.starts.append(point)
         return point
-
-    # Loads -----------------------------------------------------------------------------------
-
-    def load(self, applied: Iterable[Applied], single: Mapping[str, Applied]) -> None:
-        """Lay off the loads on the links other than the reactions.
-
-        ``single`` are the couples of inertia, by link, that the shifted force includes.
-        """
-        for one in applied:
-            if one is single.get(one.link):
-                continue
-            if one.point is None:
-                couple = self._couple(one)
-                self.couples.setdefault(one.link, []).append(couple)
-                self.symbols[couple] = one.name
-                self.given.append(GivenLoad(one, None, couple))
-                continue
-            link, place = self.kinematics.velocity.named[one.point]
-            at = PointName(place)
-            if one.kind is LoadKind.INERTIA:
-                ends = self._inertia(one, (link, place))
-                if one.link in single:
-                    at = self._shifted(single[one.link], (link, place), ends)
-            else:
-                ends = self._lay_off_load(one)
-            force = Force(at, *ends, one.name)
-            self.forces.setdefault(one.link, []).append(force)
-            self.given.append(GivenLoad(one, force, None))
-
-    def _couple(self, one: Applied) -> NumberName:
-        if one.kind is LoadKind.INERTIA_COUPLE and one.link in self.kinematics.epsilon:
-            assert self.dynamics is not None
-            inertia = self.known("J", self.dynamics.masses[one.link].inertia)
-            turning = self.kinematics.epsilon[one.link]
-            return self.draft.b.compute(self.name("M"), (inertia, 1), (turning, 1), factor=-1.0)
-        (size,) = numbers_of(one)
-        couple = self.known("M", size)
-        if one.steady is None:
-            self.changing.append((one.name, (couple,)))
-        return couple
-
-    def _mass(self, link: str) -> NumberName:
-        assert self.dynamics is not None
-        if link not in self._masses:
-            self._masses[link] = self.known("m", self.dynamics.masses[link].mass)
-        return self._masses[link]
-
-    def _inertia(self, one: Applied, at: tuple[str, str]) -> Ends:
-        """Transfer the acceleration of the centre of mass, reversed: Φ = -m·a."""
-        motion, b, mass = self.kinematics.acceleration, self.draft.b, self._mass(one.link)
-        ends = (motion.pole, motion.point[at])
-        powers = ((mass, 1), (self.accelerations.scale, 1), (self.scale, -1))
-        times = b.compute(self.name("k"), *powers, factor=-1.0)
-        length = self.accelerations.length(*ends)
-        head = b.carry(self.name("F"), self.pole, *ends, length, times=times)
-        acceleration = self.accelerations.value(*ends, f"a_{one.point}")
-        product = ((mass, 1), (acceleration, 1))
-        size = self.segments.compute(symbol_letters(one.name), *product, size=True)
-        self.segments.values[self.pole, head] = size
-        drawn = b.compute(self.name("l"), (size, 1), (self.scale, -1))
-        self.segments.lengths[self.pole, head] = drawn
-        return self.pole, head
-
-    def _shifted(self, couple: Applied, at: tuple[str, str], force: Ends) -> PointName:
-        """Lay h = M_Φ/Φ off from the centre of mass, across its acceleration, and note the end."""
-        motion, b, centre = self.kinematics.acceleration, self.draft.b, PointName(at[1])
-        moment = self._couple(couple)
-        over = ((self.segments.values[force], -1), (self.draft.mu_l, -1))
-        length = b.compute(self.name("h"), (moment, 1), *over)
-        # Φ is against the acceleration: to the left of that it turns as a positive M_Φ does.
-        across = b.perpendicular(centre, b.join(motion.pole, motion.point[at]))
-        end = b.lay_off_length(self.name("T"), centre, across, length)
-        letter = free_letter("T", couple.link, self.draft.problem)
-        self.shifts[couple.link] = Shift(letter, couple, moment, centre, end, length)
-        return end
-
-    def _lay_off_load(self, one: Applied) -> Ends:
-        turned, size = numbers_of(one)
-        angle = self.known("angle", turned)
-        weighs = one.kind is LoadKind.WEIGHT
-        newtons = self._weight(one) if weighs else self.known("F", size)
-        if one.steady is None:
-            self.changing.append((one.name, (angle, newtons)))
-        line = self.draft.b.at_angle(self.pole, None, angle)
-        return self.pole, self.segments.lay_off_vector(self.name("F"), self.pole, line, newtons)
-
-    def _weight(self, one: Applied) -> NumberName:
-        """Compute a weight: G = m·g."""
-        assert self.dynamics is not None
-        if self._gravity is None:
-            self._gravity = self.known("g", self.dynamics.gravity)
-        powers = ((self._mass(one.link), 1), (self._gravity, 1))
-        return self.segments.compute(symbol_letters(one.name), *powers)
 
     # Plans -----------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import Enum
 
 import numpy as np
@@ -92,6 +93,8 @@ class Shift(Struct, frozen=True):
         Centre of mass and T on the position plan.
     length : NumberName
         h, mm of the position plan: positive to the left of the acceleration.
+    letters : mapping of NumberName to str
+        Letters of the numbers that the couple is computed from, in rich text.
     """
 
     letter: str
@@ -100,6 +103,7 @@ class Shift(Struct, frozen=True):
     centre: PointName
     at: PointName
     length: NumberName
+    letters: Mapping[NumberName, str]
 
     @property
     def link(self) -> str:

@@ -22,6 +22,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft, cis
 from planmethod.plans.forces.board import SCALE, Force, ForceBoard, Reaction
 from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
+from planmethod.plans.forces.laws import lay_off_loads
 from planmethod.plans.forces.lever import Lever, Thrust, close_thrust, find_thrust, plan_lever
 from planmethod.plans.forces.polygons import Applied, ForcePlan, numbers_of
 from planmethod.plans.model import FACTS, PlanKind
@@ -338,7 +339,7 @@ def plan_forces(
     """
     start = len(draft.b.steps)
     board = ForceBoard(draft, solution.construction.kinematics, _dynamics(solution))
-    board.load(loads, single)
+    lay_off_loads(board, loads, single)
     thrust = None
     if solution.problem.drive.actuator is not None:
         thrust = find_thrust(board, solution.structure.groups, hung=hung)

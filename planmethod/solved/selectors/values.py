@@ -291,7 +291,7 @@ class ForceValues:
             elif of.kind is LOADS[kind] and of.link == name:
                 return given
         shift = self.statics.board.shifts.get(name) if kind == "inertia couple" else None
-        return None if shift is None else GivenLoad(shift.moment, None, shift.couple)
+        return None if shift is None else GivenLoad(shift.moment, None, shift.couple, shift.letters)
 
 
 def _both(motion: Reading, forces: Reading) -> Reading:

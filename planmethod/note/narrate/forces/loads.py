@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from msgspec.structs import replace
@@ -254,7 +254,7 @@ class LoadNarrator:
         lines, index, board = [], self.reading.index, self.reading.statics.board
         for load in board.given:
             one = load.applied
-            if one.kind is LoadKind.EXTERNAL or not (one.force[index] or one.couple[index]):
+            if not load.letters or not (one.force[index] or one.couple[index]):
                 continue
             lines.append(self.formula(load))
             shift = board.shifts.get(one.link) if one.kind is LoadKind.INERTIA else None
@@ -267,7 +267,7 @@ class LoadNarrator:
         segments, couple = self.reading.statics.board.segments, load.couple
         made = segments.known(load.force.ends) if load.force is not None else couple
         assert made is not None
-        return self._product(load.applied, made)
+        return self._product(load.applied, made, load.letters)
 
     def shifted(self, force: GivenLoad, shift: Shift) -> list[str]:
         """Return the couple that a shifted force of inertia replaces, and the shift."""
@@ -281,22 +281,17 @@ class LoadNarrator:
             self.computed(abs(metres)),
         )
         text = f"{letters} = {numbers} = {found} {self.units['m']}"
-        return [self._product(shift.moment, shift.couple), text]
+        return [self._product(shift.moment, shift.couple, shift.letters), text]
 
-    def _product(self, one: Applied, number: NumberName) -> str:
-        dynamics = self.context.solution.problem.dynamics
-        assert dynamics is not None
-        mass, inertia = f"m_{{{one.link}}}", f"J_{{S{one.link}}}"
-        letters = {
-            LoadKind.WEIGHT: f"{mass}·g",
-            LoadKind.INERTIA: f"{mass}·a_{{{dynamics.masses[one.link].centre}}}",
-            LoadKind.INERTIA_COUPLE: f"{inertia}·ε_{{{one.link}}}",
-        }[one.kind]
+    def _product(self, one: Applied, number: NumberName, known: Mapping[NumberName, str]) -> str:
+        """Return a load with the letters and the numbers of the step that computes it."""
         step = self.context.step[number]
         assert isinstance(step, Compute)
+        letters = (known[name] for name, _ in step.powers)
         factors = (self.short(abs(self.reading.read_number(name))) for name, _ in step.powers)
         unit, size = self.units["N" if one.point else "N·m"], self.reading.read_number(number)
-        return f"{one.name} = {letters} = {'·'.join(factors)} = {self.computed(abs(size))} {unit}"
+        told = f"{'·'.join(letters)} = {'·'.join(factors)}"
+        return f"{one.name} = {told} = {self.computed(abs(size))} {unit}"
 
     # Sentences -------------------------------------------------------------------------------
 
