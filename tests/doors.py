@@ -417,6 +417,8 @@ from planmethod.moving.sheet import (
 )
 from planmethod.moving.text import moment, record as moving_record_record, textbook
 from planmethod.note import document
+from planmethod.note.accounts.machine import MachineAccount, machine_narrator
+from planmethod.note.accounts.voice import STEPS
 from planmethod.note.audit import (
     AuditDocument,
     Audited,
@@ -543,7 +545,6 @@ from planmethod.note.series import lever_beside_plans
 from planmethod.note.tables.causes import ErrorCauses
 from planmethod.note.tables.cycle import cycle_columns, cycle_steps, cycle_tables
 from planmethod.note.tables.forces import driven_by, forces_columns, friction_narrator
-from planmethod.note.tables.machine import machine_narrator
 from planmethod.note.tables.referee import examine_results, referee_document, referee_record
 from planmethod.note.tables.results import results_document
 from planmethod.note.wording import (

@@ -469,6 +469,11 @@ def steps_of(sentences: Iterable[Rich]) -> Iterator[Step]:
         yield Step((sentence,))
 
 
+def closed(lines: Sequence[Rich]) -> list[Rich]:
+    """Return the parts of a list with semicolons between them and a full stop at the end."""
+    return [*(f"{line};" for line in lines[:-1]), *(f"{line}." for line in lines[-1:])]
+
+
 NO_BREAK = "\N{NO-BREAK SPACE}"
 """Space at which a line is not cut; the finished text has plain spaces."""
 

@@ -19,12 +19,12 @@ from planmethod.note.document import (
     Part,
     Step,
     Title,
+    closed,
     input_text,
     step_of,
     steps_of,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.narrate.forces.loads import closed
 from planmethod.note.narrate.naming import Names, direction_note, equation_of
 from planmethod.note.narrate.statement import drawn, given_facts as given_facts, given_paragraph
 from planmethod.note.narrate.steps import Narrator
@@ -173,14 +173,13 @@ class _Protocol:
             yield from cycle_tables(solution, language)
             yield from cycle_steps(solution, language)
         if solution.problem.machine is not None:
-            from planmethod.note.tables.machine import machine_steps, machine_tables
+            from planmethod.note.accounts.machine import machine_chapter
 
-            yield from machine_steps(solution, language)
-            yield from machine_tables(solution, language)
+            yield from machine_chapter(solution, language)
         if solution.problem.balancing is not None:
-            from planmethod.note.tables.machine import balancing_tables
+            from planmethod.note.accounts.machine import balancing_results
 
-            yield from balancing_tables(solution, language)
+            yield from balancing_results(solution, language)
 
     # Plans of motion -------------------------------------------------------------------------
 

@@ -447,8 +447,9 @@ def test_the_largest_differences_are_those_of_the_position_that_is_named(name: s
 @pytest.mark.parametrize("name", ["shaper", "engine"])
 def test_the_error_of_the_flywheel_is_the_drawn_value_less_the_exact_one(name: str) -> None:
     said = " ".join(texts(note_of(name))).replace(",", ".").replace("−", "-").replace("\u00a0", " ")
-    exact = re.search(r": J_{м} = ([\d.]+) кг·м\^\{2\}. Значение. найденное построением. "
-                      r"отличается от него на ([-+\d.]+) %", said)  # fmt: skip
+    exact = re.search(
+        r": J_{м} = ([\d.]+) кг·м\^\{2\}; построение отличается от него на ([-+\d.]+) %", said
+    )
     drawn = re.search(r"нужен маховик с моментом инерции J_{м} = ([\d.]+) кг", said)
     assert exact is not None and drawn is not None
     off = 100.0 * (float(drawn[1]) / float(exact[1]) - 1.0)

@@ -11,6 +11,7 @@ from click.testing import CliRunner
 from doors import (
     DRAFTING_PROFILES as PROFILES,
     NEAREST_POLE,
+    STEPS,
     TALLEST,
     Arc,
     BlockOptions,
@@ -22,6 +23,7 @@ from doors import (
     Fill,
     Flywheel,
     FlywheelMethod,
+    MachineAccount,
     MachineNarrator,
     Pen,
     Sizes,
@@ -118,7 +120,9 @@ def test_by_mertsalov_the_sheet_has_three_curves_of_energy_and_their_segment(
     tell = MachineNarrator(drawing, get_language(lang))
     sheet = [item.text for item in drawn.items if isinstance(item, Text)]
     heads = [head for head, _, _ in tell.columns()]
-    for told in (sheet, heads, [*tell.formulas(), *tell.conclusions()], tell.steps()):
+    account = MachineAccount(tell, STEPS)
+    told_of = (map(repr, nodes) for nodes in (account.calculation(), account.chapter()))
+    for told in (sheet, heads, *told_of):
         text = " ".join(told)
         assert "II" in text
         assert not [word for word in OF_TANGENTS if word in text], text

@@ -19,9 +19,9 @@ from planmethod.note.narrate.statement import angle_with_positions, given_facts,
 from planmethod.note.numbers import format_column, half_up
 from planmethod.note.series import compared_flywheel, compared_segment
 from planmethod.note.wording import Language, MessageTable
-from planmethod.problem.machine_records import ConstantMoment, Quadrature, WeightSigns
+from planmethod.problem.machine_records import ConstantMoment, WeightSigns
 from planmethod.problem.model import Convention
-from planmethod.solved.machine.drawing import FlywheelDrawing, split
+from planmethod.solved.machine.drawing import FlywheelDrawing
 from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme, machine_power
 from planmethod.solved.machine.runup import (
     MAX_CYCLES,
@@ -128,42 +128,9 @@ class MachineNarrator:
 
     # Construction ----------------------------------------------------------------------------
 
-    def by_method(self, key: str, **places: str) -> str:
+    def by_method(self, key: str, **places: object) -> str:
         """Return what a key of the catalogue says of the file's method."""
         return str(self.texts[key][self.flywheel.machine.method.value]).format(**places)
-
-    def steps(self) -> list[str]:
-        """Return the sentences of the construction, in order."""
-        drawing, machine, mm = self.drawing, self.flywheel.machine, self.unit("mm")
-        scales, (top, bottom) = drawing.scales, self.tangent_positions
-        middle = machine.ordinates is Quadrature.MIDDLE
-        constant = float(drawing.points.work[-1]) / self.flywheel.cycle
-        places = {
-            "M": self.moment,
-            "A": self.work,
-            "J": self.letter("reduced inertia"),
-            "A_const": self.letter(f"{self.keeps} work"),
-            "M_const": self.letter(f"{self.keeps} moment"),
-            "count": drawing.count,
-            "mu_M": self.scale("M", scales.moment, "N·m"),
-            "mu_A": self.scale("A", scales.work, "J"),
-            "mu_J": self.scale("J", scales.inertia, "kg·m²"),
-            "pole": f"{self.notation.as_input(half_up(drawing.pole, 2))} {mm}",
-            "way": self.texts.by_middle if middle else self.texts.by_trapezoid,
-            "constant": f"{self.notation.computed(constant)} {self.unit('N·m')}",
-            "psi_max": self._angle(drawing.psi[0]),
-            "psi_min": self._angle(drawing.psi[1]),
-            "top": top,
-            "bottom": bottom,
-            "segment": f"{self.notation.measured(self.segment.read)} {mm}",
-            "T_II": self.letter("second energy"),
-            "T_I": self.letter("first energy"),
-        }
-        if drawing.by_mertsalov:
-            places["ordinate"] = self.sought_formulas()[1]
-        said = self.texts["steps"]
-        sentences = (*said["all"], *said[machine.method.value])
-        return [sentence.format(**places) for sentence in sentences]
 
     @property
     def tangent_positions(self) -> tuple[int, int]:
@@ -239,26 +206,17 @@ class MachineNarrator:
             f"{first} = {self.letter('energy gain')} − {second}",
         ]
 
-    def formulas(self) -> list[str]:
-        """Return scales, angles or energies and the flywheel by the construction, with numbers."""
-        drawing, notation, made = self.drawing, self.notation, self.drawing.construction
-        lines = [*self.scale_formulas(), *self.sought_formulas()]
-        exact = self.segment.exact
-        text = f"{made.segment} = {notation.measured(self.segment.read)} {self.unit('mm')}"
-        lines.append(self.texts.read.format(text=text, exact=notation.number(f"{exact:.2f}")))
-        if drawing.by_mertsalov:
-            lines.append(self.largest_change())
-        lines.append(
-            self.texts.construction.format(
-                symbol=self.letter("flywheel"),
-                segment=made.segment,
-                omega=self.letter("mean speed"),
-                value=notation.number(self.inertia.read_text),
-                sigma=notation.short(self.inertia.sigma, 2),
-                unit=self.unit("kg·m²"),
-            )
+    def inertia_formula(self) -> str:
+        """Return the flywheel by the construction, with numbers."""
+        notation, segment = self.notation, self.drawing.construction.segment
+        speed = notation.computed(self.flywheel.middle_speed)
+        letters = formula.fraction(f"μ_{{T}}·{segment}", f"{self.letter('mean speed')}^{{2}}·δ")
+        numbers = formula.fraction(
+            f"{notation.computed(self.drawing.scales.work)}·{notation.measured(self.segment.read)}",
+            f"{speed}^{{2}}·{notation.as_input(self.flywheel.machine.delta)}",
         )
-        return lines
+        value = f"{notation.computed(self.inertia.read)} {self.unit('kg·m²')}"
+        return f"{self.letter('flywheel')} = {letters} = {numbers} = {value}"
 
     @cached_property
     def inertia(self) -> ComparedNumber:
@@ -270,48 +228,6 @@ class MachineNarrator:
         value = self.notation.computed(self.drawing.scales.work * self.segment.read)
         symbol = self.letter("largest first energy")
         return f"{symbol} = μ_{{T}}·{self.drawing.construction.segment} = {value} {self.unit('J')}"
-
-    def conclusions(self) -> list[str]:
-        """Return the exact flywheel, what the construction is off by, and the check."""
-        flywheel, notation, texts = self.flywheel, self.notation, self.texts
-        one, unit = self.inertia, self.unit("kg·m²")
-        delta = notation.number(f"{flywheel.delta_reached:.6f}")
-        if one.exact <= 0.0:
-            return [texts.not_needed.format(delta=delta)]
-        letters = {
-            "symbol": self.letter("flywheel"),
-            "omega": self.letter("mean speed"),
-            "T_II": self.letter("second energy"),
-            "T_I": self.letter("first energy"),
-        }
-        exact = notation.number(one.exact_text)
-        lines = [self.by_method("exact", value=exact, unit=unit, **letters)]
-        parts = split(self.drawing)
-
-        def percent(value: float) -> str:
-            return notation.number(one.part_text(value, 2))
-
-        if self.drawing.by_mertsalov:
-            told = [texts.method.format(value=percent(parts.method), **letters)]
-        else:
-            told = [texts.slopes.format(value=percent(parts.slopes))]
-        told.append(
-            texts.positions.format(count=self.drawing.count, value=percent(parts.positions))
-        )
-        told.append(texts.pencil.format(value=percent(parts.pencil)))
-        lines.append(texts.parts.format(whole=percent(one.off), parts="; ".join(told)))
-        high, low = flywheel.integrated
-        per_second = self.unit("1/s")
-        lines.append(
-            texts.reached.format(
-                delta=delta,
-                high=f"{notation.computed(high.value)} {per_second}",
-                low=f"{notation.computed(low.value)} {per_second}",
-                at_high=self.speed_extreme(high),
-                at_low=self.speed_extreme(low),
-            )
-        )
-        return lines
 
     def power_formulas(self) -> list[str]:
         """Return the mean power over the cycle, and that of the motor, with numbers."""
@@ -336,13 +252,13 @@ class MachineNarrator:
         )
         return lines
 
-    def motor_choice(self) -> list[str]:
+    def motor_choice(self) -> str:
         """Return the motor of the series that has the power; empty where none is sought."""
         rated = machine_power(self.flywheel).rated
         if rated is None:
-            return []
+            return ""
         power = f"{self.notation.as_input(rated / 1000.0)} {self.unit('kW')}"
-        return [self.texts.motor_chosen.format(power=power)]
+        return self.texts.motor_chosen.format(power=power)
 
     def speed_extreme(self, extreme: SpeedExtreme) -> str:
         """Return the angle of the crank of an extreme speed."""
@@ -474,10 +390,14 @@ class MachineNarrator:
         lines.append(f"m = {notation.computed(sizes.mass)} {self.unit('kg')}")
         lines.append(f"v = {notation.computed(sizes.speed)} {self.unit('m/s')}")
         if sizes.is_speed_limited:
-            speed = notation.as_input(self.flywheel.machine.wheel.greatest_speed)
-            limit = f"{speed} {self.unit('m/s')}"
-            lines.append(self.texts.held.format(speed=limit))
+            lines.append(self.held)
         return lines
+
+    @property
+    def held(self) -> str:
+        """What limits the diameter: the permissible speed of the rim."""
+        speed = self.notation.as_input(self.flywheel.machine.wheel.greatest_speed)
+        return self.texts.held.format(speed=f"{speed} {self.unit('m/s')}")
 
 
 ROWS = 13

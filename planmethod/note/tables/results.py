@@ -106,13 +106,13 @@ def further_tables(solution: Solution, language: Language) -> Iterator[Node]:
 
         yield from cycle_tables(solution, language)
     if solution.problem.machine is not None:
-        from planmethod.note.tables.machine import machine_tables
+        from planmethod.note.accounts.machine import machine_results
 
-        yield from machine_tables(solution, language)
+        yield from machine_results(solution, language)
     if solution.problem.balancing is not None:
-        from planmethod.note.tables.machine import balancing_tables
+        from planmethod.note.accounts.machine import balancing_results
 
-        yield from balancing_tables(solution, language)
+        yield from balancing_results(solution, language)
 
 
 def _causes(solution: Solution, note: MessageTable, index: int) -> Iterator[Node]:

@@ -11,9 +11,10 @@ from msgspec import Struct
 
 from planmethod.construct.steps import Compute, NumberName
 from planmethod.mechanism.structure import LinkKind, kind_of_motion
+from planmethod.note.accounts.voice import sentences
 from planmethod.note.compared import DRAWN
-from planmethod.note.document import Figure, Formula, Item, Node, Paragraph, input_text, plain_text
-from planmethod.note.formula import Rich, escape, inlined
+from planmethod.note.document import Figure, Item, Node, Paragraph, input_text, plain_text
+from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.naming import Formulas, Names, scale_inscription
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.numbers import Notation, with_unit
@@ -32,14 +33,6 @@ from planmethod.solved.forces.statics import JointForce
 from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
-
-_POINTS = re.compile(r"(?<![_{\w\\])(?=[A-Z]+\d)(?:[A-Z]\d*)++(?![\w}])")
-"""Names of points with numbers, outside an index."""
-
-
-def lettered(text: Rich) -> Rich:
-    """Return rich text in which the number of a point is an index: ``O1A`` gives ``O_{1}A``."""
-    return _POINTS.sub(lambda found: re.sub(r"\d+", r"_{\g<0>}", found[0]), text)
 
 
 class NoteFormulas(Formulas):
@@ -253,17 +246,6 @@ class Report:
         return str(roles[kind.role.value])
 
 
-def displayed(text: Rich, key: str = "") -> Formula:
-    """Return a formula with a number."""
-    return Formula(text, numbered=True, key=key)
-
-
-def chain(lines: Iterable[Rich]) -> list[Formula]:
-    """Return formulas one after another: semicolons between them, a full stop at the end."""
-    texts = list(lines)
-    return [Formula(f"{text}{'.' if k == len(texts) else ';'}") for k, text in enumerate(texts, 1)]
-
-
 def items(texts: Iterable[Rich]) -> list[Item | Paragraph]:
     """Return the entries of a numbered list; one alone as a sentence."""
     told = list(texts)
@@ -272,12 +254,6 @@ def items(texts: Iterable[Rich]) -> list[Item | Paragraph]:
     return [
         Item(f"{text}{'.' if k == len(told) else ';'}", f"{k})") for k, text in enumerate(told, 1)
     ]
-
-
-def sentences(*texts: Rich) -> Paragraph:
-    """Return a paragraph of the non-empty sentences."""
-    # In a line of text a built-up fraction would push the lines apart.
-    return Paragraph(lettered(" ".join(inlined(text) for text in texts if text)))
 
 
 PictureDrawer: TypeAlias = Callable[[float], Block]

@@ -10,6 +10,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.construct.steps import Name
+from planmethod.note.accounts.voice import chain, displayed, sentences
 from planmethod.note.compared import percent_text, sigma_text
 from planmethod.note.document import Chapter, Equations, Node, Part, Table, table_of_columns
 from planmethod.note.formula import Rich, fraction
@@ -35,7 +36,7 @@ from planmethod.note.wording import MessageTable
 from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.polygons import ForcePlan, LoadKind, Moments
 from planmethod.plans.model import PlanKind
-from planmethod.project.report.context import Report, chain, displayed, figure, sentences
+from planmethod.project.report.context import Report, figure
 from planmethod.project.report.position import has_turn
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.friction import friction_picture

@@ -9,6 +9,7 @@ from typing import assert_never
 from planmethod.gears.involute.geometry import MeshingProblem
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
+from planmethod.note.accounts.voice import lettered, sentences
 from planmethod.note.document import Contents, Node, PageBreak, StructuralHeading, Table, TitlePage
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.forces.loads import (
@@ -33,7 +34,7 @@ from planmethod.problem.records import (
     largest_size,
 )
 from planmethod.project.parts import PartName
-from planmethod.project.report.context import NBSP, Report, figure, items, lettered, sentences
+from planmethod.project.report.context import NBSP, Report, figure, items
 from planmethod.project.settle import meshed
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.forces.reading import force_reading

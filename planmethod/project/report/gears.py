@@ -30,21 +30,14 @@ from planmethod.gears.sheet import as_drawn, draw_views
 from planmethod.gears.sheet_texts import indexed, measured_quantities, ratios, results, train_facts
 from planmethod.gears.solution import answer, conditions, judgement, sentence
 from planmethod.gears.text import compared_sentences, compared_table, equation_of, fraction_text
+from planmethod.note.accounts.voice import chain, displayed, sentences
 from planmethod.note.document import Caption, Chapter, Item, Node, Paragraph, Part, Table
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import MessageTable
 from planmethod.project.parts import PartName
-from planmethod.project.report.context import (
-    Report,
-    chain,
-    displayed,
-    figure,
-    items,
-    sentences,
-    without_heading,
-)
+from planmethod.project.report.context import Report, figure, items, without_heading
 from planmethod.project.settle import meshed, output_of
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes

@@ -17,6 +17,8 @@ from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
 from planmethod.note import document
+from planmethod.note.accounts.machine import MachineAccount
+from planmethod.note.accounts.voice import NOTE, sentences
 from planmethod.note.compared import ComparedNumber, Series, percent_text
 from planmethod.note.document import (
     Document,
@@ -40,7 +42,7 @@ from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.build import MOTION_KINDS, QuantityKind, kinds_on
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.project.parts import PartName
-from planmethod.project.report.context import NBSP, Report, sentences
+from planmethod.project.report.context import NBSP, Report
 from planmethod.project.report.flywheel import balancing_chapter, flywheel_chapter, machine_of
 from planmethod.project.report.forces import ForceChapter, largest_reactions
 from planmethod.project.report.front import front
@@ -292,9 +294,9 @@ def _forces(report: Report, texts: MessageTable) -> Iterator[Rich]:
 
 def _flywheel(report: Report, texts: MessageTable) -> Iterator[Rich]:
     narrator, notation = machine_of(report), report.notation
-    flywheel, sizes, inertia = narrator.flywheel, narrator.sizes, narrator.inertia
+    sizes, inertia = narrator.sizes, narrator.inertia
     if inertia.exact <= 0.0 or sizes is None:
-        yield texts.no_flywheel.format(delta=notation.number(f"{flywheel.delta_reached:.4f}"))
+        yield MachineAccount(narrator, NOTE).not_needed
         return
     main = texts.flywheel.format(
         delta=narrator.delta,

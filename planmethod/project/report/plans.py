@@ -12,6 +12,7 @@ from functools import partial
 from planmethod.construct import steps
 from planmethod.construct.steps import Compute, LineName, PointName, Step
 from planmethod.mechanism.model import FRAME
+from planmethod.note.accounts.voice import chain, displayed, lettered, sentences
 from planmethod.note.document import Equations, Formula, Node, Paragraph, Part, input_text
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.naming import (
@@ -24,7 +25,7 @@ from planmethod.note.wording import MessageTable
 from planmethod.plans.build import Section
 from planmethod.plans.model import RATES, DimensionKind, PlanKind, Relation
 from planmethod.plans.motion.legs import Relative
-from planmethod.project.report.context import Report, chain, displayed, figure, lettered, sentences
+from planmethod.project.report.context import Report, figure
 from planmethod.render.layout.block import Block
 from planmethod.render.pictures.planview import detail_pictures, plan_picture
 

@@ -8,6 +8,7 @@ from math import degrees
 
 from planmethod.construct.steps import AtAngle, Step
 from planmethod.mechanism.model import FRAME
+from planmethod.note.accounts.voice import chain, displayed, lettered, sentences
 from planmethod.note.document import Chapter, Node, Part, Table, input_text
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.cycle import (
@@ -29,7 +30,7 @@ from planmethod.note.tables.cycle import (
 from planmethod.note.wording import MessageTable
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.problem.machine_records import GraphQuantity, Zero
-from planmethod.project.report.context import Report, chain, displayed, figure, lettered, sentences
+from planmethod.project.report.context import Report, figure
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.pictures.seriesview import series_picture

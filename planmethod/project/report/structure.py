@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import PairKind, pairs, roman, stated_pairs
+from planmethod.note.accounts.voice import displayed, lettered, sentences
 from planmethod.note.document import Chapter, Node, Part
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.structure import (
@@ -23,15 +24,7 @@ from planmethod.note.narrate.structure import (
     spatial_sum,
 )
 from planmethod.note.wording import MessageTable
-from planmethod.project.report.context import (
-    NBSP,
-    Report,
-    displayed,
-    figure,
-    items,
-    lettered,
-    sentences,
-)
+from planmethod.project.report.context import NBSP, Report, figure, items
 from planmethod.render.pictures.structural import Mobile, mechanism_picture
 from planmethod.solved.aligned.schemes import self_aligning
 

@@ -10,6 +10,8 @@ import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.errors import LayoutError
+from planmethod.note.accounts.machine import MachineAccount
+from planmethod.note.accounts.voice import SHEET
 from planmethod.note.document import Caption, Formula, Paragraph
 from planmethod.note.narrate.balancing import ReductionNarrator
 from planmethod.note.narrate.forces.statement import like_line
@@ -72,12 +74,10 @@ def calculation_block(
     """Return the formulas of the construction, the exact flywheel, and their difference."""
     narrator = _flywheel_narrator(solution, style)
     height, width = style.text(style.sizes.text), style.width(style.sizes.column)
+    told = MachineAccount(narrator, SHEET).calculation()
     nodes: list[TextNode] = [
         Caption(style.entry.title or narrator.texts.calculation),
-        *map(Formula, narrator.formulas()),
-        *map(Paragraph, narrator.conclusions()),
-        *map(Formula, narrator.power_formulas()),
-        *map(Paragraph, narrator.motor_choice()),
+        *(node for node in told if isinstance(node, TextNode)),
     ]
     return Column(list(blocks_of(nodes, height, width=width)), gap=2.5)
 
@@ -118,7 +118,12 @@ def diagrams_view(
             narrator.scale("J", scales.inertia, "kg·m²"),
         )
     )
-    block = named(picture, style.entry.title or narrator.by_method("diagrams"), [text], style)
+    block = named(
+        picture,
+        style.entry.title or MachineAccount(narrator, SHEET).by_method("diagrams"),
+        [text],
+        style,
+    )
     ends = [drawing.exact.point(name)[0] for name in (made.upper, made.lower, made.pole)]
     upper, lower, pole = (complex(end) for end in ends)
     foot = complex(drawing.exact.point(made.axes["M"].origin)[0])
@@ -246,7 +251,7 @@ def machine_table(solution: Solution, position_indices: Sequence[int], style: Bl
     title = style.entry.title or narrator.texts.table
     table = table_block(columns, height, max_width=table_width(style), leading=2, title=title,
                         row_height=max(6.0, 2.0 * height))  # fmt: skip
-    note = narrator.texts.lever_agrees.format(lever=narrator.letter("moment by lever"))
+    note = MachineAccount(narrator, SHEET).lever_agrees.removesuffix(".")
     return Column([table, paragraph(note, height, table.width)], gap=3.0)
 
 
@@ -290,7 +295,9 @@ def wheel_view(solution: Solution, position_indices: Sequence[int], style: Block
     sizes = narrator.sizes
     height = style.text(style.sizes.text)
     if sizes is None:
-        return paragraph(narrator.conclusions()[0], height, style.width(style.sizes.column))
+        return paragraph(
+            MachineAccount(narrator, SHEET).not_needed, height, style.width(style.sizes.column)
+        )
     scale = choose_scale((sizes.diameter, 0.0), (0.3 * style.width(style.sizes.column), 1.0))
     radius, half = sizes.diameter / 2.0 / scale, sizes.width / 2.0 / scale
     bore = sizes.bore / 2.0 / scale or 0.12 * radius

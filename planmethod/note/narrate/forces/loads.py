@@ -16,6 +16,7 @@ from planmethod.note.document import (
     Formula,
     Paragraph,
     Table,
+    closed,
     computed_text,
     input_text,
     table_of_columns,
@@ -175,11 +176,6 @@ def lettered(reading: ForceReading, language: Language) -> ForceContext:
     """Return the shared context of the narrators for a sheet."""
     names = Names(reading.solution, language.note, on_sheet=True)
     return ForceContext(reading, Formulas(reading.solution, names, reading.index))
-
-
-def closed(lines: Sequence[str]) -> list[str]:
-    """Return the parts of a list with semicolons between them and a full stop at the end."""
-    return [*(f"{line};" for line in lines[:-1]), *(f"{line}." for line in lines[-1:])]
 
 
 def arm_symbol(symbol: str) -> str:

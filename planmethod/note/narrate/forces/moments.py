@@ -9,8 +9,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from msgspec import Struct
 
+from planmethod.note.document import closed
 from planmethod.note.formula import fraction
-from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol, closed, signed_sum
+from planmethod.note.narrate.forces.loads import ForceContext, arm_symbol, signed_sum
 from planmethod.note.narrate.naming import point_name
 from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force

@@ -25,6 +25,7 @@ from planmethod.note.document import (
     Node,
     Part,
     Step as DocumentStep,
+    closed,
     step_of,
 )
 from planmethod.note.narrate.forces.lever import LeverNarrator, thrust_lines
@@ -33,7 +34,6 @@ from planmethod.note.narrate.forces.loads import (
     FrictionNarrator,
     LoadNarrator,
     balance_equation,
-    closed,
     undetermined,
 )
 from planmethod.note.narrate.forces.moments import MomentNarrator

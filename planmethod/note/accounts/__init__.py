@@ -1,0 +1,1 @@
+"""Accounts of subjects, from which notes, protocols, results and sheets are made (изложение)."""
