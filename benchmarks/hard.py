@@ -16,9 +16,9 @@ import numpy as np
 
 from planmethod.construct.condition import DIGITS, UNIT_ROUNDOFF
 from planmethod.errors import PlanMethodError
-from planmethod.plans.build import QuantityKind
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.accuracy import AccuracyVerdict, Refereed, examine
 from planmethod.solved.quantities import natural_size
 from planmethod.solved.selfcheck import SelfCheckError, verify, warnings

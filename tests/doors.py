@@ -126,7 +126,7 @@ from planmethod.check.pages.student import (
     student_page,
     student_pdf,
 )
-from planmethod.check.questions import Questions, Sign, name_and_symbol, normalize
+from planmethod.check.questions import Questions, normalize
 from planmethod.check.sheet import Sheet, single_point
 from planmethod.check.simulation import as_written, planted, simulate_submissions
 from planmethod.check.submissions import SubmissionError as SubmissionsSubmissionError, read_works
@@ -583,10 +583,10 @@ from planmethod.plans import build as plans_build, draft
 from planmethod.plans.build import (
     MOTION_KINDS,
     Quantity,
-    QuantityKind,
     add_group,
     begin_positions,
     build as build_build,
+    kinds_on,
     motion_quantities,
 )
 from planmethod.plans.diagrams import (
@@ -635,17 +635,7 @@ from planmethod.problem import (
     template as problem_template,
     variant_names,
 )
-from planmethod.problem.answers import (
-    FORCES,
-    MACHINE,
-    QUANTITIES,
-    Selector,
-    SelectorError,
-    is_force,
-    parse_selector,
-    unknown_names,
-    words_of,
-)
+from planmethod.problem.answers import AnswerScope
 from planmethod.problem.faults import Faults
 from planmethod.problem.file_node import FileNode
 from planmethod.problem.formula import (
@@ -703,6 +693,15 @@ from planmethod.problem.names import (
 from planmethod.problem.parameters import Parameters
 from planmethod.problem.placement import heading as placement_heading, rotation
 from planmethod.problem.plausibility import unlikely
+from planmethod.problem.quantities import (
+    Analysis,
+    QuantityKey,
+    QuantityKind,
+    QuantityNameError,
+    Sign,
+    parse_quantity,
+    parse_words,
+)
 from planmethod.problem.reader import apply_variant, read_parsed, read_variants
 from planmethod.problem.records import (
     TITLE_BLOCK,
@@ -1191,10 +1190,10 @@ from planmethod.solved.quantities import (
     quantities_of,
     transfers_of,
 )
+from planmethod.solved.quantity_steps import NoValue, NoValueError
+from planmethod.solved.quantity_values import QuantityValues
 from planmethod.solved.reading import Complexes, Reading, Reals as ReadingReals, follower_motion
 from planmethod.solved.scaling import AROUND_PLAN, DEAD, FULL, Views, median, sizes, typical
-from planmethod.solved.selectors.steps import NoValue, NoValueError
-from planmethod.solved.selectors.values import ForceValues, SelectorValues
 from planmethod.solved.selfcheck import (
     SelfCheckError,
     changed_branches,

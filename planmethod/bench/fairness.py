@@ -18,7 +18,7 @@ from planmethod.bench.measurements import clock
 from planmethod.check.calculation import Calculation, task_of_problem
 from planmethod.check.checking import check
 from planmethod.check.explain import Explanation
-from planmethod.check.following import QuantityKey, find_routes, quantity_keys_of
+from planmethod.check.following import ArmQuantity, arm_quantities, find_routes
 from planmethod.check.key import Key, key_of_task
 from planmethod.check.marks import DEFAULT, PROFILES
 from planmethod.check.mistakes.plans import Change, MistakeContext, times
@@ -32,11 +32,11 @@ from planmethod.check.model import (
     WrittenAnswer,
 )
 from planmethod.check.pages.files import write_all
-from planmethod.check.questions import Sign
 from planmethod.check.simulation import as_written, planted, simulate_submissions
 from planmethod.check.task import Task, TaskItem
 from planmethod.kind import ProblemKind
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import Sign
 from planmethod.problem.records import KindProblem
 from planmethod.solved.solution import Solution
 
@@ -506,12 +506,8 @@ def by_routes(task: Task, count: int) -> Inherited:
     items = first_items(task)
     key, sheet = key_of_task(task, items), task.sheet(items[0].position)
     exact = {item.id: abs(entry.exact) for item, entry in zip(items, key.entries, strict=True)}
-    of = {
-        item.id: [*quantity_keys_of(sheet, item.question.selector)]
-        for item in items
-        if exact[item.id]
-    }
-    told: dict[QuantityKey, str] = {role: name for name, roles in of.items() for role in roles}
+    of = {item.id: [*arm_quantities(sheet, item.question.key)] for item in items if exact[item.id]}
+    told: dict[ArmQuantity, str] = {role: name for name, roles in of.items() for role in roles}
     works = simulate_submissions(task, None, count, SEED)
     for name, roles in of.items():
         for route in (way for role in roles for way in find_routes(sheet, role, told)):
@@ -620,7 +616,7 @@ def computed_inherited(task: Calculation, count: int) -> Inherited:
     row = Inherited(family_of(task), called(task), "formulas")
     items = first_items(task)
     sheet = task.sheet(items[0].position)
-    names = {item.question.selector.names[0]: item for item in items}
+    names = {item.question.key.names[0]: item for item in items}
     for number, (wrong, item) in enumerate(names.items()):
         for factor in FACTORS:
             own = {name: sheet.exact_answers[one.question.id] for name, one in names.items()}

@@ -19,10 +19,11 @@ from planmethod.construct.condition import Precise, as_scalar
 from planmethod.construct.drafting import PROFILES, Profile, RulerArithmetic
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import AssemblyError
-from planmethod.plans.build import ZERO, Quantity, QuantityKind
+from planmethod.plans.build import ZERO, Quantity
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.machine_records import Differentiation, Quadrature
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT, DrawnKind

@@ -24,7 +24,7 @@ from planmethod.check.grading import (
 )
 from planmethod.check.marks import Settings
 from planmethod.check.model import Diagnosis, Unread, Verdict, WrittenAnswer
-from planmethod.check.questions import Question, Sign, normalize
+from planmethod.check.questions import Question, normalize
 from planmethod.check.sheet import Sheet
 from planmethod.check.submissions.cells import mark_unreadable, ratio
 from planmethod.check.task import Task, TaskItem
@@ -34,7 +34,7 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.kind import ProblemKind
 from planmethod.languages import translate
 from planmethod.plans.model import Plan
-from planmethod.problem.answers import Selector
+from planmethod.problem.quantities import QuantityKey, QuantityKind, Sign
 from planmethod.problem.records import (
     AnswerForm,
     AnswerValue,
@@ -43,12 +43,9 @@ from planmethod.problem.records import (
     QuestionQuantities,
     QuestionSpec,
 )
-from planmethod.solved.selectors.steps import NoValue, NoValueError
+from planmethod.solved.quantity_steps import NoValue, NoValueError
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
-
-READ = "read"
-"""Kind of a value read from a picture."""
 
 COUNTED = 0.3
 """Permitted error of a count: students do not write a half."""
@@ -90,9 +87,9 @@ class CalculationSheet(Sheet):
         return {question.id: float(question.evaluate(_EMPTY_TRACE)) for question in self.requested}
 
     def _drawn(self, question: Question) -> tuple[float, float]:
-        if question.selector.kind != READ:
+        if question.key.kind is not QuantityKind.PICTURED:
             return math.nan, 0.0
-        name = question.selector.names[0]
+        name = question.key.names[0]
         if name not in self._readings:
             read = self.quantities.read_off(name, self.position, self.profile)
             self._readings[name] = read or (math.nan, 0.0)
@@ -282,7 +279,7 @@ class Calculation(Task):
         for code, where, take in self._mistaken():
             values = {}
             for question in sheet.requested:
-                value = take(question.selector.names[0], sheet.position)
+                value = take(question.key.names[0], sheet.position)
                 values[question.id] = sheet.exact_answers[question.id] if value is None else value
             found.append(Explanation(code, where, values, _EMPTY_TRACE, sheet))
         return found
@@ -352,7 +349,7 @@ class Calculation(Task):
                 one.value_from_mm is not None
                 and abs(abs(one.value) - abs(one.value_from_mm)) > slack
             )
-        names = {one.item.question.selector.names[0]: one for one in examined}
+        names = {one.item.question.key.names[0]: one for one in examined}
         own = {name: one.value for name, one in names.items()}
         for name, one in names.items():
             for value, by in self.quantities.derive_values(name, own):
@@ -392,10 +389,10 @@ def _question_of(name: str, quantity: AnswerValue, *, drawn: bool, turns: bool) 
     sign = (
         Sign.SIZE if not quantity.signed else Sign.TURN if turns and quantity.turns else Sign.STRICT
     )
-    kind = READ if drawn else "number"
+    kind = QuantityKind.PICTURED if drawn else QuantityKind.COMPUTED
     value, own = quantity.value, f"{name} read" if drawn else name
     return Question(
-        Selector(kind, (name,)), own, quantity.symbol, quantity.unit, sign, lambda _: value, ()
+        QuantityKey(kind, (name,)), own, quantity.symbol, quantity.unit, sign, lambda _: value, ()
     )
 
 

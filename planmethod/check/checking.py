@@ -29,7 +29,7 @@ from planmethod.check.model import (
     Verdict,
     WrittenAnswer,
 )
-from planmethod.check.questions import Sign, normalize
+from planmethod.check.questions import normalize
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import limit_of
@@ -40,8 +40,9 @@ from planmethod.kinds import kind_of
 from planmethod.languages import translate, visible
 from planmethod.plans.model import FACTS
 from planmethod.problem import variant_names
+from planmethod.problem.quantities import Sign
 from planmethod.problem.records import KindProblem
-from planmethod.solved.selectors.steps import NoValueError
+from planmethod.solved.quantity_steps import NoValueError
 
 SCALED = {facts.scale for facts in FACTS.values() if facts.scale}
 

@@ -38,10 +38,10 @@ from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.plans import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
-from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task
 from planmethod.plans.model import MOTION
+from planmethod.problem.quantities import TURNINGS, Sign
 
 FEW = 1.0
 """Prior number of answers of usual accuracy, before a student counts as accurate."""
@@ -242,7 +242,7 @@ def _scaled(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> Iterato
             for one in examined
             if one.verdict in (Verdict.WRONG, Verdict.INHERITED, Verdict.NEAR)
             and one.item.question.plan is plan
-            and one.item.question.selector.kind not in RATES
+            and one.item.question.key.kind not in TURNINGS
             and one.limit.exact
             and one.value
         ]

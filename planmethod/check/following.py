@@ -15,7 +15,7 @@ from planmethod.check.grading import ExaminedAnswer, distance, usable
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.plans import Change, times
 from planmethod.check.model import Diagnosis, Verdict
-from planmethod.check.questions import RATES, Question, Sign
+from planmethod.check.questions import Question
 from planmethod.check.sheet import Sheet, single_float, single_point
 from planmethod.check.task import Task
 from planmethod.construct.steps import (
@@ -28,7 +28,7 @@ from planmethod.construct.steps import (
     result_kind,
 )
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.answers import Selector
+from planmethod.problem.quantities import TURNINGS, QuantityKey, QuantityKind, Sign
 
 METRES = (1e3, 1e-3)
 DEGREES = (180.0 / math.pi, math.pi / 180.0)
@@ -133,13 +133,17 @@ def slips(sheet: Sheet, one: ExaminedAnswer) -> Iterator[Slip]:
             yield Slip("true_mm", "", base * true, 1.0, base)
 
 
-OPERATIONS = {"omega": ("v", "/"), "epsilon": ("a^{τ}", "/"), "v": ("ω", "·")}
+OPERATIONS = {
+    QuantityKind.OMEGA: ("v", "/"),
+    QuantityKind.EPSILON: ("a^{τ}", "/"),
+    QuantityKind.VELOCITY: ("ω", "·"),
+}
 """Quantity multiplied or divided by an arm: its letter, and the right operation."""
 
 
 def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]]:
     """Yield what one wrong operation with the arm makes of a number: ``v·l ≠ v/l``, factor."""
-    kind = one.item.question.selector.kind
+    kind = one.item.question.key.kind
     name = one.item.question.name
     step = None if name is None else sheet.steps_by_name.get(name)
     if kind not in OPERATIONS or not isinstance(step, Compute) or len(step.powers) < 2:
@@ -147,7 +151,7 @@ def _operations(sheet: Sheet, one: ExaminedAnswer) -> Iterator[tuple[str, float]
     letter, operation = OPERATIONS[kind]
     (first, power), *arm = step.powers
     right = math.prod(abs(single_float(sheet.exact_trace.value[n])) ** p for n, p in arm)
-    if power != 1 or not right or (kind == "v" and not first.startswith("omega")):
+    if power != 1 or not right or (kind is QuantityKind.VELOCITY and not first.startswith("omega")):
         return
     length = right if operation == "·" else 1.0 / right
     value = abs(one.local or one.limit.exact) / right
@@ -281,29 +285,34 @@ def completed(explanation: Explanation, one: ExaminedAnswer) -> Explanation:
     return replace(explanation, values=values, trace=trace)
 
 
-Powers = Mapping[str, int]
+_V, _OMEGA, _NORMAL = QuantityKind.VELOCITY, QuantityKind.OMEGA, QuantityKind.NORMAL
 
-ROUTES: Mapping[str, tuple[Powers, ...]] = {
-    "v": ({"omega": 1}, {"v_q": 1}, {"v'": 1}),  # ω·l, v_q·ω₁; v'·l/l' of two points of a link
-    "omega": ({"v": 1}, {"u": 1}),  # v/l, u·ω₁
-    "an": ({"v": 2}, {"omega": 2}, {"v": 1, "omega": 1}),  # v²/l, ω²·l, v·ω
-    "at": ({"epsilon": 1},),  # ε·l
-    "epsilon": ({"at": 1},),  # a^τ/l
-    "a": ({"a'": 1},),  # a'·l/l'
-    "a=an": ({"v": 2}, {"omega": 2}, {"v": 1, "omega": 1}, {"an": 1}),  # only aⁿ
-    "ak": ({"omega": 1, "vs": 1},),  # 2·ω·v_r
-    "v_q": ({"v": 1},),  # v/ω₁
-    "u": ({"omega": 1},),  # ω/ω₁
+Route = Mapping[QuantityKind, int]
+"""Kinds of the quantities that one is a product of, and their powers."""
+
+FROM_SPEEDS: tuple[Route, ...] = ({_V: 2}, {_OMEGA: 2}, {_V: 1, _OMEGA: 1})  # v²/l, ω²·l, v·ω
+
+ROUTES: Mapping[QuantityKind, tuple[Route, ...]] = {
+    _V: ({_OMEGA: 1}, {QuantityKind.TRANSFER: 1}),  # ω·l, v_q·ω₁
+    _OMEGA: ({_V: 1}, {QuantityKind.RATIO: 1}),  # v/l, u·ω₁
+    _NORMAL: FROM_SPEEDS,
+    QuantityKind.TANGENTIAL: ({QuantityKind.EPSILON: 1},),  # ε·l
+    QuantityKind.EPSILON: ({QuantityKind.TANGENTIAL: 1},),  # a^τ/l
+    QuantityKind.CORIOLIS: ({_OMEGA: 1, QuantityKind.SLIDING: 1},),  # 2·ω·v_r
+    QuantityKind.TRANSFER: ({_V: 1},),  # v/ω₁
+    QuantityKind.RATIO: ({_OMEGA: 1},),  # ω/ω₁
 }
 """Routes to a quantity of an arm, a point of a link that turns about a pivot or two points of one.
 
-A quantity with a prime is that of another arm of the same link. No route leads back: velocities do
-not follow from accelerations.
+No route leads back: velocities do not follow from accelerations.
 """
+
+BY_OTHER_ARM = (_V, QuantityKind.ACCELERATION)
+"""Kinds that follow from that of another arm of the same link: v'·l/l', a'·l/l'."""
 
 Answer = TypeVar("Answer")
 
-QuantityKey = tuple[str, str, tuple[str, ...]]
+ArmQuantity = tuple[QuantityKind, str, tuple[str, ...]]
 """Kind, link, arm; empty arm for a quantity of a link."""
 
 
@@ -315,19 +324,17 @@ def follow_routes(sheet: Sheet, examined: list[ExaminedAnswer], floor: float) ->
     floor : float
         Least share of a computed number that it may be off.
     """
-    keys_of_answers = {
-        id(one): list(quantity_keys_of(sheet, one.item.question.selector)) for one in examined
-    }
-    told: dict[QuantityKey, ExaminedAnswer] = {}
+    of_answers = {id(one): list(arm_quantities(sheet, one.item.question.key)) for one in examined}
+    told: dict[ArmQuantity, ExaminedAnswer] = {}
     for one in examined:
-        for quantity_key in keys_of_answers[id(one)]:
+        for quantity in of_answers[id(one)]:
             if one.limit.exact and one.value and not one.limit.zero:
-                told.setdefault(quantity_key, one)
+                told.setdefault(quantity, one)
     for one in examined:
         if not one.limit.exact or one.follows or (one.right and not one.contradicts):
             continue
-        for quantity_key in keys_of_answers[id(one)]:
-            for powers in find_routes(sheet, quantity_key, told):
+        for quantity in of_answers[id(one)]:
+            for powers in find_routes(sheet, quantity, told):
                 if one.routed or _would_circle(one, powers, examined):
                     continue
                 try_powers(one, powers, floor)
@@ -370,24 +377,25 @@ def _would_circle(
 
 
 def find_routes(
-    sheet: Sheet, quantity_key: QuantityKey, answers: Mapping[QuantityKey, Answer]
+    sheet: Sheet, quantity: ArmQuantity, answers: Mapping[ArmQuantity, Answer]
 ) -> Iterator[list[tuple[Answer, int]]]:
     """Yield the answers with their powers by which a quantity can be computed."""
-    kind, link, arm = quantity_key
-    routes = ROUTES.get(kind, ())
-    if kind == "a" and _all_normal(sheet, link):
-        routes += ROUTES["a=an"]
-    for powers in routes:
+    kind, link, arm = quantity
+    routes = [(route, False) for route in ROUTES.get(kind, ())]
+    routes += [({kind: 1}, True)] if kind in BY_OTHER_ARM else []
+    if kind is QuantityKind.ACCELERATION and _all_normal(sheet, link):
+        routes += [(route, False) for route in (*FROM_SPEEDS, {_NORMAL: 1})]
+    for route, other_arm in routes:
         found: list[list[tuple[Answer, int]]] = [[]]
-        for of, power in powers.items():
+        for base_kind, power in route.items():
             at = [
                 other
-                for (what, at_link, points), other in answers.items()
-                if what == of.rstrip("'")
+                for (kind_of_arm, at_link, points), other in answers.items()
+                if base_kind is kind_of_arm
                 and at_link == link
                 and (
                     len(points) == len(arm) == 1 and points != arm
-                    if of.endswith("'")
+                    if other_arm
                     else points in ((), arm)
                 )
             ]
@@ -403,26 +411,24 @@ def _all_normal(sheet: Sheet, link: str) -> bool:
     )
 
 
-def quantity_keys_of(sheet: Sheet, selector: Selector) -> Iterator[QuantityKey]:
+def arm_quantities(sheet: Sheet, quantity_key: QuantityKey) -> Iterator[ArmQuantity]:
     """Yield what a quantity is on its links."""
-    kind, names = selector.kind, selector.names
-    if selector.over is not None or not names:
+    kind, names = quantity_key.kind, quantity_key.names
+    if quantity_key.over is not None or quantity_key.axis or not names:
         return
-    if kind in RATES or kind == "u":
+    if kind in TURNINGS or kind is QuantityKind.RATIO:
         if len(names) == 1:
             yield kind, names[0], ()
         return
-    construction = sheet.questions.construction
-    if kind in ("vs", "ak"):
-        label = construction.kinematics.velocity.label
-        for relative in construction.kinematics.relatives.values():
-            pair = {label(relative.of, relative.point), label(relative.to, relative.point)}
-            if pair == {*names}:
+    questions = sheet.questions
+    if kind in (QuantityKind.SLIDING, QuantityKind.CORIOLIS):
+        for relative in questions.construction.kinematics.relatives.values():
+            if {*dict(questions.steps.pairs())[relative.name]} == {*names}:
                 yield kind, relative.to, tuple(sorted(names))
         return
-    if kind not in ("v", "a", "an", "at", "v_q"):
+    if kind not in (*BY_OTHER_ARM, _NORMAL, QuantityKind.TANGENTIAL, QuantityKind.TRANSFER):
         return
-    for link, points in sheet.questions.links().items():
+    for link, points in questions.links().items():
         if not {*names} <= {*points}:
             continue
         free = tuple(sorted(name for name in names if not points[name]))
@@ -431,7 +437,7 @@ def quantity_keys_of(sheet: Sheet, selector: Selector) -> Iterator[QuantityKey]:
             yield kind, link, free
 
 
-CLOSING = ("at", "epsilon", "vs")
+CLOSING = (QuantityKind.TANGENTIAL, QuantityKind.EPSILON, QuantityKind.SLIDING)
 """Closing vectors of a plan: their error is that of the longer vectors, however short they are."""
 
 
@@ -507,7 +513,7 @@ def follows(one: ExaminedAnswer, explanation: Explanation, near: float) -> bool:
     """Return whether an answer is what an explanation gives."""
     given = explanation.values[one.item.question.id]
     exact = abs(one.limit.exact)
-    least = 1.0 if one.item.question.selector.kind in CLOSING else 0.3
+    least = 1.0 if one.item.question.key.kind in CLOSING else 0.3
     share = max(abs(given) / exact, least) if exact else 1.0
     tolerance = max(one.limit.tolerance(one.step), one.limit.spread) * near * share
     turned = one.sense_right is False and one.item.question.sign is Sign.TURN
@@ -529,7 +535,11 @@ def rank(sheet: Sheet, one: ExaminedAnswer) -> tuple[int, bool, int]:
     name = one.slot
     if name is None:
         return (len(sheet.order), bool(one.parents), 0)
-    return (_last_point(sheet, name), one.item.question.selector.kind in RATES, sheet.order[name])
+    return (
+        _last_point(sheet, name),
+        one.item.question.key.kind in TURNINGS,
+        sheet.order[name],
+    )
 
 
 def _last_point(sheet: Sheet, name: Name) -> int:

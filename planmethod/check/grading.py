@@ -16,14 +16,14 @@ from msgspec.structs import replace
 
 from planmethod.check.explain import Explanation, Fact, exceeds
 from planmethod.check.model import GradedSubmission, PencilTrace, Verdict, WrittenAnswer
-from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Sheet, StudentValues, is_right, single_float
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.solved.selectors.steps import NoValueError
+from planmethod.problem.quantities import TURNINGS, Sign
+from planmethod.solved.quantity_steps import NoValueError
 
 USABLE = 3.0
 """An earlier number may be off by this factor for others to follow from it (Numbas)."""
@@ -193,7 +193,7 @@ def _value_from_mm(sheet: Sheet, item: TaskItem, mm: float) -> float | None:
     """Return the answer's value from a length on the student's plan; None if it is undetermined."""
     question = item.question
     plan = question.plan
-    if plan is None or question.selector.kind in RATES or question.unit != FACTS[plan].unit:
+    if plan is None or question.key.kind in TURNINGS or question.unit != FACTS[plan].unit:
         length = sheet.length(question)
         return abs(sheet.exact_answers[question.id]) * mm / length if length else None
     return mm * sheet.scales[question.scale]
@@ -251,7 +251,7 @@ def slot_of(sheet: Sheet, one: ExaminedAnswer) -> tuple[NumberName | None, float
     """Return the first number of the program that an answer determines, and its value per unit."""
     question = one.item.question
     name, length = question.name, question.length
-    direct = name != length and question.selector.kind not in RATES
+    direct = name != length and question.key.kind not in TURNINGS
     if name is None or length is None or not direct:
         return name, 1.0
     if sheet.order[length] < sheet.order[name]:
@@ -281,7 +281,7 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
             slack = abs(one.value_from_mm) * (
                 0.002 + one.written.mm_step / 2 / max(one.mm or 1.0, 1e-9)
             )
-            if one.item.question.selector.kind in RATES:
+            if one.item.question.key.kind in TURNINGS:
                 slack += settings.k * left.sigma.get(slot, 0.0) if slot else 0.0
             one.slip = abs(abs(one.value) - abs(one.value_from_mm)) > slack + one.step / 2 + 1e-12
         if slot is None or slot not in came or not math.isfinite(came[slot]):
@@ -317,7 +317,7 @@ def replay(task: Task, sheet: Sheet, examined: list[ExaminedAnswer]) -> None:
         written = settings.floor_share * abs(local) + rounding + one.step / 2
         one.closely = one.follows and apart <= written
         one.contradicts = apart > tolerance * settings.near or turned
-        least = MIN_ARM_SIGMA if one.item.question.selector.kind in RATES else MIN_DRAWN_SIGMA
+        least = MIN_ARM_SIGMA if one.item.question.key.kind in TURNINGS else MIN_DRAWN_SIGMA
         one.computed = sigma < least * abs(local)
 
 
@@ -416,7 +416,7 @@ def facts_of(sheet: Sheet, examined: list[ExaminedAnswer], k: float) -> list[Fac
     """Return what an explanation has to give: every answer of a sheet, each quantity once."""
     facts: dict[str, Fact] = {}
     ways = {
-        one.item.question.selector: one.value
+        one.item.question.key: one.value
         for one in examined
         if one.item.question.sign is Sign.ANGLE and not one.routed
     }
@@ -428,8 +428,8 @@ def facts_of(sheet: Sheet, examined: list[ExaminedAnswer], k: float) -> list[Fac
         sense: Callable[[Trace], bool | None] | None = None
         if not strict and not one.limit.zero and one.sense_right is not None:
             sense = partial(_is_sense_right, sheet, one)
-        elif question.ends is not None and not one.limit.zero and question.selector in ways:
-            sense = partial(_directed, sheet, one, ways[question.selector])
+        elif question.ends is not None and not one.limit.zero and question.key in ways:
+            sense = partial(_directed, sheet, one, ways[question.key])
         least = max(0.4 * min(one.limit.minimum, 0.02 * abs(one.limit.exact)), 1e-9) / k
         least = max(least, 0.002 * abs(one.value)) if one.value else min(least, 1e-9)
         value = one.value if strict else abs(one.value)

@@ -14,7 +14,7 @@ from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.mistakes import changes
 from planmethod.check.mistakes.plans import Change, MistakeContext
 from planmethod.check.model import KeyEntry
-from planmethod.check.questions import Question, Sign, worded
+from planmethod.check.questions import Question
 from planmethod.check.sheet import DRAWS, Sheet, drafted_of, sense_of, single_float
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
@@ -22,6 +22,7 @@ from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import QuantityKind, Sign
 from planmethod.problem.records import KindProblem
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.statics import statics_of
@@ -215,15 +216,12 @@ def drawn_symbol(task: Task, question: Question) -> str:
 
 def describe_quantity(question: Question) -> str:
     """Return a quantity as a submission may name it: ``v B3``, ``angle v B3``, ``n 5``."""
-    selector = question.selector
-    if selector.kind in ("number", "read"):
-        return selector.names[0]
-    turned = (
-        question.sign is Sign.ANGLE and question.ends is None and question.id.startswith("angle_")
-    )
-    return (
-        f"angle {worded(selector)}" if turned and "angle" not in selector.kind else worded(selector)
-    )
+    kind = question.key.kind
+    if kind in (QuantityKind.COMPUTED, QuantityKind.PICTURED):
+        return question.key.names[0]
+    turned = question.ends is None and question.id.startswith("angle_")
+    turned = turned and question.sign is Sign.ANGLE and not question.key.is_angle
+    return f"angle {question.key.words}" if turned else question.key.words
 
 
 def rich(letters: str) -> str:
@@ -257,7 +255,7 @@ def batch_tasks(
     first = Task(batch.solutions[0], settings, other_variants)
     positions = dict.fromkeys(item.position for item in first.list_items())
     known = set(batch.construction.draft.numbers)
-    if any(set(first.questions(p).selecting.draft.numbers) != known for p in positions):
+    if any(set(first.questions(p).steps.draft.numbers) != known for p in positions):
         return []
     tasks = [first, *(first.for_variant(one) for one in batch.solutions[1:])]
     for position in positions:

@@ -20,7 +20,7 @@ import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.check.model import Sense
-from planmethod.check.questions import Question, Questions, Sign
+from planmethod.check.questions import Question, Questions
 from planmethod.construct.arithmetic import Float64, Number, Single
 from planmethod.construct.drafting import Profile, Propagated, causes_of
 from planmethod.construct.dual import angle, as_dual
@@ -28,6 +28,7 @@ from planmethod.construct.evaluate import Substitution, Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName, Step
 from planmethod.plans.model import Ends, Plan
+from planmethod.problem.quantities import Sign
 from planmethod.solved.errors.spread import RADIAN, Drafted, DrawnKind, DrawnQuantity, Errors
 from planmethod.solved.solution import at_positions
 
@@ -100,7 +101,7 @@ class Sheet:
         self.questions, self.requested = questions, tuple(requested)
         self.scales, self.profile = dict(scales), profile
         needs = {name for question in requested for name in question.needs}
-        whole = questions.selecting.b.program()
+        whole = questions.steps.b.program()
         self.program = whole.needed_for(needs)
         self.order = {step.out: number for number, step in enumerate(self.program.steps)}
         self.steps_by_name: dict[Name, Step] = {step.out: step for step in self.program.steps}
@@ -123,7 +124,7 @@ class Sheet:
         """Data of the program."""
         solution, statics = self.questions.solution, self.questions.statics
         chosen = np.array([self.questions.position])
-        data: dict[str, Number] = {**self.questions.selecting.draft.numbers}
+        data: dict[str, Number] = {**self.questions.steps.draft.numbers}
         if statics is None:
             return {**data, **solution.data(self.scales, chosen)}
         return {**data, **statics.data(self.scales, chosen)}

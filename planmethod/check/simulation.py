@@ -19,7 +19,6 @@ from planmethod.check.mistakes import changes
 from planmethod.check.mistakes.plans import Change, MistakeContext, times
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Sense, Submission, WrittenAnswer
-from planmethod.check.questions import Sign
 from planmethod.check.sheet import DIRECTIONS, Sheet
 from planmethod.check.task import Task, TaskItem
 from planmethod.construct.arithmetic import Number
@@ -27,6 +26,7 @@ from planmethod.construct.drafting import Sampled
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import MOTION
+from planmethod.problem.quantities import Sign
 
 DIGITS = 3
 """Significant digits of a written value; one more after a leading 1, as on a slide rule."""

@@ -14,19 +14,28 @@ from msgspec.structs import replace
 from planmethod.check.explain import Explanation, Explanations
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import Unread, WrittenAnswer
-from planmethod.check.questions import Question, Questions, Sign, normalize
+from planmethod.check.questions import Question, Questions, normalize
 from planmethod.check.sheet import Sheet
 from planmethod.check.submissions.cells import mark_unreadable, ratio
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
 from planmethod.plans.forces.board import SCALE
-from planmethod.plans.forces.polygons import LoadKind
 from planmethod.plans.model import PlanKind
-from planmethod.problem.answers import Selector, SelectorError, is_force, parse_selector
 from planmethod.problem.formula import ratio_of, read_unit
+from planmethod.problem.quantities import (
+    BALANCES,
+    TURNING,
+    QuantityKey,
+    QuantityKind,
+    QuantityNameError,
+    Sign,
+    parse_quantity,
+    parse_words,
+)
 from planmethod.problem.records import DirectionMode, KindProblem, QuestionSpec
-from planmethod.solved.selectors.steps import NoValue, NoValueError
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.quantity_steps import LOADS, NoValue, NoValueError
 from planmethod.solved.solution import Solution
 
 
@@ -35,9 +44,9 @@ class QuantityAliases:
 
     def __init__(self, questions: Questions) -> None:
         self.questions = questions
-        self._known: dict[str, Selector] | None = None
+        self._known: dict[str, QuantityKey] | None = None
 
-    def find(self, text: str) -> Selector:
+    def find(self, text: str) -> QuantityKey:
         """Return the quantity that a text names.
 
         Raises
@@ -45,8 +54,8 @@ class QuantityAliases:
         NoValueError
         """
         try:
-            return parse_selector(text)
-        except SelectorError:
+            return parse_words(text)
+        except QuantityNameError:
             pass
         if self._known is None:
             self._known = find_aliases(self.questions)
@@ -55,77 +64,91 @@ class QuantityAliases:
         return self._known[normalize(text)]
 
 
-def find_aliases(questions: Questions) -> dict[str, Selector]:
+def find_aliases(questions: Questions) -> dict[str, QuantityKey]:
     """Return the quantities of a problem by how they may be written, each form `normalize`d.
 
     A form that two quantities share names neither.
     """
-    found: dict[str, Selector] = {}
+    found: dict[str, QuantityKey] = {}
     twice: set[str] = set()
-    for form, selector in _list_aliases(questions):
-        key = normalize(form)
-        if found.setdefault(key, selector) != selector:
-            twice.add(key)
-    return {key: selector for key, selector in found.items() if key not in twice}
+    for form, quantity_key in _list_aliases(questions):
+        alias = normalize(form)
+        if found.setdefault(alias, quantity_key) != quantity_key:
+            twice.add(alias)
+    return {alias: known for alias, known in found.items() if alias not in twice}
 
 
-def _list_aliases(questions: Questions) -> Iterator[tuple[str, Selector]]:
-    kinematics = questions.construction.kinematics
-    for name in kinematics.velocity.named:
-        for word in ("v", "a", "vx", "vy", "ax", "ay", "x", "y"):
-            yield f"{word}_{name}", Selector(word, (name,))
+LETTERS = {
+    QuantityKind.VELOCITY: ("v",),
+    QuantityKind.SLIDING: ("v", "vr", "vs", "vотн"),
+    QuantityKind.CORIOLIS: ("ak", "acor", "aкор"),
+    QuantityKind.RELATIVE: ("ar", "aотн"),
+    QuantityKind.NORMAL: ("an", "aн"),
+    QuantityKind.TANGENTIAL: ("at", "aт"),
+    QuantityKind.BALANCE: (
+        "M_dr", "F_dr", "balance", "Mур", "Fур", "M_b", "F_b", "M_y", "F_y", "Мд"
+    ),
+    QuantityKind.LEVER: (
+        "M_lever", "F_lever", "lever", "MурЖ", "MЖ", "MЖур", "FЖур", "M_Lb", "F_Lb"
+    ),
+    QuantityKind.REACTION: ("F", "R", "Q"),
+    QuantityKind.MOMENT: ("M",),
+    QuantityKind.WEIGHT: ("G_",),
+    QuantityKind.INERTIA: ("Φ_", "Fи_", "Pи_", "inertia_"),
+    QuantityKind.INERTIA_COUPLE: ("MΦ", "Mи", "inertia couple "),
+}  # fmt: skip
+"""Letters that quantities are written with in works."""
+
+
+def _list_aliases(questions: Questions) -> Iterator[tuple[str, QuantityKey]]:
+    velocity, steps = questions.construction.kinematics.velocity, questions.steps
+    for name in velocity.named:
+        for kind in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION):
+            yield kind.label(name), QuantityKey(kind, (name,))
+        for kind in (QuantityKind.PLACE, QuantityKind.VELOCITY, QuantityKind.ACCELERATION):
+            yield from ((kind.label(name, x), QuantityKey(kind, (name,), x)) for x in "xy")
     for link in questions.solution.problem.mechanism.links:
-        for word in ("omega", "epsilon", "phi"):
-            yield f"{word}_{link}", Selector(word, (link,))
-    for name, pair in questions.pairs():
-        for word, letters in (
-            ("vs", ("v", "vr", "vs", "vотн")),
-            ("ak", ("ak", "acor", "aкор")),
-            ("ar", ("ar", "aотн")),
-        ):
-            for letter in letters:
-                yield f"{letter}_{name}", Selector(word, pair)
-                yield f"{letter}_{pair[0]}{pair[1]}", Selector(word, pair)
-                yield f"{letter}_{pair[1]}{pair[0]}", Selector(word, pair)
-                yield f"{letter}_{pair[0]}_{pair[1]}", Selector(word, pair)
-    for word in ("an", "at"):  # of a point of a link that turns about a fixed one
-        for one, two in questions.arms():
-            for letter in {"an": ("an", "aн"), "at": ("at", "aт")}[word]:
-                yield f"{letter}_{one}", Selector(word, (one, two))
-    for one, two in permutations(kinematics.velocity.named, 2):
-        yield f"l_{one}{two}", Selector("length", (one, two))
-    for selector, _, _ in questions.vectors():
-        one, two = selector.names
-        ways = {"at": ("at", "aт"), "an": ("an", "aн")}.get(selector.kind, ("v",))
-        for letter in ways:
-            yield f"{letter}_{one}{two}", selector
-            if selector.kind == "v":
-                yield f"{letter}_{two}{one}", selector
-    if questions.statics is None:
-        return
-    for reaction in questions.statics.board.reactions:
-        for on, by in ((reaction.on, reaction.by), (reaction.by, reaction.on)):
-            for letter in ("F", "R", "Q", f"F_{reaction.joint}"):
-                yield f"{letter}_{on}{by}", Selector("F", (on, by))
-            if reaction.couple is not None:
-                for letter in ("M", f"M_{reaction.joint}"):
-                    yield f"{letter}_{on}{by}", Selector("M", (on, by))
-    for form in ("M_dr", "F_dr", "balance", "Mур", "Fур", "M_b", "F_b", "M_y", "F_y", "Мд"):
-        yield form, Selector("balance", ())
-    for form in ("M_lever", "F_lever", "lever", "MурЖ", "MЖ", "MЖур", "FЖур", "M_Lb", "F_Lb"):
-        yield form, Selector("lever", ())
-    for given in questions.statics.board.given:
+        yield from ((kind.label(link), QuantityKey(kind, (link,))) for kind in TURNING)
+    for name, pair in steps.pairs():
+        for kind in (QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE):
+            for letter in LETTERS[kind]:
+                for of in (name, "".join(pair), "".join(pair[::-1]), "_".join(pair)):
+                    yield f"{letter}_{of}", QuantityKey(kind, pair)
+    for kind in (QuantityKind.NORMAL, QuantityKind.TANGENTIAL):
+        for one, two in questions.arms():  # of a point of a link that turns about a fixed one
+            for letter in LETTERS[kind]:
+                yield f"{letter}_{one}", QuantityKey(kind, (one, two))
+    for one, two in permutations(velocity.named, 2):
+        yield f"l_{one}{two}", QuantityKey(QuantityKind.LENGTH, (one, two))
+    for vector, _ in steps.vectors():
+        one, two = vector.names
+        for letter in LETTERS[vector.kind]:
+            yield f"{letter}_{one}{two}", vector
+            if vector.kind is QuantityKind.VELOCITY:
+                yield f"{letter}_{two}{one}", vector
+    if questions.statics is not None:
+        yield from _list_forces(questions.statics)
+
+
+def _list_forces(statics: Statics) -> Iterator[tuple[str, QuantityKey]]:
+    for reaction in statics.board.reactions:
+        kinds = [QuantityKind.REACTION]
+        kinds += [QuantityKind.MOMENT] if reaction.couple is not None else []
+        for bodies in ((reaction.on, reaction.by), (reaction.by, reaction.on)):
+            for kind in kinds:
+                for letter in (*LETTERS[kind], f"{kind.letter}_{reaction.joint}"):
+                    yield f"{letter}_{''.join(bodies)}", QuantityKey(kind, bodies)
+    for kind in BALANCES:
+        yield from ((form, QuantityKey(kind, ())) for form in LETTERS[kind])
+    kinds_of_loads = {load: kind for kind, load in LOADS.items()}
+    for given in statics.board.given:
         applied = given.applied
-        if applied.kind is LoadKind.WEIGHT:
-            yield f"G_{applied.link}", Selector("weight", (applied.link,))
-        elif applied.kind is LoadKind.INERTIA:
-            for letter in ("Φ", "Fи", "Pи", "inertia"):
-                yield f"{letter}_{applied.link}", Selector("inertia", (applied.link,))
-        elif applied.kind is LoadKind.INERTIA_COUPLE:
-            for letter in ("MΦ", "Mи", "inertia couple "):
-                yield f"{letter}{applied.link}", Selector("inertia couple", (applied.link,))
-        else:
-            yield applied.name, Selector("load", (applied.name,))
+        kind = kinds_of_loads.get(applied.kind, QuantityKind.LOAD)
+        if kind is QuantityKind.LOAD:
+            yield applied.name, QuantityKey(kind, (applied.name,))
+            continue
+        for letter in LETTERS[kind]:
+            yield f"{letter}{applied.link}", QuantityKey(kind, (applied.link,))
 
 
 class TaskItem(Struct, frozen=True):
@@ -226,7 +249,7 @@ class Task:
         """Yield an answer, and the direction of its vector where that is an answer of its own."""
         position = self.first if spec.position is None else spec.position
         questions = self.questions(position)
-        question = questions.question(parse_selector(spec.what))
+        question = questions.question(parse_quantity(spec.what))
         item = TaskItem(
             spec.id,
             self.request(question, position),
@@ -404,7 +427,7 @@ class Task:
         statics = self.questions(position).statics
         if statics is not None:
             needed = SCALE not in student_scales and any(
-                is_force(question.selector) for question in asked
+                question.key.is_loaded for question in asked
             )
             scales[SCALE] = statics.scale.per_mm if needed else student_scales.get(SCALE, 1.0)
         return {

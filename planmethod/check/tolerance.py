@@ -8,8 +8,9 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.check.marks import Settings
-from planmethod.check.questions import RATES, Question, Sign
+from planmethod.check.questions import Question
 from planmethod.check.sheet import Sheet
+from planmethod.problem.quantities import TURNINGS, QuantityKind, Sign
 
 LONG_MM = 100.0
 """Length on the drawing of a link that turns too little to be measured."""
@@ -75,7 +76,7 @@ def limit_of(
     exact, sigma = sheet.exact_answers[question.id], sheet.sigma(question)
     length, size = sheet.length(question), abs(exact)
     per_mm = 1.0 if question.is_mm else sheet.scales.get(question.scale, 0.0)
-    if question.selector.kind in RATES:  # a zero one counts as that of a long link
+    if question.key.kind in TURNINGS:  # a zero one counts as that of a long link
         per_mm = size / length if length else _rate_per_mm(sheet, question)
     spread = settings.k * sigma
     turned = question.sign is Sign.ANGLE
@@ -99,7 +100,7 @@ def limit_of(
 
 
 def _rate_per_mm(sheet: Sheet, question: Question) -> float:
-    plan = "mu_v" if question.selector.kind == "omega" else "mu_a"
+    plan = "mu_v" if question.key.kind is QuantityKind.OMEGA else "mu_a"
     return sheet.scales[plan] / (LONG_MM * sheet.scales["mu_l"])
 
 

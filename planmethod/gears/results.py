@@ -26,7 +26,7 @@ from planmethod.problem.file_node import FileNode
 from planmethod.problem.model import GearDrive
 from planmethod.problem.names import segment
 from planmethod.problem.records import AnswerValue, Mistaken
-from planmethod.solved.selectors.steps import NoValue
+from planmethod.solved.quantity_steps import NoValue
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile

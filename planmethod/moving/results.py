@@ -35,7 +35,7 @@ from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
 from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Language
 from planmethod.problem.records import AnswerValue, Mistaken, QuantityReader
-from planmethod.solved.selectors.steps import NoValue
+from planmethod.solved.quantity_steps import NoValue
 
 
 def audited(problem: PointProblem, ruler: float) -> list[Audited]:

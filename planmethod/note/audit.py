@@ -18,21 +18,22 @@ from planmethod.note.document import fixed, input_text, localized
 from planmethod.note.numbers import is_negligible, significant
 from planmethod.note.series import compared_flywheel, compared_segment
 from planmethod.note.wording import get_language, wording
+from planmethod.plans.build import plan_of
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.answers import FORCES, MACHINE, Selector, parse_selector
 from planmethod.problem.machine_records import FlywheelMethod, Quadrature, WeightSigns
 from planmethod.problem.model import Problem, Scales
+from planmethod.problem.quantities import Analysis, QuantityKey, QuantityKind, parse_quantity
 from planmethod.problem.records import KindProblem, Published
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import Flywheel, flywheel_of, touching
 from planmethod.solved.machine.sizes import size_of
-from planmethod.solved.selectors.steps import PLANS, NoValue, NoValueError
-from planmethod.solved.selectors.values import SelectorValues, is_angle
+from planmethod.solved.quantity_steps import NoValue, NoValueError
+from planmethod.solved.quantity_values import QuantityValues
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
 
-def machine_value(solution: Solution, selector: Selector) -> tuple[float, float | None]:
+def machine_value(solution: Solution, quantity_key: QuantityKey) -> tuple[float, float | None]:
     """Return a quantity of a machine: exactly, SI and degrees, and as the construction is read.
 
     Raises
@@ -42,44 +43,46 @@ def machine_value(solution: Solution, selector: Selector) -> tuple[float, float 
     """
     if solution.problem.machine is None:
         raise NoValueError(NoValue.NO_MACHINE)
-    flywheel = flywheel_of(solution)
-    drawing, kind = drawing_of(flywheel, solution.profile), selector.kind.partition(" ")[2]
-    if selector.names:
-        return _in_position(flywheel, kind, selector.names), None
-    for name, compare in (
-        (drawing.construction.segment, compared_segment),
-        ("J_f", compared_flywheel),
-    ):
-        if kind == name:
-            both = compare(drawing)
-            return both.exact, both.read
+    flywheel, kind = flywheel_of(solution), quantity_key.kind
+    drawing = drawing_of(flywheel, solution.profile)
+    if quantity_key.names:
+        return _in_position(flywheel, kind, quantity_key.names), None
+    if kind is QuantityKind.FLYWHEEL or kind.word == f"machine {drawing.construction.segment}":
+        compare = compared_flywheel if kind is QuantityKind.FLYWHEEL else compared_segment
+        both = compare(drawing)
+        return both.exact, both.read
     values = {
-        "constant": flywheel.constant,
-        "omega": flywheel.middle_speed,
-        "delta": flywheel.machine.delta,
-        "mu_phi": drawing.scales.phi,
-        "mu_A": drawing.scales.work,
+        QuantityKind.CONSTANT_MOMENT: flywheel.constant,
+        QuantityKind.MIDDLE_SPEED: flywheel.middle_speed,
+        QuantityKind.IRREGULARITY: flywheel.machine.delta,
+        QuantityKind.ANGLE_SCALE: drawing.scales.phi,
+        QuantityKind.WORK_SCALE: drawing.scales.work,
     }
     if not drawing.by_mertsalov:
-        values |= {"psi_max": drawing.psi[0], "psi_min": drawing.psi[1]}
+        values[QuantityKind.GREATEST_SLOPE], values[QuantityKind.LEAST_SLOPE] = drawing.psi
     sizes = size_of(flywheel.machine.wheel, flywheel.exact.inertia, flywheel.middle_speed)
     if sizes is not None:
-        values |= {"D": sizes.diameter, "m": sizes.mass, "b": sizes.width}
+        values[QuantityKind.WHEEL_DIAMETER] = sizes.diameter
+        values |= {QuantityKind.WHEEL_MASS: sizes.mass, QuantityKind.WHEEL_WIDTH: sizes.width}
     if kind not in values:
         raise NoValueError(NoValue.NO_QUANTITY)
     return values[kind], None
 
 
-def _in_position(flywheel: Flywheel, kind: str, names: tuple[str, ...]) -> float:
+def _in_position(flywheel: Flywheel, kind: QuantityKind, names: tuple[str, ...]) -> float:
     number = int(names[-1])
     if number >= flywheel.machine.count:
         raise NoValueError(NoValue.NO_POSITION)
     rows, half = flywheel.rows, flywheel.problem.drive.rate**2 / 2.0
-    if kind == "energy":
+    if kind is QuantityKind.LINK_ENERGY:
         nothing = 0.0 * rows.inertia  # of a link without mass
         column = rows.parts.links.get(names[0], nothing) * half
     else:
-        column = {"M": rows.moment, "J": rows.inertia, "T": rows.inertia * half}[kind]
+        column = {
+            QuantityKind.MACHINE_MOMENT: rows.moment,
+            QuantityKind.MACHINE_INERTIA: rows.inertia,
+            QuantityKind.MACHINE_ENERGY: rows.inertia * half,
+        }[kind]
     value = float(column[number])
     return 0.0 if is_negligible(value, float(np.max(np.abs(column))) * 1e-7) else value
 
@@ -296,7 +299,7 @@ def audit(problem: Problem, *, ruler: float = RULER_MM) -> list[Audited]:
     scales, mu_f = source_scales(problem), source_force_scale(problem)
     solution = Solution(replace(problem, scales=scales), ruler=ruler)
     verify(solution)
-    places = [SelectorValues(solution, index, mu_f) for index in range(len(solution.positions))]
+    places = [QuantityValues(solution, index, mu_f) for index in range(len(solution.positions))]
     return [_audited(places, scales, value) for value in problem.published]
 
 
@@ -306,28 +309,30 @@ def source_force_scale(problem: Problem) -> float | None:
     return next(forces, None)
 
 
-def _audited(places: Sequence[SelectorValues], scales: Scales, value: Published) -> Audited:
+def _audited(places: Sequence[QuantityValues], scales: Scales, value: Published) -> Audited:
     try:
-        selector = _selector(value, scales)
-        if selector.kind in MACHINE:
-            exact, read = machine_value(places[0].solution, selector)
+        quantity_key = _quantity(value, scales)
+        if quantity_key.kind.analysis is Analysis.MACHINE:
+            exact, read = machine_value(places[0].solution, quantity_key)
             return Audited(value, exact, read, value.per_mm)
         at = places[_position(value, len(places))]
-        unit = _unit(at, selector, value)
-        exact, read = at.exact(selector) * unit, at.read(selector)
-        per_mm = value.per_mm or _per_mm(at, selector, scales, unit)
+        unit = _unit(at, quantity_key, value)
+        exact, read = at.exact(quantity_key) * unit, at.read(quantity_key)
+        per_mm = value.per_mm or _per_mm(at, quantity_key, scales, unit)
     except NoValueError as error:
         return Audited(value, reason=error.reason)
-    if is_angle(selector) and selector.over is None:
+    if quantity_key.is_angle and quantity_key.over is None:
         exact = value.value - _wrap_degrees((value.value - exact) / unit) * unit
     return Audited(value, exact, None if read is None else read * unit, per_mm)
 
 
-def _unit(at: SelectorValues, selector: Selector, value: Published) -> float:
+def _unit(at: QuantityValues, quantity_key: QuantityKey, value: Published) -> float:
     """Return what a degree, or a millimetre of the position plan, is in the unit of the value."""
-    if selector.over is None and is_angle(selector) and value.unit in RADIANS:
+    if quantity_key.over is not None:
+        return 1.0
+    if quantity_key.is_angle and value.unit in RADIANS:
         return math.radians(1.0)
-    if selector.over is None and _drawn_on(selector) is PlanKind.POSITION and _is_true(value):
+    if _drawn_on(quantity_key) is PlanKind.POSITION and _is_true(value):
         return at.solution.scales[PlanKind.POSITION].per_mm
     return 1.0
 
@@ -337,19 +342,20 @@ def _is_true(value: Published) -> bool:
     return value.unit in METRES
 
 
-def _drawn_on(selector: Selector) -> PlanKind | None:
+def _drawn_on(quantity_key: QuantityKey) -> PlanKind | None:
     """Return the plan in whose millimetres a quantity is."""
-    if selector.kind in FORCES and selector.kind.split()[0] in ("arm", "shift"):
-        return PlanKind.POSITION
-    return PLANS.get(selector.kind)
+    return plan_of(quantity_key.kind) if quantity_key.kind.is_length_on_paper else None
 
 
-def _per_mm(at: SelectorValues, selector: Selector, scales: Scales, unit: float) -> float | None:
+def _per_mm(
+    at: QuantityValues, quantity_key: QuantityKey, scales: Scales, unit: float
+) -> float | None:
     """Return what a millimetre of its plan is worth in an angle or a rate."""
-    if selector.kind in FORCES:
-        told = is_angle(selector) and selector.over is None and at.mu_f is not None
-        return at.forces.rotation_per_mm(selector) * unit if told else None
-    lever = at.lever(selector)
+    if quantity_key.kind.is_force:
+        whole = quantity_key.is_angle and quantity_key.over is None
+        turned = at.rotation_per_mm(quantity_key) if whole else None
+        return None if turned is None else turned * unit
+    lever = at.lever(quantity_key)
     if lever is None:
         return None
     plan, worth = lever
@@ -357,17 +363,17 @@ def _per_mm(at: SelectorValues, selector: Selector, scales: Scales, unit: float)
     return None if scale is None else scale * worth * unit
 
 
-def _selector(value: Published, scales: Scales) -> Selector:
+def _quantity(value: Published, scales: Scales) -> QuantityKey:
     if not value.what:
         raise NoValueError(NoValue.NO_QUANTITY)
-    selector = parse_selector(value.what)
-    for part in (selector, selector.over):
+    quantity_key = parse_quantity(value.what)
+    for part in (quantity_key, quantity_key.over):
         plan = _drawn_on(part) if part else None
         if plan is None or (plan is PlanKind.POSITION and _is_true(value)):
             continue
         if getattr(scales, SYMBOLS[plan]) is None:
             raise NoValueError(NoValue.NO_SCALE)
-    return selector
+    return quantity_key
 
 
 def _position(value: Published, count: int) -> int:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from enum import Enum, unique
 from functools import cached_property
 
 from msgspec import Struct, field
@@ -14,105 +13,28 @@ from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.draft import Draft
-from planmethod.plans.model import FACTS, RATES, Choice, Plan, PlanKind
+from planmethod.plans.model import FACTS, MOTION, RATES, Choice, Plan, PlanKind
 from planmethod.plans.motion.groups import drive_motion, group_motion
 from planmethod.plans.motion.legs import Kinematics, MotionBoard, Turning, plan_letter
 from planmethod.plans.motion.position import place_driver, place_frame, place_group
 from planmethod.problem.machine_records import ratio_of
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import TURNINGS, QuantityKey, QuantityKind
 
 ZERO = "0"
 """Name of the number zero, which no object of a problem can have."""
 
 
-class KindFacts(Struct, frozen=True):
-    """Properties of a kind of quantity.
+def plan_of(kind: QuantityKind) -> PlanKind:
+    """Return the plan on which a quantity is found."""
+    return PlanKind.FORCE if kind.is_force and not kind.is_length_on_paper else MOTION[kind.order]
 
-    Attributes
-    ----------
-    letter : str
-        Beginning of its label: ``omega``.
-    unit : str
-        In SI; degrees of a direction.
-    plan : PlanKind
-        Plan on which it is found.
-    columns : tuple of str
-        Endings of the names of table columns; none if the label is the name.
-    sign : str
-        Letter of the symbol, ``ω``; empty where it is ``letter``.
-    is_number : bool
-        True if it is one number and not a vector.
-    is_size : bool
-        True if the drawing gives only its size, without a sign.
-    """
-
-    letter: str
-    unit: str
-    plan: PlanKind
-    columns: tuple[str, ...] = ()
-    sign: str = ""
-    is_number: bool = False
-    is_size: bool = False
-
-
-_P, _V, _A, _F = PlanKind.POSITION, PlanKind.VELOCITY, PlanKind.ACCELERATION, PlanKind.FORCE
-
-
-@unique
-class QuantityKind(Enum):
-    """Kind of a quantity (вид величины): its letters, unit, plan, columns."""
-
-    PLACE = KindFacts("", "m", _P, (".x", ".y"))
-    VELOCITY = KindFacts("v", "m/s", _V, (".vx", ".vy"), is_size=True)
-    ACCELERATION = KindFacts("a", "m/s²", _A, (".ax", ".ay"), is_size=True)
-    DIRECTION = KindFacts("phi", "deg", _P, (".phi_deg",), "φ")
-    UNIT = KindFacts("u", "1", _P, (".cos", ".sin"))  # the direction as a unit vector
-    OMEGA = KindFacts("omega", "1/s", _V, (".omega",), "ω", is_number=True)
-    EPSILON = KindFacts("epsilon", "1/s²", _A, (".epsilon",), "ε", is_number=True)
-    # Of sliding in a pair: the relative velocity and acceleration are signed along the slide line.
-    SLIDING = KindFacts("v", "m/s", _V, is_number=True, is_size=True)
-    CORIOLIS = KindFacts("ak", "m/s²", _A, is_number=True, is_size=True)
-    RELATIVE = KindFacts("ar", "m/s²", _A, is_number=True, is_size=True)
-    # Derivatives by the angle of the crank: of places, and of angles of links.
-    TRANSFER = KindFacts("v_q", "m", _V, is_number=True, is_size=True)
-    RATIO = KindFacts("u", "1", _V, is_number=True)
-    TRANSFER_2 = KindFacts("a_q", "m", _A, is_number=True, is_size=True)
-    RATIO_2 = KindFacts("epsilon_q", "1", _A, sign="ε", is_number=True)
-    REACTION = KindFacts("F", "N", _F, (".x", ".y", ""), is_size=True)
-    # Of a reaction or on the crank; on the driving slider, along its guide.
-    MOMENT = KindFacts("M", "N·m", _F, ("",), is_number=True)
-    THRUST = KindFacts("F", "N", _F, ("",), is_number=True)
-
-    def __init__(self, facts: KindFacts) -> None:
-        self.letter, self.sign = facts.letter, facts.sign or facts.letter
-        self.unit, self.plan, self.columns = facts.unit, facts.plan, facts.columns
-        self.is_number, self.is_size = facts.is_number, facts.is_size
-        self.is_force = facts.plan is PlanKind.FORCE
-
-
-PLAN_OF = {kind.letter: kind.plan for kind in QuantityKind}
-"""Plans by the letters at the beginning of labels."""
-
-
-TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
-"""Kinds of quantities of links."""
-
-TRANSFERS = (
-    QuantityKind.TRANSFER,
-    QuantityKind.RATIO,
-    QuantityKind.TRANSFER_2,
-    QuantityKind.RATIO_2,
-)
-"""Kinds of transfer functions, in the order in which tables have them."""
-
-TURNINGS = tuple(kind for kind in TURNING if kind.is_number)
-"""The kinds among them that the plans give."""
 
 MOTION_KINDS = tuple(
     kind
     for plan in RATES
     for kind in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION, *TURNINGS)
-    if kind.plan is plan
+    if plan_of(kind) is plan
 )
 """Kinds of quantities of points and links that the plans give, in the order in which tables have
 them."""
@@ -120,7 +42,7 @@ them."""
 
 def kinds_on(plan: PlanKind) -> tuple[QuantityKind, ...]:
     """Return the quantities among them that a plan gives."""
-    return tuple(kind for kind in MOTION_KINDS if kind.plan is plan)
+    return tuple(kind for kind in MOTION_KINDS if plan_of(kind) is plan)
 
 
 class Quantity(Struct, frozen=True):
@@ -142,6 +64,8 @@ class Quantity(Struct, frozen=True):
         Symbol as rich text, if not the letter of its kind with ``of`` as an index.
     opposite : str
         Symbol of the opposite reaction.
+    named : QuantityKey or None
+        Its name, if it is not its kind and ``of``.
     """
 
     kind: QuantityKind
@@ -151,6 +75,12 @@ class Quantity(Struct, frozen=True):
     row: str = ""
     shown: str = ""
     opposite: str = ""
+    named: QuantityKey | None = None
+
+    @property
+    def key(self) -> QuantityKey:
+        """Its name."""
+        return self.named or QuantityKey(self.kind, (self.of,))
 
     @property
     def label(self) -> str:
@@ -161,13 +91,13 @@ class Quantity(Struct, frozen=True):
         functions are ``v_q_B``, ``u_21``, ``a_q_B``, ``epsilon_q_2``. Of forces
         ``F_B_2/1``, ``M_B_2/1`` (its moment), ``M_dr`` or ``F_dr``, ``M_lever`` or ``F_lever``.
         """
-        return f"{self.kind.letter}_{self.of}" if self.kind.letter else self.of
+        return self.kind.label(self.of)
 
     @property
     def symbol(self) -> str:
         """Symbol as rich text: ``ω_{2}``."""
-        sign = self.kind.sign
-        return self.shown or (f"{sign}_{{{self.of}}}" if sign else self.of)
+        letter = self.kind.symbol
+        return self.shown or (f"{letter}_{{{self.of}}}" if letter else self.of)
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -228,12 +158,15 @@ def motion_quantities(kinematics: Kinematics, draft: Draft) -> Iterator[Quantity
     values = acceleration.segments.values
     for r in kinematics.relatives.values():
         assert r.a_start is not None and r.a_coriolis is not None and r.a_head is not None
-        yield Quantity(QuantityKind.SLIDING, r.speed, r.name, r.speed)
-        # A guide that does not turn makes no Coriolis acceleration.
-        turned = values.get((r.a_start, r.a_coriolis), zero)
-        yield Quantity(QuantityKind.CORIOLIS, turned, r.name, turned)
-        along = values[r.a_coriolis, r.a_head]
-        yield Quantity(QuantityKind.RELATIVE, along, r.name, along)
+        pair = tuple(velocity.label(link, r.point) for link in (r.of, r.to))
+        sliding = (
+            (QuantityKind.SLIDING, r.speed),
+            # A guide that does not turn makes no Coriolis acceleration.
+            (QuantityKind.CORIOLIS, values.get((r.a_start, r.a_coriolis), zero)),
+            (QuantityKind.RELATIVE, values[r.a_coriolis, r.a_head]),
+        )
+        for kind, size in sliding:
+            yield Quantity(kind, size, r.name, size, named=QuantityKey(kind, pair))
 
 
 def plan_segments(draft: Draft, motions: tuple[MotionBoard, MotionBoard]) -> Iterator[PlanSegment]:
@@ -421,7 +354,8 @@ def transfer_quantities(kinematics: Kinematics, draft: Draft) -> Iterator[Quanti
             yield Quantity(of, name, point, name, shown=f"{FACTS[kind].letter}_{{q{point}}}")
     for link in driven:
         name, pair = steps.of_link(link, orders[0]), ratio_of(link, drive.link, driven)
-        yield Quantity(QuantityKind.RATIO, name, pair, name)
+        key = QuantityKey(QuantityKind.RATIO, (link, drive.link))
+        yield Quantity(QuantityKind.RATIO, name, pair, name, named=key)
     for link in driven:
         name = steps.of_link(link, orders[1])
         yield Quantity(QuantityKind.RATIO_2, name, link, name, shown=f"ε_{{q{link}}}")

@@ -132,28 +132,31 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
             machine = with_cycle_count(file["cycle"], machine, cycle)
     project = file.read("project", read_project)
     points = [*frame.points, *moving, *coincident_points(slides.values())]
-    named: tuple[Sequence[str], Sequence[str]] = ((), ()) if file.faults else (points, tuple(links))
+
+    def scope() -> AnswerScope:
+        """Return the names that quantities may use; none after a fault."""
+        return AnswerScope(
+            () if file.faults else points,
+            () if file.faults else tuple(links),
+            mechanism.revolutes if mechanism else (),
+            slides,
+            dynamics,
+            drive,
+        )
+
+    named = scope()
 
     def checked(node: FileNode, _: str) -> str:
         quantity = str(node.value)
-        if quantity:
-            check_quantity(node, quantity, *named, dynamics)
-        return quantity
+        key = check_quantity(node, quantity, named) if quantity else None
+        return quantity if key is None else key.words
 
     count = len(drive.positions) if drive else 0
     if project is not None and cycle is not None:  # its positions are those of the cycle
         count = cycle.count if machine is None else cycle.count * round(machine.cycle_deg / 360.0)
     read_values = partial(read_published, check=checked, positions=count)
     published = file.read("published", read_values) or ()
-    scene = AnswerScope(
-        () if file.faults else points,
-        () if file.faults else tuple(links),
-        mechanism.revolutes if mechanism else (),
-        slides,
-        dynamics,
-        drive,
-    )
-    answers = read_answers(file, scene)
+    answers = read_answers(file, scope())
     if file.faults or drive is None or mechanism is None:
         assert file.faults, "a part was left out without a word"
         return None

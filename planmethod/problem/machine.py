@@ -32,6 +32,7 @@ from planmethod.problem.machine_records import (
     ProjectTask,
     StrokeSense,
     Zero,
+    find_graph,
     graph_quantities,
 )
 from planmethod.problem.model import SAME_DEG, Body, Drive, Slide
@@ -343,11 +344,15 @@ def _read_graphs(
         points += [f"{slide.pin}{slide.host}"] if slide.host != FRAME else []
         points += [f"{slide.through}{slide.slider}"] if slide.through else []
     crank = "" if drive is None else drive.link
-    known = [*graph_quantities(dict.fromkeys(points), moving, crank), OUTPUT]
+    graphs = graph_quantities(dict.fromkeys(points), moving, crank)
+    known = [*graphs, OUTPUT]
 
     def read_label(label: FileNode) -> str:
         if not isinstance(label.value, str):
             label.reject_value("a quantity")
+        found = find_graph(graphs, label.value)
+        if found is not None:
+            return found.label
         if drive is not None and label.value not in known:
             hint = 'For example: "x_C", "phi_3", "v_q_C", "u_31", "omega_3", "a_C".'
             label.reject_unknown(label.value, known, "unknown quantity '{}'", hint=hint)

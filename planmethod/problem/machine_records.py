@@ -10,19 +10,36 @@ from typing import Annotated
 
 from msgspec import Struct, field
 
+from planmethod.problem.quantities import (
+    TRANSFERS,
+    QuantityKey,
+    QuantityKind,
+    QuantityNameError,
+    parse_quantity,
+)
 from planmethod.problem.records import TurningSense
 from planmethod.problem.tables import AngleKey, CustomKey, IntegerKey, NumberKey, WordKey
 
-OF_POINTS = {"x": "m", "y": "m", "v_q": "m", "v": "m/s", "a_q": "m", "a": "m/s²"}
-"""Kinds of quantities of points and their units; of vectors the size, and both components."""
+OF_POINTS = (
+    QuantityKind.PLACE,
+    QuantityKind.TRANSFER,
+    QuantityKind.VELOCITY,
+    QuantityKind.TRANSFER_2,
+    QuantityKind.ACCELERATION,
+)
+"""Kinds of quantities of points over the turn; of vectors the size, and both components."""
 
-OF_LINKS = {"phi": "deg", "u": "", "omega": "1/s", "epsilon_q": "", "epsilon": "1/s²"}
-"""Kinds of quantities of links and their units; none of a ratio."""
+OF_LINKS = (
+    QuantityKind.DIRECTION,
+    QuantityKind.RATIO,
+    QuantityKind.OMEGA,
+    QuantityKind.RATIO_2,
+    QuantityKind.EPSILON,
+)
+"""Kinds of quantities of links over the turn."""
 
 OUTPUT = "output"
 """Stands for the place of the output and its transfer functions."""
-
-_SIGNS = {"phi": "φ", "omega": "ω", "epsilon": "ε", "epsilon_q": "ε"}
 
 
 class GraphQuantity(Struct, frozen=True):
@@ -30,32 +47,40 @@ class GraphQuantity(Struct, frozen=True):
 
     Attributes
     ----------
+    key : QuantityKey
     label : str
-    kind : str
-        A key of `OF_POINTS` or of `OF_LINKS`.
-    axis : str
-        ``x``, ``y`` of a component; empty for a magnitude, and for a scalar.
-    of : str
-        The point, or the link.
     symbol : str
         Rich text.
     """
 
+    key: QuantityKey
     label: str
-    kind: str
-    axis: str
-    of: str
     symbol: str
+
+    @property
+    def kind(self) -> QuantityKind:
+        """Its kind."""
+        return self.key.kind
+
+    @property
+    def axis(self) -> str:
+        """``x``, ``y`` of a component; empty for a magnitude, and for a scalar."""
+        return self.key.axis
+
+    @property
+    def of(self) -> str:
+        """The point, or the link."""
+        return self.key.names[0]
 
     @property
     def unit(self) -> str:
         """Unit in SI, degrees of angles; empty of a ratio."""
-        return {**OF_POINTS, **OF_LINKS}[self.kind]
+        return self.kind.unit.replace("1", "") if self.kind in TRANSFERS else self.kind.unit
 
     @property
     def family(self) -> str:
         """Key of its diagram: coordinates share one, others one for each letter."""
-        return "x" if self.kind == "y" else self.kind
+        return self.kind.word or "x"
 
 
 def graph_quantities(
@@ -73,19 +98,34 @@ def graph_quantities(
     found: list[GraphQuantity] = []
     for point in points:
         for kind in OF_POINTS:
-            head, _, of = kind.partition("_")
-            for axis in ("",) if kind in "xy" else ("", "x", "y"):
-                symbol = f"{head}_{{{of}{point}{axis}}}"
-                found.append(GraphQuantity(f"{kind}{axis}_{point}", kind, axis, point, symbol))
+            for axis in ("x", "y") if kind is QuantityKind.PLACE else ("", "x", "y"):
+                head, part = (kind.symbol, axis) if kind.symbol else (axis, "")
+                of = f"q{point}" if kind in TRANSFERS else point
+                key = QuantityKey(kind, (point,), axis)
+                symbol = f"{head}_{{{of}{part}}}"
+                found.append(GraphQuantity(key, kind.label(point, axis), symbol))
     for link in links:
         for kind in OF_LINKS:
-            if link == crank and kind in ("u", "epsilon_q"):
+            if link == crank and kind in TRANSFERS:
                 continue
-            of = ratio_of(link, crank, links) if kind == "u" else link
-            index = f"q{link}" if kind == "epsilon_q" else of
-            symbol = f"{_SIGNS.get(kind, kind)}_{{{index}}}"
-            found.append(GraphQuantity(f"{kind}_{of}", kind, "", link, symbol))
+            is_ratio = kind is QuantityKind.RATIO
+            names = (link, crank) if is_ratio else (link,)
+            of = ratio_of(link, crank, links) if is_ratio else link
+            index = f"q{of}" if kind is QuantityKind.RATIO_2 else of
+            symbol = f"{kind.symbol}_{{{index}}}"
+            found.append(GraphQuantity(QuantityKey(kind, names), kind.label(of), symbol))
     return {one.label: one for one in found}
+
+
+def find_graph(known: Mapping[str, GraphQuantity], name: str) -> GraphQuantity | None:
+    """Return the quantity of a label, or of another spelling of it; None if there is none."""
+    if name in known:
+        return known[name]
+    try:
+        key = parse_quantity(name)
+    except QuantityNameError:
+        return None
+    return next((one for one in known.values() if one.key.is_same(key)), None)
 
 
 def ratio_of(link: str, crank: str, links: Collection[str]) -> str:

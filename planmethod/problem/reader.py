@@ -18,7 +18,6 @@ from msgspec.structs import replace
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import current_language, translate
 from planmethod.problem import keys
-from planmethod.problem.answers import SelectorError, is_force, parse_selector
 from planmethod.problem.drive import is_place, is_posed
 from planmethod.problem.faults import FAULT_LIMIT, Faults, is_number
 from planmethod.problem.file_node import FileNode, read_units
@@ -36,6 +35,7 @@ from planmethod.problem.names import (
     split_names,
     split_pair,
 )
+from planmethod.problem.quantities import QuantityNameError, parse_quantity
 from planmethod.problem.records import TITLE_BLOCK, TITLE_BLOCK_IN
 from planmethod.problem.source import TABLE_LIMIT, parse, read_source, table_text
 
@@ -250,8 +250,8 @@ def _is_force_entry(entry: object) -> bool:
     """Return whether a published value is of the force analysis; one that is faulty is not."""
     what = entry.get("what") if isinstance(entry, Mapping) else None
     try:
-        return isinstance(what, str) and bool(what) and is_force(parse_selector(what))
-    except SelectorError:
+        return isinstance(what, str) and bool(what) and parse_quantity(what).is_loaded
+    except QuantityNameError:
         return False
 
 

@@ -23,10 +23,11 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
 from planmethod.languages import translate
-from planmethod.plans.build import Quantity, QuantityKind
+from planmethod.plans.build import Quantity
 from planmethod.plans.forces.board import SCALE
 from planmethod.plans.forces.polygons import DOWN, numbers_of
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.conditioning import SCALES, error_bound
 from planmethod.solved.failures import failing
 from planmethod.solved.quantities import Quantities, natural_size, quantities_of

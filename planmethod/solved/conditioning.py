@@ -22,8 +22,9 @@ from planmethod.construct.arithmetic import Number
 from planmethod.construct.condition import UNIT_ROUNDOFF, reach
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Join, Name
-from planmethod.plans.build import ZERO, Quantity, QuantityKind
+from planmethod.plans.build import ZERO, Quantity
 from planmethod.plans.model import DimensionKind
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.quantities import natural_size, quantities_of
 from planmethod.solved.reading import Reals, driven
 from planmethod.solved.solution import FEW_ROWS, UNIT_SCALES, Solution

@@ -14,15 +14,15 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName, Step
 from planmethod.errors import PlanMethodError
 from planmethod.languages import translate
-from planmethod.plans.build import (
-    TRANSFERS,
-    Construction,
-    Quantity,
-    QuantityKind,
-    TransferSteps,
-    transfer_quantities,
-)
+from planmethod.plans.build import Construction, Quantity, TransferSteps, transfer_quantities
 from planmethod.plans.draft import Draft
+from planmethod.problem.quantities import (
+    TRANSFERS,
+    QuantityKey,
+    QuantityKind,
+    QuantityNameError,
+    parse_quantity,
+)
 from planmethod.solved.reading import Reading, Reals, memoized
 from planmethod.solved.solution import PointMotion, Solution
 
@@ -78,11 +78,13 @@ class Quantities(Struct, frozen=True):
         return tuple(chosen.values())
 
     def find(self, label: str) -> Sequence[Quantity]:
-        """Return the results of a label or a column name; none if it is unknown."""
+        """Return the results of a label, of a column, or of any other spelling; none if unknown."""
         if label in QUANTITY_GROUPS:
             return [result for result in self.all if result.kind in QUANTITY_GROUPS[label]]
         found = [result for result in self.all if result.label == label]
-        return found or [result for result in self.all if label in result.columns]
+        found = found or [result for result in self.all if label in result.columns]
+        key = None if found else key_of(label)
+        return [result for result in self.all if key and key.is_same(result.key)] or found
 
     def _named(self, label: str) -> Sequence[Quantity]:
         found = self.find(label)
@@ -97,6 +99,15 @@ class Quantities(Struct, frozen=True):
             hint = translate("; did you mean {!r}?", near[0]) if near else "."
             raise UnknownQuantityError("no result {!r}{} Known: {}.", label, hint, ", ".join(known))
         return found
+
+
+def key_of(label: str) -> QuantityKey | None:
+    """Return the whole quantity that a text names, of a component; None if it names none."""
+    try:
+        key = parse_quantity(label)
+    except QuantityNameError:
+        return None
+    return None if key.over is not None else QuantityKey(key.kind, key.names)
 
 
 def natural_size(kind: QuantityKind, largest: Mapping[QuantityKind, Any]) -> Any:

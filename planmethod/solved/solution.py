@@ -30,10 +30,11 @@ from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import ArgumentError
 from planmethod.mechanism.structure import Structure
-from planmethod.plans.build import Construction, Quantity, QuantityKind
+from planmethod.plans.build import Construction, Quantity
 from planmethod.plans.model import RATES, PlanKind, assembly_period
 from planmethod.plans.motion.legs import Relative
 from planmethod.problem.model import Problem, Scales
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.assembly_modes import construct, drive_data, reject_ambiguous
 from planmethod.solved.failures import PositionError, explain, failing
 from planmethod.solved.legibility import (

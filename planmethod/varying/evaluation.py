@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from planmethod.check.calculation import task_of_problem
 from planmethod.check.key import MistakeEffect, batch_named, batch_tasks
 from planmethod.check.marks import Settings
-from planmethod.check.questions import Question, Questions, Sign
+from planmethod.check.questions import Question, Questions
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
@@ -26,11 +26,11 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.errors import AssemblyError, PlanMethodError
 from planmethod.kind import ProblemKind
 from planmethod.plans.model import FACTS, MOTION
-from planmethod.problem.answers import Selector
 from planmethod.problem.model import Convention, Problem
+from planmethod.problem.quantities import QuantityKey, Sign
 from planmethod.problem.records import KindProblem
 from planmethod.solved.many.variants import Batch, in_batches
-from planmethod.solved.selectors.steps import NoValueError
+from planmethod.solved.quantity_steps import NoValueError
 from planmethod.solved.selfcheck import changed_branches, verify, warnings
 from planmethod.solved.solution import Solution
 
@@ -46,7 +46,7 @@ MAX_RELATIVE_SIGMA = 0.1
 SIGMA_ALLOWANCE = 1.25
 """Factor of the σ permitted here: where first order does not hold, the true one is smaller."""
 
-RequestedQuantity = tuple[Selector, int, str]
+RequestedQuantity = tuple[QuantityKey, int, str]
 """A quantity, its position, and what it is called."""
 
 
@@ -100,7 +100,7 @@ def screen_linkages(
 
     Parameters
     ----------
-    requested : sequence of (Selector, int, str)
+    requested : sequence of (QuantityKey, int, str)
         Requested quantities that move.
     """
     profile, found = PROFILES[settings.profile], ScreenedLinkages()
@@ -179,15 +179,15 @@ def _find_failing_rows(
     """Yield in which rows a quantity is too short, or errs too much to be read: to first order."""
     questions = Questions(batch)
     asked: list[tuple[Question, int, str]] = []
-    for selector, position, name in requested:
+    for quantity_key, position, name in requested:
         try:
-            asked.append((questions.question(selector), position, name))
+            asked.append((questions.question(quantity_key), position, name))
         except NoValueError:
             continue  # of forces
-    draft, known = questions.selecting.draft, batch.construction.draft
+    draft, known = questions.steps.draft, batch.construction.draft
     if set(draft.numbers) != set(known.numbers):
         return  # numbers of one variant
-    program = questions.selecting.b.program()
+    program = questions.steps.b.program()
     program = program.needed_for({name for question, *_ in asked for name in question.needs})
     data = batch.data(batch.per_mm)
     free = frozenset(str(plan.pole) for plan in batch.construction.plans)
@@ -283,7 +283,7 @@ class CandidateEvaluator:
         self.waived = frozenset(kind.failing_conditions(main))
         self.zero_answers: frozenset[str] = frozenset()
         self.main: EvaluatedVariant | None = None
-        self._moving: tuple[tuple[Selector, int, str], ...] = ()
+        self._moving: tuple[tuple[QuantityKey, int, str], ...] = ()
         self._learn_from(main)
 
     def evaluate(self, problems: Sequence[Any]) -> Iterator[EvaluatedVariant | Rejection]:
@@ -374,7 +374,7 @@ class CandidateEvaluator:
             name_of(item) for item, value in pairs if abs(value) <= ZERO_TOLERANCE
         )
         moving = [item for item in items if name_of(item) not in self.zero_answers]
-        self._moving = tuple((item.question.selector, item.position, item.name) for item in moving)
+        self._moving = tuple((item.question.key, item.position, item.name) for item in moving)
 
 
 class PlanEvaluator(CandidateEvaluator):

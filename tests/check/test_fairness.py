@@ -23,7 +23,6 @@ from doors import (
     ModelProblem as Problem,
     QuestionSpec,
     Remarks,
-    Selector,
     Sense,
     Sign,
     Solution,
@@ -43,7 +42,7 @@ from doors import (
     key_of_task,
     mark_similar_submissions,
     match_chance,
-    name_and_symbol,
+    parse_quantity,
     propagate_mistake,
     read_csv,
     read_json,
@@ -330,7 +329,7 @@ def entries(name: str) -> tuple[KeyEntry, ...]:
 
 
 def test_letters_of_an_inertia_couple_have_no_underscore_of_their_own() -> None:
-    assert name_and_symbol(Selector("inertia couple", ("2",)))[1] == "M_{Φ2}"
+    assert parse_quantity("inertia couple 2").symbol == "M_{Φ2}"
 
 
 # Routes --------------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ from functools import cache
 from typing import Any
 
 import pytest
-from doors import Solution, audit, is_force, parse_selector, statics_of
+from doors import Solution, audit, parse_quantity, statics_of
 from worked import ROOT, path_of, problem_of
 
 
@@ -34,7 +34,7 @@ def test_no_printed_force_is_left_unchecked(name: str) -> None:
     forces = {
         item.name
         for item in problem_of(name).published
-        if item.what and is_force(parse_selector(item.what))
+        if item.what and parse_quantity(item.what).is_loaded
     }
     assert forces <= set(computed()["printed"][name]), path_of(name)
 

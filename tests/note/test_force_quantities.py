@@ -8,19 +8,19 @@ from math import atan2, degrees, hypot, pi, sqrt
 import pytest
 from cases import each
 from doors import (
-    FORCES,
     WORDING_LANGUAGES as LANGUAGES,
     Audited,
     AuditVerdict,
     ModelProblem as Problem,
     NoValue,
     NoValueError,
-    SelectorValues,
+    QuantityKind,
+    QuantityValues,
     Solution,
     audit,
     drawn_forces,
     get_language,
-    parse_selector,
+    parse_quantity,
     problem_loads as loads,
     source_force_scale,
     statics_of,
@@ -59,8 +59,8 @@ def loaded(*entries: str, driver: str = "omega = 10") -> Problem:
 
 
 @cache
-def kulisa() -> SelectorValues:
-    return SelectorValues(Solution(loaded(), ruler=0.5), 0, MU_F)
+def kulisa() -> QuantityValues:
+    return QuantityValues(Solution(loaded(), ruler=0.5), 0, MU_F)
 
 
 # Across the kulisa: the load, the inertia of a^t = 3 and the weight; along it: a^n = 7.5.
@@ -114,16 +114,17 @@ EXACT = {
 
 @each("what, value", EXACT.items())
 def test_exact_values_of_forces(what: str, value: float) -> None:
-    assert kulisa().exact(parse_selector(what)) == pytest.approx(value, rel=1e-12, abs=1e-11)
+    assert kulisa().exact(parse_quantity(what)) == pytest.approx(value, rel=1e-12, abs=1e-11)
 
 
 def test_every_force_is_tested() -> None:
-    assert {parse_selector(what).kind for what in EXACT} == set(FORCES)
+    wanted = {kind for kind in QuantityKind if kind.is_force and kind.word}
+    assert {parse_quantity(what).kind for what in EXACT} == wanted
 
 
 def test_a_force_that_is_zero_by_nature_is_exactly_zero() -> None:
     for what in ("Fn 2 1 C D", "M 2 1", "weight 2"):
-        assert kulisa().exact(parse_selector(what)) == 0.0
+        assert kulisa().exact(parse_quantity(what)) == 0.0
 
 
 # By hand ---------------------------------------------------------------------------------------
@@ -131,7 +132,7 @@ def test_a_force_that_is_zero_by_nature_is_exactly_zero() -> None:
 
 @pytest.mark.parametrize("what", ["F 2 1", "F 3 0", "Ft 3 0 C D", "Fn 3 0 C D", "F 1 0"])
 def test_a_force_is_read_off_its_plan_with_the_ruler(what: str) -> None:
-    selector = parse_selector(what)
+    selector = parse_quantity(what)
     steps = kulisa().read(selector) / (0.5 * MU_F)  # type: ignore[operator]
     assert steps == pytest.approx(round(steps), abs=1e-9)
     assert steps * 0.5 * MU_F == pytest.approx(kulisa().exact(selector), rel=0.02, abs=1)
@@ -140,37 +141,37 @@ def test_a_force_is_read_off_its_plan_with_the_ruler(what: str) -> None:
 def test_a_value_that_was_laid_off_is_not_read_again() -> None:
     """The tangential reaction is its moment over the arm CB, which was read 70.5 mm."""
     at = kulisa()
-    assert at.read(parse_selector("load P")) == 100.0
-    assert at.read(parse_selector("weight 3")) == 20.0
-    steps = at.read(parse_selector("Ft 2 1 C D")) / (0.5 * MU_F)  # type: ignore[operator]
+    assert at.read(parse_quantity("load P")) == 100.0
+    assert at.read(parse_quantity("weight 3")) == 20.0
+    steps = at.read(parse_quantity("Ft 2 1 C D")) / (0.5 * MU_F)  # type: ignore[operator]
     assert abs(steps - round(steps)) > 0.01
     assert steps * 0.5 * MU_F == pytest.approx(PRESSURE, rel=0.02)
 
 
 def test_inertia_follows_from_the_acceleration_read() -> None:
     at = kulisa()
-    a_d, epsilon = at.read(parse_selector("a D")), at.read(parse_selector("epsilon 3"))
+    a_d, epsilon = at.read(parse_quantity("a D")), at.read(parse_quantity("epsilon 3"))
     assert a_d is not None
     assert epsilon is not None
-    assert at.read(parse_selector("inertia 3")) == pytest.approx(2 * a_d, rel=1e-12)
-    assert at.read(parse_selector("inertia couple 3")) == pytest.approx(0.5 * epsilon, rel=1e-12)
+    assert at.read(parse_quantity("inertia 3")) == pytest.approx(2 * a_d, rel=1e-12)
+    assert at.read(parse_quantity("inertia couple 3")) == pytest.approx(0.5 * epsilon, rel=1e-12)
 
 
 def test_arms_are_read_off_the_drawing() -> None:
-    read = {what: kulisa().read(parse_selector(what)) for what in EXACT if what.startswith("arm w")}
+    read = {what: kulisa().read(parse_quantity(what)) for what in EXACT if what.startswith("arm w")}
     assert read == {"arm weight 3 about C": pytest.approx(106.0), "arm weight 3 about D": 0.0}
 
 
 def test_the_hands_balance_is_that_of_its_plans() -> None:
     solution = Solution(loaded(), ruler=0.5)
-    own = SelectorValues(solution)
+    own = QuantityValues(solution)
     hand = drawn_forces(statics_of(solution))
-    assert own.read(parse_selector("balance")) == hand.read("balance")[0]
-    assert own.read(parse_selector("lever")) == hand.read("lever")[0]
+    assert own.read(parse_quantity("balance")) == hand.read("balance")[0]
+    assert own.read(parse_quantity("lever")) == hand.read("lever")[0]
 
 
 def test_an_angle_of_a_force_is_not_read_with_a_ruler() -> None:
-    assert kulisa().read(parse_selector("angle F 2 1")) is None
+    assert kulisa().read(parse_quantity("angle F 2 1")) is None
 
 
 def test_the_shift_is_the_constructed_one() -> None:
@@ -179,7 +180,7 @@ def test_the_shift_is_the_constructed_one() -> None:
     scales = replace(problem.scales, mu_l=0.002)
     solution = Solution(replace(problem, scales=scales))
     (shift,) = statics_of(solution).board.shifts.values()
-    quantities, selector = SelectorValues(solution), parse_selector("shift 3")
+    quantities, selector = QuantityValues(solution), parse_quantity("shift 3")
     exact = statics_of(solution).paper.point(shift.at) - solution.paper.point(shift.centre)
     assert quantities.exact(selector) == pytest.approx(abs(complex(exact[0])), rel=1e-9)
     laid = statics_of(solution).ruler_reading.number(shift.length)
@@ -190,13 +191,13 @@ def test_the_shift_is_the_constructed_one() -> None:
 def test_arms_are_those_of_the_shifted_line() -> None:
     """Φ turns about C by 0.3·6 N·m, and as much as its couple, 0.4·10."""
     text = KULISA + SCALES + LOADS.replace("inertia = 0.5", "inertia = 0.4\n")
-    single = SelectorValues(Solution(with_resultant(loads(text, name="kulisa"))))
-    arm = single.exact(parse_selector("arm inertia 3 about C"))
+    single = QuantityValues(Solution(with_resultant(loads(text, name="kulisa"))))
+    arm = single.exact(parse_quantity("arm inertia 3 about C"))
     assert arm == pytest.approx((0.3 * 6 + 4) / INERTIA / 0.002, rel=1e-9)
-    assert single.exact(parse_selector("inertia couple 3")) == pytest.approx(4.0)
+    assert single.exact(parse_quantity("inertia couple 3")) == pytest.approx(4.0)
     # With 5 N·m the shift is longer than the kulisa: the force stays at D.
-    far = SelectorValues(Solution(with_resultant(loaded())))
-    assert far.exact(parse_selector("arm inertia 3 about C")) == pytest.approx(
+    far = QuantityValues(Solution(with_resultant(loaded())))
+    assert far.exact(parse_quantity("arm inertia 3 about C")) == pytest.approx(
         0.3 * 6 / INERTIA / 0.002, rel=1e-9
     )
 
@@ -234,7 +235,7 @@ angle = 180
 
 
 def asked(problem: Problem, what: str) -> float:
-    return SelectorValues(Solution(problem)).exact(parse_selector(what))
+    return QuantityValues(Solution(problem)).exact(parse_quantity(what))
 
 
 def test_a_driving_slider_is_balanced_along_its_guide() -> None:

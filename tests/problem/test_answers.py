@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import tomllib
 from pathlib import Path
@@ -10,17 +11,18 @@ from pathlib import Path
 import pytest
 from doors import (
     AnswerForm,
+    AnswerScope,
     DirectionMode,
     ProblemError,
     ProblemProblem as Problem,
+    QuantityValues,
     QuestionSpec,
-    SelectorValues,
     Solution,
-    parse_selector,
+    parse_quantity,
     problem_load as load,
     problem_loads as loads,
     quantities_for,
-    words_of,
+    quantities_of,
 )
 from mechanisms import CRANK, LOADED, SLIDER, messages
 from worked import PROBLEMS, every_file
@@ -81,7 +83,9 @@ def test_a_file_without_answers_requires_none_of_its_own() -> None:
         ("epsilon_4", "epsilon_4", "epsilon 4"),
         ("segment velocity p B3", "segment_velocity_p_B3", "segment velocity p B3"),
         ("vx D / omega 1", "vx_D/omega_1", "vx D / omega 1"),
-        ("v_D/omega_3", "v_D/omega_3", "v D/omega 3"),
+        ("v_D/omega_3", "v_D/omega_3", "v D / omega 3"),
+        ("B3.vx", "B3.vx", "vx B3"),
+        ("3.omega", "3.omega", "omega 3"),
     ],
 )
 def test_a_quantity_in_words_or_by_its_name(what: str, id_: str, words: str) -> None:
@@ -98,18 +102,25 @@ def test_forces_by_their_names() -> None:
 
 
 @pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
-def test_every_name_is_understood_and_means_the_same(path: Path) -> None:
-    """The selector gives the magnitude of the value that the name gives signed or as a vector."""
+def test_every_spelling_means_the_same(path: Path) -> None:
+    """Words and labels give the magnitude of the value, columns its components or its number."""
     solution = Solution(load(path))
-    slides = solution.problem.slides.values()
-    at = SelectorValues(solution)
-    for quantity in solution.legend.values():
+    pairs = AnswerScope((), (), (), solution.problem.slides, None, None).pairs
+    found, at = quantities_of(solution.construction, transfers=True), QuantityValues(solution)
+    for quantity in found.all:
         on_the_frame = quantity.label.startswith("ak_") and quantity.label.endswith("/0")
         if quantity.size is None or on_the_frame:
             continue
-        words = parse_selector(words_of(quantity.label, slides))
-        value = abs(solution.exact(quantity)[0])
-        assert abs(at.exact(words)) == pytest.approx(value, rel=1e-9, abs=1e-9), quantity.label
+        for text in (quantity.label, quantity.key.words, *quantity.columns):
+            assert found.find(text) == [quantity], text
+        words = {parse_quantity(text, pairs) for text in (quantity.label, quantity.key.words)}
+        numbers = [at.exact(key) for key in words]
+        parts = [at.exact(parse_quantity(text, pairs)) for text in quantity.columns]
+        numbers += [math.hypot(*parts)]
+        if quantity in solution.legend.values():
+            numbers.append(float(solution.exact(quantity)[0]))
+        first, *others = map(abs, numbers)
+        assert others == pytest.approx([first] * len(others), rel=1e-9, abs=1e-9), quantity.label
 
 
 @pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
@@ -117,15 +128,22 @@ def test_every_force_can_be_required_by_its_name(path: Path) -> None:
     problem = load(path)
     if problem.dynamics is None:
         pytest.skip("no masses and no loads")
-    labels = [q.label for q in quantities_for(Solution(problem), ["forces"]).all if q.kind.is_force]
+    found = quantities_for(Solution(problem), ["forces"])
+    forces = [quantity for quantity in found.all if quantity.kind.is_force]
+    labels = [quantity.label for quantity in forces]
     assert labels[-1] == ("M_lever" if problem.drive.balancing.turns else "F_lever")
     text = re.sub(r"(?ms)^answers = \[.*?^\]$", "", path.read_text("utf-8"))
     text = re.sub(r"(?ms)^\[\[answers\]\].*?(?=^\[|\Z)", "", text).partition("[variants")[0]
     asked = read(*(f'what = "{label}"' for label in labels), base=text).answers
     assert [answer.id for answer in asked] == labels
-    at = SelectorValues(Solution(problem))
-    for answer in asked:
-        at.exact(parse_selector(answer.what))
+    at = QuantityValues(Solution(problem))
+    for quantity, answer in zip(forces, asked, strict=True):
+        spelled = (quantity.label, quantity.key.words, quantity.columns[-1], answer.what)
+        assert all(found.find(text) == [quantity] for text in spelled)
+        assert len({at.exact(parse_quantity(text)) for text in spelled}) == 1
+        parts = [at.exact(parse_quantity(text)) for text in quantity.columns[:-1]]
+        whole = abs(at.exact(quantity.key))
+        assert not parts or math.hypot(*parts) == pytest.approx(whole, rel=1e-9, abs=1e-9)
 
 
 def test_the_example_of_the_documentation_is_read() -> None:

@@ -18,7 +18,7 @@ from doors import (
     Phase,
     SizeTable,
     TurningSense,
-    parse_selector,
+    parse_quantity,
 )
 from mechanisms import CRANK, LOADED, SLIDER, messages, read
 from worked import problem_of
@@ -265,7 +265,7 @@ def test_faulty_overrides(override: str, wanted: str) -> None:
 def test_a_number_after_the_letter_of_a_load_is_its_index(written: str, letter: str) -> None:
     assert force(f'name = "{written}"\nangle = 0\nforce = 1').name == letter
     if letter != written:
-        assert parse_selector(f"arm load {written} about O").names == (letter, "O")
+        assert parse_quantity(f"arm load {written} about O").names == (letter, "O")
 
 
 def test_a_load_whose_index_is_written_in_two_ways_has_one_name() -> None:

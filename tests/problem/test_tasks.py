@@ -26,7 +26,7 @@ from doors import (
     groups_of,
     home,
     kinds_load as load,
-    parse_selector,
+    parse_quantity,
     read_variants,
     source_parse as parse,
     statics_of,
@@ -137,7 +137,7 @@ def test_a_scheme_with_several_readings_is_marked_but_not_on_a_sheet(lang: str) 
 def test_lever_tasks_require_motion_and_with_masses_forces(path: Path) -> None:
     """The list is the same in all variants."""
     problem = load(path)
-    kinds = [parse_selector(one.what).kind for one in problem.answers]
+    kinds = [parse_quantity(one.what).word for one in problem.answers]
     assert {"v", "a", "omega", "epsilon"} <= set(kinds)
     assert ({"F", "balance"} <= set(kinds)) == (problem.dynamics is not None)
     asked = {one.what for one in problem.answers}

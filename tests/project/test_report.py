@@ -51,6 +51,7 @@ from doors import (
     in_mesh,
     inlined,
     kinds_load as load,
+    kinds_on,
     meshed,
     note_document,
     note_files,
@@ -315,10 +316,7 @@ def test_the_conclusion_names_the_worst_readings_with_their_shares_and_sigmas(na
         r"accelerations \((\S+)\), that is ([\d.]+) and ([\d.]+) standard", said
     )  # fmt: skip
     assert found is not None
-    velocity, acceleration = (
-        largest_share(solution, *(kind for kind in MOTION_KINDS if kind.plan is plan))
-        for plan in RATES
-    )
+    velocity, acceleration = (largest_share(solution, *kinds_on(plan)) for plan in RATES)
     for (symbol, share, sigmas), (text, letters, many) in zip(
         (velocity, acceleration),
         ((found[1], found[2], found[5]), (found[3], found[4], found[6])),

@@ -13,7 +13,7 @@ from doors import (
     DrawingItem as Item,
     ForceReading,
     LeverReading,
-    SelectorValues,
+    QuantityValues,
     Severity,
     Solution,
     Stroke,
@@ -22,7 +22,7 @@ from doors import (
     get_language,
     inspect,
     kinematics_sheets,
-    parse_selector,
+    parse_quantity,
     statics_of,
 )
 from lettered import computed, lever_lines, load_lines, moment_lines
@@ -115,8 +115,8 @@ def test_moments_have_the_arm_of_the_shifted_line(name: str) -> None:
     told = [line for plan in reading.plans for line in moment_lines(reading, plan)]
     assert not any(f"M_{{Φ{link}}}" in line for line in told)
     pivot = {"2": "C", "3": "O3"}[link]
-    hand = SelectorValues(reading.solution)
-    arm = hand.read(parse_selector(f"arm inertia {link} about {pivot}"))
+    hand = QuantityValues(reading.solution)
+    arm = hand.read(parse_quantity(f"arm inertia {link} about {pivot}"))
     (line,) = (line for line in told if line.startswith("h_") and f"h_{{Φ{link}}} = " in line)
     written = re.search(rf"h_{{Φ{link}}} = ([\d,]+)", line)
     assert written is not None
@@ -140,8 +140,8 @@ def test_the_arm_is_that_of_force_and_couple(name: str) -> None:
     arm = plain.points[force.point].place - plain.points[pivot].place
     moment = (np.conj(arm) * force.force).imag + given[f"M_{{Φ{link}}}"].couple
     expected = abs(float(moment[0])) / abs(complex(force.force[0]))
-    shifted = SelectorValues(reading_of(name).solution)
-    found = shifted.exact(parse_selector(f"arm inertia {link} about {pivot}"))
+    shifted = QuantityValues(reading_of(name).solution)
+    found = shifted.exact(parse_quantity(f"arm inertia {link} about {pivot}"))
     per_mm = next(iter(mu_l.values())).per_mm
     assert found * per_mm == pytest.approx(expected, rel=1e-9)
 

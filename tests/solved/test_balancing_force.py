@@ -10,13 +10,14 @@ import pytest
 from cases import each
 from doors import (
     BalancingForceTask,
-    ForceValues,
     LeverReading,
     ModelProblem as Problem,
     PositionError,
     ProblemError,
+    QuantityKey,
+    QuantityKind,
+    QuantityValues,
     Questions,
-    Selector,
     Solution,
     Statics,
     force_reading,
@@ -100,12 +101,12 @@ def test_the_balancing_force_is_read_and_acts_on_the_lever() -> None:
 
 def test_selectors_and_questions() -> None:
     solution = Solution(pushed(stone()))
-    values = ForceValues(solution, 0)
-    alone = values.value(Selector("balance", ()), by_ruler=False)
-    at_a = values.value(Selector("balance", ("A",)), by_ruler=False)
+    values = QuantityValues(solution)
+    alone = values.exact(QuantityKey(QuantityKind.BALANCE, ()))
+    at_a = values.exact(QuantityKey(QuantityKind.BALANCE, ("A",)))
     assert abs(alone) == pytest.approx(at_a, rel=1e-12)
-    assert values.value(Selector("lever", ("A",)), by_ruler=False) == pytest.approx(at_a)
-    question = Questions(solution).question(Selector("balance", ()))
+    assert values.exact(QuantityKey(QuantityKind.LEVER, ("A",))) == pytest.approx(at_a)
+    question = Questions(solution).question(QuantityKey(QuantityKind.BALANCE, ()))
     assert question.unit == "N"
 
 

@@ -7,6 +7,7 @@ import pytest
 from cases import each
 from doors import (
     CrankCycle,
+    QuantityKind,
     Solution,
     UnknownQuantityError,
     graph_quantities,
@@ -38,16 +39,18 @@ def test_every_quantity_is_that_of_a_solution(name: str) -> None:
         links = [link for link in solved.links if link != "0"]
         for one in graph_quantities(solved.points, links, turn.unit.problem.drive.link).values():
             found = values_over(turn, one, at)
-            if one.of in solved.points and one.kind in ("x", "y", "v", "a"):
-                motion = solved.points[one.of]
-                vector = {"v": motion.velocity, "a": motion.acceleration}.get(
-                    one.kind, motion.place
-                )
-                axis = one.axis or (one.kind if one.kind in "xy" else "")
-                expected = {"": np.abs(vector), "x": vector.real, "y": vector.imag}[axis]
-            elif one.kind in ("omega", "epsilon"):
-                expected = getattr(solved.links[one.of], one.kind)
-            elif one.kind == "phi":
+            motion = solved.points.get(one.of)
+            vectors = {} if motion is None else {
+                QuantityKind.PLACE: motion.place,
+                QuantityKind.VELOCITY: motion.velocity,
+                QuantityKind.ACCELERATION: motion.acceleration,
+            }  # fmt: skip
+            if one.kind in vectors:
+                vector = vectors[one.kind]
+                expected = {"": np.abs(vector), "x": vector.real, "y": vector.imag}[one.axis]
+            elif one.kind in (QuantityKind.OMEGA, QuantityKind.EPSILON):
+                expected = getattr(solved.links[one.of], one.kind.word)
+            elif one.kind is QuantityKind.DIRECTION:
                 turned = (found - solved.links[one.of].phi_deg + 180.0) % 360.0 - 180.0
                 assert np.abs(turned).max() < 1e-9
                 assert np.abs(np.diff(found)).max() < 180.0
@@ -69,13 +72,18 @@ def test_analogues_are_differences_of_places(name: str) -> None:
     moving = [p for k in links for p in turn.unit.problem.bodies[k].points]
     known = graph_quantities(moving, links, crank)
     for quantity in known.values():
-        place = {"v_q": quantity.axis, "a_q": quantity.axis, "u": "phi", "epsilon_q": "phi"}
+        place = {
+            QuantityKind.TRANSFER: quantity.axis,
+            QuantityKind.TRANSFER_2: quantity.axis,
+            QuantityKind.RATIO: "phi",
+            QuantityKind.RATIO_2: "phi",
+        }
         base = place.get(quantity.kind, "")
         if not base:
             continue
         row = values_over(turn, known[f"{base}_{quantity.of}"], at)
         row = np.radians(row) if base == "phi" else row
-        weights = one if quantity.kind in ("v_q", "u") else two
+        weights = one if quantity.kind.order == 1 else two
         found = values_over(turn, quantity, np.array([middle]))[0]
         assert found == pytest.approx(float(row @ weights), rel=1e-6, abs=2e-6), quantity.label
 

@@ -11,10 +11,10 @@ from doors import (
     MIN_LENGTH_MM,
     MIN_MARGIN,
     ModelProblem as Problem,
+    QuantityKey,
     RejectionReason,
-    Selector,
     Solution,
-    parse_selector,
+    parse_quantity,
     screen_linkages,
 )
 from worked import PROBLEMS
@@ -30,8 +30,8 @@ def linkage(omega: float = -100.0, phi: float = 60.0, rod: float = 0.1) -> Probl
 
 
 @cache
-def v_b() -> Selector:
-    return parse_selector("v B")
+def v_b() -> QuantityKey:
+    return parse_quantity("v B")
 
 
 def reasons(problems: list[Problem]) -> list[RejectionReason | None]:

@@ -16,7 +16,6 @@ from planmethod.check.key import Key, entry_of
 from planmethod.check.model import KeyEntry, Sense
 from planmethod.check.pages.keypage import format_scales
 from planmethod.check.pages.remarks import AnswerFormatter, displayed_value
-from planmethod.check.questions import Sign
 from planmethod.check.sheet import Sheet, is_right
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
@@ -26,6 +25,7 @@ from planmethod.note.formula import escape
 from planmethod.note.numbers import finite_or_none
 from planmethod.note.wording import Language, MessageTable
 from planmethod.note.writers.html import markup, without_control_characters
+from planmethod.problem.quantities import Sign
 from planmethod.render.backends import Options, render
 
 MAX_WRONG_VALUES = 12

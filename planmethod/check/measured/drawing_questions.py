@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from planmethod.check.questions import Question, Sign
+from planmethod.check.questions import Question
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
 from planmethod.plans.model import RATES
+from planmethod.problem.quantities import Sign
 
 SHORT_MM = 1.0
 """A vector not longer than this has no visible direction."""
@@ -48,4 +49,4 @@ def list_drawing_items(task: Task) -> tuple[TaskItem, ...]:
 
 def vector_of(sheet: Sheet, question: Question) -> Question:
     """Return the vector that an answer is the length or the direction of."""
-    return sheet.questions.question(question.selector) if question.sign is Sign.ANGLE else question
+    return sheet.questions.question(question.key) if question.sign is Sign.ANGLE else question

@@ -24,13 +24,14 @@ from planmethod.check.measured.drawing import (
 from planmethod.check.measured.drawing_questions import list_drawing_items, vector_of
 from planmethod.check.measured.files import read_dxf, read_svg
 from planmethod.check.model import Submission, Unread, WrittenAnswer
-from planmethod.check.questions import Sign, normalize
+from planmethod.check.questions import normalize
 from planmethod.check.sheet import Sheet, single_point
 from planmethod.check.submissions.cells import Cell, SubmissionError, mark_unreadable, read_number
 from planmethod.check.submissions.gather import SubmissionDraft, scale_name
 from planmethod.check.task import Task, TaskItem
 from planmethod.construct.steps import PointName
 from planmethod.plans.model import FACTS, RATES, PlanKind, Vector, pole_letter
+from planmethod.problem.quantities import Sign
 
 SNAP_MM = 0.3
 """Ends of lines nearer than this are one vertex."""

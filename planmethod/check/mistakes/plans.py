@@ -71,7 +71,7 @@ class MistakeContext:
         self.solution = sheet.questions.solution
         self.problem = self.solution.problem
         self.kinematics = self.solution.construction.kinematics
-        self.draft = sheet.questions.selecting.draft
+        self.draft = sheet.questions.steps.draft
         self.steps = sheet.program.steps
         self.steps_by_name = sheet.steps_by_name
 
@@ -83,7 +83,7 @@ class MistakeContext:
 
     def segments(self, plan: PlanKind) -> Segments:
         """Return the segments of the velocity or the acceleration plan."""
-        return self.sheet.questions.selecting.segments(plan)
+        return self.sheet.questions.steps.segments(plan)
 
     def exact_value(self, name: Name) -> float:
         """Return the exact value of a number."""

@@ -18,9 +18,9 @@ from planmethod.check.model import Sense, Unread, WrittenAnswer
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import visible
 from planmethod.note.wording import get_language
-from planmethod.problem.answers import SelectorError, parse_selector
 from planmethod.problem.formula import ratio_of, read_unit
 from planmethod.problem.names import fold, short
+from planmethod.problem.quantities import QuantityNameError, parse_words
 
 SIZE_LIMIT = 4 * 1024 * 1024
 
@@ -280,8 +280,8 @@ def read_name(text: str) -> tuple[str, str]:
     """Return ``what`` and ``id`` of a quantity; one of them is empty."""
     folded = " ".join(fold(text).split())
     try:
-        parse_selector(folded)
-    except SelectorError:
+        parse_words(folded)
+    except QuantityNameError:
         return "", text
     return folded, ""
 

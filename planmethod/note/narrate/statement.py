@@ -30,7 +30,7 @@ from planmethod.note.narrate.stated_links import (
 )
 from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language
-from planmethod.plans.build import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
+from planmethod.plans.build import MOTION_KINDS, Quantity
 from planmethod.problem.model import (
     ANYWHERE,
     AssemblyRelation,
@@ -43,6 +43,7 @@ from planmethod.problem.model import (
     Rule,
 )
 from planmethod.problem.names import segment, split_names
+from planmethod.problem.quantities import TURNINGS, QuantityKind
 from planmethod.problem.records import KindProblem
 from planmethod.solved.reading import driven
 from planmethod.solved.rules import from_joint

@@ -7,8 +7,9 @@ from collections import Counter
 from planmethod.construct.steps import Compute, GivenNumber, NumberName, Step, Total
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.naming import Formulas, Names
-from planmethod.plans.build import Quantity, QuantityKind
+from planmethod.plans.build import Quantity
 from planmethod.plans.model import PlanKind
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.quantities import Transfers
 
 ORDERS = {

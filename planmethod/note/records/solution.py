@@ -21,11 +21,12 @@ from planmethod.note.narrate.structure import MOBILITY
 from planmethod.note.numbers import record_float
 from planmethod.note.series import compared_extremes
 from planmethod.note.tables.errors import quantity_series, segment_series, transfer_series
-from planmethod.plans.build import TURNING, TURNINGS, Quantity, QuantityKind
+from planmethod.plans.build import Quantity
 from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.legs import Relative
 from planmethod.problem.machine_records import Differentiation
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import TURNING, TURNINGS, QuantityKind
 from planmethod.problem.records import reading_record
 from planmethod.solved.aligned.schemes import AlignedGroup, SelfAligning
 from planmethod.solved.conditioning import error_bound

@@ -16,9 +16,9 @@ from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.languages import WRITTEN, speaking
-from planmethod.plans.build import TURNING, QuantityKind
 from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import TURNING, QuantityKind
 from planmethod.problem.records import KindProblem
 from planmethod.solved.many.gaps import GappedSweep
 from planmethod.solved.many.positions import Gaps, blocks, common_scales, force_scale

@@ -25,6 +25,7 @@ from planmethod.note.narrate.cycle import (
 from planmethod.note.numbers import format_column, in_heads, significant
 from planmethod.note.wording import Language
 from planmethod.problem.machine_records import Differentiation, GraphQuantity, graph_quantities
+from planmethod.problem.quantities import TRANSFERS
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import crank_cycle_of
@@ -90,9 +91,9 @@ def transfer_columns(diagrams: Diagrams, language: Language) -> Columns:
     known = graph_quantities(moving, turn.unit.problem.mechanism.links, crank).values()
     chosen = [
         one
-        for kind in ("v_q", "u", "a_q", "epsilon_q")
+        for kind in TRANSFERS
         for one in known
-        if one.kind == kind and not one.axis and one.of in (*moving, *turning)
+        if one.kind is kind and not one.axis and one.of in (*moving, *turning)
     ]
     return _columns_over(diagrams, chosen, language)
 

@@ -12,8 +12,9 @@ from planmethod.note.compared import DASH, DRAWN, Series
 from planmethod.note.document import Node, Paragraph, Table, table_of
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.statement import reported_quantities, solution_peak
-from planmethod.plans.build import TURNINGS, Quantity, QuantityKind
+from planmethod.plans.build import Quantity
 from planmethod.plans.model import PlanKind
+from planmethod.problem.quantities import TURNINGS, QuantityKind
 
 if TYPE_CHECKING:
     from planmethod.note.wording import Language

@@ -11,7 +11,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Chapter, Document, Node, Paragraph, table_of
 from planmethod.note.tables.results import position_line
 from planmethod.note.wording import Language, MessageTable
-from planmethod.plans.build import QuantityKind
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.accuracy import AccuracyVerdict, Refereed, examine
 from planmethod.solved.solution import Solution
 

@@ -36,9 +36,10 @@ from planmethod.note.tables.errors import (
 )
 from planmethod.note.wording import Language, MessageTable, get_language
 from planmethod.note.writers.html import html_part
-from planmethod.plans.build import TURNING, TURNINGS, QuantityKind, kinds_on
+from planmethod.plans.build import kinds_on
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import TURNING, TURNINGS, QuantityKind
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
@@ -220,7 +221,7 @@ def _link_tables(
 ) -> Iterator[Table]:
     """Yield the table of the links; with errors it is one of each of ω and ε: they are wide."""
     rows, (link, direction, *read) = _links(solution, texts, i, sigmas), texts["columns_links"]
-    heads = [[f"{kind.sign}, {texts['units'][kind.unit]}", *read] for kind in TURNINGS]
+    heads = [[f"{kind.symbol}, {texts['units'][kind.unit]}", *read] for kind in TURNINGS]
     if not sigmas.enabled:
         yield sigmas.table((link, direction, *chain(*heads)), (), rows)
         return

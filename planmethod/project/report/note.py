@@ -39,8 +39,9 @@ from planmethod.note.tables.errors import motion_series
 from planmethod.note.tables.forces import rubbed
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.wording import Language, MessageTable
-from planmethod.plans.build import MOTION_KINDS, QuantityKind, kinds_on
+from planmethod.plans.build import MOTION_KINDS, kinds_on
 from planmethod.plans.model import RATES, PlanKind
+from planmethod.problem.quantities import QuantityKind
 from planmethod.project.parts import PartName
 from planmethod.project.report.context import NBSP, Report
 from planmethod.project.report.flywheel import balancing_chapter, flywheel_chapter, machine_of

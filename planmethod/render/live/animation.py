@@ -18,10 +18,10 @@ from planmethod.languages import translate
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.naming import scale_inscription
 from planmethod.note.wording import get_language
-from planmethod.plans.build import QuantityKind
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import QuantityKind
 from planmethod.render.backends import render
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas

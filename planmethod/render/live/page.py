@@ -15,9 +15,10 @@ from typing import Any
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.naming import point_name, scale_inscription
 from planmethod.note.wording import get_language
-from planmethod.plans.build import TURNING, Quantity, QuantityKind
+from planmethod.plans.build import Quantity
 from planmethod.plans.model import Start
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import TURNING, QuantityKind
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing

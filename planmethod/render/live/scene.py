@@ -22,12 +22,13 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.statement import link_names
 from planmethod.note.narrate.naming import mark, plan_letters, point_name
 from planmethod.note.wording import Language
-from planmethod.plans.build import Quantity, QuantityKind
+from planmethod.plans.build import Quantity
 from planmethod.plans.draft import cis
 from planmethod.plans.forces.polygons import Component, Edge
 from planmethod.plans.model import FACTS, RATES, PlanKind, assembly_period
 from planmethod.plans.motion.position import link_of_axis
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import QuantityKind
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.ink.typeset import ink_bounds
 from planmethod.render.live.parts import MovingPart, cycle_deg, parts_of

@@ -15,10 +15,10 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.naming import point_name
 from planmethod.note.narrate.statement import solution_peak
 from planmethod.note.numbers import is_noise
-from planmethod.plans.build import QuantityKind
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.position import leg_points
+from planmethod.problem.quantities import QuantityKind
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import arc_points, typeset
 from planmethod.render.labels import Label
@@ -162,7 +162,7 @@ class Senses(Struct):
         sense: int,
     ) -> None:  # fmt: skip
         """Draw an arrow, and add the label of its letter behind its tail."""
-        sweep, name = self._sweep(radius), f"{kind.sign} {link}"
+        sweep, name = self._sweep(radius), f"{kind.symbol} {link}"
         size = 3.5 * self.scheme.factor
         self.arrows += turn_arrow(
             centre, radius, sense, middle=middle, sweep=sweep, length=size, tag=name
@@ -170,7 +170,7 @@ class Senses(Struct):
         aim = cis(middle - sense * sweep / 2)
         self.labels.append(
             Label(
-                typeset(f"{kind.sign}_{{{link}}}", self._height),
+                typeset(f"{kind.symbol}_{{{link}}}", self._height),
                 centre + radius * aim,
                 prefer=-1j * sense * aim,
                 gap=0.8,

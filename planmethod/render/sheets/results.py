@@ -98,7 +98,7 @@ def result_columns(
     ``kinds`` are the shown quantities. Default: all. With ``sigma`` a single position has rows for
     the read value and its error, and the values of many positions have their errors beside them.
     """
-    shown = [kind for kind in MOTION_KINDS if not kinds or kind.sign in kinds]
+    shown = [kind for kind in MOTION_KINDS if not kinds or kind.symbol in kinds]
     return columns_of(
         motion_series(solution, *shown), solution, position_indices, language, sigma=sigma
     )

@@ -13,8 +13,9 @@ from planmethod.arguments import of_type
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.plans.build import QuantityKind
+from planmethod.plans.build import plan_of
 from planmethod.plans.model import FACTS, PlanKind
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.errors.spread import DRAWS, Drafted, DrawnKind, DrawnQuantity, Errors, number
 from planmethod.solved.quantities import transfers_of
 from planmethod.solved.reading import Flags
@@ -74,13 +75,13 @@ class Drafting(Errors):
                 place = PointName(quantity.name)
                 for axis, part in (("x", "real"), ("y", "imag")):
                     take = _coordinate(place, part, getattr(origin, part))
-                    yield DrawnQuantity(f"{axis}_{quantity.of}", (place,), take)
+                    yield DrawnQuantity(quantity.kind.label(quantity.of, axis), (place,), take)
             elif quantity.size is not None:
                 sized = quantity.kind.is_size
                 kind = DrawnKind.LENGTH if sized else DrawnKind.NUMBER
                 take = number(quantity.size, size=sized)
                 item = DrawnQuantity(quantity.label, (quantity.size,), take, kind)
-                yield self._known_absent(item, quantity.kind.plan)
+                yield self._known_absent(item, plan_of(quantity.kind))
 
     def _known_absent(self, item: DrawnQuantity, kind: PlanKind) -> DrawnQuantity:
         """Return an item that knows where its plan is not drawn because it has no vector."""

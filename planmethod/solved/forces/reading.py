@@ -16,13 +16,14 @@ from planmethod.construct.arithmetic import Number
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import Name, NumberName, PointName
 from planmethod.errors import Fault, ProblemError
-from planmethod.plans.build import Quantity, QuantityKind
+from planmethod.plans.build import Quantity
 from planmethod.plans.forces.board import SCALE, Force, ForceBoard, GivenLoad, Reaction
 from planmethod.plans.forces.dyads import Driving
 from planmethod.plans.forces.polygons import Component, CoupleOn, Edge, ForcePlan, reaction_symbol
 from planmethod.plans.model import Ends, PlanKind
 from planmethod.plans.motion.legs import MotionBoard, letter
 from planmethod.problem.model import BalancingQuantity, Problem
+from planmethod.problem.quantities import QuantityKey, QuantityKind
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.statics import (
     EdgeForce,
@@ -657,8 +658,9 @@ def _reactions(board: ForceBoard) -> Iterator[Quantity]:
             shown = reaction_symbol(on, board.called(by), letter=kind.letter)
             back = f"{kind.letter}_{reaction.joint}_{by}/{on}"
             yield Quantity(
-                kind, name, f"{reaction.joint}_{on}/{by}", row=row, shown=shown, opposite=back
-            )
+                kind, name, f"{reaction.joint}_{on}/{by}", row=row, shown=shown, opposite=back,
+                named=QuantityKey(kind, (on, by)),
+            )  # fmt: skip
 
 
 def _balances(planned: Planned) -> Iterator[Quantity]:
@@ -666,6 +668,8 @@ def _balances(planned: Planned) -> Iterator[Quantity]:
     balancing = planned.board.draft.problem.drive.balancing
     kind = QuantityKind.MOMENT if balancing.turns else QuantityKind.THRUST
     row = balancing.quantity
-    yield Quantity(kind, planned.driving.balance, "dr", row=f"driving.{row}")
+    key = QuantityKey(QuantityKind.BALANCE, ())
+    yield Quantity(kind, planned.driving.balance, "dr", row=f"driving.{row}", named=key)
     if planned.lever is not None:
-        yield Quantity(kind, planned.lever.balance, "lever", row=f"lever.{row}")
+        key = QuantityKey(QuantityKind.LEVER, ())
+        yield Quantity(kind, planned.lever.balance, "lever", row=f"lever.{row}", named=key)

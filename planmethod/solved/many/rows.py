@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
 
@@ -11,14 +10,15 @@ from msgspec import Struct
 from planmethod.compiled import PiecewiseTape, Ref, Symbol, Tape, TapeProgram, javascript_function
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import Name, NumberName
-from planmethod.plans.build import TRANSFERS, Construction, Quantity, QuantityKind
+from planmethod.plans.build import Construction, Quantity
 from planmethod.plans.forces.polygons import numbers_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Problem
+from planmethod.problem.quantities import TRANSFERS, QuantityKind
 from planmethod.problem.records import Load
 from planmethod.solved.forces.laws import GivenLoads, needs_motion
 from planmethod.solved.forces.loads import changing
-from planmethod.solved.quantities import Quantities, UnknownQuantityError, quantities_of
+from planmethod.solved.quantities import Quantities, UnknownQuantityError, key_of, quantities_of
 from planmethod.solved.reading import Memoizing, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
 
@@ -258,10 +258,6 @@ class LoadColumns:
         return javascript_function("loads(x, out)", motion.tape, told, outputs)
 
 
-TRANSFER = re.compile("|".join(f"{kind.letter}_" for kind in TRANSFERS)).match
-"""Pattern of labels of transfer functions, which are planned only if one is requested."""
-
-
 def quantities_for(
     solution: Solution, labels: Iterable[str] | None, *, forces: bool = False
 ) -> Quantities:
@@ -282,7 +278,8 @@ def quantities_for(
     quantities = quantities_of(solution.construction)
     if labels is not None:
         labels = tuple(labels)
-        if any(label == "transfers" or TRANSFER(label) for label in labels):
+        kinds = {key.kind for key in map(key_of, labels) if key is not None}
+        if "transfers" in labels or not kinds.isdisjoint(TRANSFERS):
             quantities = quantities_of(solution.construction, transfers=True)
     other = () if labels is None else [label for label in labels if not quantities.find(label)]
     if not (other or (forces and labels is None)):
@@ -291,9 +288,10 @@ def quantities_for(
         from planmethod.solved.forces.reading import with_forces
 
         return with_forces(solution, quantities)
-    letters = {kind.letter for kind in QuantityKind if kind.is_force}
+    letters = (QuantityKind.REACTION.letter, QuantityKind.MOMENT.letter)
     for label in other:
-        if label == "forces" or label.partition("_")[0] in letters:
+        key = key_of(label)
+        if label == "forces" or label.partition("_")[0] in letters or (key and key.is_loaded):
             raise UnknownQuantityError(
                 "no result {!r}: the problem has no loads. Give the masses in [dynamics] and "
                 "the loads in [[loads]].",

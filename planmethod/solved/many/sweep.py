@@ -16,6 +16,7 @@ from planmethod.compiled import FEW, Array, Runner
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import Name, PointName
+from planmethod.plans.build import plan_of
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.assembly_modes import reject_ambiguous
@@ -138,7 +139,7 @@ class Sweep:
         self.program, self.constants = self._case.program, self._case.constants
         self.branches = self._draft.branches
         self._untold = any(closing.only_at for closing in self._draft.choice.values())
-        plans = {result.kind.plan for result in self._case.chosen}
+        plans = {plan_of(result.kind) for result in self._case.chosen}
         if self._untold and plans != {PlanKind.POSITION}:
             reject_ambiguous(problem, self._draft)
         self.steps = len(self.program.steps)

@@ -22,10 +22,11 @@ from planmethod.construct.steps import Name
 from planmethod.errors import AssemblyError, PlanMethodError, ProblemError
 from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure, analyse
-from planmethod.plans.build import Construction, Quantity, QuantityKind, build
+from planmethod.plans.build import Construction, Quantity, build
 from planmethod.plans.model import RATES, Choice
 from planmethod.problem.model import Problem
 from planmethod.problem.parameters import Parameter, Parameters
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.assembly_modes import (
     ModeSearch,
     ReadingRequest,

@@ -25,9 +25,11 @@ from planmethod.problem.machine_records import (
     OUTPUT,
     Differentiation,
     GraphQuantity,
+    find_graph,
     graph_quantities,
     ratio_of,
 )
+from planmethod.problem.quantities import QuantityKind
 from planmethod.solved.errors.spread import Drafted, DrawnQuantity, Errors
 from planmethod.solved.quantities import UnknownQuantityError
 from planmethod.solved.reading import Memoizing, Reals, memoized
@@ -49,7 +51,8 @@ def quantities_over(cycle: CrankCycle, labels: Iterable[str]) -> list[GraphQuant
     found: dict[str, GraphQuantity] = {}
     for asked in labels:
         for label in usual_labels(cycle) if asked == OUTPUT else (asked,):
-            if label not in known:
+            one = find_graph(known, label)
+            if one is None:
                 from difflib import get_close_matches
 
                 near = get_close_matches(label, known, 1)
@@ -58,7 +61,7 @@ def quantities_over(cycle: CrankCycle, labels: Iterable[str]) -> list[GraphQuant
                 raise UnknownQuantityError(
                     "no quantity {!r} over the turn{} For example: {}.", label, hint, usual
                 )
-            found[label] = known[label]
+            found[one.label] = one
     return list(found.values())
 
 
@@ -70,10 +73,12 @@ def usual_labels(cycle: CrankCycle) -> tuple[str, ...]:
     """Return the place of the output and its transfer functions."""
     output = cycle.output
     if output.slide is not None:
-        kinds = ("x", "y", "v_qx", "v_qy", "a_qx", "a_qy")
-        return tuple(f"{kind}_{output.point}" for kind in kinds)
+        kinds = (QuantityKind.PLACE, QuantityKind.TRANSFER, QuantityKind.TRANSFER_2)
+        return tuple(kind.label(output.point, axis) for kind in kinds for axis in "xy")
     ratio = ratio_of(output.link, cycle.unit.problem.drive.link, _links(cycle))
-    return f"phi_{output.link}", f"u_{ratio}", f"epsilon_q_{output.link}"
+    labels = ((QuantityKind.DIRECTION, output.link), (QuantityKind.RATIO, ratio),
+              (QuantityKind.RATIO_2, output.link))  # fmt: skip
+    return tuple(kind.label(of) for kind, of in labels)
 
 
 def values_over(cycle: CrankCycle, quantity: GraphQuantity, positions: Reals) -> Reals:
@@ -90,16 +95,16 @@ def _of_point(cycle: CrankCycle, quantity: GraphQuantity, positions: Reals) -> R
     reading, construction = cycle.read(positions), cycle.unit.construction
     kinematics, drive, kind = construction.kinematics, cycle.solution.problem.drive, quantity.kind
     at = kinematics.velocity.named[quantity.of]
-    if kind in "xy":
+    if kind is QuantityKind.PLACE:
         place = reading.point(PointName(at[1])) + construction.draft.origin
-        return np.asarray(place.real if kind == "x" else place.imag)
+        return np.asarray(place.real if quantity.axis == "x" else place.imag)
     first, second = (m.point[at] for m in (kinematics.velocity, kinematics.acceleration))
     one, two = reading.point(first), reading.point(second)
     vector = {
-        "v_q": one,
-        "v": one * drive.rate,
-        "a_q": two,
-        "a": two * drive.rate**2 + one * drive.acceleration,
+        QuantityKind.TRANSFER: one,
+        QuantityKind.VELOCITY: one * drive.rate,
+        QuantityKind.TRANSFER_2: two,
+        QuantityKind.ACCELERATION: two * drive.rate**2 + one * drive.acceleration,
     }[kind]
     parts = {"x": vector.real, "y": vector.imag, "": np.abs(vector)}
     return np.asarray(parts[quantity.axis])
@@ -109,7 +114,7 @@ def _of_link(cycle: CrankCycle, quantity: GraphQuantity, positions: Reals) -> Re
     reading, construction = cycle.read(positions), cycle.unit.construction
     course = reading.line_vector(construction.draft.axes[quantity.of])
     there = np.isfinite(course)
-    if quantity.kind == "phi":
+    if quantity.kind is QuantityKind.DIRECTION:
         angle = np.angle(course)
         angle[there] = np.unwrap(angle[there])
         return np.degrees(angle)
@@ -117,10 +122,10 @@ def _of_link(cycle: CrankCycle, quantity: GraphQuantity, positions: Reals) -> Re
     names = kinematics.omega.get(quantity.of), kinematics.epsilon.get(quantity.of)
     u, e = (np.zeros(len(positions)) if name is None else reading.number(name) for name in names)
     found = {
-        "u": u,
-        "omega": u * drive.rate,
-        "epsilon_q": e,
-        "epsilon": e * drive.rate**2 + u * drive.acceleration,
+        QuantityKind.RATIO: u,
+        QuantityKind.OMEGA: u * drive.rate,
+        QuantityKind.RATIO_2: e,
+        QuantityKind.EPSILON: e * drive.rate**2 + u * drive.acceleration,
     }[quantity.kind]
     return np.where(there, found, np.nan)
 

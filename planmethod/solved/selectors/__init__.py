@@ -1,1 +1,0 @@
-"""Quantities by the short grammar of ``[published]`` (величины по краткой записи)."""
