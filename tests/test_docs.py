@@ -32,6 +32,7 @@ from doors import (
 from matplotlib.figure import Figure
 from worked import PROBLEMS, ROOT
 
+import planmethod
 from scripts import examples, gallery
 
 READMES = ("README.md", "README.ru.md")
@@ -173,6 +174,12 @@ def test_examples_of_docstrings_run(name: str, desk: Path) -> None:
     failed, tried = doctest.DocTestRunner().run(test)
     assert tried > 1
     assert not failed
+
+
+def test_every_public_name_is_on_the_page_of_the_interface() -> None:
+    rows = re.findall(r"(?m)^\| (`\w+`.*) \|$", text_of("docs/api.md").partition("**Errors")[0])
+    named = set(re.findall(r"`(\w+)`", " ".join(rows)))
+    assert set(planmethod.__all__) <= named
 
 
 def test_the_notebook_of_a_lecture_runs(desk: Path, monkeypatch: pytest.MonkeyPatch) -> None:
