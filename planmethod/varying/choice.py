@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from random import Random
 
+import numpy as np
+import numpy.typing as npt
 from msgspec import Struct, field
 
 from planmethod.check.marks import DEFAULT, Settings
@@ -22,6 +24,7 @@ from planmethod.varying.evaluation import (
     MAX_RELATIVE_SIGMA,
     MIN_LENGTH_MM,
     MIN_MARGIN,
+    AnswerColumns,
     CandidateEvaluator,
     EvaluatedVariant,
     Place,
@@ -116,6 +119,9 @@ class VariantChoice(Struct):
     drawn: bool = True
 
 
+Indices = npt.NDArray[np.intp]
+
+
 class _Candidate(Struct, frozen=True, eq=False):
     """A candidate that may be chosen."""
 
@@ -167,8 +173,7 @@ def choose(
     found = VariantChoice(
         count, tuple(chosen), waived=tuple(sorted(judge.waived)), drawn=judge.draws
     )
-    lots, pool = ValueSampler(chosen, Random(seed)), _Pool(found)
-    pool.main = judge.main
+    lots, pool = ValueSampler(chosen, Random(seed)), _Pool(found, judge.main)
     draw, before, limit = _drawing(main, lots), set[str](), tries or PER_VARIANT * count
     while found.tried < limit and len(found.variants) < count:
         drawn: list[tuple[dict[VariedKey, float], Overrides]] = []
@@ -236,13 +241,21 @@ def _given_scales(table: Mapping[str, object]) -> frozenset[str]:
 
 
 class _Pool:
-    """VariantCandidates that may be variants, and which of them are."""
+    """Candidates that may be variants, and which of them are.
 
-    def __init__(self, choice: VariantChoice) -> None:
+    Parameters
+    ----------
+    choice : VariantChoice
+    main : EvaluatedVariant or None
+        The file itself: no variant may be like it.
+    """
+
+    def __init__(self, choice: VariantChoice, main: EvaluatedVariant | None) -> None:
         self.choice, self.all = choice, list[_Candidate]()
-        self.main: EvaluatedVariant | None = None
-        self.chosen: list[_Candidate] = []
-        self._off: dict[tuple[int, int], float] = {}
+        self.chosen: list[int] = []
+        self._answers = AnswerColumns(main)
+        self._told: Counter[Place] = Counter()
+        self._judged: tuple[frozenset[Place], tuple[str, ...], int] = (frozenset(), (), 0)
 
     def weigh(self, one: EvaluatedVariant) -> float:
         """Return the weight of a candidate: less if it does not distinguish the whole family."""
@@ -250,92 +263,78 @@ class _Pool:
 
     def add(self, one: _Candidate) -> None:
         self.all.append(one)
+        self._answers.add(one.evaluated)
+        self._told.update(one.evaluated.distinguished)
 
     @property
     def family(self) -> frozenset[Place]:
         """Mistakes that each variant must distinguish."""
-        told = Counter(place for one in self.all for place in one.evaluated.distinguished)
         least = max(1.0, FAMILY_FRACTION * len(self.all))
-        return frozenset(place for place, count in told.items() if count >= least)
-
-    @property
-    def among(self) -> list[str]:
-        """Answers that are not the same in all candidates."""
-        first = self.all[0].evaluated.exact
-        return [
-            item
-            for item, value in first.items()
-            if any(
-                abs(one.evaluated.exact.get(item, 0.0) - value) > 1e-9 * abs(value)
-                for one in self.all
-            )
-        ]
+        return frozenset(place for place, count in self._told.items() if count >= least)
 
     def choose(self, *, strict: bool) -> None:
-        """Choose variants again, the earliest first: with all mistakes distinguished, or most."""
+        """Choose variants, the earliest first: with all mistakes distinguished, or most.
+
+        Those that were chosen stay as long as the same is asked of all.
+        """
         if len(self.all) < TRIED_FIRST and strict:
             return
-        family, among = self.family, self.among if self.all else []
-        order = sorted(self.all, key=lambda one: len(family - one.evaluated.distinguished))
-        self.chosen = []
-        for one in order:
-            if strict and family - one.evaluated.distinguished:
-                break
-            if len(self.chosen) == self.choice.requested:
-                break
-            if self._is_distinct(one.evaluated, among):
-                self.chosen.append(one)
+        family, among = self.family, self._answers.among
+        missing = [len(family - one.evaluated.distinguished) for one in self.all]
+        same = strict and self._judged[:2] == (family, among)
+        judged = self._judged[2] if same else 0
+        order = sorted(range(judged, len(self.all)), key=missing.__getitem__)
+        if strict:
+            order = [number for number in order if not missing[number]]
+        if not same:
+            self.chosen = []
+        self._judged = family, among, len(self.all)
+        self._take(np.array(order, dtype=int))
         self.choice.variants = [
-            ChosenVariant(str(number), one.overrides) for number, one in enumerate(self.chosen, 1)
+            ChosenVariant(str(number), self.all[k].overrides)
+            for number, k in enumerate(self.chosen, 1)
         ]
 
-    def _is_distinct(self, one: EvaluatedVariant, among: Sequence[str]) -> bool:
-        others = [other.evaluated for other in self.chosen]
-        if self.main is not None:
-            others.append(self.main)
-        return all(
-            one.off(o, among) >= MIN_LOST_FRACTION and o.off(one, among) >= MIN_LOST_FRACTION
-            for o in others
-        )
+    def _take(self, order: Indices) -> None:
+        """Choose candidates in this order that are like none of the chosen ones, nor the file."""
+        free = self._answers.distinct_from_main(order, MIN_LOST_FRACTION)
+        for k in self.chosen:
+            free &= self._answers.distinct(k, order, MIN_LOST_FRACTION)
+        while free.any() and len(self.chosen) < self.choice.requested:
+            first = int(order[np.argmax(free)])
+            self.chosen.append(first)
+            free &= self._answers.distinct(first, order, MIN_LOST_FRACTION)
+            free[order == first] = False
 
     def record_results(self, scale_keys: frozenset[str]) -> None:
         """Write down scales, and what became of the others."""
         found, family = self.choice, self.family
         made = {place for one in self.all for place in one.evaluated.possible}
-        told = [one.evaluated.distinguished for one in self.chosen]
+        chosen = [self.all[k].evaluated for k in self.chosen]
+        told = [one.distinguished for one in chosen]
         found.family = len(frozenset.intersection(*told)) if told else 0
         found.variants = [
             ChosenVariant(
                 one.name,
                 {
                     **one.overrides,
-                    **{
-                        f"scales.{k}": v for k, v in own.evaluated.scales.items() if k in scale_keys
-                    },
+                    **{f"scales.{k}": v for k, v in own.scales.items() if k in scale_keys},
                 },
-                tuple(sorted(made - own.evaluated.distinguished)),
+                tuple(sorted(made - own.distinguished)),
             )
-            for one, own in zip(found.variants, self.chosen, strict=True)
+            for one, own in zip(found.variants, chosen, strict=True)
         ]
-        among = self.among if self.all else []
-        pairs = [
-            one.evaluated.off(other.evaluated, among)
-            for one in self.chosen
-            for other in self.chosen
-            if one is not other
-        ]
-        found.min_lost_fraction = min(pairs, default=1.0)
-        for own in self.all:
-            if own not in self.chosen:
-                why = (
-                    RejectionReason.SPARE
-                    if self._is_distinct(own.evaluated, among)
-                    else RejectionReason.DUPLICATE
-                )
-                hidden = (
-                    family - own.evaluated.distinguished and len(found.variants) == found.requested
-                )
-                found.rejections[RejectionReason.HIDDEN if hidden else why, ""] += 1
+        found.min_lost_fraction = self._answers.least_lost(self.chosen)
+        others = np.setdiff1d(np.arange(len(self.all)), self.chosen)
+        spare = self._answers.distinct_from_main(others, MIN_LOST_FRACTION)
+        for k in self.chosen:
+            spare &= self._answers.distinct(k, others, MIN_LOST_FRACTION)
+        for k, is_spare in zip(others.tolist(), spare.tolist(), strict=True):
+            why = RejectionReason.SPARE if is_spare else RejectionReason.DUPLICATE
+            hidden = family - self.all[k].evaluated.distinguished
+            if hidden and len(found.variants) == found.requested:
+                why = RejectionReason.HIDDEN
+            found.rejections[why, ""] += 1
 
 
 NAMED = 6

@@ -245,16 +245,129 @@ class EvaluatedVariant(Struct, frozen=True, eq=False):
     possible: frozenset[Place]
     scales: Mapping[str, float]
 
-    def off(self, variant: EvaluatedVariant, among: Sequence[str]) -> float:
-        """Return the share of the points that another variant's answers lose here."""
-        lost = sum(self.points[i] for i in among if self._is_off(i, variant.exact.get(i, math.nan)))
-        whole = sum(self.points[i] for i in among)
-        return lost / whole if whole else 0.0
 
-    def _is_off(self, item: str, value: float) -> bool:
-        own = self.exact[item]
-        turned = item in self.signed and value * own < 0
-        return turned or not abs(abs(value) - abs(own)) <= self.allowed[item]
+class AnswerColumns:
+    """Answers of accepted candidates as columns, to see who may have copied from whom.
+
+    Parameters
+    ----------
+    main : EvaluatedVariant or None
+        The file itself: its answers are in the first row.
+
+    Attributes
+    ----------
+    items : tuple of str
+        Ids of the answers of the first candidate, in order.
+    """
+
+    def __init__(self, main: EvaluatedVariant | None) -> None:
+        self.main = main
+        self.items: tuple[str, ...] = ()
+        self._new: list[EvaluatedVariant] = []
+        # Shape (kinds of number, items, rows): exact value, tolerance, points, whether signed.
+        self._columns: npt.NDArray[np.float64] = np.zeros((4, 0, 0))
+        self._differ: npt.NDArray[np.bool_] = np.zeros(0, dtype=bool)
+
+    def add(self, one: EvaluatedVariant) -> None:
+        """Add a candidate."""
+        self._new.append(one)
+
+    def _rows(self) -> npt.NDArray[np.float64]:
+        if self._new:
+            if not self.items:
+                self.items = tuple(self._new[0].exact)
+                self._columns = self._of([] if self.main is None else [self.main])
+                self._differ = np.zeros(len(self.items), dtype=bool)
+            own = self._of(self._new)
+            self._new = []
+            self._columns = np.concatenate([self._columns, own], axis=2)
+            first = self._columns[0, :, 0 if self.main is None else 1][:, None]
+            value = np.where(np.isnan(own[0]) & (own[2] == 0), 0.0, own[0])
+            self._differ |= (np.abs(value - first) > 1e-9 * np.abs(first)).any(axis=1)
+        return self._columns
+
+    def _of(self, those: Sequence[EvaluatedVariant]) -> npt.NDArray[np.float64]:
+        found = np.zeros((4, len(self.items), len(those)))
+        for row, one in enumerate(those):
+            for k, item in enumerate(self.items):
+                found[:, k, row] = (
+                    one.exact.get(item, math.nan),
+                    one.allowed.get(item, 0.0),
+                    one.points.get(item, 0.0),
+                    item in one.signed,
+                )
+        return found
+
+    @property
+    def among(self) -> tuple[str, ...]:
+        """Answers that are not the same in all candidates."""
+        self._rows()
+        return tuple(x for x, own in zip(self.items, self._differ, strict=True) if own)
+
+    def distinct(
+        self, number: int, others: npt.NDArray[np.intp], least: float
+    ) -> npt.NDArray[np.bool_]:
+        """Return which candidates lose enough with the answers of one, and it with theirs.
+
+        Parameters
+        ----------
+        number : int
+            Of the candidate, in the order of adding.
+        others : ndarray of shape (n,)
+            Numbers of the candidates it is compared with.
+        least : float
+            Share of the points of answers that are not the same in all.
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+        """
+        before = 0 if self.main is None else 1
+        return self._distinct(number + before, others + before, least)
+
+    def distinct_from_main(
+        self, others: npt.NDArray[np.intp], least: float
+    ) -> npt.NDArray[np.bool_]:
+        """Return the same of candidates and the file itself."""
+        if self.main is None:
+            return np.ones(len(others), dtype=bool)
+        return self._distinct(0, others + 1, least)
+
+    def _distinct(
+        self, row: int, others: npt.NDArray[np.intp], least: float
+    ) -> npt.NDArray[np.bool_]:
+        if not len(others):
+            return np.zeros(0, dtype=bool)
+        columns = self._rows()[:, self._differ]
+        one, those = columns[:, :, [row]], columns[:, :, others]
+        return (_lost(one, those) >= least) & (_lost(those, one) >= least)
+
+    def least_lost(self, numbers: Sequence[int]) -> float:
+        """Return the least share that one of some candidates loses with another one's answers."""
+        before = 0 if self.main is None else 1
+        rows = np.array(numbers, dtype=int) + before
+        columns = self._rows()[:, self._differ]
+        found = [
+            _lost(columns[:, :, [row]], columns[:, :, rows[rows != row]]).tolist() for row in rows
+        ]
+        return min((share for own in found for share in own), default=1.0)
+
+
+def _lost(own: npt.NDArray[np.float64], copied: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Return the share of the points that copied answers lose, shape (rows,).
+
+    Both have shape (kinds of number, items, rows).
+    """
+    exact, allowed, points, signed = own
+    value = copied[0]
+    turned = (signed > 0) & (value * exact < 0)
+    off = turned | ~(np.abs(np.abs(value) - np.abs(exact)) <= allowed)
+    # Added up in the order of the answers, as by hand: so a column of one gives the same.
+    lost, whole = (
+        np.add.accumulate(part, axis=0)[-1] if len(part) else np.zeros(1)
+        for part in (np.where(off, points, 0.0), points)
+    )
+    return np.where(whole > 0, lost / np.where(whole > 0, whole, 1.0), 0.0)
 
 
 class CandidateEvaluator:

@@ -480,10 +480,15 @@ class VariantCandidates:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / self.path.name
             path.write_text(self.with_variants(variants), encoding="utf-8")
-            for name in variants or (None,):
+            names: list[str | None] = [*variants] or [None]
+            while names:
+                each = self.kind.load_each(path, tuple(names))
                 try:
-                    yield self.kind.load(path, name)
+                    for problem in each:
+                        del names[0]
+                        yield problem
                 except PlanMethodError as error:
+                    del names[0]
                     yield error
 
     def with_variants(self, variants: Mapping[str, Overrides]) -> str:
