@@ -11,7 +11,7 @@ other blocks or letters need other numbers.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from math import inf
 from typing import TypeAlias
@@ -321,42 +321,69 @@ def _blocks(texts: Texts, paper: Format, positions: int) -> Sequence[Blocks]:
     return [frozenset({statement, narrower}), *equations, *ways, table]
 
 
-def fits_format(
-    paper: Format,
-    texts: Sequence[Blocks],
-    views: Sequence[SizeAlternatives],
-    positions: int,
-    over: float = 1.0,
-) -> bool:
-    """Return whether texts and views fit on a format, mm, whose height is multiplied by ``over``.
+class SheetSpace(Struct, frozen=True):
+    """Space of a format, and the possible sizes of the texts on it, mm (место на листе).
 
-    ``views`` are the scheme, the velocity and the acceleration plans. They are grouped as in the
-    shipped compositions for one, for a few and for many positions.
+    Attributes
+    ----------
+    area : Box
+    positions : int
+    beside : tuple of tuples of sizes
+        Texts that are grouped with the scheme, the velocity and the acceleration plan.
+    calculation : sizes
+        Calculation of several positions.
+    last : tuple of sizes
+        Table and title block, in each of their ways.
     """
+
+    area: Box
+    positions: int
+    beside: tuple[tuple[tuple[Box, ...], ...], ...]
+    calculation: tuple[Box, ...]
+    last: tuple[tuple[Box, ...], ...]
+
+    def fits(self, views: Iterable[SizeAlternatives]) -> bool:
+        """Return whether views fit with the texts, grouped as in the shipped compositions.
+
+        ``views`` are the scheme, the velocity and the acceleration plans.
+        """
+        area = self.area
+        scheme, *plans = views
+        raised = frozenset((width, height + CORNER) for width, height in scheme)
+        groups = [
+            _in_order((shapes(view, area), *others), area)
+            for view, others in zip((raised, *plans), self.beside, strict=True)
+        ]
+        if self.positions == 1 or self.positions > FEW:
+            return any(_groups_fit(groups, last, area) for last in self.last)
+        first, *rates = groups
+        return any(
+            _groups_fit([first], _in_order((*rates, self.calculation, last), area), area)
+            for last in self.last
+        )
+
+
+@lru_cache(maxsize=128)  # the same for every tried scale
+def space_of(texts: Texts, paper: Format, positions: int, over: float = 1.0) -> SheetSpace:
+    """Return the space of a format, whose height is multiplied by ``over``."""
     left, low, right, high = paper.inner
-    room = (right - left - 2 * EDGE, over * (high - low - 2 * EDGE))
-    statement, one, two, reckoned, reckoned_too, table = texts
+    area = (right - left - 2 * EDGE, over * (high - low - 2 * EDGE))
+    statement, one, two, reckoned, reckoned_too, table = texts.blocks(paper, positions)
     assert isinstance(table, tuple)
     wide, tall = table
-    schemes, velocity, acceleration = views
-    scheme = frozenset((width, height + CORNER) for width, height in schemes)
     lasts = [(max(wide, STAMP_WIDTH - EDGE), tall + STAMP_HEIGHT)]
     if wide > STAMP_WIDTH:
         lasts.append((wide + STAMP_WIDTH, max(tall, STAMP_HEIGHT - EDGE)))
-    last_shapes = [_best([last], room) for last in lasts]
+    beside: tuple[tuple[Blocks, ...], ...] = ((statement, [one, two]), (), ())
     if positions == 1:
-        groups = [
-            shapes([scheme, statement], room),
-            shapes([velocity, [one, reckoned]], room),
-            shapes([acceleration, [two, reckoned_too]], room),
-        ]
-        return any(_groups_fit(groups, last, room) for last in last_shapes)
-    first = shapes([scheme, statement, [one, two]], room)
-    plans = [shapes(velocity, room), shapes(acceleration, room)]
-    if positions > FEW:
-        return any(_groups_fit([first, *plans], last, room) for last in last_shapes)
-    plans.append(shapes([reckoned, reckoned_too], room))
-    return any(_groups_fit([first], _in_order((*plans, last), room), room) for last in last_shapes)
+        beside = (statement,), ([one, reckoned],), ([two, reckoned_too],)
+    return SheetSpace(
+        area,
+        positions,
+        tuple(tuple(shapes(block, area) for block in own) for own in beside),
+        shapes([reckoned, reckoned_too], area),
+        tuple(_best([last], area) for last in lasts),
+    )
 
 
 def _groups_fit(groups: list[tuple[Box, ...]], last: tuple[Box, ...], area: Box) -> bool:
@@ -365,7 +392,21 @@ def _groups_fit(groups: list[tuple[Box, ...]], last: tuple[Box, ...], area: Box)
     if not all(whole):
         return False
     least = sum(min(width * height for width, height in group) for group in whole)
-    return least <= area[0] * area[1] * (1 + 1e-9) and bool(_in_order(whole, area))
+    return least <= area[0] * area[1] * (1 + 1e-9) and _fit_in_order(whole, area)
+
+
+def _fit_in_order(blocks: tuple[tuple[Box, ...], ...], area: Box) -> bool:
+    """Return whether blocks in reading order fit in some way: the first one is enough."""
+    wide, tall = area
+    for middle in range(1, len(blocks)):
+        after = _in_order(blocks[middle:], area)
+        for a, b in _in_order(blocks[:middle], area) if after else ():
+            for c, d in after:
+                if (a + GAP + c <= wide and b <= tall and d <= tall) or (
+                    b + GAP + d <= tall and a <= wide and c <= wide
+                ):
+                    return True
+    return False
 
 
 def shapes(blocks: Blocks, area: Box) -> tuple[Box, ...]:
@@ -377,21 +418,22 @@ def shapes(blocks: Blocks, area: Box) -> tuple[Box, ...]:
     return _in_order(tuple(shapes(block, area) for block in blocks), area)
 
 
-@lru_cache(maxsize=1024)  # most blocks of a new trial are unchanged
+@lru_cache(maxsize=4096)  # most blocks of a new trial are unchanged
 def _in_order(blocks: tuple[tuple[Box, ...], ...], area: Box) -> tuple[Box, ...]:
     """Return the sizes of blocks in reading order, of each of which several sizes are known."""
-    kept = {(k, k + 1): block for k, block in enumerate(blocks)}
-    for length in range(2, len(blocks) + 1):
-        for start in range(len(blocks) - length + 1):
-            end = start + length
-            found: list[Box] = []
-            for middle in range(start + 1, end):
-                for a, b in kept[start, middle]:
-                    for c, d in kept[middle, end]:
-                        found.append((a + GAP + c, b if b > d else d))
-                        found.append((a if a > c else c, b + GAP + d))
-            kept[start, end] = _best(found, area)
-    return kept[0, len(blocks)]
+    if len(blocks) == 1:
+        return blocks[0]
+    wide, tall = area
+    found: list[Box] = []
+    for middle in range(1, len(blocks)):
+        after = _in_order(blocks[middle:], area)
+        for a, b in _in_order(blocks[:middle], area):
+            for c, d in after:
+                if a + GAP + c <= wide:
+                    found.append((a + GAP + c, b if b > d else d))
+                if b + GAP + d <= tall:
+                    found.append((a if a > c else c, b + GAP + d))
+    return _best(found, area)
 
 
 def _best(boxes: list[Box], area: Box) -> tuple[Box, ...]:

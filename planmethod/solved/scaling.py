@@ -32,8 +32,8 @@ from planmethod.solved.legibility import (
     SizeAlternatives,
     Texts,
     enlargement_of,
-    fits_format,
     is_too_dense,
+    space_of,
 )
 from planmethod.solved.reading import Reading, Reals
 
@@ -456,9 +456,9 @@ class _Chosen(Struct, frozen=True):
     def fits_paper(self, over: float = 1.0) -> bool:
         """Return whether the views, with their texts, fit on the paper."""
         one = self.drawn[PlanKind.POSITION]
-        texts = one.extents.texts.blocks(paper_format(self.views.paper), one.si.count)
-        boxes = [self.drawn[kind].size_alternatives(self.per_mm[kind]) for kind in MOTION]
-        return fits_format(paper_format(self.views.paper), texts, boxes, one.si.count, over)
+        paper = paper_format(self.views.paper)
+        space = space_of(one.extents.texts, paper, one.si.count, over)
+        return space.fits(self.drawn[kind].size_alternatives(self.per_mm[kind]) for kind in MOTION)
 
     def is_large(self) -> bool:
         """Return whether scheme and plans have their intended sizes on the paper.
@@ -502,12 +502,12 @@ class _Drawn(Struct, frozen=True, dict=True):
         """Exact reading at unit scales."""
         return self.extents.si
 
-    @property
+    @cached_property
     def sizes(self) -> tuple[Reals, Reals]:
         """Width and height in every position, shape (n,)."""
         return self.extents.sizes[self.kind]
 
-    @property
+    @cached_property
     def size(self) -> Box:
         """Width and height of the largest that is not an outlier."""
         return self.extents.largest[self.kind]
@@ -519,12 +519,12 @@ class _Drawn(Struct, frozen=True, dict=True):
         width, height = (np.where(common, size, 0.0) for size in self.sizes)
         return float(width.max()), float(height.max())
 
-    @property
+    @cached_property
     def box(self) -> Box:
         """Space of the kind, mm."""
         return self.views.box(self.kind)
 
-    @property
+    @cached_property
     def rows(self) -> bool:
         """True if it consists of many plans in rows."""
         return self.views.in_rows(self.kind)
