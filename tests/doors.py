@@ -582,6 +582,7 @@ from planmethod.paper import (
 from planmethod.plans import build as plans_build, draft
 from planmethod.plans.build import (
     MOTION_KINDS,
+    Construction,
     Quantity,
     add_group,
     begin_positions,
@@ -1092,7 +1093,7 @@ from planmethod.solved.accuracy import examine as accuracy_examine
 from planmethod.solved.aligned.poses import poses
 from planmethod.solved.aligned.schemes import SelfAligning, constraint_rank, self_aligning
 from planmethod.solved.assemblies import Assembled, assemblies, env_of
-from planmethod.solved.assembly_modes import choose_modes, drive_data
+from planmethod.solved.assembly_modes import choose_modes, construct, construct_each, drive_data
 from planmethod.solved.conditioning import (
     BOUNDED_KINDS,
     MULTIPLE,

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, LineSense, Name, NumberName, PointName, Side
 from planmethod.mechanism.model import FRAME
+from planmethod.plans.columns import each, entries, largest
 from planmethod.plans.model import AssemblyMode, Choice, Dimension, DimensionKind, PlanKind, Start
 from planmethod.problem.model import Body, Problem, Slide
 from planmethod.problem.names import angle_lines
@@ -29,6 +30,10 @@ MAX_ORIGIN_DISTANCE = 10.0
 
 def degrees(angle: complex) -> float:
     """Return the argument of a direction in degrees, exact on the axes."""
+    return each(_degrees, angle)
+
+
+def _degrees(angle: complex) -> float:
     if angle.imag == 0:
         return 0.0 if angle.real > 0 else 180.0
     if angle.real == 0:
@@ -38,6 +43,10 @@ def degrees(angle: complex) -> float:
 
 def cis(angle: float) -> complex:
     """Return exp(i·angle) of an angle in degrees, exact at the quadrants."""
+    return each(_cis, angle)
+
+
+def _cis(angle: float) -> complex:
     quadrant = round(angle / 90.0)
     rest = math.radians(angle - 90.0 * quadrant)
     return (1, 1j, -1, -1j)[quadrant % 4] * complex(math.cos(rest), math.sin(rest))
@@ -149,6 +158,16 @@ class Draft:
         other.placed = dict(self.placed)
         return other
 
+    def of_variant(self, number: int, problem: Problem, choice: Choice) -> Draft:
+        """Return the draft of one of the problems that were planned together, for reading.
+
+        What is drawn is shared with the others: who continues takes a copy.
+        """
+        other = copy.copy(self)
+        other.problem, other.choice = problem, choice
+        other.numbers, other.places = entries(self.numbers, number), entries(self.places, number)
+        return other
+
     def note_plan(self, kind: PlanKind, start: int) -> int:
         """Note the plan of the steps from a number on; return how many there are by now."""
         self.plans.update((step.out, kind) for step in self.b.steps[start:])
@@ -237,7 +256,7 @@ class Draft:
     def size(self, link: str) -> float:
         """Return the extent of a link, m, with which offsets are compared."""
         points = list(self.problem.bodies[link].points.values())
-        return max((abs(p - points[0]) for p in points), default=0.0)
+        return largest([abs(p - points[0]) for p in points])
 
     # Points and lines of the position plan ---------------------------------------------------
 
@@ -409,7 +428,7 @@ class Draft:
             lines.append((fixed[0], far - fixed[0]))
         start, along = lines[0]
         off = [abs(((z - start) * along.conjugate()).imag) for z in fixed]
-        return len(lines) == 1 and max(off) <= TINY * self.size(link) * abs(along)
+        return len(lines) == 1 and largest(off) <= TINY * self.size(link) * abs(along)
 
     # Slide lines -----------------------------------------------------------------------------
 
@@ -540,7 +559,7 @@ def _origin(problem: Problem) -> complex:
     fixed = list(problem.bodies[FRAME].points.values())
     fixed += [slide.base for slide in problem.slides.values() if slide.host == FRAME]
     sizes = [abs(place - fixed[0]) for place in fixed] + [abs(m) for _, _, m in problem.lengths]
-    return fixed[0] if abs(fixed[0]) > MAX_ORIGIN_DISTANCE * max(sizes) else 0j
+    return fixed[0] if abs(fixed[0]) > MAX_ORIGIN_DISTANCE * largest(sizes) else 0j
 
 
 def side(sign: float) -> Side:

@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Generator, Mapping, Sequence
-from itertools import islice
+from collections.abc import Collection, Hashable, Mapping, Sequence
+from itertools import islice, pairwise
 from math import isfinite
+from typing import TypeAlias
 
 import numpy as np
-from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.program import Program
 from planmethod.construct.steps import GivenNumber, GivenPoint, PointName, Step
-from planmethod.errors import Fault, ProblemError, StructureError
+from planmethod.errors import Fault, PlanMethodError, ProblemError, StructureError
 from planmethod.languages import translate
 from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, add_group, begin_positions, build
+from planmethod.plans.columns import (
+    Column,
+    DisagreementError,
+    agreed,
+    in_columns,
+    kind_of_plan,
+)
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import AssemblyMode, assembly_period
 from planmethod.plans.motion.position import (
@@ -115,10 +121,11 @@ def construct(problem: Problem) -> Construction:
     for known, made in _CACHE:
         if known is problem:
             return made
-    structure = structure_of(problem)
-    made = build(problem, structure, choose_modes(problem, structure))
-    _CACHE = ((problem, made), *_CACHE[:1])
-    return made
+    (found,) = _construct_alike([problem], structure_of(problem))
+    if isinstance(found, PlanMethodError):
+        raise found
+    _CACHE = ((problem, found), *_CACHE[:1])
+    return found
 
 
 _CACHE: tuple[tuple[Problem, Construction], ...] = ()
@@ -126,49 +133,64 @@ _CACHE: tuple[tuple[Problem, Construction], ...] = ()
 changed: another thread may be iterating over it."""
 
 
-class ReadingRequest(Struct, frozen=True):
-    """Request to evaluate a partly built program.
+def construct_each(problems: Sequence[Problem]) -> list[Construction | None]:
+    """Return the constructions of problems, None where there is none: solved alone it says why.
 
-    Attributes
-    ----------
-    draft : Draft
-        The partly built construction.
-    fixed_steps : int
-        Number of its first steps that every later request shares.
-    positions : ndarray of shape (n,)
-        Positions of the driver.
+    Problems that differ in sizes are planned at once, and their assembly modes are chosen by
+    common readings: as often as there are ways in which they are drawn.
     """
-
-    draft: Draft
-    fixed_steps: int
-    positions: Reals
-
-    @property
-    def program(self) -> Program:
-        """Program of the drawn steps."""
-        return self.draft.b.program()
-
-
-ModeSearch = Generator[ReadingRequest, Reading, dict[tuple[str, ...], AssemblyMode]]
-
-
-def choose_modes(problem: Problem, structure: Structure) -> dict[tuple[str, ...], AssemblyMode]:
-    """Return the assembly mode of every group that has two: see `search_modes`."""
-    choice, settled = search_modes(problem, structure), _IncrementalReader()
-    try:
-        wanted = next(choice)
-        while True:
-            wanted = choice.send(settled.read(wanted))
-    except StopIteration as end:
-        chosen: dict[tuple[str, ...], AssemblyMode] = end.value
-        return chosen
+    found: list[Construction | None] = [None] * len(problems)
+    alike: dict[Hashable, list[int]] = {}
+    for k, problem in enumerate(problems):
+        alike.setdefault(kind_of_plan(problem), []).append(k)
+    waiting = [*alike.values()]
+    while waiting:
+        members = waiting.pop()
+        own = [problems[k] for k in members]
+        try:
+            for k, made in zip(
+                members, _construct_alike(own, analyse(own[0].mechanism)), strict=True
+            ):
+                found[k] = made if isinstance(made, Construction) else None
+        except DisagreementError as apart:
+            for answer in dict.fromkeys(apart.answers):
+                pairs = zip(members, apart.answers, strict=True)
+                waiting.append([k for k, one in pairs if one == answer])
+        except PlanMethodError:
+            continue
+    return found
 
 
-def search_modes(problem: Problem, structure: Structure) -> ModeSearch:
-    """Yield the readings that the choice of assembly modes needs, and return the modes.
+def _construct_alike(
+    problems: Sequence[Problem], structure: Structure
+) -> list[Construction | PlanMethodError]:
+    """Return the constructions of problems that are planned at once, or why there is none.
 
-    So a single problem requests its readings in turn, and many with the same steps are read
-    together.
+    Raises
+    ------
+    DisagreementError
+        They are not drawn by the same steps.
+    """
+    chosen = _ModeChoice(problems, structure).modes()
+    good = [modes for modes in chosen if not isinstance(modes, PlanMethodError)]
+    if not good:
+        return [one for one in chosen if isinstance(one, PlanMethodError)]
+    made = build(in_columns(problems), structure, good[0])
+    if len(problems) == 1:
+        return [made]
+    return [
+        modes
+        if isinstance(modes, PlanMethodError)
+        else replace(made, draft=made.draft.of_variant(k, problems[k], modes))
+        for k, modes in enumerate(chosen)
+    ]
+
+
+Modes: TypeAlias = dict[tuple[str, ...], AssemblyMode]
+
+
+def choose_modes(problem: Problem, structure: Structure) -> Modes:
+    """Return the assembly mode of every group that has two.
 
     Raises
     ------
@@ -178,49 +200,146 @@ def search_modes(problem: Problem, structure: Structure) -> ModeSearch:
     AssemblyError
         When a group closes in no requested position, or neither mode satisfies its rule.
     """
-    positions = np.asarray(problem.drive.assembly_positions or problem.drive.positions, dtype=float)
-    rules = {rule.point: rule for rule in problem.assembly}
-    choice: dict[tuple[str, ...], AssemblyMode] = {}
-    faults: list[Fault] = []
-    used: set[str] = set()
-    settled, extent = begin_positions(problem, choice), _Extent(len(positions))
-    before: AssurGroup | None = None
-    for group in structure.groups:
-        if before is not None:
-            add_group(settled, before)
-        before = group
-        own = {point: None for link in group.links for point in problem.bodies[link].points}
-        mine = [
-            from_joint(problem, group, rules[point])
-            for point in own
-            if point in rules and point not in settled.marked
+    (found,) = _ModeChoice([problem], structure).modes()
+    if isinstance(found, PlanMethodError):
+        raise found
+    return found
+
+
+class _ModeChoice:
+    """Choice of the assembly modes of problems that are planned at once, group by group.
+
+    Parameters
+    ----------
+    problems : sequence of Problem
+        Of one kind (`kind_of_plan`).
+    structure : Structure
+    """
+
+    def __init__(self, problems: Sequence[Problem], structure: Structure) -> None:
+        self.problems, self.structure = problems, structure
+        own = [
+            np.asarray(one.drive.assembly_positions or one.drive.positions, dtype=float)
+            for one in problems
         ]
-        used.update(rule.point for rule in mine)
-        if triad_of(group) is not None:
-            choice[group.links], wrong = _assembled(settled, group, mine, positions)
-            faults += wrong
-            continue
-        if not has_two_modes(group):
-            continue
-        choice[group.links] = AssemblyMode()
+        self.positions = np.concatenate(own)
+        ends = np.cumsum([0, *map(len, own)]).tolist()
+        self.rows = [slice(start, end) for start, end in pairwise(ends)]
+        self.choices: list[Modes] = [{} for _ in problems]
+        self.faults: list[list[Fault]] = [[] for _ in problems]
+        self.failed: dict[int, PlanMethodError] = {}
+        self.settled = begin_positions(in_columns(problems), {})
+        self._reader = _IncrementalReader([len(rows) for rows in own])
+        if len(problems) > 1 and (
+            isinstance(self.settled.origin, Column)
+            or any(triad_of(group) is not None for group in structure.groups)
+        ):
+            raise DisagreementError(range(len(problems)))
+
+    def modes(self) -> list[Modes | PlanMethodError]:
+        """Return the modes of each problem, or why there are none.
+
+        Raises
+        ------
+        DisagreementError
+            The groups of the problems close in different ways.
+        """
+        rules = {rule.point: rule for rule in self.problems[0].assembly}
+        used: set[str] = set()
+        extent = _Extent(len(self.positions))
+        before: AssurGroup | None = None
+        for group in self.structure.groups:
+            if before is not None:
+                add_group(self.settled, before)
+            before = group
+            bodies = self.problems[0].bodies
+            own = {point: None for link in group.links for point in bodies[link].points}
+            mine = [
+                from_joint(self.problems[0], group, rules[point])
+                for point in own
+                if point in rules and point not in self.settled.marked
+            ]
+            used.update(rule.point for rule in mine)
+            if triad_of(group) is not None:
+                mode, wrong = _assembled(self.settled, group, mine, self.positions)
+                self.choices[0][group.links] = mode
+                self.faults[0] += wrong
+            elif has_two_modes(group):
+                self._choose(group, mine, extent)
+            self._agree(group)
+        unused = [rule.point for rule in self.problems[0].assembly if rule.point not in used]
+        for k, problem in enumerate(self.problems):
+            self.faults[k] += [_placed_already(point) for point in unused]
+            if self.faults[k]:
+                self.failed.setdefault(k, ProblemError(problem.name, self.faults[k]))
+        return [self.failed.get(k, own) for k, own in enumerate(self.choices)]
+
+    def _agree(self, group: AssurGroup) -> None:
+        """Close a group of the common plan as all problems do."""
+        modes = [own.get(group.links) for own in self.choices]
+        known = [mode for k, mode in enumerate(modes) if k not in self.failed]
+        first = known[0] if known else None
+        if len(modes) > 1:
+            ways = [
+                None if mode is None else (mode.side, mode.parallel, k if mode.changes else -1)
+                for k, mode in enumerate(modes)
+            ]
+            kept = next((way for k, way in enumerate(ways) if k not in self.failed), None)
+            agreed([kept if k in self.failed else way for k, way in enumerate(ways)])
+        if first is not None:
+            self.settled.choice = {**self.settled.choice, group.links: first}
+
+    def _choose(self, group: AssurGroup, mine: list[Rule], extent: _Extent) -> None:
+        """Choose the mode of a group for every problem."""
         both: list[Tried] = []
         for sign in (1, -1):
-            draft = _with(settled, group, AssemblyMode(sign))
-            both.append((draft, (yield ReadingRequest(draft, len(settled.b.steps), positions))))
-        extent.update(settled.marked, both[:1])
+            draft = _with(self.settled, group, AssemblyMode(sign))
+            both.append(
+                (draft, self._reader.read(draft, len(self.settled.b.steps), self.positions))
+            )
+        extent.update(self.settled.marked, both[:1])
+        size = extent.of(both)
+        plain = (
+            len(mine) == 1 and not mine[0].continuous and late_fault(mine[0], both[0][0]) is None
+        )
+        sides = _sides(mine[0], both, size, [rows.start for rows in self.rows]) if plain else {}
+        for k, rows in enumerate(self.rows):
+            if k in self.failed:
+                continue
+            self.choices[k][group.links] = AssemblyMode()
+            if k in sides:
+                start = float(self.positions[rows.start])
+                self.choices[k][group.links] = AssemblyMode(sides[k], start=start)
+                continue
+            try:
+                self._choose_alone(k, group, mine, both, size)
+            except PlanMethodError as error:
+                self.failed[k] = error
+
+    def _choose_alone(
+        self, k: int, group: AssurGroup, mine: list[Rule], together: list[Tried], size: Reals
+    ) -> None:
+        """Choose the mode of a group for one of the problems."""
+        problem, rows, faults = self.problems[k], self.rows[k], self.faults[k]
+        positions, both = self.positions[rows], together
+        if len(self.problems) > 1:
+            both = [
+                (draft.of_variant(k, problem, draft.choice), reading.part(rows))
+                for draft, reading in together
+            ]
         late = [late_fault(rule, both[0][0]) for rule in mine] + [
             unkept_fault(problem, rule, group) for rule in mine
         ]
         if any(late):
             faults += [fault for fault in late if fault is not None]
         elif any(rule.relation is AssemblyRelation.PARALLEL for rule in mine):
-            choice[group.links] = AssemblyMode(parallel=True)
+            self.choices[k][group.links] = AssemblyMode(parallel=True)
         elif mine:
-            size = extent.of(both)
-            judged = [_choose_side(problem, rule, both, positions, size) for rule in mine]
-            choice[group.links] = judged[0]
+            judged = [_choose_side(problem, rule, both, positions, size[rows]) for rule in mine]
+            self.choices[k][group.links] = judged[0]
             if any(rule.continuous for rule in mine):
-                choice[group.links] = _going_on(problem, both[0], group, judged[0])
+                going_on = _going_on(problem, both[0], group, judged[0])
+                self.choices[k][group.links] = going_on
             faults += [
                 Fault(
                     f"assembly.{rule.point}",
@@ -238,27 +357,40 @@ def search_modes(problem: Problem, structure: Structure) -> ModeSearch:
         else:
             untold = slotted_rule(problem, group) if group.signature == "RPR" else None
             if untold is None and group.signature == "RPR":
-                continue
+                return
             try:
                 faults.append(_missing(group, both, positions, untold))
             except PositionError:
                 if not faults:  # otherwise an earlier group may be on the side that is not meant
                     raise
-    for rule in problem.assembly:
-        if rule.point not in used:
-            faults.append(
-                Fault(
-                    f"assembly.{rule.point}",
-                    translate(
-                        "{} belongs to the frame or to the driving link: it has one place",
-                        rule.point,
-                    ),
-                    "Delete the rule, or name a point that a group places",
-                )
-            )
-    if faults:
-        raise ProblemError(problem.name, faults)
-    return choice
+
+
+def _sides(
+    rule: Rule, both: Sequence[Tried], extent: Reals, starts: Sequence[int]
+) -> dict[int, int]:
+    """Return the sides that a rule selects in the first positions of problems, by their numbers.
+
+    Of those alone of which nothing else is to be said: see `_choose_side`.
+    """
+    if rule.relation is AssemblyRelation.PARALLEL:
+        return {}
+    plus, minus = (score_of(rule, draft, reading)[starts] for draft, reading in both)
+    one, two = (reading.point(PointName(rule.point))[starts] for _, reading in both)
+    least = TIE * extent[starts]
+    clear = (abs(one - two) > least) & (abs(plus - minus) > least)
+    if rule.relation is not AssemblyRelation.NEAR:
+        clear &= (np.minimum(plus, minus) <= least) & (np.maximum(plus, minus) > 0)
+    clear &= np.isfinite(plus) & np.isfinite(minus)
+    sides = np.where(plus > minus, 1, -1)
+    return {int(k): int(sides[k]) for k in np.flatnonzero(clear)}
+
+
+def _placed_already(point: str) -> Fault:
+    return Fault(
+        f"assembly.{point}",
+        translate("{} belongs to the frame or to the driving link: it has one place", point),
+        "Delete the rule, or name a point that a group places",
+    )
 
 
 def _assembled(
@@ -314,19 +446,33 @@ def _with(base: Draft, group: AssurGroup, mode: AssemblyMode) -> Draft:
 
 
 class _IncrementalReader:
-    """Incremental evaluator of reading requests: shared steps are computed once."""
+    """Incremental evaluator of growing position plans: shared steps are computed once.
 
-    def __init__(self) -> None:
-        self._reading: Reading | None = None
+    Parameters
+    ----------
+    counts : sequence of int
+        Positions of each of the problems that are planned at once.
+    """
+
+    def __init__(self, counts: Sequence[int]) -> None:
+        self.counts = counts
+        self._reading = Reading(Trace({}, {}), sum(counts))
         self._read = 0
 
-    def read(self, request: ReadingRequest) -> Reading:
-        steps, end = request.draft.b.steps, request.fixed_steps
-        before = self._reading or Reading(Trace({}, {}), len(request.positions))
-        data = drive_data(request.draft.problem, request.draft, request.positions)
-        self._reading = _further(before, steps[self._read : end], data)
-        self._read = end
-        return _further(self._reading, steps[end:], data)
+    def read(self, draft: Draft, fixed_steps: int, positions: Reals) -> Reading:
+        """Return the reading of a draft whose first steps every later one shares."""
+        steps, data = draft.b.steps, drive_data(draft.problem, draft, positions)
+        if len(self.counts) > 1:
+            data = {name: self._filled(value) for name, value in data.items()}
+        self._reading = _further(self._reading, steps[self._read : fixed_steps], data)
+        self._read = fixed_steps
+        return _further(self._reading, steps[fixed_steps:], data)
+
+    def _filled(self, value: Number) -> Number:
+        """Return a number of every problem in every position."""
+        if isinstance(value, Column):
+            return np.repeat(np.asarray(value.values), self.counts)
+        return value if np.ndim(value) else np.full(sum(self.counts), value)
 
 
 def _further(before: Reading, steps: Sequence[Step], data: Mapping[str, Number]) -> Reading:

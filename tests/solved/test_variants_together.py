@@ -9,18 +9,23 @@ from typing import Any
 
 import msgspec
 import numpy as np
+import pytest
 from cases import each, sampled, some, thinned
 from click.testing import CliRunner
 from doors import (
     DEFAULT,
     DRAFTING_PROFILES as PROFILES,
+    Construction,
     GappedSweep,
     ModelProblem as Problem,
+    PlanMethodError,
     Solution,
     Task,
     batch_records,
     cli as main,
     compute_keys,
+    construct,
+    construct_each,
     in_batches,
     key_of_task,
     key_record,
@@ -91,6 +96,37 @@ def together(problems: list[Problem]) -> dict[int, bytes]:
         records = map(encoded, batch_records(batch))
         found.update(zip(members, records, strict=True))
     return found
+
+
+def drawn_as(made: Construction) -> list[object]:
+    """Return all that a plan decides; numbers as texts, which tell zeros of either sign apart."""
+    draft = made.draft
+    numbers = draft.numbers, draft.places, draft.choice, draft.branches, draft.origin
+    plans = made.program.steps, made.plans, made.sections, made.legend, made.segments
+    board = draft.axes, draft.placed, [*draft.marked], [*draft.read], draft.dimensions, draft.feet
+    return [repr(numbers), *plans, *board, draft.letters, draft.plans, draft.special]
+
+
+@each("file", sampled(thinned(plain_files() + loaded_files(), 2), 3))
+def test_variants_planned_together_are_planned_as_alone(file: Path) -> None:
+    problems = varied(file, 6)
+    for problem, made in zip(problems, construct_each(problems), strict=True):
+        if made is None:
+            with pytest.raises(PlanMethodError):
+                construct(problem)
+        else:
+            assert drawn_as(made) == drawn_as(construct(problem)), (file.name, problem.variant)
+
+
+def test_variants_that_close_to_other_sides_are_planned_in_parts() -> None:
+    text = (PROBLEMS / "linkages" / "ex3.toml").read_text("utf-8")
+    rows = {"low": "driver.phi = 20", "short": "links.4.DE = 0.01", "near": "frame.C = [0, 0.05]"}
+    text += "".join(f"\n[variants.{name}]\n{own}\n" for name, own in rows.items())
+    problems = [loads(text, name="ex3", variant=name) for name in rows]
+    low, short, near = construct_each(problems)
+    assert short is None and low is not None and near is not None
+    for made, problem in ((low, problems[0]), (near, problems[2])):
+        assert drawn_as(made) == drawn_as(construct(problem))
 
 
 @each("file", sampled(thinned(plain_files(), 4), 3))

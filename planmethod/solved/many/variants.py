@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -16,24 +16,15 @@ from planmethod.arguments import known
 from planmethod.compiled import Array, Runner, write
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.drafting import Profile, RulerArithmetic
-from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name
 from planmethod.errors import AssemblyError, PlanMethodError, ProblemError
-from planmethod.mechanism.model import Mechanism
-from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, Quantity, build
 from planmethod.plans.model import RATES, Choice
 from planmethod.problem.model import Problem
 from planmethod.problem.parameters import Parameter, Parameters
 from planmethod.problem.quantities import QuantityKind
-from planmethod.solved.assembly_modes import (
-    ModeSearch,
-    ReadingRequest,
-    construct,
-    drive_data,
-    search_modes,
-)
+from planmethod.solved.assembly_modes import construct, construct_each, drive_data
 from planmethod.solved.conditioning import WARN_RELATIVE_ERROR
 from planmethod.solved.failures import failing
 from planmethod.solved.legibility import SHORT, SMALL
@@ -206,7 +197,7 @@ def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batc
     alone.
     """
     plain = [k for k, problem in enumerate(problems) if _is_basic(problem)]
-    made = dict(zip(plain, constructed([problems[k] for k in plain]), strict=True))
+    made = dict(zip(plain, construct_each([problems[k] for k in plain]), strict=True))
     alike: dict[tuple[Any, ...], list[int]] = {}
     for k, construction in made.items():
         if construction is not None and construction.draft.origin == 0:
@@ -264,58 +255,6 @@ def _loads_kind(solution: Solution) -> tuple[object, ...] | None:
         return solution.compute_once(loads_on).kind
     except PlanMethodError:
         return None  # it says why when it is solved alone
-
-
-def constructed(problems: Sequence[Problem]) -> list[Construction | None]:
-    """Return the constructions of problems, None where there is none.
-
-    Their assembly modes are chosen together: programs with the same steps are read at once.
-    """
-    found: list[Construction | None] = [None] * len(problems)
-    structures: dict[Mechanism, Structure] = {}
-    choosing_of: dict[int, ModeSearch] = {}
-    wanted: dict[int, ReadingRequest] = {}
-
-    def advance(k: int, step: Callable[[], ReadingRequest]) -> None:
-        """Advance one problem to its next reading request, or to its end."""
-        wanted.pop(k, None)
-        problem = problems[k]
-        try:
-            wanted[k] = step()
-        except StopIteration as end:
-            found[k] = build(problem, structures[problem.mechanism], end.value)
-        except PlanMethodError:
-            return  # it says why when it is solved alone
-
-    for k, problem in enumerate(problems):
-        mechanism = problem.mechanism
-        try:
-            if mechanism not in structures:
-                structures[mechanism] = analyse(mechanism)
-        except PlanMethodError:
-            continue
-        choosing_of[k] = search_modes(problem, structures[mechanism])
-        advance(k, partial(next, choosing_of[k]))
-    while wanted:
-        for k, reading in _read_requests(wanted):
-            advance(k, partial(choosing_of[k].send, reading))
-    return found
-
-
-def _read_requests(requests: Mapping[int, ReadingRequest]) -> list[tuple[int, Reading]]:
-    """Return the requested readings, by the index of their problem."""
-    alike: dict[tuple[Any, ...], list[int]] = {}
-    for k, one in requests.items():
-        alike.setdefault((tuple(one.draft.b.steps), tuple(one.draft.numbers)), []).append(k)
-    found = []
-    for members in alike.values():
-        asked = [requests[k] for k in members]
-        counts = [len(one.positions) for one in asked]
-        own = [drive_data(one.draft.problem, one.draft, one.positions) for one in asked]
-        trace = evaluate(asked[0].program, _columns(own, counts), Float64())
-        whole = Reading(trace, sum(counts))
-        found += [(k, whole.part(own)) for k, own in zip(members, _rows(counts), strict=True)]
-    return found
 
 
 def _rows(counts: Sequence[int]) -> list[slice]:
@@ -623,7 +562,7 @@ class Varied:
             except (ProblemError, AssemblyError) as error:
                 raise SweepError("with {} the file is rejected. {}", named, str(error)) from error
         found = []
-        for problem, made, named in zip(problems, constructed(problems), told, strict=True):
+        for problem, made, named in zip(problems, construct_each(problems), told, strict=True):
             try:
                 built = self._with_special_points(made or self._unclosed(problem))
                 case = self.task.like(self.case, problem, built)
