@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from functools import partial
+from functools import cached_property, partial
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.check.marks import DEFAULT, Settings
@@ -19,7 +20,8 @@ from planmethod.check.sheet import DRAWS, Sheet, drafted_of, sense_of, single_fl
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.evaluate import Trace, evaluate, extend_trace
+from planmethod.construct.steps import Name, Step, operands
 from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.problem.quantities import QuantityKind, Sign
@@ -315,11 +317,31 @@ class _Rows:
         of = statics_of(batch) if loaded else batch
         self.data: Columns = dict(of.data(spread, places))
 
+    @cached_property
+    def _right(self) -> Trace:
+        """Exact reading of all sheets."""
+        return evaluate(self.first.program, self.data, Float64())
+
+    @cached_property
+    def _uses(self) -> list[tuple[Step, set[Name]]]:
+        """Steps of a sheet, each with the names that it uses."""
+        return [(step, {name for name, _ in operands(step)}) for step in self.first.program.steps]
+
+    def _redrawn(self, change: Change) -> Iterator[Step]:
+        """Yield the steps that are drawn otherwise with a mistake; the others stay as they are."""
+        changed: set[Name] = set()
+        for step, names in self._uses:
+            several = change.steps.get(step.out)
+            if several is None and (step.out in change.data or not changed.isdisjoint(names)):
+                several = (step,)
+            if several is not None:
+                changed.add(step.out)
+                yield from several
+
     def assign_readings(self) -> None:
         """Give every sheet its exact reading and its errors."""
-        trace = evaluate(self.first.program, self.data, Float64())
         count, errors = len(self.sheets), _BatchErrors(self.sheets, self.data)
-        for number, own in enumerate(_scalars(trace, count)):
+        for number, own in enumerate(_scalars(self._right, count)):
             sheet = self.sheets[number]
             sheet.row = errors, number
             sheet.answer_key_sheet = sheet.read_as(own)
@@ -339,23 +361,29 @@ class _Rows:
             for place, change in enumerate(found):
                 key = (change.code, change.mistake_at, *change.steps.items(), *change.data)
                 alike.setdefault(key, []).append((number, place, change))
+        right: dict[tuple[int, ...], dict[Name, Number]] = {}
         for members in alike.values():
-            shown = self._effects([(number, change) for number, _, change in members])
+            rows = tuple(number for number, *_ in members)
+            if rows not in right:
+                right[rows] = _of_rows(self._right.value, np.array(rows))
+            shown = self._effects(right[rows], [change for *_, change in members])
             for (number, place, _), one in zip(members, shown, strict=True):
                 told[number][place] = one
         return [[shown for shown in own if shown is not None] for own in told]
 
-    def _effects(self, members: Sequence[tuple[int, Change]]) -> Iterator[MistakeEffect | None]:
-        """Yield the predictions of a mistake on some sheets; None if it cannot be drawn."""
-        rows = np.array([number for number, _ in members])
-        first = members[0][1]
-        data = at_positions(self.data, rows)
-        for name in first.data:
-            data[name] = np.array([change.data[name] for _, change in members])
-        trace = evaluate(first.program(self.first.program), data, Float64())
+    def _effects(
+        self, right: Mapping[Name, Number], members: Sequence[Change]
+    ) -> Iterator[MistakeEffect | None]:
+        """Yield the predictions of a mistake on some sheets; None if it cannot be drawn.
+
+        ``right`` has the values of these sheets without it.
+        """
+        first, shape = members[0], (len(members),)
+        data = {name: np.array([change.data[name] for change in members]) for name in first.data}
+        trace = extend_trace(Trace(right, {}), self._redrawn(first), data, Float64())
         asked = self.first.requested
         with np.errstate(all="ignore"):
-            columns = [np.broadcast_to(q.evaluate(trace), rows.shape) for q in asked]
+            columns = [np.broadcast_to(q.evaluate(trace), shape) for q in asked]
         table = np.array(columns, dtype=float).T
         sound = np.isfinite(table).all(axis=1)
         ids = [question.id for question in asked]
@@ -375,6 +403,17 @@ class _BatchErrors(Errors):
     def _of_sheets(self, index: int) -> dict[str, float]:
         sheet = self.sheets[index]
         return sheet.errors_of(sheet.program, sheet.data)._of_sheets(0)
+
+
+def _of_rows(values: Mapping[Name, Number], rows: npt.NDArray[np.intp]) -> dict[Name, Number]:
+    """Return the values of some sheets."""
+
+    def some(value: Number) -> Number:
+        if isinstance(value, tuple):
+            return tuple(map(some, value))
+        return value[rows] if np.ndim(value) else value
+
+    return {name: some(value) for name, value in values.items()}
 
 
 def _scalars(trace: Trace, count: int) -> Iterator[Trace]:

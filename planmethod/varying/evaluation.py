@@ -611,12 +611,18 @@ def _find_distinct(
     slack = np.array([max(limit.spread, limit.tolerance()) for limit in limits])
     size = np.abs(right)
     share = np.maximum(np.abs(table) / np.where(size > 0, size, 1.0), MIN_ERROR_FRACTION)
-    codes = ["", *(code for code, *_ in named)]
+    codes = np.array(["", *(code for code, *_ in named)])
+    one, other = np.triu_indices(len(codes), 1)
+    pairs = codes[one] != codes[other]
+    one, other = one[pairs], other[pairs]
+    for k in np.flatnonzero(measured):  # fewer pairs are left with every answer
+        a, b = table[one, k], table[other, k]
+        apart = np.abs(np.abs(a) - np.abs(b)) > slack[k] * np.maximum(
+            share[one, k], share[other, k]
+        )
+        if signed[k]:
+            apart |= a * b < 0
+        one, other = one[~apart], other[~apart]
     found = np.ones(len(codes), dtype=bool)
-    for k in range(len(codes)):
-        off = np.abs(np.abs(table) - np.abs(table[k]))
-        turned = signed & (table * table[k] < 0)
-        apart = ((off > slack * np.maximum(share, share[k])) | turned) & measured
-        alike = ~apart.any(axis=1)
-        found[k] = not any(alike[m] and codes[m] != codes[k] for m in range(len(codes)))
+    found[one] = found[other] = False
     return found[1:]
