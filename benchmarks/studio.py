@@ -2,10 +2,10 @@
 
 Each student changes a number of a shipped task, waits for the scheme, and changes it again when a
 time between two bursts of typing has passed. Requests stay on this machine, and are bounded in
-count and time. A row of docs/studio.md is printed for each number of students: the times from the
-last letter to the scheme and their parts, the outcome of all requests, memory, and the load of the
-machine, by which to judge the times. ``--latencies`` prints how long one student waits for a
-scheme, plans, sheets, the first time and later: also for docs/studio.md.
+count and time. A row of benchmarks/reports/studio.md is printed for each number of students: the
+times from the last letter to the scheme and their parts, the outcome of all requests, memory, and
+the load of the machine, by which to judge the times. ``--latencies`` prints how long one student
+waits for a scheme, plans, sheets, the first time and later: also for that report.
 """
 
 from __future__ import annotations

@@ -21,6 +21,8 @@ FIRST = {
     "benchmarks/reports/published.md": "reports/published.md",
     "benchmarks/reports/checking.md": "reports/checking.md",
     "benchmarks/reports/paper.md": "reports/paper.md",
+    "benchmarks/reports/studio.md": "reports/studio.md",
+    "benchmarks/reports/attack.md": "reports/attack.md",
 }
 """Pages of the repository that are pages of the book, and what they are called there."""
 
