@@ -270,7 +270,7 @@ def test_every_code_has_its_heading() -> None:
         body = headings[f"{code}: {said.title}"]
         title = russian[code].title
         assert f"\n{title[0].upper()}{title[1:]}." in body
-        for part in ("*Rule.* ", "*Mend.* "):
+        for part in ("*Rule.* ", "*Fix.* "):
             assert part in body
         assert f"| {code} | {REMARKS[code].severity.value} |" in parts[0]
 
