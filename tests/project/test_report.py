@@ -259,7 +259,9 @@ def test_the_matrix_of_constraints_has_six_columns_for_each_moving_link(name: st
     """It has a row for each freedom removed by a pair; the formula above it has both numbers."""
     told = " ".join(inlined(text) for text in texts(note_of(name))).replace("\u00a0", " ")
     count = re.search(r"= 6·(\d+)((?: − \d·\d+)+) = 1\b", told)
-    matrix = re.search(r"имеет (\d+) строк\w* и (\d+) столбц\w*, её ранг .*? равен (\d+)", told)
+    matrix = re.search(
+        r"имеет (\d+) строк\w* и (\d+) столбц\w* \(6n\), её ранг .*? равен (\d+)", told
+    )
     assert count is not None and matrix is not None
     links = int(count[1])
     assert links == len(project_of(name).loaded.problem.mechanism.links)

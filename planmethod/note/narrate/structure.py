@@ -63,7 +63,7 @@ def _analysis(
     yield Step((driver, "; ".join(counts)))
     for group in structure.groups:
         named, *counts = group_caption(group, language)
-        yield Step((named, _joints(mechanism, group, language.note), "; ".join(counts)))
+        yield Step((named, f"{joints_text(mechanism, group, language)}.", "; ".join(counts)))
     yield from map(Item, order_formulas(mechanism, structure, language))
     if aligned is not None:
         yield Caption(texts.aligned)
@@ -274,16 +274,21 @@ def aligned_lines(
         yield texts.aligned_none.format(links=links)
         return
     yield from aligned_sums(structure, aligned, language, pair_notation)
-    rows, n = aligned.rows, structure.moving_links
-    yield texts.aligned_rank.format(
-        rows=rows, columns=6 * n, rank=aligned.rank, q=rows - aligned.rank, w=6 * n - aligned.rank
-    )
+    yield aligned_rank(structure, aligned, language)
     used = {name for scheme in aligned.schemes[:1] for name in scheme.values()}
     named = texts["pair_classes"]
     yield texts.aligned_legend.format(
         legend=", ".join(
             f"{named[k]}{NBSP}– {v}" for k, v in texts["class_names"].items() if k in used
         )
+    )
+
+
+def aligned_rank(structure: Structure, aligned: SelfAligning, language: Language) -> Rich:
+    """Return the rank of the constraint matrix, with q and W that follow."""
+    rows, columns, rank = aligned.rows, 6 * structure.moving_links, aligned.rank
+    return language.structure.aligned_rank.format(
+        rows=rows, columns=columns, rank=rank, q=rows - rank, w=columns - rank
     )
 
 
@@ -393,14 +398,11 @@ def _listed(*links: str) -> str:
     return f",{NBSP}".join(links)
 
 
-def _joints(mechanism: Mechanism, group: AssurGroup, texts: MessageTable) -> Rich:
+def joints_text(mechanism: Mechanism, group: AssurGroup, language: Language) -> Rich:
     """Return the outer and the inner pairs of a group."""
-    outer, inner = group_joints(mechanism, group, texts)
-    told = (
-        texts.joint_outer.format(joints=", ".join(outer)),
-        texts.joint_inner.format(joints=", ".join(inner)),
-    )
-    return "; ".join(told) + "."
+    outer, inner = group_joints(mechanism, group, language.note)
+    template: Rich = language.structure["joints"]["one" if len(inner) == 1 else "many"]
+    return template.format(outer=", ".join(outer), inner=", ".join(inner))
 
 
 def group_joints(

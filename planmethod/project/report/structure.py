@@ -14,9 +14,10 @@ from planmethod.note.document import Chapter, Node, Part
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.structure import (
     aligned_group,
-    group_joints,
+    aligned_rank,
+    group_caption,
+    joints_text,
     link_table,
-    local_letters,
     pair_classes,
     pair_table,
     replacement_lines,
@@ -24,7 +25,7 @@ from planmethod.note.narrate.structure import (
     spatial_sum,
 )
 from planmethod.note.wording import MessageTable
-from planmethod.project.report.context import NBSP, Report, figure, items
+from planmethod.project.report.context import Report, figure, items
 from planmethod.render.pictures.structural import Mobile, mechanism_picture
 from planmethod.solved.aligned.schemes import self_aligning
 
@@ -33,7 +34,7 @@ def structure_chapter(report: Report) -> Iterator[Node]:
     """Yield the chapter."""
     texts: MessageTable = report.texts["structure"]
     mechanism = report.one.problem.mechanism
-    yield Chapter(texts.title.format())
+    yield Chapter(report.language.structure.title)
     yield Part(texts.mobility.format())
     named = [report.link(link, "of") for link in mechanism.links]
     counts = report.texts["counts"]
@@ -43,8 +44,9 @@ def structure_chapter(report: Report) -> Iterator[Node]:
         texts.links.format(frame=report.project.frame, count=count, links=report.listed(named))
     )
     language = report.language
-    yield replace(link_table(mechanism, language), name=texts.links_table.format(), key="links")
-    yield replace(pair_table(mechanism, language), name=texts.pairs_table.format(), key="pairs")
+    names = language.structure
+    yield replace(link_table(mechanism, language), name=names.links, key="links")
+    yield replace(pair_table(mechanism, language), name=names.pairs, key="pairs")
     yield from _mobility(report, texts)
     yield Part(texts.groups.format())
     yield from _groups(report, texts)
@@ -85,10 +87,10 @@ def _groups(report: Report, texts: MessageTable) -> Iterator[Node]:
     structure, mechanism = report.one.structure, report.one.problem.mechanism
     if len(structure.groups) == 1:
         (only,) = structure.groups
-        yield sentences(texts.only.format(group=_group(only, report, texts)))
+        yield sentences(texts.only.format(group=_group(only, report)))
     else:
         yield sentences(texts.first.format())
-        yield from items(_group(one, report, texts) for one in reversed(structure.groups))
+        yield from items(_group(one, report) for one in reversed(structure.groups))
     letters = report.language.note["letters"]
     yield sentences(texts.letters.format(revolute=letters["R"], prismatic=letters["P"]))
     ends = {FRAME, mechanism.driver}
@@ -126,36 +128,17 @@ def _aligned(report: Report, texts: MessageTable) -> Iterator[Node]:
             problem.mechanism, structure, width=150.0, height=80.0, letter_height=letter,
             sense=-1 if problem.drive.rate < 0 else 1, mobile=mobile,
         ),
-        texts.aligned_figure.format(),
+        language.structure.aligned_scheme,
         "aligned",
         height=80.0,
     )  # fmt: skip
     yield sentences(texts.aligned_sum.format())
     letters, numbers = spatial_sum(structure.moving_links, aligned.counts, problem.sheet.notation)
     yield displayed(texts.redundant_formula.format(letters=letters, numbers=numbers, w=1))
-    yield sentences(
-        texts.aligned_rank.format(
-            rows=aligned.rows,
-            columns=6 * len(problem.mechanism.links),
-            rank=aligned.rank,
-            q=aligned.rows - aligned.rank,
-        )
-    )
+    yield sentences(texts.aligned_same.format(), aligned_rank(structure, aligned, language))
 
 
-def _group(group: AssurGroup, report: Report, texts: MessageTable) -> Rich:
-    kind = ""
-    if group.kind is not None:
-        letters = local_letters(group.signature, report.language.note)
-        kind = texts.group_kind.format(kind=group.kind, letters=letters)
-    outer, inner = group_joints(report.every.problem.mechanism, group, report.language.note)
-    joints = texts.joints if len(inner) == 1 else texts.joints_many
-    return lettered(
-        texts.group.format(
-            links="–".join(group.links),
-            roman=roman(group.class_number),
-            order=group.order,
-            kind=kind,
-            joints=joints.format(outer=", ".join(outer), inner=", ".join(inner)),
-        ).replace(f"{NBSP} ", NBSP)
-    )
+def _group(group: AssurGroup, report: Report) -> Rich:
+    name, *_ = group_caption(group, report.language)
+    joints = joints_text(report.every.problem.mechanism, group, report.language)
+    return lettered(f"{name[:1].lower()}{name[1:]}; {joints}")
