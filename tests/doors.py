@@ -558,6 +558,15 @@ from planmethod.note.wording import (
 from planmethod.note.writers import omml
 from planmethod.note.writers.formulas import lines_of, pieces, sole_formula, units_of, with_stops
 from planmethod.note.writers.html import html_document, markup
+from planmethod.note.writers.lowering import (
+    Heading,
+    LoweredNode,
+    NamedFigure,
+    Text as LoweredText,
+    TextKind,
+    lower,
+    step_parts,
+)
 from planmethod.note.writers.markdown import latex, markdown_document
 from planmethod.note.writers.pdfformula import ASCENT, DESCENT, FormulaSetter
 from planmethod.note.writers.pdfnote import note_fonts, pdf_note
@@ -571,7 +580,7 @@ from planmethod.note.writers.terminal import (
     width,
 )
 from planmethod.note.writers.word import word_document
-from planmethod.note.writers.word_parts import NumberedNode, PageFlow, flowing
+from planmethod.note.writers.word_parts import PageFlow, flowing
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 from planmethod.options import drawn_by
 from planmethod.paper import (

@@ -9,6 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.note.wording import get_language
+from planmethod.note.writers.lowering import lower
 from planmethod.note.writers.pdfnote import pdf_note
 from planmethod.note.writers.word import word_document
 from planmethod.note.writers.wordframe import fields_of_note
@@ -65,7 +66,11 @@ def note_files(
     stamp = merged(problem.title_block, options.fields)
     title = problem.stamp_in.get(project.language, {}).get("title", problem.title)
     stamped = replace(project, problem=replace(problem, title=title, stamp=stamp, stamp_in={}))
-    written, author = note_document(stamped, language, sheets), stamp.get("author", "")
+    # Both files take the same sentences: they are divided into words and formulas once.
+    written, author = (
+        lower(note_document(stamped, language, sheets), language),
+        stamp.get("author", ""),
+    )
     files: dict[str, bytes] = {}
     for fmt in formats:
         if fmt == "docx":

@@ -24,7 +24,8 @@ from planmethod.note.document import GivenFact, plain_text
 from planmethod.note.formula import escape
 from planmethod.note.numbers import finite_or_none
 from planmethod.note.wording import Language, MessageTable
-from planmethod.note.writers.html import markup, without_control_characters
+from planmethod.note.writers.formulas import without_control_characters
+from planmethod.note.writers.html import markup
 from planmethod.problem.quantities import Sign
 from planmethod.render.backends import Options, render
 

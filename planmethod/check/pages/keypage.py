@@ -213,6 +213,7 @@ def key_pdf(keys: Sequence[Key], language: Language) -> bytes:
     page = KeyPage(tuple(keys), language)
     return pdf_document(
         Document.of(_nodes(page)),
+        language,
         title=plain_text(page.title),
         font=registered(LETTERING),
         wide=not page.is_single,

@@ -20,7 +20,7 @@ from planmethod.note.document import NO_BREAK
 from planmethod.note.formula import escape
 from planmethod.note.numbers import ZERO_TOLERANCE, trimmed
 from planmethod.note.wording import Language, MessageTable
-from planmethod.note.writers.html import without_control_characters
+from planmethod.note.writers.formulas import without_control_characters
 from planmethod.plans.model import FACTS, RATES
 
 LONGEST = 60

@@ -201,6 +201,7 @@ def student_pdf(page: Page, solved: Solution | KindProblem, language: Language) 
     texts: MessageTable = language.check["student"]
     return pdf_document(
         student_document(page, solved, language),
+        language,
         title=whose,
         font=registered(LETTERING),
         footer=lambda number: texts.page.format(student=whose, page=number),

@@ -9,7 +9,6 @@ from typing import assert_never
 
 from msgspec import Struct
 
-from planmethod.note import document
 from planmethod.note.formula import (
     Fraction,
     Index,
@@ -216,6 +215,13 @@ _RUSSIAN = re.compile(r"[\u0400-\u04ff]")
 
 Word = tuple[Node, ...]
 
+_CONTROL = "[^\n\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
+
+
+def without_control_characters(text: str) -> str:
+    """Return a text without signs that no page can show."""
+    return re.sub(_CONTROL, " ", text)
+
 
 class SentencePart(Struct, frozen=True):
     """A part of a sentence (часть предложения): words, or a formula."""
@@ -316,20 +322,6 @@ def with_stops(parts: Sequence[SentencePart]) -> Iterator[SentencePart]:
         text = after.text if after is not None else ""
         stop = text[:1] if text[:1] in (*_STOPS, ")") else ""
         yield SentencePart((*piece.nodes, *_word_of(stop)), True)
-
-
-def introduces_next_node(node: document.Node, after: document.Node | None) -> bool:
-    """Return whether the text of a node introduces the next node, and must stay with it."""
-    match node:
-        case document.Paragraph(text) | document.Item(text):
-            last = text
-        case document.Step(lines):
-            last = lines[-1]
-        case _:
-            return False
-    if after is None:
-        return False
-    return isinstance(after, document.Formula | document.Equations) or last.endswith(":")
 
 
 def tied(text: str) -> str:

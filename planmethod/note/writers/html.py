@@ -5,13 +5,11 @@
 from __future__ import annotations
 
 import html
-import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import assert_never
 
-from planmethod.note import document
-from planmethod.note.document import Document, Equation, Node, Table
+from planmethod.note.document import Document, Equation, PageBreak, Table, Term
 from planmethod.note.formula import (
     Fraction,
     Index,
@@ -22,7 +20,10 @@ from planmethod.note.formula import (
     inline,
     parse,
 )
-from planmethod.note.wording import MessageTable, get_language
+from planmethod.note.wording import get_language
+from planmethod.note.writers import lowering
+from planmethod.note.writers.formulas import without_control_characters
+from planmethod.note.writers.lowering import LoweredNode, TextKind, lower
 
 STYLE = """
 @page{size:A4;margin:12mm}
@@ -57,13 +58,6 @@ NOTE_STYLE = """
 """
 """For documents that have formulas built up, or the pages of a note."""
 
-_CONTROL = "[^\n\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
-
-
-def without_control_characters(text: str) -> str:
-    """Return a text without signs that no page can show."""
-    return re.sub(_CONTROL, " ", text)
-
 
 def html_document(written: Document, *, title: str, lang: str, style: str = "") -> str:
     """Return a document as HTML.
@@ -75,7 +69,7 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
     style : str
         CSS of the figures, beside that of the document.
     """
-    body = "\n".join(_body(document.resolve_references(written), get_language(lang).document))
+    body = "\n".join(_body(lower(written, get_language(lang)).nodes))
     kinds = ("titlepage", "break", "level", "formula-number", "fraction")
     if any(f'class="{kind}' in body for kind in kinds):
         style = NOTE_STYLE + style
@@ -95,74 +89,69 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
 
 def html_part(written: Document, lang: str) -> str:
     """Return a document as an element for a page that is not ours, its style kept to itself."""
-    body = "\n".join(_body(document.resolve_references(written), get_language(lang).document))
+    body = "\n".join(_body(lower(written, get_language(lang)).nodes))
     return f"<div><style>@scope {{{STYLE}{NOTE_STYLE}}}</style>\n{body}\n</div>"
 
 
-def _body(written: Document, texts: MessageTable) -> Iterator[str]:
+def _body(nodes: Iterable[LoweredNode]) -> Iterator[str]:
     """Yield the elements; consecutive items become a list, figures are set side by side."""
-    for kind, run in groupby(document.numbers_of(written), lambda pair: type(pair[0])):
-        if kind is document.Contents:
-            yield f"<h2>{texts.contents}</h2>{''.join(_contents(written))}"
-            continue
-        elements = (_element(node, number, texts) for node, number in run)
-        if kind is document.Item:
-            yield f"<ul>{''.join(elements)}</ul>"
-        elif kind is document.Step:
-            yield f'<ol class="steps">{"".join(elements)}</ol>'
-        elif kind is document.Figure:
+    for (kind, text_kind), run in groupby(nodes, lowering.kind_of):
+        elements = map(_element, run)
+        if kind is lowering.NamedFigure:
             yield f'<div class="figures">{"".join(elements)}</div>'
+        elif text_kind in _LISTS:
+            tag, name = _LISTS[text_kind]
+            yield f"<{tag}{name}>{''.join(elements)}</{tag}>"
         else:
             yield from elements
 
 
-def _contents(written: Document) -> Iterator[str]:
-    for level, number, title in document.headings_of(written):
-        yield f'<p class="level{level}">{number} {markup(title)}</p>'
+_LISTS = {
+    TextKind.ITEM: ("ul", ""),
+    TextKind.STEP: ("ol", ' class="steps"'),
+    TextKind.SOURCE: ("ol", ""),
+}
+"""Elements of lists, and their classes."""
 
 
-def _element(node: Node, number: str, texts: MessageTable) -> str:
+def _element(node: LoweredNode) -> str:
     match node:
-        case document.Title(text):
-            return f"<h1>{markup(text)}</h1>"
-        case document.TitlePage():
-            lines = "<br>".join(map(markup, document.lines_of(node, texts)))
-            return f'<p class="titlepage">{lines}</p>'
-        case document.Contents():
-            return ""
-        case document.PageBreak():
+        case lowering.Cover(lines=lines):
+            return f'<p class="titlepage">{"<br>".join(map(markup, lines))}</p>'
+        case lowering.Heading(text, level):
+            return f"<h{level + 1}>{markup(text)}</h{level + 1}>"
+        case lowering.ContentsList(title, headings):
+            return f"<h2>{title}</h2>" + "".join(
+                f'<p class="level{one.level}">{one.number} {markup(one.text)}</p>'
+                for one in headings
+            )
+        case PageBreak():
             return '<div class="break"></div>'
-        case document.StructuralHeading(title) | document.Chapter(title):
-            return f"<h2>{markup(title)}</h2>"
-        case document.Part(title):
-            return f"<h3>{markup(title)}</h3>"
-        case document.Subpart(title):
-            return f"<h4>{markup(title)}</h4>"
-        case document.Caption(text):
-            return f'<p class="caption">{markup(text)}</p>'
-        case document.Paragraph(text):
-            return f"<p>{markup(text)}</p>"
-        case document.Item(text):
-            return f"<li>{markup(text)}</li>"
-        case document.Step(lines):
-            return f"<li>{'<br>'.join(map(markup, lines))}</li>"
-        case document.Formula(text):
+        case lowering.Text(lines, kind):
+            return _text("<br>".join(map(markup, lines)), kind)
+        case lowering.DisplayedFormula(text, number):
             return f'<p class="formula">{markup(text, built=True)}{_numbered(number)}</p>'
-        case document.Equations(equations):
-            lines = "".join(f'<p class="formula">{_equation(one)}</p>' for one in equations)
-            return lines + _numbered(number)
-        case document.Table(name=name):
-            above = texts.table.format(number=number, text=name)
-            return (f'<p class="caption">{markup(above)}</p>' if name else "") + _table(node)
-        case document.Figure(view, caption):
-            caption = texts.figure.format(number=number, text=caption) if number else caption
-            return f"<figure>{view.svg()}<figcaption>{markup(caption)}</figcaption></figure>"
-        case document.References(entries):
-            return f"<ol>{''.join(f'<li>{markup(entry)}</li>' for entry in entries)}</ol>"
-        case document.Note(text):
-            return f'<p class="note">{markup(text)}</p>'
+        case lowering.DisplayedEquations(equations, number):
+            rows = "".join(f'<p class="formula">{_equation(one)}</p>' for one in equations)
+            return rows + _numbered(number)
+        case lowering.NamedTable(table, name):
+            return (f'<p class="caption">{markup(name)}</p>' if name else "") + _table(table)
+        case lowering.NamedFigure(view=view, name=name):
+            return f"<figure>{view.svg()}<figcaption>{markup(name)}</figcaption></figure>"
         case _:
             assert_never(node)
+
+
+def _text(text: str, kind: TextKind) -> str:
+    match kind:
+        case TextKind.PARAGRAPH:
+            return f"<p>{text}</p>"
+        case TextKind.CAPTION | TextKind.NOTE:
+            return f'<p class="{kind.value}">{text}</p>'
+        case TextKind.ITEM | TextKind.STEP | TextKind.SOURCE:
+            return f"<li>{text}</li>"
+        case _:
+            assert_never(kind)
 
 
 def _numbered(number: str) -> str:
@@ -170,7 +159,7 @@ def _numbered(number: str) -> str:
 
 
 def _equation(equation: Equation) -> str:
-    def side(terms: tuple[document.Term, ...]) -> str:
+    def side(terms: tuple[Term, ...]) -> str:
         return " + ".join(
             f'<span class="term"><span class="u{term.underlines}">{markup(term.symbol)}</span>'
             f"<small>{markup(term.direction)}</small></span>"

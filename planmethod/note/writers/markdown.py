@@ -14,19 +14,18 @@ from typing import assert_never
 
 from msgspec.structs import replace
 
-from planmethod.note import document
-from planmethod.note.document import Document, Equation, Table, Term
+from planmethod.note.document import Document, Equation, PageBreak, Table, Term
 from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Rich, Root, parse
 from planmethod.note.wording import Language
+from planmethod.note.writers import lowering
 from planmethod.note.writers.formulas import (
     PAIRS,
     Token,
     matching_bracket,
-    pieces,
     tokens_of,
-    units_of,
     with_levels,
 )
+from planmethod.note.writers.lowering import LoweredDocument, LoweredNode, TextKind, lower
 
 _SPECIAL = r"[\\`*_$<>|\[\]]|^[#+-](?=\s)|^\d+[.)](?=\s)"
 """Text that Markdown would treat as markup, by its last sign: emphasis, a link, a list entry."""
@@ -60,78 +59,68 @@ def markdown_document(written: Document, language: Language) -> str:
     LayoutError
         A formula is malformed, or a text refers to a missing key.
     """
-    return "\n".join(_Writer(language).lines(document.resolve_references(written)))
+    return "\n".join(_Writer(lower(written, language)).lines())
 
 
 class _Writer:
-    """Writes nodes one after another, and numbers steps."""
+    """Writes nodes one after another."""
 
-    def __init__(self, language: Language) -> None:
-        self._say, self._units = language.document, units_of(language.note["units"])
-        self._step = 0
+    def __init__(self, written: LoweredDocument) -> None:
+        self._written = written
 
-    def lines(self, written: Document) -> Iterator[str]:
+    def lines(self) -> Iterator[str]:
         """Yield the lines of a document; entries of one list have no blank line between them."""
-        before: document.Node | None = None
-        for node, number in document.numbers_of(Document.of(_joined(written.nodes))):
-            is_contents = isinstance(node, document.Contents)
-            lines = self._contents(written) if is_contents else self._node(node, number)
-            is_list = isinstance(node, document.Item | document.Step) and type(before) is type(node)
-            if lines and before is not None and not is_list:
+        before: LoweredNode | None = None
+        for node in _joined(self._written.nodes):
+            lines = self._node(node)
+            if lines and before is not None and not _is_of_one_list(before, node):
                 yield ""
             yield from lines
             before = node if lines else before
 
-    def _contents(self, written: Document) -> list[str]:
-        listed = (
-            f"{'  ' * (level - 1)}- {f'{number} ' * bool(number)}{self._text(title)}"
-            for level, number, title in document.headings_of(written)
-        )
-        return [f"## {self._say.contents}", "", *listed]
-
-    def _node(self, node: document.Node, number: str) -> list[str]:
+    def _node(self, node: LoweredNode) -> list[str]:
         match node:
-            case document.Title(text):
-                return [f"# {self._text(text)}"]
-            case document.TitlePage():
-                return _broken(list(map(self._text, document.lines_of(node, self._say))))
-            case document.Contents() | document.PageBreak():
+            case lowering.Cover(lines=lines):
+                return _broken(list(map(self._text, lines)))
+            case lowering.Heading(text, level, number):
+                mark = "#" * (level + 1)
+                return [f"{mark} {f'{number}. ' * bool(number)}{self._text(text)}"]
+            case lowering.ContentsList(title, headings):
+                return [f"## {title}", "", *map(self._listed, headings)]
+            case PageBreak():
                 return []
-            case document.Chapter(title) | document.StructuralHeading(title):
-                return [f"## {f'{number}. ' * bool(number)}{self._text(title)}"]
-            case document.Part(title):
-                return [f"### {number}. {self._text(title)}"]
-            case document.Subpart(title):
-                return [f"#### {number}. {self._text(title)}"]
-            case document.Caption(text):
-                return [f"**{self._text(text)}**"]
-            case document.Paragraph(text):
-                return [self._text(text)]
-            case document.Note(text):
-                return [f"> {self._text(text)}"]
-            case document.Item(text, label):
-                return [f"- {f'{self._text(label)} ' * bool(label)}{self._text(text)}"]
-            case document.Step(lines, continues):
-                self._step += not continues
-                lead = "" if continues else f"{self._step}. "
-                return _broken(list(map(self._text, lines)), lead)
-            case document.Formula(text):
+            case lowering.Text():
+                return self._lines_of_text(node)
+            case lowering.DisplayedFormula(text, number):
                 return _display(latex(parse(text)), number)
-            case document.Equations(equations):
+            case lowering.DisplayedEquations(equations, number):
                 return _display(vector_equations(equations), number)
-            case Table(name=name):
-                above = [f"**{self._named('table', number, name)}**", ""] if name else []
-                return above + self._table(node)
-            case document.Figure(caption=caption):
-                named = self._named("figure", number, caption) if number else self._text(caption)
-                return [f"*{named}*"] if named else []
-            case document.References(entries):
-                return [f"{k}. {self._text(entry)}" for k, entry in enumerate(entries, 1)]
+            case lowering.NamedTable(table, name):
+                return ([f"**{self._text(name)}**", ""] if name else []) + self._table(table)
+            case lowering.NamedFigure(name=name):
+                return [f"*{self._text(name)}*"] if name else []
             case _:
                 assert_never(node)
 
-    def _named(self, kind: str, number: str, text: Rich) -> str:
-        return self._text(self._say[kind].format(number=number, text=text))
+    def _lines_of_text(self, node: lowering.Text) -> list[str]:
+        first, *more = map(self._text, node.lines)
+        match node.kind:
+            case TextKind.CAPTION:
+                return [f"**{first}**"]
+            case TextKind.PARAGRAPH:
+                return [first]
+            case TextKind.NOTE:
+                return [f"> {first}"]
+            case TextKind.ITEM:
+                return [f"- {f'{self._text(node.mark)} ' * bool(node.mark)}{first}"]
+            case TextKind.STEP | TextKind.SOURCE:
+                return _broken([first, *more], f"{node.mark}. " * bool(node.mark))
+            case _:
+                assert_never(node.kind)
+
+    def _listed(self, one: lowering.Heading) -> str:
+        mark = f"{'  ' * (one.level - 1)}- {f'{one.number} ' * bool(one.number)}"
+        return mark + self._text(one.text)
 
     def _table(self, node: Table) -> list[str]:
         rules = ("---:" if k in node.numbers else "---" for k in range(len(node.head)))
@@ -143,7 +132,7 @@ class _Writer:
         """Return rich text, each formula of it between dollars."""
         return "".join(
             f"${latex(piece.nodes)}$" if piece.is_formula else _escaped(piece.text)
-            for piece in pieces(parse(text), self._units)
+            for piece in self._written.divide(text)
         )
 
 
@@ -151,20 +140,30 @@ def _escaped(text: str) -> str:
     return re.sub(_SPECIAL, lambda found: f"{found[0][:-1]}\\{found[0][-1]}", text)
 
 
-def _joined(nodes: Iterable[document.Node]) -> Iterator[document.Node]:
+def _joined(nodes: Iterable[LoweredNode]) -> Iterator[LoweredNode]:
     """Yield the nodes; what continues a step just before it is one with it."""
-    step: document.Step | None = None
+    step: lowering.Text | None = None
     for node in nodes:
-        if step is not None and isinstance(node, document.Step) and node.continues:
-            step = replace(step, lines=(*step.lines, *node.lines))
-            continue
+        match node:
+            case lowering.Text(lines, TextKind.STEP, "") if step is not None:
+                step = replace(step, lines=(*step.lines, *lines))
+                continue
         if step is not None:
             yield step
-        step = node if isinstance(node, document.Step) else None
+        step = node if isinstance(node, lowering.Text) and node.kind is TextKind.STEP else None
         if step is None:
             yield node
     if step is not None:
         yield step
+
+
+def _is_of_one_list(before: LoweredNode, node: LoweredNode) -> bool:
+    """Return whether two nodes are entries of one list."""
+    match before, node:
+        case lowering.Text(kind=first), lowering.Text(kind=second):
+            return first is second and first in (TextKind.ITEM, TextKind.STEP, TextKind.SOURCE)
+        case _:
+            return False
 
 
 def _broken(lines: Sequence[str], prefix: str = "") -> list[str]:

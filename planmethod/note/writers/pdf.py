@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from io import BytesIO
 from itertools import groupby
 from typing import Any, assert_never
@@ -25,8 +25,7 @@ from reportlab.platypus import (
     Spacer,
 )
 
-from planmethod.note import document
-from planmethod.note.document import Document, Node, Table, plain_text
+from planmethod.note.document import Document, PageBreak, Table, plain_text
 from planmethod.note.formula import (
     Fraction,
     Index,
@@ -37,8 +36,10 @@ from planmethod.note.formula import (
     inline,
     parse,
 )
-from planmethod.note.writers.formulas import Token, tokens_of
-from planmethod.note.writers.html import without_control_characters
+from planmethod.note.wording import Language
+from planmethod.note.writers import lowering
+from planmethod.note.writers.formulas import Token, tokens_of, without_control_characters
+from planmethod.note.writers.lowering import LoweredDocument, LoweredNode, TextKind, lower
 
 MM = 72.0 / 25.4
 MARGIN = 12.0 * MM
@@ -64,8 +65,23 @@ TONES = {
 """Grounds of cells that name a verdict: they only repeat what the word says."""
 
 
+_HEADINGS = ((15.0, 0.0), (12.0, 6.0), (10.5, 5.0), (10.5, 5.0))
+"""Size of headings by their level, and white above them, points."""
+
+_TEXTS: Mapping[TextKind, tuple[float, float]] = {
+    TextKind.PARAGRAPH: (9.5, 0.0),
+    TextKind.ITEM: (9.5, 0.0),
+    TextKind.STEP: (9.5, 0.0),
+    TextKind.SOURCE: (9.5, 0.0),
+    TextKind.CAPTION: (11.0, 3.0),
+    TextKind.NOTE: (8.0, 2.0),
+}
+"""The same of texts."""
+
+
 def pdf_document(
     written: Document,
+    language: Language,
     *,
     title: str,
     font: str,
@@ -76,6 +92,8 @@ def pdf_document(
 
     Parameters
     ----------
+    written : Document
+    language : Language
     title : str
         Plain text, of the file.
     font : str
@@ -108,7 +126,7 @@ def pdf_document(
             canvas.drawString(MARGIN, MARGIN / 2, footer(canvas.getPageNumber()))
 
     pages.build(
-        list(_Setter(font, pages.width - 12.0).flowables_of_document(written)),
+        list(_Setter(font, pages.width - 12.0).flowables_of_document(lower(written, language))),
         onFirstPage=close_page,
         onLaterPages=close_page,
     )
@@ -133,56 +151,45 @@ class _Setter:
             keepWithNext=before > 4.0,
         )
 
-    def _text(self, rich: str, size: float = 9.5, *, before: float = 0.0) -> Paragraph:
+    def _text(self, rich: str, size: float = 9.5, before: float = 0.0) -> Paragraph:
         return Paragraph(pdf_markup(rich, size), self._style(size, before=before))
 
-    def flowables_of_document(self, written: Document) -> Iterator[Flowable]:
+    def flowables_of_document(self, written: LoweredDocument) -> Iterator[Flowable]:
         """Yield the flowables of a document."""
-        for kind, run in groupby(written.nodes, type):
+        for (kind, text_kind), run in groupby(written.nodes, lowering.kind_of):
             nodes = list(run)
-            if kind is document.Item or kind is document.Step:
-                yield self._listed(nodes)
-            elif kind is document.Figure:
+            if text_kind in (TextKind.ITEM, TextKind.STEP):
+                yield self._listed(nodes, numbered=text_kind is TextKind.STEP)
+            elif kind is lowering.NamedFigure:
                 yield from self._figures(
-                    [node for node in nodes if isinstance(node, document.Figure)]
+                    [node for node in nodes if isinstance(node, lowering.NamedFigure)]
                 )
             else:
                 for node in nodes:
                     yield from self._flowables(node)
 
-    def _flowables(self, node: Node) -> Iterator[Flowable]:
+    def _flowables(self, node: LoweredNode) -> Iterator[Flowable]:
         match node:
-            case document.Title(text):
-                yield self._text(text, 15.0)
-            case document.TitlePage() | document.Contents() | document.PageBreak():
+            case lowering.Cover() | lowering.ContentsList() | PageBreak():
                 pass
-            case document.References(entries):
-                yield from map(self._text, entries)
-            case document.Chapter(title) | document.StructuralHeading(title):
-                yield self._text(title, 12.0, before=6.0)
-            case document.Part(title) | document.Subpart(title):
-                yield self._text(title, 10.5, before=5.0)
-            case document.Caption(text):
-                yield self._text(text, 11.0, before=3.0)
-            case document.Paragraph(text) | document.Item(text) | document.Formula(text):
+            case lowering.Heading(text, level):
+                yield self._text(text, *_HEADINGS[level])
+            case lowering.Text(kind=kind):
+                yield self._text(node.text, *_TEXTS[kind])
+            case lowering.DisplayedFormula(text):
                 yield self._text(text)
-            case document.Step(lines):
-                yield self._text(" ".join(lines))
-            case document.Note(text):
-                yield self._text(text, 8.0, before=2.0)
-            case document.Equations(equations):
+            case lowering.DisplayedEquations(equations):
                 for one in equations:
                     sides = (" + ".join(t.symbol for t in s) for s in (one.left, one.right))
                     yield self._text(" = ".join(side or "0" for side in sides))
-            case document.Table():
-                yield from self._tables(node)
-            case document.Figure():
+            case lowering.NamedTable(table):
+                yield from self._tables(table)
+            case lowering.NamedFigure():
                 yield from self._figures([node])
             case _:
                 assert_never(node)
 
-    def _listed(self, nodes: Sequence[Node]) -> Flowable:
-        numbered = isinstance(nodes[0], document.Step)
+    def _listed(self, nodes: Sequence[LoweredNode], *, numbered: bool) -> Flowable:
         items = [ListItem(list(self._flowables(node))) for node in nodes]
         return ListFlowable(
             items,
@@ -243,9 +250,9 @@ class _Setter:
 
     # Figures -------------------------------------------------------------------------------------
 
-    def _figures(self, figures: Sequence[document.Figure]) -> Iterator[Flowable]:
+    def _figures(self, figures: Sequence[lowering.NamedFigure]) -> Iterator[Flowable]:
         """Yield figures in rows that are as full as can be."""
-        row: list[document.Figure] = []
+        row: list[lowering.NamedFigure] = []
         for figure in figures:
             if row and sum(f.view.size[0] * MM for f in (*row, figure)) > self._width:
                 yield _Row(row, self._font)
@@ -259,7 +266,7 @@ class _Row(Flowable):  # type: ignore[misc]
 
     CAPTION = 16.0
 
-    def __init__(self, figures: Sequence[document.Figure], font: str) -> None:
+    def __init__(self, figures: Sequence[lowering.NamedFigure], font: str) -> None:
         super().__init__()
         self._figures, self._font = figures, font
 
@@ -278,7 +285,7 @@ class _Row(Flowable):  # type: ignore[misc]
             self.canv.restoreState()
             width = figure.view.size[0] * MM
             style = ParagraphStyle("caption", fontName=self._font, fontSize=8.0, alignment=1)
-            caption = Paragraph(pdf_markup(figure.caption, 8.0), style)
+            caption = Paragraph(pdf_markup(figure.name, 8.0), style)
             caption.wrap(max(width, 80.0 * MM), self.CAPTION)
             caption.drawOn(self.canv, x + min(0.0, width - 80.0 * MM) / 2, 2.0)
             x += width + gap

@@ -276,20 +276,19 @@ class FormulaSetter:
 class FormulaLines(Flowable):  # type: ignore[misc]
     """Formulas one under another in the middle of a page, the number beside the last (формула).
 
-    ``air``: share of the usual white above and below each.
+    ``section``: as close as it is set, as much less white is above and below each.
     """
 
     def __init__(
-        self, rows: Sequence[FormulaBox], number: str, font: str, size: float, air: float = 1.0
+        self, rows: Sequence[FormulaBox], number: str, font: str, size: float, section: Section
     ) -> None:
         super().__init__()
         self._rows, self._number, self._font, self._size = rows, number, font, size
-        self._gap = 0.45 * size * air
-        self._width = 0.0
+        self._section, self._gap, self._width = section, 0.0, 0.0
 
     def wrap(self, width: float, height: float) -> tuple[float, float]:
         """Return the space that the formulas take, points."""
-        self._width = width
+        self._width, self._gap = width, 0.45 * self._size * (2.0 * self._section.scale - 1.0)
         return width, sum(row.ascent + row.descent + self._gap for row in self._rows) + self._gap
 
     def draw(self) -> None:
@@ -324,6 +323,15 @@ def draw_ink(canvas: Any, ink: FormulaBox) -> None:
         for place in line[1:]:
             path.lineTo(*place)
         canvas.drawPath(path, stroke=1, fill=0)
+
+
+class Section(Struct):
+    """Part of a note between two page breaks; ``scale``: how close its content is set.
+
+    Its pictures are smaller by it; formulas and lines of the contents are closer.
+    """
+
+    scale: float = 1.0
 
 
 MAX_PASSED = 12

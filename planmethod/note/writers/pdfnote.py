@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache, partial
 from io import BytesIO
-from itertools import zip_longest
+from math import inf
 from pathlib import Path
 from typing import Any, Protocol, assert_never
 
@@ -34,21 +34,19 @@ from reportlab.platypus import (
 from reportlab.platypus.tableofcontents import TableOfContents
 
 from planmethod.note import document
-from planmethod.note.document import Document, Node, Table, plain_text
+from planmethod.note.document import Document, DrawableView, Table, plain_text
 from planmethod.note.formula import Rich, inline, parse
 from planmethod.note.wording import Language
+from planmethod.note.writers import lowering
 from planmethod.note.writers.formulas import (
     JOINER,
-    introduces_next_node,
     lines_of,
-    pieces,
-    sole_formula,
     tied,
-    units_of,
     width_em,
     with_levels,
+    without_control_characters,
 )
-from planmethod.note.writers.html import without_control_characters
+from planmethod.note.writers.lowering import LoweredDocument, LoweredNode, TextKind, lower
 from planmethod.note.writers.pdf import marked, parts_of
 from planmethod.note.writers.pdfformula import (
     Floating,
@@ -58,6 +56,7 @@ from planmethod.note.writers.pdfformula import (
     FormulaSetter,
     LaidFrame,
     LaidParagraph,
+    Section,
 )
 
 LEFT, RIGHT, TOP, BOTTOM = 30 * mm, 15 * mm, 20 * mm, 20 * mm
@@ -101,7 +100,7 @@ class PageForms(Protocol):
         """From the edge of the paper to above the title block, mm: of the first page, of others."""
         ...
 
-    def view(self, page: int, pages: int, *, first: bool) -> document.DrawableView:
+    def view(self, page: int, pages: int, *, first: bool) -> DrawableView:
         """Return the frame of a page out of a total; ``first``: it follows the title page."""
         ...
 
@@ -116,13 +115,17 @@ def note_fonts() -> Fonts:
 
 
 def pdf_note(
-    written: Document, language: Language, *, author: str = "", forms: PageForms | None = None
+    written: Document | LoweredDocument,
+    language: Language,
+    *,
+    author: str = "",
+    forms: PageForms | None = None,
 ) -> bytes:
     """Return a document as the pages of a note; the same document gives the same bytes.
 
     Parameters
     ----------
-    written : Document
+    written : Document or LoweredDocument
     language : Language
     author : str
         For the properties of the file.
@@ -134,49 +137,56 @@ def pdf_note(
     LayoutError
         A formula is malformed, or a text refers to a missing key.
     """
-    written = document.resolve_references(written)
-    built = partial(_built, written, language, author, forms)
-    made, ends = built({}, lambda ends: not any(end.is_nearly_empty for end in ends))
-    if made:
-        return made
-    low = [k for k, end in enumerate(ends) if end.is_nearly_empty]
-
-    def saved(tighter: Sequence[End]) -> list[int]:
-        return [k for k in low if tighter[k].count < ends[k].count]
-
-    closer, found = built(dict.fromkeys(low, TIGHT), lambda tighter: saved(tighter) == low)
-    return closer or built(dict.fromkeys(saved(found), TIGHT), lambda _: True)[0]
-
-
-def _built(
-    written: Document,
-    language: Language,
-    author: str,
-    forms: PageForms | None,
-    tight: Mapping[int, float],
-    is_final: Callable[[Sequence[End]], bool],
-) -> tuple[bytes, list[End]]:
-    """Return a file, and how each section between page breaks ends.
-
-    ``tight``: of which sections pictures are smaller, to which share of their size; formulas and
-    lines of the contents are closer there. The file is empty unless the ends are final: drawing
-    takes longer than laying out.
-    """
+    written = lower(written, language)
     file = BytesIO()
-    pages = _Pages(file, _title(written), author or "planmethod", written, forms, is_final)
     foot = BOTTOM if forms is None else forms.heights[1] * mm + ABOVE
-    pages.multiBuild(list(_Setter(language, tight, foot).flowables_of_document(written)))
-    return file.getvalue() if pages.is_drawn else b"", pages.ends
+    setter = _Setter(written, language, foot)
+    flowables = list(setter.flowables())
+    pages = _Pages(file, author or "planmethod", written, forms, Tightening(setter.sections))
+    pages.multiBuild(flowables, maxPasses=MAX_RUNS)
+    return file.getvalue()
 
 
-def _title(written: Document) -> str:
-    for node in written.nodes:
-        match node:
-            case document.TitlePage(title=title, work=work):
-                return plain_text(without_control_characters(title or work))
-            case document.Title(text):
-                return plain_text(without_control_characters(text))
-    return ""
+MAX_RUNS = 30
+"""Largest number of runs over the pages: each of the three trials takes two or three."""
+
+
+class End(Struct, frozen=True):
+    """End of a section: its number of pages, and the filled fraction of the last one."""
+
+    count: int
+    filled: float
+
+    @property
+    def is_nearly_empty(self) -> bool:
+        """True if its last page has only a few lines."""
+        return self.count > 1 and self.filled < NEARLY_EMPTY
+
+
+class Tightening:
+    """Saves pages of sections that have only a few lines: a trial for all of them, one for some."""
+
+    def __init__(self, sections: Sequence[Section]) -> None:
+        self._sections = sections
+        self._low: list[int] = []
+        self._first: Sequence[End] = ()
+        self._trials = 0
+
+    def is_final(self, ends: Sequence[End]) -> bool:
+        """Return whether the ends are final; otherwise set sections closer for the next run."""
+        self._trials += 1
+        if self._trials == 1:
+            self._first = ends
+            tried = self._low = [k for k, end in enumerate(ends) if end.is_nearly_empty]
+            is_final = not tried
+        else:
+            tried = [k for k in self._low if ends[k].count < self._first[k].count]
+            is_final = tried == self._low or self._trials > 2
+        if is_final:
+            return True
+        for k, section in enumerate(self._sections):
+            section.scale = TIGHT if k in tried else 1.0
+        return False
 
 
 class _Pages(FloatingPages):
@@ -185,27 +195,26 @@ class _Pages(FloatingPages):
     def __init__(
         self,
         file: BytesIO,
-        title: str,
         author: str,
-        written: Document,
+        written: LoweredDocument,
         forms: PageForms | None,
-        is_final: Callable[[Sequence[End]], bool],
+        tightening: Tightening,
     ) -> None:
         fonts = note_fonts()
         super().__init__(
             file,
             pagesize=A4,
-            title=title,
+            title=plain_text(without_control_characters(written.title)),
             author=author,
             creator="planmethod",
             subject="",
             invariant=1,
             initialFontName=fonts.upright,
         )
-        first = next((n for n in written.nodes if isinstance(n, document.TitlePage)), None)
-        foot = "" if first is None else plain_text(f"{first.place} {first.year}").strip()
+        first = next((n for n in written.nodes if isinstance(n, lowering.Cover)), None)
+        foot = "" if first is None else plain_text(first.footer)
         middle = LEFT + (A4[0] - LEFT - RIGHT) / 2
-        self._forms, self._pages, self._is_final = forms, 0, is_final
+        self._forms, self._pages, self._tightening = forms, 0, tightening
 
         def close_page(canvas: Any, _: Any) -> None:
             number = canvas.getPageNumber()
@@ -234,13 +243,13 @@ class _Pages(FloatingPages):
     def _allSatisfied(self) -> bool:  # noqa: N802
         """Return whether the contents, and the number of pages in a frame, are right.
 
-        The run after the first in which they are draws the pages, if those are final.
+        The run after one in which they are draws the pages, if those are final.
         """
         told, self._pages = self._pages, self.page
         right = bool(super()._allSatisfied()) and (self._forms is None or told == self.page)
-        if not right or self.is_drawn or not self._is_final(self.ends):
+        if not right or self.is_drawn:
             return right
-        self.is_drawn = True
+        self.is_drawn = self._tightening.is_final(self.ends)
         return False
 
     def beforeDocument(self) -> None:  # noqa: N802
@@ -279,18 +288,6 @@ def _template(name: str, bottom: float, on_page: Callable[[Any, Any], None]) -> 
     return PageTemplate(name, [text], onPage=on_page)
 
 
-class End(Struct, frozen=True):
-    """End of a section: its number of pages, and the filled fraction of the last one."""
-
-    count: int
-    filled: float
-
-    @property
-    def is_nearly_empty(self) -> bool:
-        """True if its last page has only a few lines."""
-        return self.count > 1 and self.filled < NEARLY_EMPTY
-
-
 class _Heading(LaidParagraph):
     """A heading that the contents list."""
 
@@ -302,15 +299,15 @@ class _Heading(LaidParagraph):
 class _Picture(Flowable):  # type: ignore[misc]
     """A centred picture, scaled down where space is short."""
 
-    def __init__(self, view: document.DrawableView, tallest: float, max_scale: float) -> None:
+    def __init__(self, view: DrawableView, tallest: float, section: Section) -> None:
         super().__init__()
-        self._view, self._tallest, self._most, self.at_most = view, tallest, max_scale, 1.0
+        self._view, self._tallest, self._section, self.at_most = view, tallest, section, 1.0
         self._share, self._width = 1.0, 0.0
 
     def wrap(self, width: float, height: float) -> tuple[float, float]:
         """Return the space that the picture takes, points."""
         wide, high = (side * mm for side in self._view.size)
-        self._share = self.at_most * min(self._most, width / wide, self._tallest / high)
+        self._share = self.at_most * min(self._section.scale, width / wide, self._tallest / high)
         self._width = width
         return width, high * self._share
 
@@ -329,6 +326,12 @@ class _CutTable(LongTable):  # type: ignore[misc]
 
     again: Callable[[], Paragraph] | None = None
 
+    def measure(self, width: float) -> float:
+        """Return the height, points; rows keep theirs, so that no run over the pages measures."""
+        self.wrap(width, inf)
+        self._argH = self._rowHeights
+        return float(sum(self._rowHeights))
+
     def split(self, width: float, height: float) -> list[Flowable]:
         """Return the part that fits, and the rest for the next page."""
         parts = super().split(width, height)
@@ -339,18 +342,29 @@ class _CutTable(LongTable):  # type: ignore[misc]
         return [first, FrameBreak(), self.again(), rest]
 
 
+class _Contents(TableOfContents):  # type: ignore[misc]
+    """Contents whose lines are as close as their section is set."""
+
+    section: Section
+
+    def wrap(self, width: float, height: float) -> tuple[float, float]:
+        """Return the space that the contents take, points."""
+        for style in self.levelStyles:
+            style.leading = 1.4 * self.section.scale * style.fontSize
+        wide, high = super().wrap(width, height)
+        return wide, high
+
+
 class _Setter:
     """Makes flowables of nodes."""
 
-    def __init__(self, language: Language, tight: Mapping[int, float], bottom: float) -> None:
-        self._say, self._fonts, self._tight = language.document, note_fonts(), tight
-        self._section = 0
-        self._units = units_of(language.note["units"])
+    def __init__(self, written: LoweredDocument, language: Language, bottom: float) -> None:
+        self._written, self._say, self._fonts = written, language.document, note_fonts()
+        self.sections = [Section()]
         self._formulas = FormulaSetter(self._fonts, SIZE)
         self._width = A4[0] - LEFT - RIGHT
         self._tallest = A4[1] - TOP - bottom - 20 * mm
-        self._step = self._count = 0
-        self._is_note = self._leads = False
+        self._count = 0
 
     def _style(
         self,
@@ -382,7 +396,7 @@ class _Setter:
     def _markup(self, rich: Rich, size: float = SIZE) -> str:
         """Return a sentence as reportlab takes it, the letters of its formulas italic."""
         found = ""
-        for piece in pieces(parse(without_control_characters(rich)), self._units, symbols=True):
+        for piece in self._written.divide(rich, symbols=True):
             if not piece.is_formula:
                 found += html.escape(tied(piece.text).replace(JOINER, "")).replace("\n", "<br/>")
                 continue
@@ -396,102 +410,78 @@ class _Setter:
     def _text(self, rich: Rich, style: ParagraphStyle) -> Paragraph:
         return LaidParagraph(self._markup(rich, style.fontSize), style)
 
-    def flowables_of_document(self, written: Document) -> Iterator[Flowable]:
-        """Yield the flowables of a document."""
-        kinds = {type(node) for node in written.nodes}
-        self._is_note = bool(kinds & {document.TitlePage, document.Contents})
+    def flowables(self) -> Iterator[Flowable]:
+        """Yield the flowables of the document."""
         fresh = True  # an empty page needs no break
-        numbered = list(document.numbers_of(written))
-        for (node, number), after in zip_longest(numbered, written.nodes[1:]):
-            self._leads = introduces_next_node(node, after)
-            for flowable in self._flowables(node, number):
+        for node in self._written.nodes:
+            for flowable in self._flowables(node):
                 is_break = isinstance(flowable, PageBreak)
                 if not (is_break and fresh):
-                    self._section += is_break
+                    self.sections += [Section()] * is_break
                     yield flowable
                 fresh = is_break
 
-    def _flowables(self, node: Node, number: str) -> Iterator[Flowable]:
+    def _flowables(self, node: LoweredNode) -> Iterator[Flowable]:
         match node:
-            case document.Title(text):
+            case lowering.Cover():
+                yield from self._cover(node)
+            case lowering.Heading(text, 0):
                 style = self._style(16.0, align=TA_CENTER, indent=0.0, around=6.0, bold=True)
                 yield self._text(text, style)
-            case document.TitlePage():
-                yield from self._title_page(node)
-            case document.Contents():
-                yield from self._contents()
+            case lowering.Heading():
+                if node.is_structural:
+                    yield PageBreak()
+                yield self._heading(node)
+            case lowering.ContentsList():
+                yield from self._contents(node)
             case document.PageBreak():
                 yield PageBreak()
-            case document.StructuralHeading(title):
-                self._step = 0
-                yield PageBreak()
-                yield self._heading(title, 0, "", middle=True)
-            case document.Chapter(title):
-                self._step = 0 if self._is_note else self._step
-                yield self._heading(title, 0, number)
-            case document.Part(title):
-                self._step = 0 if self._is_note else self._step
-                yield self._heading(title, 1, number)
-            case document.Subpart(title):
-                yield self._heading(title, 2, number)
-            case document.Caption(text):
-                yield self._text(text, self._style(align=TA_LEFT, keep_with_next=True))
-            case document.Paragraph(text):
-                yield self._text(text, self._style(keep_with_next=self._leads))
-            case document.Item(text, label):
-                shown = f"{label}\u2002{text}" if label else f"–\u00a0{text}"
-                yield self._text(shown, self._style(keep_with_next=self._leads))
-            case document.Step(lines, continues):
-                yield from self._stepped(lines, continues=continues)
-            case document.Formula(text):
-                yield self._displayed(
-                    tuple(with_levels(parse(without_control_characters(text)))), number
-                )
-            case document.Equations(equations):
+            case lowering.Text():
+                yield from self._lines_of_text(node)
+            case lowering.DisplayedFormula(text, number):
+                nodes = tuple(with_levels(parse(without_control_characters(text))))
+                yield self._displayed(nodes, number)
+            case lowering.DisplayedEquations(equations, number):
                 yield self._lines([self._formulas.equations(equations)], number)
-            case document.Table():
-                yield from self._tables(node, number)
-            case document.Figure(view, caption):
-                shown = self._say.figure.format(number=number, text=caption) if number else caption
+            case lowering.NamedTable():
+                yield from self._tables(node)
+            case lowering.NamedFigure(view=view, name=name):
                 style = self._style(align=TA_CENTER, indent=0.0, around=6.0, leading=1.2)
-                below = [self._text(shown, style)] if shown else []
-                share = self._tight.get(self._section, 1.0)
-                picture = _Picture(view, self._tallest, share)
+                below = [self._text(name, style)] if name else []
+                picture = _Picture(view, self._tallest, self.sections[-1])
                 floating = Floating([Spacer(0, 6), picture, *below])
                 floating.shrunk = picture
                 yield floating
-            case document.References(entries):
-                for k, entry in enumerate(entries, 1):
-                    yield self._text(f"{k}.\u00a0{entry}", self._style())
-            case document.Note(text):
-                yield self._text(text, self._style(12.0, leading=1.2, around=2.0))
             case _:
                 assert_never(node)
 
-    def _heading(self, title: Rich, level: int, number: str, *, middle: bool = False) -> _Heading:
-        align, indent = (TA_CENTER, 0.0) if middle else (TA_LEFT, INDENT)
+    def _lines_of_text(self, node: lowering.Text) -> Iterator[Flowable]:
+        match node.kind:
+            case TextKind.STEP:
+                for part in lowering.step_parts(node, self._written):
+                    if part.formula:
+                        yield self._displayed(part.formula, "")
+                    else:
+                        yield self._text(
+                            part.text, self._style(keep_with_next=part.introduces_next)
+                        )
+            case TextKind.CAPTION:
+                yield self._text(node.text, self._style(align=TA_LEFT, keep_with_next=True))
+            case TextKind.NOTE:
+                yield self._text(node.text, self._style(12.0, leading=1.2, around=2.0))
+            case TextKind.PARAGRAPH | TextKind.ITEM | TextKind.SOURCE:
+                style = self._style(keep_with_next=node.introduces_next)
+                yield self._text(lowering.marked_text(node), style)
+            case _:
+                assert_never(node.kind)
+
+    def _heading(self, node: lowering.Heading) -> _Heading:
+        align, indent = (TA_CENTER, 0.0) if node.is_structural else (TA_LEFT, INDENT)
         style = self._style(align=align, indent=indent, around=8.0, bold=True, keep_with_next=True)
         self._count += 1
-        text = f"{number} {title}" if number else title
-        shown = marked(inline(parse(without_control_characters(text))), SIZE)
-        return _Heading(
-            shown, plain_text(without_control_characters(text)), style, level, self._count
-        )
-
-    def _stepped(self, lines: Sequence[Rich], *, continues: bool) -> Iterator[Flowable]:
-        self._step += not continues
-        alone = [
-            sole_formula(pieces(parse(without_control_characters(line)), self._units))
-            for line in lines
-        ]
-        for k, line in enumerate(lines):
-            if k and alone[k]:
-                yield self._displayed(alone[k], "")
-                continue
-            lead = "" if k or continues else f"{self._step})\u00a0"
-            is_last = k + 1 == len(lines)
-            keep = self._leads if is_last else bool(alone[k + 1]) or line.endswith(":")
-            yield self._text(f"{lead}{line}", self._style(keep_with_next=keep))
+        text = without_control_characters(node.numbered_text)
+        shown = marked(inline(parse(text)), SIZE)
+        return _Heading(shown, plain_text(text), style, node.level - 1, self._count)
 
     def _displayed(self, nodes: Sequence[Any], number: str) -> Flowable:
         whole = self._formulas.set(nodes)
@@ -501,22 +491,20 @@ class _Setter:
         return self._lines([self._formulas.set(line) for line in lines_of(nodes, room)], number)
 
     def _lines(self, rows: Sequence[Any], number: str) -> Flowable:
-        air = 2.0 * self._tight.get(self._section, 1.0) - 1.0
-        return FormulaLines(rows, number, self._fonts.upright, SIZE, air)
+        return FormulaLines(rows, number, self._fonts.upright, SIZE, self.sections[-1])
 
     # Tables ---------------------------------------------------------------------------------------
 
-    def _tables(self, table: Table, number: str) -> Iterator[Flowable]:
+    def _tables(self, node: lowering.NamedTable) -> Iterator[Flowable]:
         """Yield a table: a low one with its name on one page, a high one cut between its rows."""
         style = self._style(align=TA_LEFT, indent=0.0, around=3.0, leading=1.2)
-        name = self._say.table.format(number=number, text=table.name) if number else ""
-        again = self._say.continued.format(number=number) if number else ""
-        parts = list(parts_of(table, int(self._width // MIN_COLUMN)))
+        name, again = node.name, node.continuation
+        parts = list(parts_of(node.table, int(self._width // MIN_COLUMN)))
         for part in parts:
             above = [self._text(name, style)] if name else []
             made = self._table(part)
             made.again = partial(self._text, again, style) if again else None
-            high = made.wrap(self._width, self._tallest)[1]
+            high = made.measure(self._width)
             # No text may come between the parts of a wide table: they are cut instead.
             if high < LOW * self._tallest and len(parts) == 1:
                 yield Floating([*above, made, Spacer(0.0, 8.0)])
@@ -564,41 +552,31 @@ class _Setter:
 
     # Title page and contents ----------------------------------------------------------------------
 
-    def _title_page(self, page: document.TitlePage) -> Iterator[Flowable]:
+    def _cover(self, page: lowering.Cover) -> Iterator[Flowable]:
         middle = self._style(align=TA_CENTER, indent=0.0, around=2.0, leading=1.3)
         large = self._style(16.0, align=TA_CENTER, indent=0.0, around=4.0, bold=True)
         yield from (self._text(text, middle) for text in page.organisation)
         yield Spacer(0.0, 110.0)
-        theme = self._say.theme.format(title=page.title) if page.title else ""
-        for text, style in (
-            (page.work, large),
-            (page.subject, middle),
-            (theme, middle),
-            (page.designation, middle),
-        ):
-            if text:
-                yield self._text(text, style)
+        if page.work:
+            yield self._text(page.work, large)
+        yield from (self._text(text, middle) for text in (*page.subject, page.designation) if text)
         yield Spacer(0.0, 110.0)
         aside = self._style(align=TA_LEFT, indent=0.0, left=85 * mm, around=3.0)
-        for key in ("author", "group", "checker"):
-            if text := getattr(page, key):
-                yield self._text(self._say[key].format(**{key: text}), aside)
+        yield from (self._text(text, aside) for text in page.signatures)
         yield PageBreak()
 
-    def _contents(self) -> Iterator[Flowable]:
+    def _contents(self, node: lowering.ContentsList) -> Iterator[Flowable]:
         yield self._text(
-            self._say.contents, self._style(align=TA_CENTER, indent=0.0, around=8.0, bold=True)
+            node.title, self._style(align=TA_CENTER, indent=0.0, around=8.0, bold=True)
         )
-        leading = 1.4 * self._tight.get(self._section, 1.0)
-        contents = TableOfContents()
+        contents = _Contents()
+        contents.section = self.sections[-1]
         contents.dotsMinLevel = 0
         contents.tableStyle = TableStyle(
             [*CLOSE, ("FONTNAME", (0, 0), (-1, -1), self._fonts.upright)]
         )
         contents.levelStyles = [
-            self._style(
-                align=TA_LEFT, indent=0.0, left=7 * mm * level, right=TITLE_MARGIN, leading=leading
-            )
+            self._style(align=TA_LEFT, indent=0.0, left=7 * mm * level, right=TITLE_MARGIN)
             for level in range(3)
         ]
         yield contents

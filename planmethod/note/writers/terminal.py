@@ -8,9 +8,18 @@ import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import assert_never
 
-from planmethod.note import document
-from planmethod.note.document import NO_BREAK, Document, Equation, Table, Term, plain_text
+from planmethod.note.document import (
+    NO_BREAK,
+    Document,
+    Equation,
+    PageBreak,
+    Table,
+    Term,
+    plain_text,
+)
 from planmethod.note.wording import Language
+from planmethod.note.writers import lowering
+from planmethod.note.writers.lowering import LoweredNode, TextKind, lower
 
 WIDTH = 100
 """Columns of the terminal that every table and paragraph keeps to."""
@@ -28,9 +37,21 @@ LABEL = 5
 
 _LINES = (" ", "─", "═")
 
-_HEADINGS = (document.Chapter, document.Part, document.Subpart, document.StructuralHeading)
-_UNLIKE_STEPS = (document.Table, document.Item, document.Equations)
-_BODY = (document.Table, document.Step, document.Equations, document.Item, document.Note)
+_ANY = ("title", "cover", "page break", "heading", "contents", "table", "figure", "formula",
+        "equations", *(kind.value for kind in TextKind))  # fmt: skip
+_UNLIKE_STEPS = ("table", "item", "equations")
+_BLANK_AFTER = {
+    "heading": _ANY,
+    "contents": _ANY,
+    "caption": _ANY,
+    "table": ("heading", "table", "paragraph", "formula"),
+    "equations": ("heading", "caption"),
+    "item": ("heading", "table", "step", "equations"),
+    "paragraph": ("heading", "step", "note", *_UNLIKE_STEPS),
+    "step": ("heading", "formula", *_UNLIKE_STEPS),
+    "formula": ("heading", *_UNLIKE_STEPS),
+}
+"""By the kind of a node: the kinds before it that a blank line parts it from."""
 
 
 def plain_document(written: Document, language: Language) -> str:
@@ -39,7 +60,7 @@ def plain_document(written: Document, language: Language) -> str:
 
 
 class TerminalWriter:
-    """Writes nodes one after another, and numbers chapters, parts and steps."""
+    """Writes nodes one after another."""
 
     def __init__(self, language: Language) -> None:
         units = {
@@ -47,123 +68,79 @@ class TerminalWriter:
         }
         self._language = language
         self._unit = rf"(?<=\d) (?=(?:{'|'.join(sorted(units))})(?![^\W\d_]))"
-        self._step = 0
         self._dot = "."  # after the number of a heading; the headings of a note have none
         self._below = ""  # indent of the items of a caption
 
     def lines(self, written: Document) -> list[str]:
         """Return the lines of a document."""
         lines: list[str] = []
-        before: document.Node | None = None
-        written = document.resolve_references(written)
-        if any(isinstance(n, document.TitlePage | document.Contents) for n in written.nodes):
-            self._dot = ""
-        for node, number in document.numbers_of(written):
-            if lines and lines[-1] and self._has_blank_before(node, before):
+        before = ""
+        lowered = lower(written, self._language)
+        self._dot = "" if lowered.is_note else "."
+        for node in lowered.nodes:
+            kind = _kind_of(node)
+            if lines and lines[-1] and before in _BLANK_AFTER.get(kind, ()):
                 lines.append("")
-            if isinstance(node, document.Contents):
-                lines += self._contents(written)
-            else:
-                lines += self._node(node, number)
-            before = node
-            if not isinstance(node, document.Item):
-                self._below = HANGING if isinstance(node, document.Caption) else ""
+            lines += self._node(node)
+            before = kind
+            if kind != "item":
+                self._below = HANGING if kind == "caption" else ""
         return lines
 
-    def _contents(self, written: Document) -> list[str]:
-        lines = heading(self._language.document.contents)
-        for level, number, title in document.headings_of(written):
-            lead = INDENT[: 2 * (level - 1)] + (f"{number} " if number else "")
-            lines += wrap(self._plain_text(title), first=lead, rest=" " * len(lead))
-        return lines
-
-    def _has_blank_before(self, node: document.Node, before: document.Node | None) -> bool:
-        """Return whether a blank line precedes a node."""
-        after: tuple[type, ...]
+    def _node(self, node: LoweredNode) -> list[str]:
         match node:
-            case (
-                document.Chapter()
-                | document.Part()
-                | document.Subpart()
-                | document.Caption()
-                | document.StructuralHeading()
-                | document.Contents()
-            ):
-                return True
-            case document.Table():
-                after = (*_HEADINGS, document.Table, document.Paragraph, document.Formula)
-            case document.Equations():
-                after = (*_HEADINGS, document.Caption)
-            case document.Item():
-                after = (*_HEADINGS, document.Table, document.Step, document.Equations)
-            case document.Paragraph():
-                after = (*_HEADINGS, *_BODY)
-            case document.Step():
-                after = (*_HEADINGS, *_UNLIKE_STEPS, document.Formula)
-            case document.Formula():
-                after = (*_HEADINGS, *_UNLIKE_STEPS)
-            case _:
-                return False
-        return isinstance(before, after)
-
-    def _node(self, node: document.Node, number: str) -> list[str]:
-        match node:
-            case document.Title(text):
+            case lowering.Cover(lines=lines):
+                return [line for text in lines for line in wrap(self._plain_text(text))]
+            case lowering.Heading(text, 0):
                 return heading(plain_text(text), "═")
-            case document.TitlePage():
-                texts = document.lines_of(node, self._language.document)
-                return [line for text in texts for line in wrap(self._plain_text(text))]
-            case document.Contents() | document.PageBreak():
+            case lowering.Heading(text, level, number):
+                line = (f"{number}{self._dot} " if number else "") + plain_text(text)
+                return heading(line) if level == 1 else [line]
+            case lowering.ContentsList(title, headings):
+                return heading(title) + [line for one in headings for line in self._listed(one)]
+            case PageBreak():
                 return []
-            case document.Chapter(title) | document.StructuralHeading(title):
-                return heading((f"{number}{self._dot} " if number else "") + plain_text(title))
-            case document.Part(title) | document.Subpart(title):
-                return [f"{number}{self._dot} {plain_text(title)}"]
-            case document.Caption(text):
-                return wrap(self._plain_text(text))
-            case document.Paragraph(text) | document.Note(text):
-                return wrap(self._plain_text(text))
-            case document.Item(text, label):
-                lead = f"{HANGING}{pad(plain_text(label), LABEL, right=True)}  " if label else ""
-                lead = lead or self._below
-                rest = " " * width(lead) if label else lead + HANGING
-                return wrap(self._plain_text(text), first=lead, rest=rest)
-            case document.Step(lines, continues):
-                return self._stepped(lines, continues=continues)
-            case document.Formula(text):
+            case lowering.Text():
+                return self._text(node)
+            case lowering.DisplayedFormula(text, number):
                 last = f"{NO_BREAK * 4}({number})" if number else ""
                 return wrap(self._plain_text(text) + last, first=INDENT, rest=INDENT)
-            case document.Equations(equations):
+            case lowering.DisplayedEquations(equations, number):
                 return self._equations(equations) + [f"{INDENT}({number})"] * bool(number)
-            case document.Table(name=name):
-                return (self._caption("table", number, name) if name else []) + _tabulated(node)
-            case document.Figure(caption=caption):
-                return self._caption("figure", number, caption)
-            case document.References(entries):
-                return [
-                    line
-                    for k, entry in enumerate(entries, 1)
-                    for line in wrap(self._plain_text(entry), first=f"{k:>3}. ", rest=INDENT)
-                ]
+            case lowering.NamedTable(table, name):
+                return (wrap(self._plain_text(name)) if name else []) + _tabulated(table)
+            case lowering.NamedFigure(name=name):
+                return wrap(self._plain_text(name))
             case _:
                 assert_never(node)
+
+    def _text(self, node: lowering.Text) -> list[str]:
+        match node.kind:
+            case TextKind.STEP:
+                first, rest = f"{node.mark:>3}) " if node.mark else INDENT, INDENT
+            case TextKind.SOURCE:
+                first, rest = f"{node.mark:>3}. ", INDENT
+            case TextKind.ITEM if node.mark:
+                first = f"{HANGING}{pad(plain_text(node.mark), LABEL, right=True)}  "
+                rest = " " * width(first)
+            case TextKind.ITEM:
+                first, rest = self._below, self._below + HANGING
+            case TextKind.PARAGRAPH | TextKind.CAPTION | TextKind.NOTE:
+                first = rest = ""
+            case _:
+                assert_never(node.kind)
+        lines: list[str] = []
+        for text in node.lines:
+            lines += wrap(self._plain_text(text), first=rest if lines else first, rest=rest)
+        return lines
+
+    def _listed(self, one: lowering.Heading) -> list[str]:
+        lead = INDENT[: 2 * (one.level - 1)] + (f"{one.number} " if one.number else "")
+        return wrap(self._plain_text(one.text), first=lead, rest=" " * len(lead))
 
     def _plain_text(self, rich: str) -> str:
         """Return rich text as plain, its numbers tied to their units."""
         return re.sub(self._unit, NO_BREAK, plain_text(rich))
-
-    def _caption(self, kind: str, number: str, text: str) -> list[str]:
-        # Only a numbered caption needs words before its number.
-        text = self._language.document[kind].format(number=number, text=text) if number else text
-        return wrap(self._plain_text(text))
-
-    def _stepped(self, lines: Sequence[str], *, continues: bool) -> list[str]:
-        self._step += not continues
-        found = []
-        for number, line in enumerate(lines):
-            first = INDENT if number or continues else f"{self._step:>3}) "
-            found += wrap(self._plain_text(line), first=first, rest=INDENT)
-        return found
 
     def _equations(self, equations: Sequence[Equation]) -> list[str]:
         lines: list[str] = []
@@ -171,6 +148,31 @@ class TerminalWriter:
             own = [f"{INDENT}{line}" for line in equation_lines(equation)]
             lines += [*([""] if lines else []), *own]
         return lines
+
+
+def _kind_of(node: LoweredNode) -> str:
+    """Return the kind of a node by which blank lines are put."""
+    match node:
+        case lowering.Text(kind=kind):
+            return kind.value
+        case lowering.Heading(level=level):
+            return "heading" if level else "title"
+        case lowering.DisplayedFormula():
+            return "formula"
+        case lowering.DisplayedEquations():
+            return "equations"
+        case lowering.Cover():
+            return "cover"
+        case lowering.ContentsList():
+            return "contents"
+        case PageBreak():
+            return "page break"
+        case lowering.NamedTable():
+            return "table"
+        case lowering.NamedFigure():
+            return "figure"
+        case _:
+            assert_never(node)
 
 
 _WORD = r"^[^\W\d_]+"

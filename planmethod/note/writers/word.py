@@ -8,7 +8,6 @@ the clock: the same document gives the same bytes.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import zip_longest
 from math import ceil
 from pathlib import Path
 from typing import Any, assert_never
@@ -20,20 +19,12 @@ from docx.oxml.ns import qn
 from docx.shared import Mm, Pt
 
 from planmethod.errors import PlanMethodError
-from planmethod.note import document
-from planmethod.note.document import Document, Figure, Node, Table
+from planmethod.note.document import Document, PageBreak, Table
 from planmethod.note.formula import Node as Sign, Rich, parse
 from planmethod.note.wording import Language
-from planmethod.note.writers import omml
-from planmethod.note.writers.formulas import (
-    introduces_next_node,
-    lines_of,
-    pieces,
-    sole_formula,
-    units_of,
-    with_levels,
-)
-from planmethod.note.writers.html import without_control_characters
+from planmethod.note.writers import lowering, omml
+from planmethod.note.writers.formulas import lines_of, with_levels, without_control_characters
+from planmethod.note.writers.lowering import LoweredDocument, LoweredNode, TextKind, lower
 from planmethod.note.writers.word_parts import (
     BOTTOM,
     HEADINGS,
@@ -52,6 +43,7 @@ from planmethod.note.writers.word_parts import (
     WordStyles,
     add_field,
     add_link,
+    add_paragraph,
     add_picture,
     add_sentence,
     clean_text,
@@ -89,7 +81,7 @@ _LANGUAGES = {"ru": "ru-RU", "en": "en-US"}
 
 
 def word_document(
-    written: Document,
+    written: Document | LoweredDocument,
     language: Language,
     *,
     author: str = "",
@@ -101,7 +93,7 @@ def word_document(
 
     Parameters
     ----------
-    written : Document
+    written : Document or LoweredDocument
     language : Language
     author : str
         For the properties of the file; that of ``stamp`` where it is empty.
@@ -121,12 +113,12 @@ def word_document(
         A formula is malformed, or a text refers to a missing key.
     """
     fields = dict(stamp or {})
-    told = document.resolve_references(written)
+    lowered = lower(written, language)
 
     def build(template: Path | None) -> bytes:
-        shown = PageFrame(fields_of_note(fields, written), language.frame) if frame else None
+        shown = PageFrame(fields_of_note(fields, lowered), language.frame) if frame else None
         writer = _Writer(language, template, shown)
-        writer.write(told)
+        writer.write(lowered)
         return writer.file(author or fields.get("author", ""))
 
     try:
@@ -144,16 +136,14 @@ class _Writer:
     """Puts nodes into a file one after another."""
 
     def __init__(self, language: Language, template: Path | None, frame: PageFrame | None) -> None:
-        self._words, self._say, self._frame = language, language.document, frame
-        self._units = units_of(language.note["units"])
+        self._frame = frame
         self._file: Any = opened(template)
         self._styles = WordStyles(self._file, new=template is None, lang=_LANGUAGES[language.lang])
-        self._breaks = self._leads = False
-        self._step = self._mark = 0
+        self._breaks = False
+        self._mark = self._pictures = 0
         self._pages = dict[int, int]()
         self._shown = dict[int, Any]()
-        self._is_note = False
-        section = self._file.sections[0]
+        section = self._section = self._file.sections[-1]
         if template is None:
             section.page_width, section.page_height = Mm(PAGE[0]), Mm(PAGE[1])
             section.left_margin, section.right_margin = Mm(LEFT), Mm(RIGHT)
@@ -166,34 +156,28 @@ class _Writer:
 
     # The whole ------------------------------------------------------------------------------------
 
-    def write(self, written: Document) -> None:
+    def write(self, written: LoweredDocument) -> None:
         """Put all nodes into the file."""
-        kinds = {type(node) for node in written.nodes}
-        self._is_note = bool(kinds & {document.TitlePage, document.Contents})
-        self._headings = list(document.headings_of(written))
-        self._title = ""
-        numbered = list(document.numbers_of(written))
-        told = zip_longest(numbered, written.nodes[1:])
-        for (node, number), after in flowing(told, self._flow, self._height):
-            self._leads = introduces_next_node(node, after)
-            if not isinstance(node, document.TitlePage):
+        self._written = written
+        for node in flowing(written.nodes, self._flow, self._height):
+            if not isinstance(node, lowering.Cover):
                 self._with_pages()
-            self._node(node, number)
+            self._node(node)
         self._with_pages()
         for mark, run in self._shown.items():
             run.text = str(self._pages[mark])
         last = self._file.element.body[-2] if len(self._file.element.body) > 1 else None
         if last is not None and last.tag == qn("w:tbl"):
-            small_paragraph(self._file.add_paragraph())  # Word wants one after a table
+            small_paragraph(add_paragraph(self._file))  # Word wants one after a table
 
-    def _height(self, figure: Figure) -> float:
+    def _height(self, figure: lowering.NamedFigure) -> float:
         """Return the height of a figure with its name, mm."""
         return figure.view.size[1] * self._figure_scale(figure) + BELOW
 
-    def _figure_scale(self, figure: Figure) -> float:
+    def _figure_scale(self, figure: lowering.NamedFigure) -> float:
         """Return the scale of a figure that fits it to a page, at most 1."""
         width, height = figure.view.size
-        section = self._file.sections[-1]
+        section = self._section
         tall = (section.page_height - section.top_margin - section.bottom_margin) / Mm(1) - 25.0
         return float(min(1.0, self._width / width, tall / height))
 
@@ -202,7 +186,7 @@ class _Writer:
         if self._has_pages:
             return
         self._has_pages = True
-        section = self._file.sections[-1]
+        section = self._section
         if self._frame is not None:
             self._frame.add_first_form(section)
             return
@@ -213,62 +197,57 @@ class _Writer:
 
     def file(self, author: str) -> bytes:
         """Return the file, without a trace of when it was made."""
-        if self._is_note:
+        if self._written.is_note:
             update_fields_on_open(self._file)
-        return strip_timestamps(self._file, title=self._title, author=author or "planmethod")
+        return strip_timestamps(
+            self._file, title=clean_text(self._written.title), author=author or "planmethod"
+        )
 
     # Nodes ----------------------------------------------------------------------------------------
 
-    def _node(self, node: Node, number: str) -> None:
+    def _node(self, node: LoweredNode) -> None:
         match node:
-            case document.Title(text):
-                self._title = self._title or clean_text(text)
+            case lowering.Cover():
+                self._cover(node)
+            case lowering.Heading(text, 0):
                 self._text(text, "Title")
-            case document.TitlePage():
-                self._title_page(node)
-            case document.Contents():
-                self._contents()
-            case document.PageBreak():
+            case lowering.Heading():
+                self._breaks |= node.is_structural
+                self._heading(node)
+            case lowering.ContentsList():
+                self._contents(node)
+            case PageBreak():
                 self._breaks = True
-            case document.StructuralHeading(title):
-                self._breaks, self._step = True, 0
-                self._heading(title, 1, "", middle=True)
-            case document.Chapter(title):
-                self._step = 0 if self._is_note else self._step
-                self._heading(title, 1, number)
-            case document.Part(title):
-                self._step = 0 if self._is_note else self._step
-                self._heading(title, 2, number)
-            case document.Subpart(title):
-                self._heading(title, 3, number)
-            case document.Caption(text):
-                self._text(text, "Subheading")
-            case document.Paragraph(text):
-                self._add_sentences(text)
-            case document.Item(text, label):
-                self._add_sentences(f"{label}\u2002{text}" if label else f"–\u00a0{text}")
-            case document.Step(lines, continues):
-                self._stepped(lines, continues=continues)
-            case document.Formula(text):
+            case lowering.Text():
+                self._lines_of_text(node)
+            case lowering.DisplayedFormula(text, number):
                 nodes = tuple(with_levels(parse(without_control_characters(text))))
                 self._displayed([omml.equation(line) for line in self._lines(nodes)], number)
-            case document.Equations(equations):
+            case lowering.DisplayedEquations(equations, number):
                 room = self._width_em * (1.0 - 2.0 * SIDE / self._width * bool(number))
                 self._displayed([omml.vector_equations(equations, room)], number)
-            case document.Table():
-                self._table(node, number)
-            case document.Figure():
-                self._figure(node, number)
-            case document.References(entries):
-                for k, entry in enumerate(entries, 1):
-                    self._text(f"{k}.\u00a0{entry}", "Normal")
-            case document.Note(text):
-                self._text(text, "Remark")
+            case lowering.NamedTable():
+                self._table(node)
+            case lowering.NamedFigure():
+                self._figure(node)
             case _:
                 assert_never(node)
 
+    def _lines_of_text(self, node: lowering.Text) -> None:
+        match node.kind:
+            case TextKind.STEP:
+                self._stepped(node)
+            case TextKind.CAPTION:
+                self._text(node.text, "Subheading")
+            case TextKind.NOTE:
+                self._text(node.text, "Remark")
+            case TextKind.PARAGRAPH | TextKind.ITEM | TextKind.SOURCE:
+                self._add_sentences(lowering.marked_text(node), keep_with_next=node.introduces_next)
+            case _:
+                assert_never(node.kind)
+
     def _paragraph(self, style: str, holder: Any = None) -> Any:
-        made = (holder or self._file).add_paragraph()
+        made = holder.add_paragraph() if holder else add_paragraph(self._file)
         self._styles.apply(made, style)
         if self._breaks and holder is None:
             made.paragraph_format.page_break_before = True
@@ -282,14 +261,15 @@ class _Writer:
         self._flow.text(rich, self._width)
         return made
 
-    def _add_sentences(self, rich: Rich, *, keep_with_next: bool | None = None) -> None:
+    def _add_sentences(self, rich: Rich, *, keep_with_next: bool) -> None:
         """Add a paragraph of sentences; one that introduces a formula stays with it."""
         made = self._text(rich, "Normal")
-        if self._leads if keep_with_next is None else keep_with_next:
+        if keep_with_next:
             made.paragraph_format.keep_with_next = True
 
     def _fill(self, paragraph: Any, rich: Rich, *, joined: bool = True) -> None:
-        add_sentence(paragraph, rich, self._units, self._width_em, joined=joined)
+        sentence = self._written.divide(rich, symbols=True)
+        add_sentence(paragraph, sentence, self._width_em, joined=joined)
 
     @property
     def _width_em(self) -> float:
@@ -299,32 +279,24 @@ class _Writer:
     def _lines(self, nodes: Sequence[Sign]) -> list[tuple[Sign, ...]]:
         return lines_of(nodes, 0.9 * self._width_em)
 
-    def _heading(self, title: Rich, level: int, number: str, *, middle: bool = False) -> None:
-        made = self._paragraph(HEADINGS[level - 1])
-        if middle:
+    def _heading(self, node: lowering.Heading) -> None:
+        made = self._paragraph(HEADINGS[node.level - 1])
+        if node.is_structural:
             made.alignment = WD_ALIGN_PARAGRAPH.CENTER
             made.paragraph_format.first_line_indent = 0
         self._flow.heading()
         self._mark += 1
         self._pages[self._mark] = self._flow.page
         with marked(made, self._mark):
-            self._fill(made, f"{number} {title}" if number else title, joined=False)
+            self._fill(made, node.numbered_text, joined=False)
 
-    def _stepped(self, lines: Sequence[Rich], *, continues: bool) -> None:
+    def _stepped(self, node: lowering.Text) -> None:
         """Add the lines of a step; a line that is a formula alone is centred."""
-        self._step += not continues
-        alone = [
-            sole_formula(pieces(parse(without_control_characters(line)), self._units))
-            for line in lines
-        ]
-        for k, line in enumerate(lines):
-            is_last = k + 1 == len(lines)
-            if k and alone[k]:
-                self._displayed([omml.equation(row) for row in self._lines(alone[k])], "")
-                continue
-            lead = "" if k or continues else f"{self._step})\u00a0"
-            keep = self._leads if is_last else bool(alone[k + 1]) or line.endswith(":")
-            self._add_sentences(f"{lead}{line}", keep_with_next=keep)
+        for part in lowering.step_parts(node, self._written):
+            if part.formula:
+                self._displayed([omml.equation(row) for row in self._lines(part.formula)], "")
+            else:
+                self._add_sentences(part.text, keep_with_next=part.introduces_next)
 
     # Formulas -------------------------------------------------------------------------------------
 
@@ -349,7 +321,7 @@ class _Writer:
         self._styles.apply(beside, "Formula")
         beside.alignment = WD_ALIGN_PARAGRAPH.RIGHT
         beside.add_run(f"({number})")
-        small_paragraph(self._file.add_paragraph())  # tables one after another would be one
+        small_paragraph(add_paragraph(self._file))  # tables one after another would be one
 
     def _grid(self, rows: int, widths: Sequence[float], style: Any = None) -> Any:
         """Return an empty table with columns of given widths, mm."""
@@ -359,30 +331,26 @@ class _Writer:
 
     # Tables ---------------------------------------------------------------------------------------
 
-    def _table(self, table: Table, number: str) -> None:
+    def _table(self, node: lowering.NamedTable) -> None:
         """Add a table; one that is too wide is cut, or put on a landscape page."""
-        room, again = self._width, self._say.continued.format(number=number) if number else ""
+        table, room, again = node.table, self._width, node.continuation
         size = next(
             (s for s in (TABLE_SIZE, LEAST_SIZE) if sum(needed_widths(table, s)) <= room), None
         )
         if size is not None:
-            self._one_table(table, self._name(number, table.name), size, again)
+            self._one_table(table, node.name, size, again)
         elif table.repeated:
             for k, part in enumerate(parts_of_width(table, LEAST_SIZE, room)):
-                name = "" if k else self._name(number, table.name)
-                self._one_table(part, name, LEAST_SIZE, again)
+                self._one_table(part, "" if k else node.name, LEAST_SIZE, again)
         else:
             self._begin_page(lying=True)
-            self._one_table(table, self._name(number, table.name), LEAST_SIZE, again)
+            self._one_table(table, node.name, LEAST_SIZE, again)
             self._begin_page(lying=False)
-
-    def _name(self, number: str, name: Rich) -> Rich:
-        return str(self._say.table.format(number=number, text=name)) if number else ""
 
     def _begin_page(self, *, lying: bool) -> None:
         """Begin a landscape page, or a portrait one again."""
         self._flow.begin_page()
-        section = self._file.add_section(WD_SECTION.NEW_PAGE)
+        section = self._section = self._file.add_section(WD_SECTION.NEW_PAGE)
         wide = max(section.page_width, section.page_height)
         high = min(section.page_width, section.page_height)
         section.orientation = WD_ORIENT.LANDSCAPE if lying else WD_ORIENT.PORTRAIT
@@ -426,71 +394,61 @@ class _Writer:
             told.paragraph_format.keep_with_next = True
             told.add_run(again)
             self._flow.reserve(STRIP * MM_PER_POINT)
-        small_paragraph(self._file.add_paragraph(), space=6.0)
+        small_paragraph(add_paragraph(self._file), space=6.0)
 
     # Figures --------------------------------------------------------------------------------------
 
-    def _figure(self, figure: Figure, number: str) -> None:
+    def _figure(self, node: lowering.NamedFigure) -> None:
         """Add a centred picture with its name below, in its own size if it fits."""
-        share = self._figure_scale(figure)
+        share = self._figure_scale(node)
         place = self._paragraph("Figure")
-        add_picture(place.add_run(), figure, figure.view.size[0] * share, share, self._file.part)
-        self._flow.reserve(self._height(figure))
-        caption = figure.caption
-        if number:
-            caption = self._say.figure.format(number=number, text=caption)
-        if caption:
-            self._text(caption, "Caption")
+        self._pictures += 1
+        width = node.view.size[0] * share
+        add_picture(place.add_run(), node, self._pictures, width, share, self._file.part)
+        self._flow.reserve(self._height(node))
+        if node.name:
+            self._text(node.name, "Caption")
         else:
             place.paragraph_format.keep_with_next = False
 
     # Title page and contents ----------------------------------------------------------------------
 
-    def _title_page(self, page: document.TitlePage) -> None:
-        self._title = clean_text(page.title) or clean_text(page.work)
-        texts = self._say
+    def _cover(self, page: lowering.Cover) -> None:
         for text in page.organisation:
             self._text(text, "Title Page")
         gap: float = 110.0
-        for text, style in (
-            (page.work, "Title"),
-            (page.subject, "Title Page"),
-            (texts.theme.format(title=page.title) if page.title else "", "Title Page"),
-            (page.designation, "Title Page"),
-        ):
+        lines = ((page.work, "Title"), *((text, "Title Page") for text in page.subject))
+        for text, style in (*lines, (page.designation, "Title Page")):
             if text:
                 self._text(text, style).paragraph_format.space_before = Pt(gap)
                 gap = 6.0
         gap = 110.0
-        for key in ("author", "group", "checker"):
-            if text := getattr(page, key):
-                made = self._text(texts[key].format(**{key: text}), "Title Page")
-                made.alignment = WD_ALIGN_PARAGRAPH.LEFT
-                made.paragraph_format.left_indent = Mm(85)
-                made.paragraph_format.space_before = Pt(gap)
-                gap = 6.0
-        foot = self._file.sections[-1].footer
+        for text in page.signatures:
+            made = self._text(text, "Title Page")
+            made.alignment = WD_ALIGN_PARAGRAPH.LEFT
+            made.paragraph_format.left_indent = Mm(85)
+            made.paragraph_format.space_before = Pt(gap)
+            gap = 6.0
+        foot = self._section.footer
         foot.is_linked_to_previous = False
         self._styles.apply(foot.paragraphs[0], "Page Number Line")
-        foot.paragraphs[0].add_run(
-            " ".join(filter(None, (clean_text(page.place), clean_text(page.year))))
-        )
+        foot.paragraphs[0].add_run(clean_text(page.footer))
         self._flow.begin_page()
-        self._file.add_section(WD_SECTION.NEW_PAGE)
-        self._file.sections[-1].footer.is_linked_to_previous = False
+        self._section = self._file.add_section(WD_SECTION.NEW_PAGE)
+        self._section.footer.is_linked_to_previous = False
 
-    def _contents(self) -> None:
+    def _contents(self, node: lowering.ContentsList) -> None:
         """Add the field of the contents, with the text it shows until it is updated."""
-        self._text(self._say.contents, "Contents Heading")
+        self._text(node.title, "Contents Heading")
         fields = self._paragraph("toc 1")
         for kind in ("begin", 'TOC \\o "1-3" \\h \\z \\u', "separate"):
             field_part(fields, kind)
         place = fields
-        for mark, (level, number, title) in enumerate(self._headings, 1):
-            place = place if mark == 1 else self._paragraph(f"toc {level}")
-            self._styles.apply(place, f"toc {level}")
+        for mark, heading in enumerate(node.headings, 1):
+            place = place if mark == 1 else self._paragraph(f"toc {heading.level}")
+            self._styles.apply(place, f"toc {heading.level}")
             self._flow.reserve(7.1)
-            self._fill(place, f"{number} {title}" if number else title, joined=False)
+            self._fill(place, heading.numbered_text, joined=False)
             self._shown[mark] = add_link(place, mark)
         field_part(place, "end")
         self._breaks = True

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import cached_property
 from io import BytesIO
+from itertools import zip_longest
 from math import ceil
-from typing import Any, TypeAlias
+from typing import Any
 
 from docx.enum.style import WD_STYLE_TYPE
 from docx.enum.table import WD_TABLE_ALIGNMENT
@@ -16,23 +18,25 @@ from docx.opc.packuri import PackURI
 from docx.opc.part import Part
 from docx.oxml import OxmlElement, parse_xml
 from docx.oxml.ns import nsdecls, qn
+from docx.oxml.shape import CT_Inline
+from docx.oxml.table import CT_Tbl
 from docx.shared import Mm, Pt, RGBColor
-from docx.table import _Cell
+from docx.table import Table as WordTable, _Cell
+from docx.text.paragraph import Paragraph
 from lxml import etree
 
-from planmethod.note import document
-from planmethod.note.document import Figure, Node, Table, plain_text
-from planmethod.note.formula import Rich, parse
-from planmethod.note.writers import omml
+from planmethod.note.document import Table, plain_text
+from planmethod.note.formula import Rich
+from planmethod.note.writers import lowering, omml
 from planmethod.note.writers.formulas import (
+    SentencePart,
     chain_of,
-    introduces_next_node,
-    pieces,
     tied,
     width_em,
     with_stops,
+    without_control_characters,
 )
-from planmethod.note.writers.html import without_control_characters
+from planmethod.note.writers.lowering import LoweredNode, TextKind
 
 FONT = "Times New Roman"
 SIZE, TABLE_SIZE, LEAST_SIZE = 14.0, 12.0, 10.0
@@ -44,12 +48,15 @@ MM_PER_POINT = 25.4 / 72.0
 HEADINGS = ("Heading 1", "Heading 2", "Heading 3")
 
 
+_PARAGRAPH_FORM, _PARAGRAPH_STYLE, _VALUE = qn("w:pPr"), qn("w:pStyle"), qn("w:val")
+
+
 class WordStyles:
     """Styles of a file by name; those that a template has not are added."""
 
     def __init__(self, file: Any, *, new: bool, lang: str) -> None:
         self._file, self._new = file, new
-        self._known = dict[str, Any]()
+        self._known, self._ids = dict[str, Any](), dict[str, str]()
         self._there = {style.name for style in file.styles}
         normal = self["Normal"]
         if new:
@@ -89,9 +96,15 @@ class WordStyles:
 
     def apply(self, paragraph: Any, name: str) -> None:
         """Give a paragraph a style, without the library's search by name."""
-        paragraph._p.style = self[name].style_id
+        if name not in self._ids:
+            self._ids[name] = self[name].style_id
+        if len(paragraph._p):
+            paragraph._p.style = self._ids[name]
+        else:
+            form = etree.SubElement(paragraph._p, _PARAGRAPH_FORM)
+            etree.SubElement(form, _PARAGRAPH_STYLE).set(_VALUE, self._ids[name])
 
-    @property
+    @cached_property
     def table(self) -> Any:
         """The style of tables with lines."""
         names = [style.name for style in self._file.styles if style.type == WD_STYLE_TYPE.TABLE]
@@ -146,44 +159,44 @@ def _letters(style: Any, size: float, *, bold: bool = False) -> None:
         fonts.set(qn(f"w:{key}"), FONT)
 
 
-NumberedNode: TypeAlias = tuple[tuple[Node, str], Node | None]
-"""A node with its number, and the next node."""
-
 MAX_PASSED = 12
 """Largest number of paragraphs and formulas moved before a figure that does not fit."""
 
-_FLOWS = (
-    document.Paragraph,
-    document.Item,
-    document.Step,
-    document.Formula,
-    document.Equations,
-    document.Note,
-)  # text that may go before a figure
+_FLOWS = (TextKind.PARAGRAPH, TextKind.ITEM, TextKind.STEP, TextKind.NOTE)
+
+
+def _flows(node: LoweredNode | None) -> bool:
+    """Return whether a node is text that may go before a figure."""
+    match node:
+        case lowering.Text(kind=kind):
+            return kind in _FLOWS
+        case lowering.DisplayedFormula() | lowering.DisplayedEquations():
+            return True
+        case _:
+            return False
 
 
 def flowing(
-    numbered: Iterable[NumberedNode], flow: PageFlow, height: Callable[[Figure], float]
-) -> Iterator[NumberedNode]:
+    nodes: Sequence[LoweredNode], flow: PageFlow, height: Callable[[lowering.NamedFigure], float]
+) -> Iterator[LoweredNode]:
     """Yield nodes; a figure that does not fit on the page lets the text after it go before.
 
     It waits until the text has filled the page, or until a node that is not text. ``height`` gives
     the height of a figure with its name, mm.
     """
-    waiting: NumberedNode | None = None
+    waiting: lowering.NamedFigure | None = None
     page = passed = 0
     led = False
-    for one in numbered:
-        (node, _), after = one
+    for node, after in zip_longest(nodes, nodes[1:]):
         is_full = flow.page > page or passed >= MAX_PASSED
-        if waiting and (not isinstance(node, _FLOWS) or (is_full and not led)):
+        if waiting and (not _flows(node) or (is_full and not led)):
             yield waiting
             waiting = None
-        if isinstance(node, Figure) and isinstance(after, _FLOWS) and not flow.has(height(node)):
-            waiting, page, passed = one, flow.page, 0
+        if isinstance(node, lowering.NamedFigure) and _flows(after) and not flow.has(height(node)):
+            waiting, page, passed = node, flow.page, 0
             continue
-        passed, led = passed + 1, introduces_next_node(node, after)
-        yield one
+        passed, led = passed + 1, isinstance(node, lowering.Text) and node.introduces_next
+        yield node
     if waiting:
         yield waiting
 
@@ -234,24 +247,61 @@ LONG = 18.0
 
 
 def add_sentence(
-    paragraph: Any, rich: Rich, units: frozenset[str], max_width: float, *, joined: bool = True
+    paragraph: Any, sentence: Sequence[SentencePart], max_width: float, *, joined: bool = True
 ) -> None:
-    """Put a sentence into a paragraph, its formulas as equations.
+    """Put a divided sentence into a paragraph, its formulas as equations.
 
     ``joined``: no line ends within a range of numbers; a sign without width sees to that.
     """
-    for piece in with_stops(pieces(parse(without_control_characters(rich)), units, symbols=True)):
+    for piece in with_stops(sentence):
         if not piece.is_formula:
-            paragraph.add_run(tied(piece.text) if joined else piece.text)
+            add_text(paragraph, tied(piece.text) if joined else piece.text)
             continue
         parts = [("", piece.nodes)]
         if width_em(piece.nodes) > LONG:
             parts = list(chain_of(piece.nodes, max_width))
         for sign, nodes in parts:
             if sign:
-                paragraph.add_run(f" {sign} ")
+                add_text(paragraph, f" {sign} ")
             if nodes:
                 paragraph._p.append(omml.equation(nodes))
+
+
+# The library searches the whole file for the place of each new paragraph, run, table and picture,
+# so that a file takes time with the square of its length: they are put at its end here.
+
+
+def add_text(paragraph: Any, text: str) -> None:
+    """Put a run of letters at the end of a paragraph."""
+    if any(sign in text for sign in "\t\r\n"):
+        paragraph.add_run(text)
+        return
+    run = etree.SubElement(paragraph._p, _RUN)
+    if text:
+        letters = etree.SubElement(run, _LETTERS)
+        letters.text = text
+        if text.strip() != text:
+            letters.set(_SPACE, "preserve")
+
+
+_RUN, _LETTERS, _SECTION = qn("w:r"), qn("w:t"), qn("w:sectPr")
+_SPACE = "{http://www.w3.org/XML/1998/namespace}space"
+
+
+def add_paragraph(file: Any) -> Paragraph:
+    """Put an empty paragraph at the end of a file."""
+    made = OxmlElement("w:p")
+    _append_element(file, made)
+    return Paragraph(made, file._body)
+
+
+def _append_element(file: Any, element: Any) -> None:
+    """Put an element behind all content; the properties of the last section stay behind it."""
+    body = file.element.body
+    if len(body) and body[-1].tag == _SECTION:
+        body[-1].addprevious(element)
+    else:
+        body.append(element)
 
 
 @contextmanager
@@ -329,7 +379,9 @@ MAX_UNCUT_ROWS = 5
 
 def grid(file: Any, rows: int, widths: Sequence[float], style: Any = None) -> Any:
     """Return an empty table with columns of given widths, mm."""
-    table = file.add_table(rows, len(widths))
+    made = CT_Tbl.new_tbl(rows, len(widths), Mm(sum(widths)))
+    _append_element(file, made)
+    table = WordTable(made, file._body)
     if style is not None:
         table.style = style
     table.autofit = False
@@ -452,13 +504,17 @@ _SVG = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
 _SVG_EXTENSION = "{96DAC541-7B7A-43D3-8B79-37D633B846F1}"
 
 
-def add_picture(run: Any, figure: Figure, width: float, scale: float, part: Any) -> None:
+def add_picture(
+    run: Any, figure: lowering.NamedFigure, number: int, width: float, scale: float, part: Any
+) -> None:
     """Put a figure into a run of text.
 
     Parameters
     ----------
     run : docx.text.run.Run
-    figure : Figure
+    figure : lowering.NamedFigure
+    number : int
+        Of the picture in the file, from 1 on.
     width : float, mm
         As it is shown.
     scale : float
@@ -466,14 +522,16 @@ def add_picture(run: Any, figure: Figure, width: float, scale: float, part: Any)
     part : docx.parts.document.DocumentPart
         Of the file.
     """
-    picture = run.add_picture(BytesIO(figure.view.png(DPI * scale)), Mm(width))
-    picture._inline.docPr.set("descr", clean_text(figure.caption))
-    package = part.package
-    count = sum(one.partname.endswith(".svg") for one in package.iter_parts()) + 1
+    raster, image = part.get_or_add_image(BytesIO(figure.view.png(DPI * scale)))
+    sides = image.scaled_dimensions(Mm(width), None)
+    inline = CT_Inline.new_pic_inline(number, raster, image.filename, *sides)
+    run._r.add_drawing(inline)
+    inline.docPr.set("descr", clean_text(figure.caption))
     svg = figure.view.svg().encode()
-    vector = Part(PackURI(f"/word/media/vector{count}.svg"), "image/svg+xml", svg, package)
+    uri = PackURI(f"/word/media/vector{number}.svg")
+    vector = Part(uri, "image/svg+xml", svg, part.package)
     name = part.relate_to(vector, RELATIONSHIP_TYPE.IMAGE)
-    blip = picture._inline.find(f".//{qn('a:blip')}")
+    blip = inline.find(f".//{qn('a:blip')}")
     extensions = etree.SubElement(blip, qn("a:extLst"))
     extension = etree.SubElement(extensions, qn("a:ext"), uri=_SVG_EXTENSION)
     beside = etree.SubElement(extension, f"{{{_SVG}}}svgBlip", nsmap={"asvg": _SVG})

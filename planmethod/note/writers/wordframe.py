@@ -20,9 +20,8 @@ from docx.oxml.ns import qn
 from docx.shared import Mm, Pt
 
 from planmethod.errors import OutputError
-from planmethod.note import document
-from planmethod.note.document import Document
 from planmethod.note.wording import MessageTable
+from planmethod.note.writers.lowering import Cover, LoweredDocument
 from planmethod.note.writers.word_parts import add_field, clean_text, rows_of, small_paragraph
 
 _WHEN = datetime(2000, 1, 1)
@@ -216,9 +215,9 @@ _SHAPE = """<w:r xmlns:w="http://schemas.openxmlformats.org/wordprocessingml/200
 </mc:AlternateContent></w:r>"""
 
 
-def fields_of_note(fields: Mapping[str, str], written: Document) -> dict[str, str]:
+def fields_of_note(fields: Mapping[str, str], written: LoweredDocument) -> dict[str, str]:
     """Return the fields of the title block of a note: its designation, its name below."""
-    page = next((n for n in written.nodes if isinstance(n, document.TitlePage)), None)
+    page = next((n for n in written.nodes if isinstance(n, Cover)), None)
     if page is None:
         return dict(fields)
     title = fields.get("title", "") or clean_text(page.title)
