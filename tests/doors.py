@@ -1117,7 +1117,13 @@ from planmethod.solved.curves import (
     roots_between,
     top,
 )
-from planmethod.solved.cycle import Cycle, DriverPath, cycle, cycle_efficiency, without_corners
+from planmethod.solved.cycle_forces import (
+    CycleForces,
+    DriverPath,
+    cycle_efficiency,
+    cycle_forces_of,
+    without_corners,
+)
 from planmethod.solved.cycle_motion import CycleMotion
 from planmethod.solved.errors.forces import (
     BALANCE,
@@ -1177,9 +1183,16 @@ from planmethod.solved.machine.drawing import (
     drawing_of,
     split,
 )
-from planmethod.solved.machine.flywheel import RATED_KW, Flywheel, flywheel_of, machine_power
+from planmethod.solved.machine.flywheel import (
+    RATED_KW,
+    WIDEST,
+    Flywheel,
+    flywheel_of,
+    machine_power,
+    size_of,
+    too_wide,
+)
 from planmethod.solved.machine.runup import STEADY_SPEED_TOLERANCE, RunUp, StalledError, run_up_of
-from planmethod.solved.machine.sizes import WIDEST, size_of, too_wide
 from planmethod.solved.many import positions as many_positions, variants as varied
 from planmethod.solved.many.gaps import CHUNK, GappedSweep
 from planmethod.solved.many.positions import (

@@ -25,8 +25,7 @@ from planmethod.problem.model import Problem, Scales
 from planmethod.problem.quantities import Analysis, QuantityKey, QuantityKind, parse_quantity
 from planmethod.problem.records import KindProblem, Published
 from planmethod.solved.machine.drawing import drawing_of
-from planmethod.solved.machine.flywheel import Flywheel, flywheel_of, touching
-from planmethod.solved.machine.sizes import size_of
+from planmethod.solved.machine.flywheel import Flywheel, flywheel_of, size_of, touching
 from planmethod.solved.quantity_steps import NoValue, NoValueError
 from planmethod.solved.quantity_values import QuantityValues
 from planmethod.solved.selfcheck import verify

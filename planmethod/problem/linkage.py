@@ -153,7 +153,7 @@ def read_parts(file: FileNode, name: str, train: TrainReader | None) -> Problem 
 
     count = len(drive.positions) if drive else 0
     if project is not None and cycle is not None:  # its positions are those of the cycle
-        count = cycle.count if machine is None else cycle.count * round(machine.cycle_deg / 360.0)
+        count = cycle.count if machine is None else cycle.count * machine.turns
     read_values = partial(read_published, check=checked, positions=count)
     published = file.read("published", read_values) or ()
     answers = read_answers(file, scope())

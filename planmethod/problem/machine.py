@@ -241,7 +241,7 @@ def read_cycle(
     if machine is not None:
         found |= _of_machine(file["machine"], found, machine)
         file["machine"].require_sound()
-        count //= round(machine.cycle_deg / 360.0)
+        count //= machine.turns
     found.setdefault("count", count)
     return node.build(CycleTask, found)
 
@@ -258,8 +258,7 @@ def _check_working(node: FileNode, entries: Mapping[str, Any], slides: Mapping[s
 def _of_machine(node: FileNode, entries: Mapping[str, Any], machine: Machine) -> dict[str, Any]:
     """Return the data of the positions that only ``[machine]`` has; data in both must agree."""
     found: dict[str, Any] = {}
-    turns = round(machine.cycle_deg / 360.0)
-    start, count = machine.start_deg, machine.stated_count
+    start, count, turns = machine.start_deg, machine.stated_count, machine.turns
     if start is not None and "zero" not in entries:
         found["zero"] = start
     elif start is not None and not isinstance(entries["zero"], Zero):
@@ -287,7 +286,7 @@ def check_start(node: FileNode, zero: float, start: float) -> None:
 
 def with_cycle_count(node: FileNode, machine: Machine, cycle: CycleTask) -> Machine:
     """Return a machine with as many positions as the cycle, which ``node`` is, has."""
-    count = cycle.count * round(machine.cycle_deg / 360.0)
+    count = cycle.count * machine.turns
     if count not in _OF_MACHINE and machine.stated_count is None:
         hint = translate("A flywheel takes from {} to {}.", _OF_MACHINE[0], _OF_MACHINE[-1])
         message = "{} positions of a cycle of {:g} degrees"

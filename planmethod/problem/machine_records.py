@@ -262,6 +262,10 @@ class CycleTask(Struct, frozen=True):
         ),
     ] = Differentiation.CHORDS
 
+    def is_against(self, sense: float) -> bool:
+        """Return whether positions are numbered against a turning of the crank, by its sign."""
+        return self.direction is not None and (self.direction is TurningSense.CCW) != (sense > 0.0)
+
 
 PROJECT_PARTS = (
     "kinematics",
@@ -586,6 +590,11 @@ class Machine(Struct, frozen=True):
     ] = None  # fmt: skip
     stated_count: int | None = None
     """``count`` where the file has it."""
+
+    @property
+    def turns(self) -> int:
+        """Turns of the crank in a cycle: two of 720 degrees."""
+        return round(self.cycle_deg / 360.0)
 
 
 class Weighing(Enum):

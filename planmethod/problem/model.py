@@ -581,7 +581,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     @property
     def turns(self) -> int:
         """Turns of the crank in a cycle: two of a machine of 720 degrees."""
-        return 1 if self.machine is None else round(self.machine.cycle_deg / 360.0)
+        return 1 if self.machine is None else self.machine.turns
 
     def display_position(self, position: float) -> float:
         """Return a driver position as in documents: a numbered one is within a turn.

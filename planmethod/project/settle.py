@@ -503,7 +503,7 @@ def _default_cycle(problem: Problem) -> CycleTask | None:
         return None
     if machine is None:
         return None
-    count = round(machine.count * TURN / machine.cycle_deg)
+    count = round(machine.count / machine.turns)
     return (
         CycleTask(count=count)
         if machine.start_deg is None

@@ -37,12 +37,12 @@ def crossings(values: Reals) -> npt.NDArray[np.intp]:
 def roots(function: Function, places: Reals) -> Reals:
     """Return where a function changes its sign between neighbours of some places, in order."""
     k = crossings(function(places))
-    return roots_between(_by_rows(function), places[k], places[k + 1])
+    return roots_between(by_rows(function), places[k], places[k + 1])
 
 
 def root(function: Function, low: float, high: float) -> float:
     """Return the place where a function changes its sign between two places."""
-    return float(roots_between(_by_rows(function), np.array([low]), np.array([high]))[0])
+    return float(roots_between(by_rows(function), np.array([low]), np.array([high]))[0])
 
 
 def roots_between(function: Function, low: Reals, high: Reals) -> Reals:
@@ -61,18 +61,19 @@ def roots_between(function: Function, low: Reals, high: Reals) -> Reals:
     row, end = np.arange(len(low)), high
     sign = np.sign(function(high[:, np.newaxis]))
     for _ in range(_ROUNDS):
+        wide = np.abs(high - low) > 4 * np.spacing(np.abs(high))
+        if not wide.any():
+            break
         places = np.linspace(low, high, _PARTS + 1, axis=-1)
         there = np.sign(function(places)) == sign
         k = np.where(there.any(axis=-1), np.maximum(np.argmax(there, axis=-1), 1), _PARTS)
-        low, high = places[row, k - 1], places[row, k]
-        if (np.abs(high - low) <= 4 * np.spacing(np.abs(high))).all():
-            break
+        low, high = np.where(wide, [places[row, k - 1], places[row, k]], [low, high])
     one, two = np.abs(function(np.stack([low, high], axis=-1))).T
     return np.where(sign[:, 0] == 0.0, end, np.where(one <= two, low, high))
 
 
-def _by_rows(function: Function) -> Function:
-    """Return a function that takes places of any shape."""
+def by_rows(function: Function) -> Function:
+    """Return a function that takes places of any shape, as `tops` and `roots_between` need it."""
     return lambda places: function(places.ravel()).reshape(places.shape)
 
 
@@ -84,7 +85,7 @@ def top(
     The interval is first divided into ``samples`` parts: enough that one of them holds the
     greatest.
     """
-    at, size = tops(_by_rows(function), np.array([low]), np.array([high]), samples=samples)
+    at, size = tops(by_rows(function), np.array([low]), np.array([high]), samples=samples)
     return float(at[0]), float(size[0])
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from math import isfinite, pi
+from math import pi
 
 import numpy as np
 from msgspec import Struct
@@ -17,7 +17,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import Construction
 from planmethod.problem.model import Problem
 from planmethod.problem.names import format_length
-from planmethod.problem.records import Load, Over, SizeTable, TurningSense
+from planmethod.problem.records import Load, Over, SizeTable
 from planmethod.solved.curves import Piecewise, resolved
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
@@ -146,6 +146,17 @@ class CycleMotion:
     problem : Problem
         With a driving crank that turns.
 
+    Attributes
+    ----------
+    sense : float
+        1 where the crank turns counter-clockwise, else -1.
+    start_deg : float, degrees
+        Driver position 0.
+    turns : int
+        Turns of a cycle: of the machine, else as many as the links need to come again.
+    cycle : float, rad
+        Angle of a cycle.
+
     Raises
     ------
     ProblemError
@@ -172,16 +183,9 @@ class CycleMotion:
         first = (*problem.numbered, *drive.positions)[0]
         self.start_deg = first if start is None else start
         self._solution = Solution(self.problem, positions=[self.start_deg])
-        self.cycle = float(np.radians(360.0 * self._turns))
+        self.turns = self._solution.closing_turns if machine is None else machine.turns
+        self.cycle = float(np.radians(360.0 * self.turns))
         self.construction = self._solution.construction
-
-    @property
-    def _turns(self) -> int:
-        """Turns of a cycle: of the machine, else as many as the links need to come again."""
-        machine, again = self.problem.machine, self._solution.closes_after
-        if machine is not None:
-            return round(machine.cycle_deg / 360.0)
-        return round(again) if isfinite(again) else 1
 
     def numbers(self, count: int) -> list[int]:
         """Return the numbers of n positions in the order of the crank's motion, and 0 again.
@@ -189,8 +193,7 @@ class CycleMotion:
         ``[cycle] direction`` may be against the crank's rotation.
         """
         task = self.problem.cycle
-        direction = None if task is None else task.direction
-        if direction is None or (direction is TurningSense.CCW) == (self.sense > 0.0):
+        if task is None or not task.is_against(self.sense):
             return [*range(count), 0]
         return [0, *range(count - 1, -1, -1)]
 
@@ -229,10 +232,10 @@ class CycleMotion:
     @cached_property
     def curve(self) -> Piecewise:
         """All of it as polynomials: six columns for each point, then two for each link."""
-        turns = round(self.cycle / (2.0 * pi))
-        edges = np.linspace(0.0, self.cycle, turns * PANELS + 1)
+        count = self.turns * PANELS
+        edges = np.linspace(0.0, self.cycle, count + 1)
         points, links = self._names
-        rough = self._columns(np.linspace(0.0, self.cycle, 2 * turns * PANELS + 1) + _OFFSET)
+        rough = self._columns(np.linspace(0.0, self.cycle, 2 * count + 1) + _OFFSET)
         largest = np.max(np.abs(rough), axis=0)
         of_points = largest[: _COLUMNS * len(points)].reshape(-1, 3, 2).max(axis=(0, 2))
         of_links = largest[_COLUMNS * len(points) :].reshape(-1, 2).max(axis=0)

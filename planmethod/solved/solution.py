@@ -416,16 +416,19 @@ class Solution(Memoizing):
         return again / turn if isfinite(again) else inf
 
     @property
+    def closing_turns(self) -> int:
+        """Turns of the driver after which the links are where they were; one if they never are."""
+        return round(self.closes_after) if isfinite(self.closes_after) else 1
+
+    @property
     def turns(self) -> int:
         """Turns of the driver in a cycle: of the machine, and as many as the links need."""
-        again = self.closes_after
-        return lcm(self.problem.turns, round(again) if isfinite(again) else 1)
+        return lcm(self.problem.turns, self.closing_turns)
 
     @property
     def repeated(self) -> int:
         """Number of repetitions of the motion in a cycle: two for a four-stroke engine."""
-        again = self.closes_after
-        return self.turns // round(again) if isfinite(again) else self.turns
+        return self.turns // self.closing_turns
 
     @property
     def given_scales(self) -> Scales:

@@ -265,20 +265,24 @@ def _driven(
         steps = [(after - turns[0]) * way % 360.0 for after in turns]
         order = steps[1] < steps[2]
         reach = max(steps)
-        worst = _min_transmission_angle(a, d, b, c, turns[0], way * reach, sides[0])
+        angles = np.radians(turns[0] + way * reach * np.linspace(0.0, 1.0, _PLACES))
+        ends = a + abs(b[0] - a) * np.exp(1j * angles)
+        worst = _min_transmission_angle(np.abs(d - ends), abs(c[0] - b[0]), abs(c[0] - d))
         one_side = len(set(sides)) == 1 and bool(np.isfinite(worst))
         positions = tuple(turns[0] + way * step for step in steps)
         found.append(Passage(swapped, positions, sides[0], one_side, order, worst))
     return max(found, key=lambda p: (p.branch, p.order, np.nan_to_num(p.transmission)))
 
 
-def _min_transmission_angle(a: complex, d: complex, b: Sequence[complex], c: Sequence[complex],
-           start: float, turn: float, side: int) -> float:  # fmt: skip
-    """Return the minimum transmission angle on the path; NaN where the arcs do not intersect."""
-    angles = np.radians(start + turn * np.linspace(0.0, 1.0, _PLACES))
-    ends = a + abs(b[0] - a) * np.exp(1j * angles)
-    coupler, output = abs(c[0] - b[0]), abs(c[0] - d)
-    cosine = (coupler**2 + output**2 - np.abs(d - ends) ** 2) / (2.0 * coupler * output)
+def _min_transmission_angle(distances: Reals, coupler: float, output: float) -> float:
+    """Return the minimum angle between coupler and output, degrees; NaN where they do not meet.
+
+    Parameters
+    ----------
+    distances : ndarray of shape (n,)
+        From the pin of the driver to the pivot of the output.
+    """
+    cosine = (coupler**2 + output**2 - distances**2) / (2.0 * coupler * output)
     cosine = np.where(np.abs(np.abs(cosine) - 1.0) < 1e-12, np.sign(cosine), cosine)
     with np.errstate(invalid="ignore"):
         between = np.degrees(np.arccos(cosine))

@@ -41,7 +41,7 @@ from doors import (
     calculation,
     compared,
     conclusion,
-    cycle,
+    cycle_forces_of,
     document,
     drawing_of,
     flywheel_chapter,
@@ -534,7 +534,7 @@ def test_a_colon_is_followed_by_a_formula_or_a_list(name: str, lang: str) -> Non
 def test_the_largest_reaction_of_the_cycle_is_that_of_the_sheet() -> None:
     say = get_language("ru").notation
     for name in ("shaper", "engine"):
-        curves = cycle(project_of(name).solution)
+        curves = cycle_forces_of(project_of(name).solution)
         most = say.computed(max(curves.peak(k).size for k in range(len(curves.joints))))
         _, _, chapter = told_of(name).partition("Модули реакций")
         told = chapter[: chapter.index("Приведённые моменты сил")]

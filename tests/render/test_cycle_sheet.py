@@ -16,7 +16,7 @@ from doors import (
     HODOGRAPH,
     POLAR_POLE as POLE,
     Arc,
-    Cycle,
+    CycleForces,
     Disc,
     Drawing,
     Fill,
@@ -186,7 +186,7 @@ def test_the_marks_are_the_results_of_both_methods_on_paper(
 def test_the_polar_diagrams_are_the_reactions(name: str, positions: tuple[float, ...]) -> None:
     """Every ray is a vector of its reaction, at a scale that is written under the diagram."""
     sheet, solution = drawn(name, positions), Solution(problem_of(name), positions=positions)
-    cycle = Cycle(solution)
+    cycle = CycleForces(solution)
     poles = [i.centre for i in sheet.items if isinstance(i, Disc) and i.tag == POLE]
     groups = polar_groups(cycle)
     assert len(poles) == len(groups)
@@ -211,7 +211,7 @@ def test_the_polar_diagrams_are_the_reactions(name: str, positions: tuple[float,
 
 def test_equal_and_opposite_reactions_share_a_diagram() -> None:
     """Link 4 of the press has no mass: the forces at its ends are equal and opposite."""
-    cycle = Cycle(Solution(problem_of("press/press"), positions=PRESS))
+    cycle = CycleForces(Solution(problem_of("press/press"), positions=PRESS))
     names = [[f"{cycle.joints[k].on}{cycle.joints[k].by}" for k in g] for g in polar_groups(cycle)]
     assert ["43", "45"] in names
     texts = " ".join(i.text for i in drawn("press/press", PRESS).items if isinstance(i, Text))

@@ -19,7 +19,7 @@ from doors import (
     Solution,
     Statics,
     cut_picture,
-    cycle,
+    cycle_forces_of,
     driven_by,
     force_reading,
     get_language,
@@ -275,7 +275,7 @@ def test_tables_for_a_rotating_crank_are_rejected(table: str, path: str) -> None
 
 def test_no_turn_and_no_project_is_made_of_it() -> None:
     problem = drawn(SEEDS[0])[0]
-    for ask in (settle, lambda one: cycle(Solution(one, positions=[1.0, 2.0]))):
+    for ask in (settle, lambda one: cycle_forces_of(Solution(one, positions=[1.0, 2.0]))):
         with pytest.raises(ProblemError, match="actuator"):
             ask(problem)
 

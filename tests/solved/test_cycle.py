@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from doors import (
     Complexes,
-    Cycle,
+    CycleForces,
     DriverPath,
     PlanMethodError,
     ReadingReals as Reals,
@@ -34,7 +34,7 @@ def exactly(solution: Solution, position: float) -> Solution:
     return Solution(solution.problem, positions=[position])
 
 
-def sampled(cycle: Cycle) -> list[tuple[float, complex]]:
+def sampled(cycle: CycleForces) -> list[tuple[float, complex]]:
     return [
         (float(p), complex(v))
         for piece in cycle.balance
@@ -45,7 +45,7 @@ def sampled(cycle: Cycle) -> list[tuple[float, complex]]:
 @pytest.mark.parametrize("name", ["levers/task12", "press/press", "press/press-stone"])
 def test_curves_go_through_the_requested_positions_and_are_exact_between(name: str) -> None:
     solution = Solution(problem_of(name), positions=[12.0 + phi for phi in TURN])
-    cycle = Cycle(solution)
+    cycle = CycleForces(solution)
     assert cycle.smooth and cycle.course.closed
     for number, joint in enumerate(cycle.joints):
         (piece,) = cycle.force(number)
@@ -62,7 +62,7 @@ def test_curves_go_through_the_requested_positions_and_are_exact_between(name: s
 
 
 def test_a_load_with_a_phase_leaves_gaps_where_it_begins_and_ends() -> None:
-    cycle = Cycle(task12(f"{RESISTANCE}\nphases = {{ phi = [100.5, 203.25] }}"))
+    cycle = CycleForces(task12(f"{RESISTANCE}\nphases = {{ phi = [100.5, 203.25] }}"))
     pieces = cycle.balance
     assert len(pieces) == 3
     for (before, after), jump in zip(
@@ -84,9 +84,11 @@ def test_a_step_of_a_table_jumps_and_its_slopes_do_not() -> None:
         'angle = -90\nforce = { over = "phi", interpolation = "KIND", '
         "values = [[0, 0], [45, 2000], [46, 1000], [300, 0]] }"
     )
-    jumps = [piece.positions[0] for piece in Cycle(task12(step.replace("KIND", "step"))).balance]
+    jumps = [
+        piece.positions[0] for piece in CycleForces(task12(step.replace("KIND", "step"))).balance
+    ]
     assert jumps == pytest.approx([0.0, 45.0, 46.0, 300.0], abs=1e-3)
-    assert len(Cycle(task12(step.replace("KIND", "linear"))).balance) == 1
+    assert len(CycleForces(task12(step.replace("KIND", "linear"))).balance) == 1
 
 
 def test_a_resistance_that_turns_is_a_position_alone() -> None:
@@ -102,7 +104,7 @@ def test_a_resistance_that_turns_is_a_position_alone() -> None:
         middle = (low + high) / 2
         sign = complex(Solution(problem, positions=[middle]).points["E"].velocity[0]).imag
         low, high = (middle, high) if sign * speed[0] > 0 else (low, middle)
-    cycle = Cycle(Solution(problem, positions=[200.0, 240.0, low, 280.0, 300.0]))
+    cycle = CycleForces(Solution(problem, positions=[200.0, 240.0, low, 280.0, 300.0]))
     pieces = [piece for piece in cycle.balance if piece.positions[0] <= low <= piece.positions[-1]]
     assert len(cycle.balance) in (2, 3) and pieces
     turning = cycle.balance[1 if len(cycle.balance) == 3 else 0]
@@ -115,9 +117,9 @@ def test_a_resistance_that_turns_is_a_position_alone() -> None:
 def test_a_steep_force_is_no_jump() -> None:
     """Task 12 goes near a dead position: its forces rise ten times within thirty degrees."""
     solution = Solution(problem_of("levers/task12"), positions=TURN)
-    balance = [value.real for _, value in sampled(Cycle(solution))]
+    balance = [value.real for _, value in sampled(CycleForces(solution))]
     assert np.abs(np.diff(balance)).max() > 0.02 * np.abs(balance).max()
-    assert len(Cycle(solution).balance) == 1
+    assert len(CycleForces(solution).balance) == 1
 
 
 def test_a_load_known_in_its_positions_only_has_chords() -> None:
@@ -126,7 +128,7 @@ def test_a_load_known_in_its_positions_only_has_chords() -> None:
     whole = path_of("levers/task12").read_text("utf-8").replace(RESISTANCE, text)
     problem = loads(whole.replace("phi = 245 ", "phi = { from = 0, count = 12 } "), name="task12")
     solution = Solution(problem)
-    cycle = Cycle(solution)
+    cycle = CycleForces(solution)
     assert not cycle.smooth
     (piece,) = cycle.balance
     assert piece.positions.tolist() == [*TURN, 360.0]
@@ -139,7 +141,7 @@ def test_a_load_known_in_its_positions_only_has_chords() -> None:
 def test_positions_between_that_do_not_exist_are_gaps() -> None:
     """The six-link mechanism closes from 130° to 305° only: between 305° and 490° it does not."""
     solution = Solution(problem_of("levers/six-link"), positions=[280.0, 300.0, 500.0, 520.0])
-    before, after = Cycle(solution).balance
+    before, after = CycleForces(solution).balance
     assert 300.0 <= before.positions[-1] < after.positions[0] <= 500.0
     for position in (before.positions[-1] + 2.0, after.positions[0] - 2.0):
         with pytest.raises(PlanMethodError):
@@ -162,7 +164,7 @@ def test_random_mechanisms(seed: int) -> None:
         balance = statics_of(solution).balance
     except PlanMethodError:
         pytest.skip("the mechanism does not reach so far from its pose")
-    cycle = Cycle(solution)
+    cycle = CycleForces(solution)
     assert not cycle.course.closed
     found = dict(sampled(cycle))
     for position, value in zip(asked, balance, strict=True):
@@ -180,7 +182,7 @@ def test_the_course_keeps_the_requested_positions() -> None:
 @pytest.mark.parametrize("name", ["levers/task-49", "levers/task-1"])
 def test_a_curve_has_no_corner_that_is_seen(name: str) -> None:
     """Halfway between its points a reaction is on the chord, to a thousandth of its largest."""
-    cycle = Cycle(Solution(problem_of(name), positions=TURN))
+    cycle = CycleForces(Solution(problem_of(name), positions=TURN))
     halves = np.unique((cycle.positions[1:] + cycle.positions[:-1]) / 2)
     between = statics_of(cycle.solution.with_positions(halves.tolist())).reactions
     for number, joint in enumerate(between):

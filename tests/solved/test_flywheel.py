@@ -215,7 +215,7 @@ def test_an_indicator_gives_the_work_of_its_area() -> None:
     assert near(compressor.work_per_cycle, 0.0314 * 0.18 * float(back - out))
     assert abs(compressor.delta_reached - 1 / 30) < 1e-9
     engine = Flywheel(load(path_of("machines/engine")))
-    assert engine.turns == 2
+    assert engine.machine.turns == 2
     assert near(engine.constant * 4 * pi, engine.work_per_cycle)
     assert abs(engine.delta_reached - 1 / 80) < 1e-9
     drawn = FlywheelDrawing(engine, PROFILES["board"])

@@ -24,7 +24,7 @@ from doors import (
     angle_with_positions,
     cli,
     crank_cycle_of,
-    cycle,
+    cycle_forces_of,
     cycle_record,
     diagrams_of,
     drawing_of,
@@ -194,11 +194,11 @@ def test_protocol_counts_positions_from_0(tmp_path: object) -> None:
 def test_a_cycle_of_two_turns_has_the_positions_and_the_forces_of_both() -> None:
     problem = read(without_phi(ENGINE))
     assert problem.numbered == pytest.approx([90.0 - 30.0 * k for k in range(24)])
-    forces = cycle(Solution(problem))
+    forces = cycle_forces_of(Solution(problem))
     number = next(k for k, joint in enumerate(forces.joints) if {joint.on, joint.by} == {"2", "3"})
     assert forces.course.closed and np.ptp(forces.positions) == pytest.approx(720.0)
     assert forces.peak(number).size == pytest.approx(11170, abs=5)
-    one = cycle(Solution(problem, positions=[90.0 - 30.0 * k for k in range(12, 24)]))
+    one = cycle_forces_of(Solution(problem, positions=[90.0 - 30.0 * k for k in range(12, 24)]))
     assert one.peak(number).size < 6000
     told = cycle_record(Solution(problem))
     assert len(told["positions_deg"]) == len(told["velocity"]) == 24

@@ -20,8 +20,7 @@ from planmethod.note.wording import Language, MessageTable
 from planmethod.problem.machine_records import Quadrature
 from planmethod.problem.records import Load, SizeTable
 from planmethod.solved.machine.drawing import drawing_of, split
-from planmethod.solved.machine.flywheel import flywheel_of
-from planmethod.solved.machine.sizes import density_of
+from planmethod.solved.machine.flywheel import density_of, flywheel_of
 from planmethod.solved.solution import Solution
 
 

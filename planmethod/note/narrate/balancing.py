@@ -16,9 +16,8 @@ from planmethod.note.series import compared_moment
 from planmethod.note.wording import Language
 from planmethod.problem.machine_records import WeightSigns
 from planmethod.problem.records import largest_size
-from planmethod.solved.forces.loads import external
+from planmethod.solved.forces.loads import external, power
 from planmethod.solved.machine.balancing import Balancing, balancing_of
-from planmethod.solved.machine.reduced import power
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 

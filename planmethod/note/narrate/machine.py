@@ -22,23 +22,25 @@ from planmethod.note.wording import Language, MessageTable
 from planmethod.problem.machine_records import ConstantMoment, WeightSigns
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing
-from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme, machine_power
+from planmethod.solved.machine.flywheel import (
+    DISC_WIDTH,
+    RIM_BORE,
+    RIM_WIDTH,
+    STEEL_FACTOR,
+    Flywheel,
+    FlywheelSizes,
+    SpeedExtreme,
+    adopted,
+    density_of,
+    machine_power,
+    size_of,
+)
 from planmethod.solved.machine.runup import (
     MAX_CYCLES,
     STEADY_SPEED_TOLERANCE,
     RunUp,
     TimeMotion,
     run_up_of,
-)
-from planmethod.solved.machine.sizes import (
-    DISC_WIDTH,
-    RIM_BORE,
-    RIM_WIDTH,
-    STEEL_FACTOR,
-    FlywheelSizes,
-    adopted,
-    density_of,
-    size_of,
 )
 from planmethod.solved.reading import Reals
 
@@ -233,7 +235,8 @@ class MachineNarrator:
         """Return the mean power over the cycle, and that of the motor, with numbers."""
         flywheel, notation, watt = self.flywheel, self.notation, self.unit("W")
         power = machine_power(flywheel)
-        minutes, turning = 60 * flywheel.turns, turns_symbol(flywheel.problem, self.language)
+        minutes = 60 * flywheel.machine.turns
+        turning = turns_symbol(flywheel.problem, self.language)
         n = notation.computed(flywheel.middle_speed * 30.0 / pi)
         work = notation.computed(flywheel.work_per_cycle)
         at_crank, at_motor = self.letter("power"), self.letter("motor power")

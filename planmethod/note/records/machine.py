@@ -14,9 +14,14 @@ from planmethod.note.series import compared_flywheel, compared_moment
 from planmethod.problem.machine_records import Quadrature
 from planmethod.solved.machine.balancing import SAMPLES, balancing_of
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
-from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme, machine_power
+from planmethod.solved.machine.flywheel import (
+    Flywheel,
+    SpeedExtreme,
+    adopted,
+    machine_power,
+    size_of,
+)
 from planmethod.solved.machine.runup import MAX_CYCLES, RunUp, TimeMotion, run_up_of
-from planmethod.solved.machine.sizes import adopted, size_of
 from planmethod.solved.reading import Complexes
 from planmethod.solved.solution import Solution
 
@@ -65,7 +70,7 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "phi_0_deg": record_float(flywheel.turn.start_deg),
         "omega_mean": record_float(middle),
         "M_constant": record_float(flywheel.constant),
-        "work_per_turn": record_float(flywheel.work_per_cycle / flywheel.turns),
+        "work_per_turn": record_float(flywheel.work_per_cycle / machine.turns),
         "work_per_cycle": record_float(flywheel.work_per_cycle),
         "power": {
             "crank": record_float(power.at_crank),

@@ -406,7 +406,7 @@ def _solution_record(solution: Solution, positions: ColumnarRecords | list[Any])
     dynamics = solution.problem.dynamics
     if dynamics is not None and dynamics.friction is not None:
         from planmethod.note.tables.forces import friction_cycle_record
-        from planmethod.solved.cycle import cycle_efficiency
+        from planmethod.solved.cycle_forces import cycle_efficiency
 
         turn = cycle_efficiency(solution)
         machine["friction"] = {"turn": None if turn is None else friction_cycle_record(turn)}

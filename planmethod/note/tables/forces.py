@@ -44,7 +44,7 @@ from planmethod.note.tables.errors import ErrorColumns
 from planmethod.note.wording import Language, MessageTable
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.problem.model import Problem
-from planmethod.solved.cycle import CycleEfficiency
+from planmethod.solved.cycle_forces import CycleEfficiency
 from planmethod.solved.errors.forces import angle_label, drawn_forces
 from planmethod.solved.forces.friction import (
     Friction,

@@ -42,7 +42,7 @@ from planmethod.render.forces.cut import cut_picture, inner_picture, loads_pictu
 from planmethod.render.forces.friction import friction_picture
 from planmethod.render.forces.polygon import drawn_edges, lever_picture, polygon_picture
 from planmethod.render.layout.block import Block, Row
-from planmethod.solved.cycle import cycle
+from planmethod.solved.cycle_forces import cycle_forces_of
 from planmethod.solved.forces.friction import rubbed_reading
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.forces.statics import bearings_of, statics_of
@@ -471,7 +471,7 @@ def largest_reactions(report: Report) -> Iterator[Rich]:
     if not has_turn(report):
         yield texts.all_peaks.format(**facts)
         return
-    curves = cycle(report.every)
+    curves = cycle_forces_of(report.every)
     peaks = [curves.peak(number) for number in range(len(curves.joints))]
     number = max(range(len(peaks)), key=lambda one: peaks[one].size)
     most, whose = peaks[number], report.reaction(curves.joints[number])

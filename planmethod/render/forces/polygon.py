@@ -35,7 +35,7 @@ from planmethod.render.pictures.diagram import polar_picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.planview import Ellipses, shown_ellipses, similar_lines
 from planmethod.render.symbols import PLAN_FORCE, unit, vector_arrow
-from planmethod.solved.cycle import Cycle
+from planmethod.solved.cycle_forces import CycleForces
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import (
     NEGLIGIBLE_FRACTION,
@@ -194,7 +194,7 @@ def vertex_ellipses(reading: ForceReading, number: int) -> Ellipses:
     )
 
 
-def hodograph_scale(cycle: Cycle, number: int, side: float) -> Scale:
+def hodograph_scale(cycle: CycleForces, number: int, side: float) -> Scale:
     """Return the scale at which a hodograph fills a square of ``side`` mm."""
     places = np.concatenate([[0j], *(piece.values for piece in cycle.force(number))])
     size = (float(np.ptp(places.real)), float(np.ptp(places.imag)))
@@ -202,7 +202,7 @@ def hodograph_scale(cycle: Cycle, number: int, side: float) -> Scale:
     return Scale(SCALE, choose_scale(size, (side, side), mm_per_unit=inverse), "N")
 
 
-def polar_groups(cycle: Cycle) -> list[list[int]]:
+def polar_groups(cycle: CycleForces) -> list[list[int]]:
     """Return the numbers of the reactions that have a polar diagram.
 
     They are not zero, and their direction is free, unlike that of reactions across a guide.
@@ -223,7 +223,7 @@ def polar_groups(cycle: Cycle) -> list[list[int]]:
     return groups
 
 
-def opposite(cycle: Cycle, one: int, two: int) -> bool | None:
+def opposite(cycle: CycleForces, one: int, two: int) -> bool | None:
     """Return whether two reactions are always opposite (True) or equal (False); None if neither."""
     a, b = cycle.joints[one].force, cycle.joints[two].force
     least = NEGLIGIBLE_FRACTION * cycle.peak(one).size
@@ -233,7 +233,9 @@ def opposite(cycle: Cycle, one: int, two: int) -> bool | None:
 
 
 @memoized
-def hodograph_picture(cycle: Cycle, number: int, per_mm: float, letter_height: float) -> Picture:
+def hodograph_picture(
+    cycle: CycleForces, number: int, per_mm: float, letter_height: float
+) -> Picture:
     """Return the polar diagram of a reaction, its pole at the origin, mm."""
     parts = [piece.values / per_mm for piece in cycle.force(number)]
     ends: Complexes = cycle.joints[number].force / per_mm

@@ -339,7 +339,7 @@ class LiveScene:
         wheel = self.flywheel
         if wheel is None:
             return None
-        omega, _ = wheel.speeds(wheel.even_rotations(SPEEDS * wheel.turns))
+        omega, _ = wheel.speeds(wheel.even_rotations(SPEEDS * wheel.machine.turns))
         return {
             "omega": [round(value, 9) for value in omega.tolist()],
             "first": wheel.turn.start_deg,

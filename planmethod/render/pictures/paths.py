@@ -15,7 +15,7 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
-from planmethod.solved.cycle import DriverPath
+from planmethod.solved.cycle_forces import DriverPath
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.cycle import crank_cycle_of

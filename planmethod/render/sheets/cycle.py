@@ -52,7 +52,7 @@ from planmethod.render.sheets.forces import angle_text
 from planmethod.render.sheets.model import BlockStyle
 from planmethod.render.sheets.results import position_columns, table_width
 from planmethod.render.sheets.views import LARGER, at_scales, named, stated
-from planmethod.solved.cycle import Cycle, Piece, ReactionPeak, cycle
+from planmethod.solved.cycle_forces import CycleForces, Piece, ReactionPeak, cycle_forces_of
 from planmethod.solved.forces.reading import NEGLIGIBLE_FRACTION
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Reals
@@ -63,7 +63,7 @@ def reactions_table(
     solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> Block:
     """Return the table of reactions and of the balance by positions."""
-    forces = cycle(solution)
+    forces = cycle_forces_of(solution)
     height, width = style.text(min(style.sizes.text, 3.5)), table_width(style)
     language = style.language
     columns = position_columns(solution, position_indices, language)
@@ -87,7 +87,7 @@ def _drawn_at(solution: Solution, language: Language) -> str:
 
 
 def _reaction_columns(
-    forces: Cycle, which: int, position_indices: Sequence[int], notation: Notation
+    forces: CycleForces, which: int, position_indices: Sequence[int], notation: Notation
 ) -> list[TableColumn]:
     """Return size and direction of a reaction, and of a guide its moment about the pin."""
     joint, statics = forces.joints[which], statics_of(forces.solution)
@@ -203,7 +203,7 @@ class _Frame(Struct, frozen=True):
     sense: int
 
     @classmethod
-    def of(cls, solution: Solution, forces: Cycle, width: float) -> _Frame:
+    def of(cls, solution: Solution, forces: CycleForces, width: float) -> _Frame:
         coordinate, ends = solution.problem.drive.coordinate, forces.course.drawn
         inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
         per_mm = choose_scale((float(np.ptp(ends)), 0.0), (width, 1.0), mm_per_unit=inverse)
@@ -215,7 +215,7 @@ class _Frame(Struct, frozen=True):
         """Return the abscissa of a driver position, mm."""
         return self.sense * (position - self.first) / self.scale.per_mm
 
-    def axis(self, forces: Cycle) -> Abscissae:
+    def axis(self, forces: CycleForces) -> Abscissae:
         """Return the axis with the numbers of the requested positions."""
         marks = [(self.x(float(p)), str(k)) for k, p in enumerate(self.solution.positions)]
         if forces.course.closed:
@@ -268,7 +268,7 @@ def balance_diagram(
 
 
 def _balance(solution: Solution, style: BlockStyle, width: float, height: float) -> ViewBlock:
-    forces = cycle(solution)
+    forces = cycle_forces_of(solution)
     frame = _Frame.of(solution, forces, width)
     statics, balancing = statics_of(solution), solution.problem.drive.balancing
     language, notation = style.language, style.language.notation
@@ -318,7 +318,7 @@ def _legend(style: BlockStyle, width: float) -> Block:
     return Column([parts[0], Row(parts[1:], gap=3.0, align="centre")], gap=2.5, align="centre")
 
 
-def _chords(forces: Cycle, style: BlockStyle) -> list[str]:
+def _chords(forces: CycleForces, style: BlockStyle) -> list[str]:
     return [] if forces.smooth else [style.language.sheets.chords]
 
 
@@ -330,7 +330,7 @@ def reaction_diagram(
 
 
 def _reactions(solution: Solution, style: BlockStyle, width: float, height: float) -> ViewBlock:
-    forces = cycle(solution)
+    forces = cycle_forces_of(solution)
     frame = _Frame.of(solution, forces, width)
     links = statics_of(solution).board.plans[style.entry.number].links
     own = [k for k, joint in enumerate(forces.joints) if joint.on in links]
@@ -387,7 +387,7 @@ def hodographs(solution: Solution, position_indices: Sequence[int], style: Block
 
 def _in_rows(solution: Solution, style: BlockStyle, side: float) -> Iterator[ViewBlock]:
     """Yield the polar diagrams in squares of a side, mm, by the number of them in a row."""
-    forces, language = cycle(solution), style.language
+    forces, language = cycle_forces_of(solution), style.language
     convention = solution.problem.scales.convention
     cells: list[Block] = []
     scale = statics_of(solution).scale
@@ -414,12 +414,12 @@ def _in_rows(solution: Solution, style: BlockStyle, side: float) -> Iterator[Vie
         yield ViewBlock(block, "hodograph", scale)
 
 
-def _symbol(forces: Cycle, number: int) -> str:
+def _symbol(forces: CycleForces, number: int) -> str:
     joint = forces.joints[number]
     return reaction_symbol(joint.on, forces.solution.problem.mechanism.called(joint.by))
 
 
-def _reactions_text(forces: Cycle, group: Sequence[int], language: Language) -> str:
+def _reactions_text(forces: CycleForces, group: Sequence[int], language: Language) -> str:
     """Return the reactions that a polar diagram shows, and their joints."""
     first = group[0]
     signs = ["" if k == first or not opposite(forces, first, k) else MINUS for k in group]
@@ -451,7 +451,7 @@ def statement_block(
     solution: Solution, position_indices: Sequence[int], style: BlockStyle
 ) -> Block:
     """Return "Дано" with masses and loads of all positions, and "Определить"."""
-    cycle(solution)
+    cycle_forces_of(solution)
     language = style.language
     asked = language.sheets.wanted_cycle.format(
         wanted=cycle_force_unknowns(solution, language.notation)

@@ -48,7 +48,7 @@ from planmethod.render.sheets.views import (
     shown_position,
     stated,
 )
-from planmethod.solved.cycle import without_corners
+from planmethod.solved.cycle_forces import without_corners
 from planmethod.solved.quantities import transfers_of
 from planmethod.solved.reading import Complexes, Reals, memoized
 from planmethod.solved.solution import Solution

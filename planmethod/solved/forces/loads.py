@@ -14,6 +14,7 @@ from planmethod.plans.forces.polygons import Applied, LoadKind
 from planmethod.problem.model import Problem
 from planmethod.problem.records import Couple, Dynamics, Load, Mass
 from planmethod.solved.forces.laws import GivenLoads, MotionValues, is_at_rest, is_zero
+from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
 
@@ -120,6 +121,14 @@ def external(solution: MotionValues, dynamics: Dynamics, link: str) -> Iterator[
                 yield _couple(solution, load.name, link, given.value(load), LoadKind.EXTERNAL)
             case _:
                 assert_never(load)
+
+
+def power(motion: MotionValues, one: Applied) -> Reals:
+    """Return the power of a load, W, ndarray of shape (n,)."""
+    if one.point is None:
+        return one.couple * motion.links[one.link].omega
+    velocity = motion.points[one.point].velocity
+    return np.asarray((one.force * velocity.conjugate()).real, dtype=float)
 
 
 # The single resultant of inertia -----------------------------------------------------------------

@@ -1,10 +1,17 @@
-"""The flywheel of a machine, exactly and by the textbook's ways, and its motor."""
+"""The flywheel of a machine, exactly and by the textbook's ways, its sizes, and its motor.
+
+A disc of width 0.165·D has J = m·D²/8, so D = 0.38·J^(1/5) of steel: the formulas of the press
+coursework; with another density D = (32·J/(0.165·pi·rho))^(1/5). A rim D_1 = 0.8·D, b = 0.2·D has
+J = pi·rho·b·(D⁴ - D_1⁴)/32, spokes and hub left out. Where the rim would run quicker than it may, D
+is what its greatest speed allows, and the width grows; one that is wide for its diameter is warned
+of. What is made has a round diameter, and the mass and the width with which its J is the same.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from math import pi
+from math import ceil, inf, pi
 
 import numpy as np
 from msgspec import Struct
@@ -18,9 +25,11 @@ from planmethod.plans.forces.board import SCALE
 from planmethod.problem.machine_records import (
     ConstantMoment,
     FlywheelMethod,
+    FlywheelTask,
     MeanSpeed,
     Quadrature,
     WeightSigns,
+    WheelShape,
 )
 from planmethod.problem.model import Problem
 from planmethod.problem.records import Dynamics, Fixed, Load
@@ -164,11 +173,6 @@ class Flywheel(Memoizing):
         raise ProblemError(self.problem.name, [Fault("machine.constant", message, hint)])
 
     # Exactly ---------------------------------------------------------------------------------
-
-    @property
-    def turns(self) -> int:
-        """Turns of the crank in a cycle."""
-        return round(self.machine.cycle_deg / 360.0)
 
     def tangents(self, upper: float, lower: float, speed: float) -> Tangents:
         """Return the flywheel between tangents of slopes omega²/2 times ``upper`` and ``lower``."""
@@ -433,15 +437,6 @@ def flywheel_of(solution: Solution) -> Flywheel:
     return Flywheel(solution.problem)
 
 
-def flywheel_warnings(wheel: Flywheel) -> Iterator[str]:
-    """Yield the warning that a flywheel is wide for its diameter."""
-    from planmethod.solved.machine.sizes import too_wide
-
-    said = too_wide(wheel.machine.wheel, wheel.exact.inertia, wheel.middle_speed)
-    if said is not None:
-        yield said
-
-
 RATED_KW = (
     0.06, 0.09, 0.12, 0.18, 0.25, 0.37, 0.55, 0.75, 1.1, 1.5, 2.2, 3, 4, 5.5, 7.5, 11, 15, 18.5,
     22, 30, 37, 45, 55, 75, 90, 110, 132, 160, 200, 250, 315,
@@ -481,3 +476,133 @@ def machine_power(flywheel: Flywheel) -> MachinePower:
     at_motor = at_crank / efficiency
     rated = next((1000.0 * power for power in RATED_KW if 1000.0 * power >= at_motor), None)
     return MachinePower(at_crank, efficiency, at_motor, rated)
+
+
+# Sizes -------------------------------------------------------------------------------------------
+
+STEEL_FACTOR, STEEL = 0.38, 7800.0
+"""D = 0.38·J^(1/5) of a steel disc, m and kg·m², and the density of a steel rim, kg/m³."""
+
+DISC_WIDTH, RIM_WIDTH, RIM_BORE = 0.165, 0.2, 0.8
+"""Width over diameter, and inner diameter of a rim over the outer one."""
+
+WIDEST = 0.4
+"""Width over diameter beyond which a flywheel is not made."""
+
+STEPS = ((0.5, 0.01), (0.2, 0.005), (0.1, 0.002), (0.0, 0.001))
+"""Diameters from which a size is rounded, and the steps, m."""
+
+
+class FlywheelSizes(Struct, frozen=True):
+    """A flywheel as manufactured (маховик).
+
+    Attributes
+    ----------
+    shape : WheelShape
+    inertia : float, kg·m²
+        On its own shaft.
+    diameter, bore, width : float, m
+        ``bore`` is the inner diameter of a rim; 0 of a disc.
+    mass : float, kg
+    speed : float, m/s
+        Of the rim, at the mean speed of the machine.
+    is_speed_limited : bool
+        The greatest speed of the rim has set the diameter.
+    """
+
+    shape: WheelShape
+    inertia: float
+    diameter: float
+    bore: float
+    width: float
+    mass: float
+    speed: float
+    is_speed_limited: bool
+
+
+def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> FlywheelSizes | None:
+    """Return the sizes of a flywheel; None where none is needed.
+
+    Parameters
+    ----------
+    inertia : float, kg·m²
+        Reduced to the crank.
+    omega : float, 1/s
+        Mean speed of the crank.
+    """
+    if inertia <= 0.0:
+        return None
+    own, turning = inertia / wheel.ratio**2, omega * wheel.ratio
+    disc = wheel.shape is WheelShape.DISC
+    width, bore = (DISC_WIDTH, 0.0) if disc else (RIM_WIDTH, RIM_BORE)
+    density = density_of(wheel)
+    if disc and wheel.density is None:
+        diameter = STEEL_FACTOR * own**0.2
+    else:
+        diameter = (32.0 * own / (pi * density * width * (1.0 - bore**4))) ** 0.2
+    most = 2.0 * wheel.greatest_speed / turning
+    held = diameter > most
+    diameter = min(diameter, most)
+    mass = 8.0 * own / (diameter**2 * (1.0 + bore**2))
+    breadth = width * diameter
+    if held:
+        breadth = 4.0 * mass / (pi * density * diameter**2 * (1.0 - bore**2))
+    speed = turning * diameter / 2.0
+    return FlywheelSizes(wheel.shape, own, diameter, bore * diameter, breadth, mass, speed, held)
+
+
+def density_of(wheel: FlywheelTask) -> float:
+    """Return the density of a flywheel, kg/m³."""
+    return STEEL if wheel.density is None else wheel.density
+
+
+def adopted(wheel: FlywheelTask, sizes: FlywheelSizes) -> FlywheelSizes:
+    """Return a flywheel of the same inertia with a round diameter (принятый маховик).
+
+    The nearest one with which the rim does not run quicker than it may.
+    """
+    exact = sizes.diameter
+    step = next(step for least, step in STEPS if exact >= least)
+    turning = 2.0 * sizes.speed / exact
+    count = round(exact / step)
+    while count > 1 and count * step * turning / 2.0 > wheel.greatest_speed * (1.0 + 1e-9):
+        count -= 1
+    diameter = round(max(count, 1) * step, 6) if exact >= STEPS[-1][1] else exact
+    hollow = sizes.bore / exact
+    mass = 8.0 * sizes.inertia / (diameter**2 * (1.0 + hollow**2))
+    width = 4.0 * mass / (pi * density_of(wheel) * diameter**2 * (1.0 - hollow**2))
+    speed = turning * diameter / 2.0
+    return replace(sizes, diameter=diameter, bore=hollow * diameter, width=width, mass=mass,
+                   speed=speed)  # fmt: skip
+
+
+def too_wide(wheel: FlywheelTask, inertia: float, omega: float) -> str | None:
+    """Return the warning about a flywheel that is wide for its diameter; None for a usual one.
+
+    Parameters
+    ----------
+    inertia, omega : float
+        As of `size_of`.
+    """
+    sizes = size_of(wheel, inertia, omega)
+    if sizes is None or sizes.width <= WIDEST * sizes.diameter:
+        return None
+    free = size_of(replace(wheel, speed=inf), inertia, omega)
+    assert free is not None, "it has the same inertia"
+    # of a shaft that turns r times as quickly J is r² times less, D = r^(-2/5), v = r^(3/5)
+    slower = wheel.ratio * (wheel.greatest_speed / free.speed) ** (5.0 / 3.0)
+    return translate(
+        "the flywheel is {0:.3g} m wide and {1:.3g} m in diameter, b/D = {2:.2g} instead of "
+        "the usual {3:.3g}: its rim may run at {4:.3g} m/s. In [machine.flywheel] allow "
+        "speed = {5} (D = {6:.3g} m, b = {7:.3g} m; cast iron withstands 30 m/s, steel 50), "
+        "or set it on a slower shaft, ratio = {8:.2g}.",
+        sizes.width, sizes.diameter, sizes.width / sizes.diameter, free.width / free.diameter,
+        wheel.greatest_speed, ceil(free.speed), free.diameter, free.width, slower,
+    )  # fmt: skip
+
+
+def flywheel_warnings(wheel: Flywheel) -> Iterator[str]:
+    """Yield the warning that a flywheel is wide for its diameter."""
+    said = too_wide(wheel.machine.wheel, wheel.exact.inertia, wheel.middle_speed)
+    if said is not None:
+        yield said

@@ -11,12 +11,11 @@ from msgspec import Struct
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import translate
-from planmethod.plans.forces.polygons import Applied
 from planmethod.problem.machine_records import Machine, WeightSigns
 from planmethod.solved.curves import Piecewise, resolved
 from planmethod.solved.cycle_motion import CycleMotion, MotionState
 from planmethod.solved.forces.laws import MotionValues, breaks
-from planmethod.solved.forces.loads import external
+from planmethod.solved.forces.loads import external, power
 from planmethod.solved.reading import Reals
 
 NEVER = 1e-12
@@ -50,14 +49,6 @@ class Reduced(Struct, frozen=True):
     def moment(self) -> Reals:
         """Total reduced moment, N·m."""
         return np.asarray(sum(self.loads.values(), self.weights), dtype=float)
-
-
-def power(motion: MotionValues, one: Applied) -> Reals:
-    """Return the power of the loads on a link, W, ndarray of shape (n,)."""
-    if one.point is None:
-        return one.couple * motion.links[one.link].omega
-    velocity = motion.points[one.point].velocity
-    return np.asarray((one.force * velocity.conjugate()).real, dtype=float)
 
 
 def reduce(motion: MotionValues, machine: Machine) -> Reduced:

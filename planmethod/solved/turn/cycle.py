@@ -32,9 +32,8 @@ from planmethod.languages import translate
 from planmethod.plans.model import PlanKind
 from planmethod.problem.machine_records import CycleTask, Zero
 from planmethod.problem.model import Problem
-from planmethod.problem.records import TurningSense
 from planmethod.solved.assembly_modes import drive_data
-from planmethod.solved.curves import root, roots, top
+from planmethod.solved.curves import by_rows, root, roots, top, tops
 from planmethod.solved.reading import Flags, Memoizing, Reading, Reals, memoized, near_piece
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.output import (
@@ -511,8 +510,7 @@ class CrankCycle(Memoizing):
     @property
     def is_against(self) -> bool:
         """True if positions are numbered against the rotation of the crank."""
-        direction = self.task.direction
-        return direction is not None and (direction is TurningSense.CCW) != (self.sense > 0)
+        return self.task.is_against(self.sense)
 
     @cached_property
     def positions(self) -> Reals:
@@ -570,6 +568,7 @@ class CrankCycle(Memoizing):
         values = angle(looks)
         if not np.isfinite(values).any():
             return None
+        limits = self.range or (-np.inf, np.inf)
         found = []
         for sign in (1.0, -1.0):
             signed = np.where(np.isnan(values), -np.inf, sign * values)
@@ -580,13 +579,11 @@ class CrankCycle(Memoizing):
             def size(positions: Reals, sign: float = sign) -> Reals:
                 return sign * angle(positions)
 
-            low, high = self.range or (-np.inf, np.inf)
-            around = [(max(at - _STEP, low), min(at + _STEP, high)) for at in looks[near]]
-            tops = [top(size, *ends) for ends in around]
+            ends = (np.clip(looks[near] + step, *limits) for step in (-_STEP, _STEP))
             extreme = np.array([one.phi for one in self.turnings])
-            tops += zip(extreme.tolist(), size(extreme).tolist(), strict=True)
-            most = max(value for _, value in tops)
-            alike = np.array([at for at, value in tops if value >= most - _SAME])
+            at, sizes = map(np.append, tops(by_rows(size), *ends), (extreme, size(extreme)))
+            most = float(np.max(sizes))
+            alike = at[sizes >= most - _SAME]
             # Of several places with one value the one that lasts longest, starting from zero.
             flat = np.round(np.nan_to_num(size(alike - 1.0) + size(alike + 1.0), nan=-TURN), 6)
             ways = [self._distance_to(self.zero, float(at)) for at in alike[flat == flat.max()]]
@@ -600,7 +597,7 @@ def task_of(problem: Problem) -> CycleTask:
     if problem.cycle is not None or machine is None:
         return problem.cycle or CycleTask()
     start = problem.drive.positions[0] if machine.start_deg is None else machine.start_deg
-    return CycleTask(zero=start, count=round(machine.count * TURN / machine.cycle_deg))
+    return CycleTask(zero=start, count=round(machine.count / machine.turns))
 
 
 def crank_cycle_of(solution: Solution) -> CrankCycle:

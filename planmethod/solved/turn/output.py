@@ -17,7 +17,7 @@ from planmethod.problem.machine_records import StrokeSense
 from planmethod.problem.model import Problem, Slide
 from planmethod.problem.records import Over, SizeTable
 from planmethod.solved.forces.laws import only_in_positions
-from planmethod.solved.forces.loads import external
+from planmethod.solved.forces.loads import external, power
 from planmethod.solved.reading import Complexes, Flags, Reading, Reals
 from planmethod.solved.solution import Solution
 
@@ -85,11 +85,7 @@ def powers(solution: Solution, start: float, positions: Reals) -> dict[str, Real
         if link == problem.drive.link:
             continue
         for one in external(moved, dynamics, link):
-            power = one.couple * moved.links[link].omega
-            if one.point is not None:
-                velocity = moved.points[one.point].velocity
-                power = power + (one.force * velocity.conjugate()).real
-            found[one.name] = np.nan_to_num(power)
+            found[one.name] = np.nan_to_num(power(moved, one))
     return found
 
 

@@ -19,7 +19,7 @@ from planmethod.problem.keys import EXTREMES, GOING
 from planmethod.problem.machine_records import Zero
 from planmethod.problem.model import OutputPositionKind, OutputPositions, Problem
 from planmethod.problem.names import UNITS, format_length, split_pair
-from planmethod.solved.curves import crossings, roots_between, tops
+from planmethod.solved.curves import by_rows, crossings, roots_between, tops
 from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.solution import Solution
@@ -157,12 +157,6 @@ def _grid(problem: Problem, count: int, turns: int = 1) -> Reals:
     return np.linspace(-reach, reach, count + 1) * (1.0 + 1e-3 * _SINGULAR_OFFSET)
 
 
-def _turns(solution: Solution) -> int:
-    """Return after how many turns the links are where they were; one if they never are."""
-    again = solution.closes_after
-    return round(again) if np.isfinite(again) else 1
-
-
 def _in_first_mode(solution: Solution, positions: Reals) -> Flags:
     """Return where a motion has its first assembly modes, for which the rules are evaluated."""
     kept = np.ones(positions.shape, dtype=bool)
@@ -249,8 +243,8 @@ def _roots(solution: Solution, posed: OutputPositions, index: int) -> DriverPosi
         return _extreme(CrankCycle(solution), posed, index)
     target = posed.values[index]
     crank, period = solution.problem.drive.is_crank, _period(solution.problem, posed)
-    grid = _grid(solution.problem, SAMPLES if crank else 3 * SAMPLES, _turns(solution))
-    whole = TURN * _turns(solution)
+    grid = _grid(solution.problem, SAMPLES if crank else 3 * SAMPLES, solution.closing_turns)
+    whole = TURN * solution.closing_turns
     sense = -1.0 if solution.problem.drive.rate < 0 else 1.0
     value = _value(solution, posed, index)
     if posed.by is OutputPositionKind.STROKE:
@@ -278,11 +272,8 @@ def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> DriverPositions:
 
     A change of sign by a jump, of an angle by a turn, is none.
     """
-    looks = off(grid)
+    looks, rows = off(grid), by_rows(off)
     size = float(np.nanmax(np.abs(looks))) if np.isfinite(looks).any() else 0.0
-
-    def by_rows(places: Reals) -> Reals:
-        return off(places.ravel()).reshape(places.shape)
 
     k = crossings(looks)
     brackets = [np.stack([grid[k], grid[k + 1], np.sign(looks[k + 1] - looks[k])])]
@@ -299,14 +290,14 @@ def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> DriverPositions:
     there = np.isfinite(off(low)) if low.size else np.zeros(0, dtype=bool)
     low, high, sign = low[there], high[there], sign[there]
     if low.size:
-        at, beyond = tops(lambda places: -sign[:, np.newaxis] * by_rows(places), low, high)
+        at, beyond = tops(lambda places: -sign[:, np.newaxis] * rows(places), low, high)
         twice = beyond > 1e-12 * size
         brackets += [np.stack([low, at, -sign])[:, twice], np.stack([at, high, sign])[:, twice]]
         touching = [(float(place), 0.0) for place in at[~twice & (-beyond <= _OFF * size)]]
     low, high, going = np.concatenate(brackets, axis=1)
     if not low.size:
         return touching
-    at = roots_between(by_rows, low, high)
+    at = roots_between(rows, low, high)
     round_one = np.round(at, 6)  # 90 degrees, not its rounded value
     missed, of_round = np.abs(off(at)), np.abs(off(round_one))
     is_round = of_round <= np.maximum(missed, _ROUNDING * size)
@@ -386,7 +377,7 @@ def _chosen(
             posed.key,
         )
     if posed.nearest_to is not None:
-        asked, whole = posed.nearest_to, TURN * _turns(assemblies[0]) if index else TURN
+        asked, whole = posed.nearest_to, TURN * assemblies[0].closing_turns if index else TURN
         if not drive.is_crank:
             return min((p for p, _ in kept), key=lambda p: abs(p - asked))
         half = whole / 2
@@ -424,7 +415,7 @@ def _chosen(
 
 def _reached(solution: Solution, posed: OutputPositions, index: int) -> Reals:
     """Return the values of the output in all sampled positions."""
-    grid = _grid(solution.problem, SAMPLES, _turns(solution))
+    grid = _grid(solution.problem, SAMPLES, solution.closing_turns)
     grid = grid if index else grid[_in_first_mode(solution, grid)]
     return _value(solution, posed, index)(grid)
 

@@ -44,7 +44,7 @@ from planmethod.plans.forces.polygons import (
 )
 from planmethod.plans.model import KnownParts, PlanKind
 from planmethod.problem.records import Against, BearingSection, Mass
-from planmethod.solved.cycle import cycle_efficiency
+from planmethod.solved.cycle_forces import cycle_efficiency
 from planmethod.solved.forces.friction import FrictionPair, friction_of
 from planmethod.solved.forces.loads import Hindrance, UnshiftedInertia, farthest
 from planmethod.solved.forces.reading import ForceReading

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import cached_property
-from math import ceil, inf, isfinite, lcm
+from math import ceil, inf, lcm
 
 import numpy as np
 import numpy.typing as npt
@@ -19,8 +19,6 @@ from planmethod.solved.forces.statics import JointForce, statics_of
 from planmethod.solved.many.positions import impossible_steps
 from planmethod.solved.reading import Complexes, Memoizing, Reals, memoized
 from planmethod.solved.solution import Solution
-
-TURN = 360.0
 
 _SAME = 1e-6  # degrees within which positions are one
 _PARTS_OF_SLIDER_STEP = 12  # parts of a step of a driving slider
@@ -55,8 +53,7 @@ class DriverPath(Struct, frozen=True, dict=True):
 
     @property
     def _turn(self) -> float:
-        again = self.solution.closes_after
-        turns = lcm(self.turns, round(again)) if isfinite(again) else self.turns
+        turns = lcm(self.turns, self.solution.closing_turns)
         return self.solution.problem.drive.coordinate.turn * turns
 
     @property
@@ -252,7 +249,7 @@ class ReactionPeak(Struct, frozen=True):
     is_limit: bool
 
 
-class Cycle(Memoizing):
+class CycleForces(Memoizing):
     """Reactions and the balance over the driver's cycle (реакции за цикл).
 
     Parameters
@@ -420,7 +417,7 @@ def _around(steps: Reals) -> Reals:
 
 
 @memoized
-def cycle(solution: Solution) -> Cycle:
+def cycle_forces_of(solution: Solution) -> CycleForces:
     """Return the forces over the cycle of a solution; cached, since several views show them.
 
     Raises
@@ -447,4 +444,4 @@ def cycle(solution: Solution) -> Cycle:
             "in [driver].",
             solution.problem.name,
         )
-    return Cycle(solution)
+    return CycleForces(solution)
